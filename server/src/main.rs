@@ -1,0 +1,2 @@
+//! The `triad` command.
+fn main() {}
