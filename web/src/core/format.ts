@@ -1,0 +1,53 @@
+// Numbers as text. One place, so that the page never shows two roundings of one value.
+
+/** Up to `digits` significant digits; scientific outside 1e-3 … 1e6; a true minus sign. */
+export function num(value: number, digits = 6): string {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? "not a number" : value > 0 ? "∞" : "−∞";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size < 1e-3 || size >= 1e6) return sci(value, Math.min(digits, 4));
+  return minus(Number(value.toPrecision(digits)).toString());
+}
+
+/** Scientific notation such as 1.23e−9. */
+export function sci(value: number, digits = 3): string {
+  if (!Number.isFinite(value)) return num(value);
+  if (value === 0) return "0";
+  return minus(value.toExponential(digits - 1).replace("e+", "e"));
+}
+
+/** Fixed decimals, for columns that must not dance while they change. */
+export function fixed(value: number, decimals = 4): string {
+  if (!Number.isFinite(value)) return num(value);
+  if (value !== 0 && (Math.abs(value) >= 1e7 || Math.abs(value) < 0.5 * 10 ** -decimals)) {
+    return sci(value, 3);
+  }
+  return minus(value.toFixed(decimals));
+}
+
+export function seconds(value: number, decimals = 3): string {
+  return `${fixedPlain(value, decimals)} s`;
+}
+
+export function fixedPlain(value: number, decimals: number): string {
+  return minus(value.toFixed(decimals));
+}
+
+export function points(value: number): string {
+  return minus(Number(value.toFixed(2)).toString());
+}
+
+function minus(text: string): string {
+  return text.replaceAll("-", "−");
+}
+
+export function plural(count: number, one: string, many = `${one}s`): string {
+  return `${count} ${count === 1 ? one : many}`;
+}
+
+const stamp = new Intl.DateTimeFormat(undefined, { dateStyle: "medium", timeStyle: "short" });
+
+export function dateTime(iso: string): string {
+  const date = new Date(iso);
+  return Number.isNaN(date.getTime()) ? iso : stamp.format(date);
+}

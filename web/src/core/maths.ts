@@ -1,0 +1,44 @@
+// KaTeX, fetched only when a text holds mathematics. It also writes MathML for screen readers.
+
+type Katex = typeof import("katex").default;
+let loading: Promise<Katex> | undefined;
+
+export function loadMaths(): Promise<Katex> {
+  loading ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(([module]) => module.default);
+  return loading;
+}
+
+const MARKED = ".math.inline, .math.display";
+
+export const hasMaths = (html: string): boolean => html.includes("math inline") || html.includes("math display");
+
+/** Sets all marked mathematics under `root`; where it cannot be read, the LaTeX stays visible. */
+export async function setMaths(root: HTMLElement): Promise<void> {
+  const marked = [...root.querySelectorAll<HTMLElement>(MARKED)].filter((node) => !node.dataset.set);
+  if (marked.length === 0) return;
+  const katex = await loadMaths();
+  for (const node of marked) {
+    const source = node.textContent ?? "";
+    node.dataset.set = "yes";
+    try {
+      katex.render(source, node, {
+        displayMode: node.classList.contains("display"),
+        throwOnError: true, trust: false, strict: false, maxExpand: 500, output: "htmlAndMathml",
+      });
+      if (node.classList.contains("display")) makeScrollable(node);
+    } catch {
+      node.textContent = source;
+      node.classList.add("raw");
+    }
+  }
+}
+
+/** A long formula scrolls by itself on a narrow screen, by keyboard too. */
+function makeScrollable(node: HTMLElement): void {
+  requestAnimationFrame(() => {
+    if (node.scrollWidth <= node.clientWidth + 1) return;
+    node.tabIndex = 0;
+    node.setAttribute("role", "group");
+    node.setAttribute("aria-label", "Formula, scrolls sideways");
+  });
+}

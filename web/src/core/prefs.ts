@@ -1,0 +1,58 @@
+// What the browser remembers. Private windows may refuse storage: then nothing is remembered.
+
+type Key = "theme" | "student" | "shortcuts" | "picture" | `draft:${string}` | `tab:${string}` | "scene-draft";
+
+export function recall(key: Key): string | null {
+  try {
+    return localStorage.getItem(`triad:${key}`);
+  } catch {
+    return null;
+  }
+}
+
+export function remember(key: Key, value: string | null): void {
+  try {
+    if (value === null) localStorage.removeItem(`triad:${key}`);
+    else localStorage.setItem(`triad:${key}`, value);
+  } catch {
+    // Nothing is remembered; the page works all the same.
+  }
+}
+
+export type Theme = "light" | "dark";
+const themeListeners = new Set<(theme: Theme) => void>();
+const systemDark = matchMedia("(prefers-color-scheme: dark)");
+
+export function theme(): Theme {
+  const chosen = recall("theme");
+  if (chosen === "light" || chosen === "dark") return chosen;
+  return systemDark.matches ? "dark" : "light";
+}
+
+export function applyTheme(): void {
+  document.documentElement.dataset.theme = theme();
+  for (const listener of themeListeners) listener(theme());
+}
+
+export function toggleTheme(): Theme {
+  const next: Theme = theme() === "dark" ? "light" : "dark";
+  const system: Theme = systemDark.matches ? "dark" : "light";
+  remember("theme", next === system ? null : next);
+  applyTheme();
+  return next;
+}
+
+/** Calls back on every change of theme until the returned function is called. */
+export function onTheme(listener: (theme: Theme) => void): () => void {
+  themeListeners.add(listener);
+  return () => themeListeners.delete(listener);
+}
+
+systemDark.addEventListener("change", applyTheme);
+
+export const student = {
+  get: (): string => recall("student") ?? "",
+  set: (name: string): void => remember("student", name.trim() || null),
+};
+
+export const reducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

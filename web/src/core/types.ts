@@ -1,0 +1,178 @@
+// Shapes of what /api/v1 sends and takes. Numbers are SI unless a `unit` says otherwise.
+
+export type Vec3 = [number, number, number];
+
+export interface LessonSummary {
+  slug: string;
+  number: number;
+  title: string;
+  summary: string;
+  minutes: number;
+  objectives: string[];
+}
+
+export interface Option {
+  id: string;
+  html: string;
+}
+
+export interface Question {
+  id: string;
+  kind: "number" | "vector" | "choice";
+  prompt_html: string;
+  unit?: string | null;
+  /** The sentence that states the tolerance, written from the rule that grades. */
+  rule: string;
+  points: number;
+  options?: Option[];
+  hints_available: number;
+}
+
+export interface Lesson {
+  slug: string;
+  number: number;
+  title: string;
+  minutes: number;
+  objectives: string[];
+  prerequisites: string[];
+  html: string;
+  scene: Scene | string;
+  exercise: { questions: Question[] };
+}
+
+export interface Scene {
+  name: string;
+  title?: string;
+  description?: string;
+  gravity?: Vec3;
+  bodies?: SceneBody[];
+  joints?: { name: string; type?: string; point?: Vec3 }[];
+  simulation?: { duration?: number };
+}
+
+export interface SceneBody {
+  name: string;
+  position?: Vec3;
+  orientation?: Orientation;
+  shape?: Shape[];
+}
+
+export interface Orientation {
+  u?: Vec3;
+  v?: Vec3;
+  quaternion?: [number, number, number, number];
+  axis?: Vec3;
+  angle?: number;
+}
+
+export type Shape =
+  | { kind: "rod"; from: Vec3; to: Vec3; radius: number }
+  | { kind: "sphere"; center: Vec3; radius: number }
+  | { kind: "box"; center: Vec3; size: Vec3 };
+
+export interface SceneSummary {
+  name: string;
+  title?: string;
+  summary: string;
+}
+
+export interface BodyFrame {
+  name: string;
+  /** Of the centre of mass, in the world frame, m. */
+  position: Vec3;
+  u: Vec3;
+  v: Vec3;
+  w: Vec3;
+  velocity: Vec3;
+  angular_velocity: Vec3;
+}
+
+export interface SessionState {
+  id: string;
+  time: number;
+  duration: number;
+  playing: boolean;
+  speed: number;
+  q: number[];
+  q_dot: number[];
+  energy: number;
+  energy_drift: number;
+  position_violation: number;
+  velocity_violation: number;
+  steps: number;
+  rejected: number;
+  evaluations: number;
+  factorizations: number;
+  finished: boolean;
+  error?: Problem | string | null;
+  bodies: BodyFrame[];
+}
+
+export interface Jacobian {
+  rows: string[];
+  columns: string[];
+  /** [row, column, value, constant] */
+  entries: [number, number, number, boolean][];
+}
+
+export interface JointMultipliers {
+  joint: string;
+  rows: { label: string; value: number }[];
+  force_on_j: Vec3;
+  moment_on_j: Vec3;
+  /** The point that the moment is taken about, world, m. */
+  at: Vec3;
+  /** The body that force and moment act on. */
+  on: string;
+  expressed_in: string;
+}
+
+export interface CheckReport {
+  bodies: number;
+  coordinates: number;
+  rows: number;
+  rank: number;
+  degrees_of_freedom: number;
+  redundant: { joint: string; rows: string[] }[];
+  notes: string[];
+}
+
+export type Answer =
+  | { value: string; unit?: string }
+  | { value: string[]; unit?: string }
+  | { choice: string };
+
+export type VerdictKind = "right" | "wrong" | "blank" | "invalid";
+
+export interface QuestionVerdict {
+  id: string;
+  earned: number;
+  possible: number;
+  verdict: VerdictKind;
+  message_html: string;
+}
+
+export interface Verdict {
+  id: string;
+  lesson: string;
+  student: string;
+  submitted_at: string;
+  earned: number;
+  possible: number;
+  passed: boolean;
+  gradable: boolean;
+  questions: QuestionVerdict[];
+  provenance?: { engine?: string; lesson_hash?: string };
+}
+
+/** application/problem+json (RFC 9457) with the members that Triad adds. */
+export interface Problem {
+  type?: string;
+  title: string;
+  status?: number;
+  detail?: string;
+  code?: string;
+  hint?: string;
+  errors?: { pointer?: string; detail: string }[];
+  trace_id?: string;
+}

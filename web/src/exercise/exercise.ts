@@ -1,0 +1,103 @@
+// The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
+import { api, problemOf } from "../core/api";
+import { announce, h } from "../core/dom";
+import { plural } from "../core/format";
+import { setMaths } from "../core/maths";
+import { recall, remember, student } from "../core/prefs";
+import type { Lesson, Verdict } from "../core/types";
+import { problemNotice } from "../ui/notice";
+import { setStudent } from "../ui/shell";
+import { historyList } from "./history";
+import { questionField, type QuestionField } from "./question";
+import { verdictSummary } from "./verdict";
+
+/** Fills `root`; the returned function undoes what outlives it. */
+export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
+  const { questions } = lesson.exercise;
+  if (questions.length === 0) return () => undefined;
+  const total = questions.reduce((sum, question) => sum + question.points, 0);
+  const draftKey = `draft:${lesson.slug}` as const;
+  const draft = readDraft(recall(draftKey));
+
+  const saveDraft = (): void => {
+    const values: Record<string, string[]> = {};
+    for (const field of fields) values[field.id] = field.draft();
+    remember(draftKey, JSON.stringify(values));
+  };
+  const fields: QuestionField[] = questions.map((question, at) => questionField(lesson.slug, question, at + 1, draft[question.id], saveDraft));
+
+  const name = h("input", { id: "student", class: "field", autocomplete: "name", maxlength: "80", required: true, value: student.get() });
+  const send = h("button", { class: "button primary" }, "Check my answers");
+  const outcome = h("div", { class: "outcome", tabindex: "-1" });
+  const past = historyList(lesson);
+  const form = h("form", { class: "questions", novalidate: true },
+    ...fields.map((field) => field.root),
+    h("div", { class: "send" },
+      h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), name),
+      send),
+    outcome);
+
+  const submit = async (): Promise<void> => {
+    const who = name.value.trim();
+    if (!who) {
+      outcome.replaceChildren(problemNotice({ title: "Who is answering?", detail: "Your submission is stored under your name.", hint: "Write your name next to the button." }));
+      name.focus();
+      return;
+    }
+    setStudent(who);
+    send.disabled = true;
+    send.textContent = "Checking…";
+    try {
+      const answers = Object.fromEntries(fields.map((field) => [field.id, field.answer()]));
+      const verdict = await api.submit(lesson.slug, who, answers);
+      await showVerdict(verdict);
+      past.add(verdict);
+    } catch (error) {
+      outcome.replaceChildren(problemNotice(error));
+      announce(problemOf(error).title);
+    } finally {
+      send.disabled = false;
+      send.textContent = "Check my answers";
+    }
+  };
+
+  const showVerdict = async (verdict: Verdict): Promise<void> => {
+    const byId = new Map(verdict.questions.map((question) => [question.id, question]));
+    for (const field of fields) field.show(byId.get(field.id));
+    outcome.replaceChildren(verdictSummary(verdict));
+    await setMaths(form);
+    outcome.focus({ preventScroll: true });
+    const worst = fields.find((field) => byId.get(field.id)?.verdict !== "right");
+    (verdict.passed && !worst ? outcome : worst?.root ?? outcome).scrollIntoView({ block: "nearest" });
+  };
+
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    void submit();
+  });
+  name.addEventListener("change", () => setStudent(name.value));
+  const renamed = (): void => {
+    if (document.activeElement !== name) name.value = student.get();
+    void past.load();
+  };
+  addEventListener("triad:student", renamed);
+
+  root.append(
+    h("div", { class: "section-head" }, h("h2", null, "Exercise"), h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}`)),
+    form, past.root);
+  void past.load();
+  return () => removeEventListener("triad:student", renamed);
+}
+
+function readDraft(text: string | null): Record<string, string[]> {
+  if (!text) return {};
+  try {
+    const value: unknown = JSON.parse(text);
+    if (typeof value !== "object" || value === null) return {};
+    return Object.fromEntries(Object.entries(value).filter((entry): entry is [string, string[]] =>
+      Array.isArray(entry[1]) && entry[1].every((part) => typeof part === "string")));
+  } catch {
+    return {};
+  }
+}
+

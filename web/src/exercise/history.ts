@@ -1,0 +1,74 @@
+// All submissions of one student to one lesson, from the server: they survive a reload.
+import { api } from "../core/api";
+import { h } from "../core/dom";
+import { dateTime, plural, points } from "../core/format";
+import { setMaths } from "../core/maths";
+import { student } from "../core/prefs";
+import type { Lesson, Verdict } from "../core/types";
+import { icon } from "../ui/icons";
+import { problemNotice } from "../ui/notice";
+import { verdictLine } from "./verdict";
+
+export interface History {
+  root: HTMLElement;
+  load: () => Promise<void>;
+  add: (verdict: Verdict) => void;
+}
+
+export function historyList(lesson: Lesson): History {
+  const root = h("section", { class: "history", "aria-label": "Your submissions", hidden: true });
+  let verdicts: Verdict[] = [];
+
+  const paint = (): void => {
+    root.hidden = verdicts.length === 0;
+    root.replaceChildren(
+      h("h3", null, `Your submissions (${verdicts.length})`),
+      h("ol", { class: "history-list", reversed: true }, ...verdicts.map((verdict) => entry(lesson, verdict))));
+  };
+
+  return {
+    root,
+    load: async () => {
+      const who = student.get();
+      if (!who) {
+        verdicts = [];
+        paint();
+        return;
+      }
+      try {
+        verdicts = await api.submissions({ student: who, lesson: lesson.slug });
+        verdicts.sort((a, b) => b.submitted_at.localeCompare(a.submitted_at));
+        paint();
+      } catch (error) {
+        root.hidden = false;
+        root.replaceChildren(h("h3", null, "Your submissions"), problemNotice(error));
+      }
+    },
+    add: (verdict) => {
+      if (!verdict.gradable || verdicts.some((before) => before.id === verdict.id)) return;
+      verdicts.unshift(verdict);
+      paint();
+    },
+  };
+}
+
+function entry(lesson: Lesson, verdict: Verdict): HTMLElement {
+  const right = verdict.questions.filter((question) => question.verdict === "right").length;
+  const details = h("details", { class: "history-entry" },
+    h("summary", null,
+      h("span", { class: `standing ${verdict.passed ? "is-right" : "is-open"}` }, icon(verdict.passed ? "check" : "dash"),
+        `${points(verdict.earned)} of ${points(verdict.possible)}`),
+      h("time", { datetime: verdict.submitted_at }, dateTime(verdict.submitted_at)),
+      h("span", { class: "history-right" }, `${right} of ${plural(verdict.questions.length, "question")} right`)));
+  details.addEventListener("toggle", () => {
+    if (!details.open || details.childElementCount > 1) return;
+    const places = new Map(lesson.exercise.questions.map((question, at) => [question.id, at + 1]));
+    details.append(...verdict.questions.map((question) => h("div", { class: "history-question" },
+      h("p", { class: "history-label" }, `Question ${places.get(question.id) ?? question.id}`), verdictLine(question))));
+    if (verdict.provenance?.engine) {
+      details.append(h("p", { class: "provenance" }, `Graded by engine ${verdict.provenance.engine}`, verdict.provenance.lesson_hash ? `, lesson ${verdict.provenance.lesson_hash.slice(0, 12)}` : ""));
+    }
+    void setMaths(details);
+  });
+  return h("li", null, details);
+}

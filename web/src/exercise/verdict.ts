@@ -1,0 +1,31 @@
+// A verdict in words and a mark: never by colour alone.
+import { authored, h } from "../core/dom";
+import { points } from "../core/format";
+import type { QuestionVerdict, Verdict, VerdictKind } from "../core/types";
+import { icon, type IconName } from "../ui/icons";
+
+const WORDS: Record<VerdictKind, { word: string; mark: IconName }> = {
+  right: { word: "Right", mark: "check" },
+  wrong: { word: "Not yet", mark: "cross" },
+  blank: { word: "No answer", mark: "dash" },
+  invalid: { word: "Cannot be read", mark: "warn" },
+};
+
+export function verdictLine(result: QuestionVerdict): HTMLElement {
+  const { word, mark } = WORDS[result.verdict] ?? WORDS.invalid;
+  return h("div", { class: `verdict is-${result.verdict}` },
+    h("p", { class: "verdict-head" }, icon(mark), h("strong", null, word),
+      h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`)),
+    authored(h("div", { class: "verdict-text" }), result.message_html));
+}
+
+export function verdictSummary(verdict: Verdict): HTMLElement {
+  const score = `${points(verdict.earned)} of ${points(verdict.possible)} points`;
+  const [cls, mark, title, text]: [string, IconName, string, string] = !verdict.gradable
+    ? ["is-invalid", "warn", "Nothing was graded", "Some answers could not be read. This did not use up an attempt: correct them and check again."]
+    : verdict.passed
+      ? ["is-right", "check", `Passed: ${score}`, "The result is stored. You can still change an answer and check again."]
+      : ["is-wrong", "dash", `${score} so far`, "Read the remarks at the questions, change what needs it, and check again."];
+  return h("div", { class: `summary ${cls}`, role: "status" }, icon(mark),
+    h("div", null, h("p", { class: "summary-title" }, title), h("p", null, text)));
+}

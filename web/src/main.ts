@@ -1,0 +1,43 @@
+import { applyTheme } from "./core/prefs";
+import { loadMaths } from "./core/maths";
+import { startRouter } from "./core/router";
+import { homePage } from "./pages/home";
+import { lessonPage } from "./pages/lesson";
+import { missingPage } from "./pages/missing";
+import { header } from "./ui/shell";
+
+applyTheme();
+// A lesson will need KaTeX: it is fetched beside the lesson's text, not after it.
+if (location.pathname.startsWith("/lessons/")) void loadMaths();
+
+const head = document.getElementById("header");
+const main = document.getElementById("main");
+if (head && main) {
+  header(head);
+  startRouter(main, [
+    { pattern: /^\/$/, open: homePage },
+    { pattern: /^\/lessons\/([^/]+)$/, open: lessonPage },
+    { pattern: /^\/scenes$/, open: lazily("Scenes", () => import("./pages/scenes").then((page) => page.scenesPage)) },
+    { pattern: /^\/scenes\/([^/]+)$/, open: lazily("Scene", () => import("./pages/scene").then((page) => page.scenePage)) },
+  ], missingPage);
+}
+
+type Open = Parameters<typeof startRouter>[2];
+
+/** A page whose code is fetched when it is first visited. */
+function lazily(title: string, load: () => Promise<Open>): Open {
+  return (outlet, params) => {
+    let left = false;
+    let dispose: (() => void) | undefined;
+    void load().then((open) => {
+      if (!left) dispose = open(outlet, params).dispose;
+    });
+    return {
+      title,
+      dispose: () => {
+        left = true;
+        dispose?.();
+      },
+    };
+  };
+}

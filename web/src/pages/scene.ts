@@ -1,0 +1,102 @@
+// One scene: its text on one side, its run on the other.
+import { api, ApiError } from "../core/api";
+import { h } from "../core/dom";
+import { recall, remember } from "../core/prefs";
+import { setTitle, type Page } from "../core/router";
+import type { Scene } from "../core/types";
+import { sceneEditor } from "../editor/editor";
+import { pretty } from "../editor/pointer";
+import { icon } from "../ui/icons";
+import { problemNotice } from "../ui/notice";
+import { workbench, type BenchOptions } from "../workbench/workbench";
+import { benchPlaceholder } from "./lesson";
+import { OWN_SCENE } from "./scenes";
+
+const STARTING_SCENE = "simple-pendulum";
+
+export function scenePage(outlet: HTMLElement, params: string[]): Page {
+  const name = params[0] ?? "";
+  const own = name === OWN_SCENE;
+  const leaving = new AbortController();
+  let endRun: (() => void) | undefined;
+  let original = "";
+
+  const title = h("h1", null, own ? "Your own scene" : name);
+  const about = h("p", { class: "lead" });
+  const bench = h("section", { class: "bench", id: "mechanism", "aria-label": "Mechanism" }, benchPlaceholder());
+  const run = h("button", { type: "button", class: "button primary", onclick: () => runText() }, icon("play"), "Run this text");
+  const restore = h("button", { type: "button", class: "button", hidden: true, onclick: () => undoEdits() }, "Undo all changes");
+  const state = h("p", { class: "help", role: "status" });
+  const editor = sceneEditor((text) => {
+    restore.hidden = text === original;
+    state.textContent = text === original ? "" : "Changed, not run yet.";
+    if (own) remember("scene-draft", text);
+  });
+  const side = h("article", { class: "reading is-editor" },
+    h("header", { class: "lesson-head" }, h("p", { class: "lesson-kicker" }, h("a", { href: "/scenes" }, "Scenes")), title, about),
+    h("div", { class: "row wrap" }, run, restore, h("button", { type: "button", class: "button quiet", onclick: () => download() }, icon("save"), "Save the file"), state),
+    editor.root);
+  outlet.append(h("div", { class: "lesson is-scene" }, side, bench));
+
+  const open = (options: BenchOptions): void => {
+    endRun?.();
+    endRun = workbench(bench, options);
+  };
+  const runText = (): void => {
+    try {
+      const scene = JSON.parse(editor.text()) as Scene;
+      state.textContent = "";
+      open({ source: { scene }, scene });
+      bench.scrollIntoView({ block: "nearest" });
+    } catch {
+      state.textContent = "The text is not JSON yet: see the remark below it.";
+    }
+  };
+  const undoEdits = (): void => {
+    editor.set(original);
+    restore.hidden = true;
+    state.textContent = "";
+    if (own) remember("scene-draft", null);
+  };
+  const download = (): void => {
+    const link = h("a", { href: URL.createObjectURL(new Blob([editor.text()], { type: "application/json" })), download: `${own ? "scene" : name.replaceAll(":", "-")}.json` });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  };
+
+  const load = async (): Promise<void> => {
+    try {
+      const scene = await api.scene(own ? STARTING_SCENE : name, leaving.signal);
+      original = pretty(scene);
+      const draft = own ? recall("scene-draft") : null;
+      if (own) {
+        about.textContent = "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
+      } else {
+        title.textContent = scene.title ?? name;
+        about.textContent = scene.description ?? "";
+        setTitle(scene.title ?? name);
+      }
+      editor.set(draft ?? original);
+      restore.hidden = draft === null || draft === original;
+      if (own) runText();
+      else open({ source: { builtin: name }, scene });
+    } catch (error) {
+      if (leaving.signal.aborted) return;
+      const missing = error instanceof ApiError && error.gone;
+      side.replaceChildren(h("h1", null, missing ? "There is no such scene" : "The scene could not be loaded"),
+        problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void load() }]),
+        h("p", null, h("a", { href: "/scenes" }, "All scenes")));
+      bench.hidden = missing;
+    }
+  };
+  void load();
+
+  return {
+    title: own ? "Your own scene" : name,
+    dispose: () => {
+      leaving.abort();
+      editor.dispose();
+      endRun?.();
+    },
+  };
+}

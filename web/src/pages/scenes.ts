@@ -1,0 +1,52 @@
+// The gallery of built-in mechanisms, and the door to one's own.
+import { api } from "../core/api";
+import { h } from "../core/dom";
+import { recall } from "../core/prefs";
+import type { Page } from "../core/router";
+import type { SceneSummary } from "../core/types";
+import { empty, problemNotice, skeleton } from "../ui/notice";
+
+export const OWN_SCENE = "own";
+
+/** Families take a number: a sensible first one stands in their link. */
+const FAMILY = /^(.+):N$/;
+const FAMILY_START = "2";
+
+export function scenesPage(outlet: HTMLElement): Page {
+  const leaving = new AbortController();
+  const list = h("div", { class: "gallery", "aria-busy": "true" }, skeleton(6));
+  outlet.append(h("div", { class: "page" },
+    h("header", { class: "page-head" },
+      h("h1", null, "Scenes"),
+      h("p", { class: "lead" }, "Mechanisms without a lesson. Open one, run it, change its text and run it again."),
+      h("p", null, h("a", { class: "button", href: `/scenes/${OWN_SCENE}` }, recall("scene-draft") ? "Continue your own scene" : "Write your own scene"))),
+    list));
+
+  const load = async (): Promise<void> => {
+    try {
+      const scenes = await api.scenes(leaving.signal);
+      list.removeAttribute("aria-busy");
+      list.replaceChildren(scenes.length === 0
+        ? empty("No built-in scenes", "This server offers none. You can still write your own.")
+        : h("ul", { class: "scene-list" }, ...scenes.map(card)));
+    } catch (error) {
+      if (!leaving.signal.aborted) list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+    }
+  };
+  void load();
+  return { title: "Scenes", dispose: () => leaving.abort() };
+}
+
+function card(scene: SceneSummary): HTMLElement {
+  const family = FAMILY.exec(scene.name)?.[1];
+  const name = family ? `${family}:${FAMILY_START}` : scene.name;
+  return h("li", { class: "scene-row" },
+    h("h2", null, h("a", { href: `/scenes/${encodeURIComponent(name)}` }, scene.title ?? titled(family ?? scene.name))),
+    h("p", null, scene.summary),
+    h("code", null, scene.name));
+}
+
+const titled = (name: string): string => {
+  const words = name.replaceAll("-", " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+};

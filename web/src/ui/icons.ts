@@ -1,0 +1,34 @@
+// Line icons drawn on a 20 × 20 grid. Decoration only: names are given by the controls.
+
+const PATHS = {
+  play: '<path d="M6.5 4.2v11.6L15.6 10z" fill="currentColor"/>',
+  pause: '<path d="M6 4.5h2.6v11H6zM11.4 4.5H14v11h-2.6z" fill="currentColor" stroke="none"/>',
+  step: '<path d="M4.5 5v10l6.8-5z" fill="currentColor"/><path d="M14.5 4.6v10.8"/>',
+  skip: '<path d="M3.5 5.4v9.2L9 10zM10 5.4v9.2l5.5-4.6z" fill="currentColor"/>',
+  back: '<path d="M15.5 5v10l-6.8-5z" fill="currentColor"/><path d="M5.5 4.6v10.8"/>',
+  reset: '<path d="M4.6 8.2A6 6 0 1 1 4 11"/><path d="M4.2 4.2v4.2h4.2"/>',
+  live: '<path d="M4 5v10l6-5zM10 5v10l6-5z" fill="currentColor"/>',
+  sun: '<circle cx="10" cy="10" r="3.4"/><path d="M10 2.4v2M10 15.6v2M2.4 10h2M15.6 10h2M4.6 4.6 6 6M14 14l1.4 1.4M15.4 4.6 14 6M6 14l-1.4 1.4"/>',
+  moon: '<path d="M16 11.9A6.6 6.6 0 0 1 8.1 4a6.6 6.6 0 1 0 7.9 7.9z"/>',
+  keys: '<rect x="2.5" y="5.5" width="15" height="9" rx="1.6"/><path d="M5.5 8.5h.1M8.5 8.5h.1M11.5 8.5h.1M14.5 8.5h.1M6.5 11.6h7"/>',
+  check: '<path d="m4.4 10.6 3.7 3.7 7.5-8.6" stroke-width="2.2"/>',
+  cross: '<path d="m5.4 5.4 9.2 9.2M14.6 5.4l-9.2 9.2" stroke-width="2.2"/>',
+  dash: '<path d="M5 10h10" stroke-width="2.2"/>',
+  warn: '<path d="M10 3 18 16.6H2z"/><path d="M10 8v4.2M10 14.4v.1"/>',
+  info: '<circle cx="10" cy="10" r="7.4"/><path d="M10 9.2v4.6M10 6.2v.1"/>',
+  close: '<path d="m5 5 10 10M15 5 5 15"/>',
+  bulb: '<path d="M7.4 13.2a4.9 4.9 0 1 1 5.2 0v1.6H7.4z"/><path d="M8 17.4h4"/>',
+  cube: '<path d="m10 2.6 6.4 3.7v7.4L10 17.4l-6.4-3.7V6.3z"/><path d="m3.6 6.3 6.4 3.7 6.4-3.7M10 10v7.4"/>',
+  save: '<path d="M10 3v9M6.4 8.8 10 12.4l3.6-3.6M4 16.4h12"/>',
+} as const;
+
+export type IconName = keyof typeof PATHS;
+
+export function icon(name: IconName): SVGSVGElement {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  element.setAttribute("viewBox", "0 0 20 20");
+  element.setAttribute("class", "icon");
+  element.setAttribute("aria-hidden", "true");
+  element.innerHTML = PATHS[name];
+  return element;
+}

@@ -1,0 +1,87 @@
+// The header that stays: name, places, the student's name, theme, help.
+import { h } from "../core/dom";
+import { bind, shortcuts } from "../core/keys";
+import { student, theme, toggleTheme, onTheme } from "../core/prefs";
+import mark from "../mark.svg?raw";
+import { icon } from "./icons";
+
+export function header(root: HTMLElement): void {
+  const brandMark = h("span", { class: "brand-mark", "aria-hidden": "true" });
+  brandMark.innerHTML = mark;
+  const name = h("button", { type: "button", class: "header-button", id: "who", onclick: askName });
+  const themeButton = h("button", { type: "button", class: "header-button square", onclick: () => toggleTheme() });
+  const paintTheme = (): void => {
+    const dark = theme() === "dark";
+    themeButton.replaceChildren(icon(dark ? "sun" : "moon"));
+    const label = dark ? "Use the light theme" : "Use the dark theme";
+    themeButton.setAttribute("aria-label", label);
+    themeButton.title = label;
+  };
+  onTheme(paintTheme);
+  paintTheme();
+  paintName(name);
+  addEventListener("triad:student", () => paintName(name));
+
+  root.append(
+    h("a", { class: "brand", href: "/" }, brandMark, h("span", null, "Triad")),
+    h("nav", { "aria-label": "Main" }, h("a", { href: "/" }, "Lessons"), h("a", { href: "/scenes" }, "Scenes")),
+    h("span", { class: "header-space" }),
+    name, themeButton,
+    h("button", { type: "button", class: "header-button square", "aria-label": "Keyboard and help", title: "Keyboard and help (?)", onclick: help }, icon("keys")));
+  bind([{ keys: ["?"], shown: "?", says: "Show this help", run: help }]);
+}
+
+function paintName(button: HTMLButtonElement): void {
+  const who = student.get();
+  button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, "Your name"));
+  button.setAttribute("aria-label", who ? `Working as ${who}. Change the name` : "Say who you are");
+}
+
+function dialog(title: string, ...children: HTMLElement[]): HTMLDialogElement {
+  const box = h("dialog", { class: "dialog", "aria-labelledby": "dialog-title" },
+    h("div", { class: "dialog-head" }, h("h2", { id: "dialog-title" }, title),
+      h("button", { type: "button", class: "header-button square", "aria-label": "Close", onclick: () => box.close() }, icon("close"))),
+    ...children);
+  box.addEventListener("close", () => box.remove());
+  box.addEventListener("click", (event) => {
+    if (event.target === box) box.close();
+  });
+  document.body.append(box);
+  box.showModal();
+  return box;
+}
+
+export function setStudent(name: string): void {
+  student.set(name);
+  dispatchEvent(new Event("triad:student"));
+}
+
+function askName(): void {
+  const input = h("input", { id: "name-input", class: "field", autocomplete: "name", maxlength: "80", value: student.get() });
+  const form = h("form", { class: "stack" },
+    h("label", { for: "name-input" }, "Your name, as your instructor knows it"),
+    input,
+    h("p", { class: "help" }, "Your answers are stored under this name on the server that runs Triad. This browser remembers it."),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, "Save")));
+  const box = dialog("Who is working?", form);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    setStudent(input.value);
+    box.close();
+  });
+  input.select();
+}
+
+function help(): void {
+  const rows = shortcuts.list().map((entry) => h("tr", null, h("td", null, ...entry.shown.split(" ").map((key) => h("kbd", null, key))), h("td", null, entry.says)));
+  const toggle = h("input", { type: "checkbox", id: "keys-on" });
+  toggle.checked = shortcuts.on();
+  toggle.addEventListener("change", () => shortcuts.set(toggle.checked));
+  dialog("Keyboard and help",
+    h("p", null, "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D view too: every number it shows stands in the tables below it."),
+    h("table", { class: "keys-table" },
+      h("thead", { class: "visually-hidden" }, h("tr", null, h("th", { scope: "col" }, "Key"), h("th", { scope: "col" }, "What it does"))),
+      h("tbody", null, ...rows)),
+    h("p", { class: "check-line" }, toggle, h("label", { for: "keys-on" }, "Single-key shortcuts")),
+    h("p", { class: "help" }, "In the 3-D view: drag to turn, scroll to come closer, drag with the right button to move, double-click a body to look at it. The sketch is the same scene without 3-D."));
+}

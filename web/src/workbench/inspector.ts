@@ -1,0 +1,49 @@
+// What stands behind the picture, in numbers: state, Jacobian, multipliers, bodies, plots.
+import { h } from "../core/dom";
+import { recall, remember } from "../core/prefs";
+import { tabs } from "../ui/tabs";
+import { bodiesTab } from "./bodies-tab";
+import { jacobianTab } from "./jacobian-tab";
+import { multipliersTab } from "./multipliers-tab";
+import { plotsTab } from "./plots-tab";
+import type { Session } from "./session";
+import { stateTab } from "./state-tab";
+
+export interface InspectorTab {
+  root: HTMLElement;
+  /** Called when what is shown has changed, and when the tab is opened. */
+  refresh: () => void;
+}
+
+export function inspector(session: Session): { root: HTMLElement } {
+  const made: Record<string, InspectorTab> = {
+    state: stateTab(session),
+    jacobian: jacobianTab(session),
+    multipliers: multipliersTab(session),
+    bodies: bodiesTab(session),
+    plots: plotsTab(session),
+  };
+  const panel = (key: string): HTMLElement => h("div", null, made[key]?.root);
+  const bar = tabs("Inspector", [
+    { key: "state", label: "State", panel: panel("state") },
+    { key: "jacobian", label: "Jacobian", panel: panel("jacobian") },
+    { key: "multipliers", label: "Multipliers", panel: panel("multipliers") },
+    { key: "bodies", label: "Bodies", panel: panel("bodies") },
+    { key: "plots", label: "Plots", panel: panel("plots") },
+  ], recall("tab:inspector"), (key) => {
+    remember("tab:inspector", key);
+    made[key]?.refresh();
+  });
+
+  let waiting = false;
+  session.on("shown", () => {
+    if (waiting) return;
+    waiting = true;
+    // Tables follow ten times a second: faster cannot be read.
+    setTimeout(() => {
+      waiting = false;
+      made[bar.current()]?.refresh();
+    }, session.latest?.playing ? 100 : 0);
+  });
+  return { root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root) };
+}

@@ -1,0 +1,79 @@
+// uPlot, fetched when a plot is first looked at.
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+
+export interface Drawing {
+  /** A change of this key builds the plot anew. */
+  key: string;
+  log: boolean;
+  cursor: number;
+  times: number[];
+  curves: { label: string; unit: string; values: number[] }[];
+  seek: (time: number) => void;
+}
+
+const HEIGHT = 260;
+const DASHES = [[], [7, 4], [2, 3]];
+const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; cursor: { at: number } }>();
+
+export function draw(place: HTMLElement, drawing: Drawing): void {
+  const values = drawing.curves.map((curve) => curve.values.map((value) => (drawing.log && value <= 0 ? null : value)));
+  const data: uPlot.AlignedData = [drawing.times, ...values];
+  let entry = plots.get(place);
+  if (entry?.key !== drawing.key || !place.contains(entry.plot.root)) {
+    entry?.plot.destroy();
+    place.replaceChildren();
+    const cursor = { at: drawing.cursor };
+    entry = { key: drawing.key, cursor, plot: build(place, drawing, data, cursor) };
+    plots.set(place, entry);
+  }
+  entry.cursor.at = drawing.cursor;
+  if (entry.plot.width !== place.clientWidth && place.clientWidth > 0) entry.plot.setSize({ width: place.clientWidth, height: HEIGHT });
+  entry.plot.setData(data);
+}
+
+function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cursor: { at: number }): uPlot {
+  const css = getComputedStyle(place);
+  const color = (name: string): string => css.getPropertyValue(name).trim();
+  const font = `12px ${css.fontFamily}`;
+  const axis: uPlot.Axis = {
+    stroke: color("--ink-2"), font, grid: { stroke: color("--line"), width: 1 }, ticks: { stroke: color("--line"), width: 1 },
+  };
+  const plot = new uPlot({
+    width: place.clientWidth || 400, height: HEIGHT,
+    scales: { x: { time: false }, y: drawing.log ? { distr: 3 } : {} },
+    axes: [{ ...axis, label: "Time, s", labelFont: font, labelSize: 20 }, {
+      ...axis, size: 66, label: drawing.curves[0]?.unit || "", labelFont: font, labelSize: drawing.curves[0]?.unit ? 18 : 0,
+      values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))),
+    }],
+    series: [{ label: "Time" }, ...drawing.curves.map((curve, k): uPlot.Series => ({
+      label: curve.label, stroke: color(["--curve-1", "--curve-2", "--curve-3"][k] ?? "--ink"), width: 2, dash: DASHES[k] ?? [], points: { show: false },
+      value: (_, value) => (value === null ? "–" : short(value)),
+    }))],
+    hooks: {
+      draw: [(self) => {
+        const x = Math.round(self.valToPos(cursor.at, "x", true));
+        const { ctx, bbox } = self;
+        if (x < bbox.left || x > bbox.left + bbox.width) return;
+        ctx.save();
+        ctx.strokeStyle = color("--accent");
+        ctx.lineWidth = devicePixelRatio;
+        ctx.beginPath();
+        ctx.moveTo(x, bbox.top);
+        ctx.lineTo(x, bbox.top + bbox.height);
+        ctx.stroke();
+        ctx.restore();
+      }],
+    },
+    cursor: { drag: { x: false, y: false } },
+  }, data, place);
+  plot.over.addEventListener("click", (event) => drawing.seek(plot.posToVal(event.offsetX, "x")));
+  return plot;
+}
+
+function short(value: number): string {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text = size < 1e-3 || size >= 1e5 ? value.toExponential(0) : String(Number(value.toPrecision(4)));
+  return text.replaceAll("-", "−").replace("e+", "e");
+}

@@ -1,0 +1,265 @@
+// One live simulation on the server, seen from the page: its state, its past, its connection.
+import { api, ApiError, type SessionSource } from "../core/api";
+import { announce } from "../core/dom";
+import { num, seconds } from "../core/format";
+import type { Problem, SessionState } from "../core/types";
+import { banner } from "../ui/notice";
+import { History } from "./history";
+
+const RETRY_MS = [500, 1000, 2000, 4000, 8000];
+
+type Events = {
+  /** A state arrived, or the cursor moved: what is shown has changed. */
+  shown: () => void;
+  /** Blocks of the recording, complete in themselves. */
+  blocks: (bytes: Uint8Array) => void;
+  /** A new connection: the recording follows from its beginning. */
+  opened: () => void;
+  problem: (error: unknown) => void;
+};
+
+export class Session {
+  /** The newest state that the server reported. */
+  latest: SessionState | undefined;
+  readonly past = new History();
+  speed = 1;
+  private cursor: number | null = null;
+  private socket: WebSocket | undefined;
+  private retry = 0;
+  private timer = 0;
+  private closed = false;
+  private busy = false;
+  private listeners: { [K in keyof Events]: Set<Events[K]> } = {
+    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(),
+  };
+
+  constructor(private readonly source: SessionSource) {
+    addEventListener("pagehide", this.drop);
+  }
+
+  on<K extends keyof Events>(event: K, listener: Events[K]): () => void {
+    this.listeners[event].add(listener);
+    return () => this.listeners[event].delete(listener);
+  }
+
+  /** What the page shows: the newest state, or the one under the cursor. */
+  get shown(): SessionState | undefined {
+    if (this.cursor === null) return this.latest;
+    return this.past.at(this.cursor) ?? this.latest;
+  }
+
+  /** True while the page looks at a time before the newest one. */
+  get reviewing(): boolean {
+    return this.cursor !== null;
+  }
+
+  /** The time under the cursor, s. */
+  get time(): number {
+    return this.cursor ?? this.latest?.time ?? 0;
+  }
+
+  async start(): Promise<void> {
+    try {
+      this.take(await api.createSession(this.source));
+      this.connect();
+    } catch (error) {
+      this.report(error);
+    }
+  }
+
+  close(): void {
+    this.drop();
+    removeEventListener("pagehide", this.drop);
+    banner(null);
+  }
+
+  play(): Promise<void> {
+    this.cursor = null;
+    const finished = this.latest?.finished === true;
+    return this.ask(async (id) => {
+      if (finished) {
+        this.past.clear();
+        await api.reset(id);
+      }
+      return api.play(id, this.speed);
+    });
+  }
+
+  async pause(): Promise<void> {
+    await this.ask((id) => api.pause(id));
+    this.tell();
+  }
+
+  toggle(): Promise<void> {
+    return this.latest?.playing ? this.pause() : this.play();
+  }
+
+  async step(by: { steps: number } | { seconds: number }): Promise<void> {
+    this.cursor = null;
+    await this.ask((id) => api.step(id, by));
+    this.tell();
+  }
+
+  async reset(): Promise<void> {
+    this.cursor = null;
+    await this.ask(async (id) => {
+      const state = await api.reset(id);
+      this.past.clear();
+      return state;
+    });
+    announce("Back at the start, time 0.");
+  }
+
+  setSpeed(speed: number): void {
+    this.speed = speed;
+    if (this.latest?.playing) void this.ask((id) => api.play(id, speed));
+  }
+
+  /** Looks at an earlier time without computing anything again. */
+  seek(time: number): void {
+    const newest = this.latest?.time ?? 0;
+    this.cursor = time >= newest ? null : Math.max(0, time);
+    this.emit("shown");
+  }
+
+  /** One recorded moment back. */
+  back(): void {
+    const before = this.past.before(this.time);
+    if (before) this.seek(before.time);
+  }
+
+  /** Opens the stream anew: the server sends the recording from its beginning. */
+  resubscribe(): void {
+    if (this.closed || !this.latest) return;
+    this.connect();
+  }
+
+  private async ask(request: (id: string) => Promise<SessionState>): Promise<void> {
+    const id = this.latest?.id;
+    if (!id || this.busy) return;
+    this.busy = true;
+    try {
+      this.take(await request(id));
+    } catch (error) {
+      if (error instanceof ApiError && error.gone) await this.recreate();
+      else this.report(error);
+    } finally {
+      this.busy = false;
+    }
+  }
+
+  private take(state: SessionState): void {
+    const before = this.latest;
+    if (before && state.id === before.id && state.time < before.time) {
+      this.past.clear();
+      this.cursor = null;
+    }
+    this.latest = state;
+    this.past.add(state);
+    this.emit("shown");
+    if (state.error && !before?.error) this.report(runProblem(state.error, state.time));
+    if (state.finished && before && !before.finished) this.tell();
+  }
+
+  private connect(): void {
+    const id = this.latest?.id;
+    if (!id || this.closed) return;
+    this.disconnect();
+    const socket = new WebSocket(api.streamUrl(id));
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    socket.onopen = () => {
+      this.retry = 0;
+      banner(null);
+      this.emit("opened");
+    };
+    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
+      if (typeof event.data === "string") this.read(event.data);
+      else for (const listener of this.listeners.blocks) listener(new Uint8Array(event.data));
+    };
+    socket.onclose = () => {
+      if (this.socket === socket) this.lost();
+    };
+  }
+
+  private read(text: string): void {
+    const message = JSON.parse(text) as { type?: string } & SessionState;
+    if (message.type !== "state") return;
+    // A step asked for by HTTP may overtake its own echo on the socket.
+    if (this.busy) return;
+    this.take(message);
+  }
+
+  private lost(): void {
+    if (this.closed) return;
+    const wait = RETRY_MS[Math.min(this.retry, RETRY_MS.length - 1)] ?? 8000;
+    this.retry += 1;
+    if (this.retry > 1) banner("The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.", { label: "Try now", run: () => void this.comeBack() });
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.comeBack(), wait);
+  }
+
+  private async comeBack(): Promise<void> {
+    clearTimeout(this.timer);
+    const id = this.latest?.id;
+    if (!id || this.closed) return;
+    try {
+      this.take(await api.session(id));
+      this.connect();
+    } catch (error) {
+      if (error instanceof ApiError && error.gone) await this.recreate();
+      else this.lost();
+    }
+  }
+
+  /** The server forgot the session (it expired, or the server restarted): a fresh one takes its place. */
+  private async recreate(): Promise<void> {
+    this.disconnect();
+    this.past.clear();
+    this.cursor = null;
+    try {
+      this.latest = undefined;
+      this.take(await api.createSession(this.source));
+      this.connect();
+      announce("The simulation had expired on the server and was started anew, at time 0.");
+      banner("The simulation had expired on the server. A fresh one stands at time 0.", { label: "Fine", run: () => banner(null) });
+    } catch (error) {
+      this.report(error);
+    }
+  }
+
+  private tell(): void {
+    const state = this.shown;
+    if (!state) return;
+    const lead = state.finished ? "The run is complete" : "Paused";
+    const body = state.bodies[0];
+    const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
+    announce(`${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`);
+  }
+
+  private report(error: unknown): void {
+    for (const listener of this.listeners.problem) listener(error);
+  }
+
+  private emit(event: "shown" | "opened"): void {
+    for (const listener of this.listeners[event]) listener();
+  }
+
+  private disconnect(): void {
+    const socket = this.socket;
+    this.socket = undefined;
+    socket?.close();
+  }
+
+  private drop = (): void => {
+    this.closed = true;
+    clearTimeout(this.timer);
+    this.disconnect();
+    if (this.latest) api.dropSession(this.latest.id);
+  };
+}
+
+function runProblem(error: Problem | string, time: number): Problem {
+  if (typeof error !== "string") return error;
+  return { title: `The run stopped at ${seconds(time)}`, detail: error, hint: "Reset it, or loosen the tolerance of the scene." };
+}

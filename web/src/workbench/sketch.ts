@@ -1,0 +1,133 @@
+// The scene as a line drawing: at once, without WebGL, and while the 3-D view is on its way.
+import { svg } from "../core/dom";
+import type { BodyFrame, Scene, SessionState, Shape, Vec3 } from "../core/types";
+import { add, along, axesOf, cross, dot, norm, out, scale, sub, unit, type Axes } from "./vec";
+
+interface Piece {
+  body: number;
+  /** Points along the body's reported axes, from its centre of mass. */
+  points: Vec3[];
+  element: SVGElement;
+  place: (shown: [number, number][]) => void;
+}
+
+const WIDTH = 800;
+const HEIGHT = 500;
+
+export interface Sketch {
+  root: SVGSVGElement;
+  update: (state: SessionState) => void;
+}
+
+export function sketch(scene: Scene | undefined): Sketch {
+  const root = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "sketch", role: "img", "aria-label": "Line drawing of the mechanism" });
+  const view = viewAxes(scene?.gravity);
+  let pieces: Piece[] | undefined;
+  let project: (p: Vec3) => [number, number] = () => [WIDTH / 2, HEIGHT / 2];
+
+  const build = (state: SessionState): Piece[] => {
+    const made: Piece[] = [];
+    const reach: Vec3[] = [];
+    state.bodies.forEach((frame, at) => {
+      const stated = scene?.bodies?.find((body) => body.name === frame.name);
+      const toBody = converter(frame, stated?.position, axesOf(stated?.orientation));
+      for (const shape of stated?.shape ?? []) made.push(...piecesOf(shape, at, toBody, reach));
+      reach.push(frame.position);
+    });
+    const grounds = (scene?.joints ?? []).flatMap((joint) => (joint.point ? [joint.point] : []));
+    reach.push(...grounds);
+    const span = fit(reach.map((p) => flat(view, p)));
+    project = (p) => {
+      const [x, y] = flat(view, p);
+      return [WIDTH / 2 + (x - span.x) * span.scale, HEIGHT / 2 - (y - span.y) * span.scale];
+    };
+    for (const piece of made) if (piece.element instanceof SVGElement) piece.element.style.setProperty("--px", String(span.scale));
+    const axisLength = 46 / span.scale;
+    state.bodies.forEach((_, at) => made.push(...triad(at, axisLength)));
+    root.replaceChildren(
+      ...grounds.map((point) => {
+        const [cx, cy] = project(point);
+        return svg("circle", { cx, cy, r: 5, class: "sketch-joint" });
+      }),
+      ...made.map((piece) => piece.element));
+    return made;
+  };
+
+  return {
+    root,
+    update: (state) => {
+      pieces ??= build(state);
+      for (const piece of pieces) {
+        const frame = state.bodies[piece.body];
+        if (!frame) continue;
+        const axes: Axes = [frame.u, frame.v, frame.w];
+        piece.place(piece.points.map((point) => project(add(frame.position, out(axes, point)))));
+      }
+    },
+  };
+}
+
+/** Turns a point of the body's own frame into the axes that the server reports, using the first state. */
+function converter(frame: BodyFrame, origin: Vec3 = frame.position, stated: Axes): (p: Vec3) => Vec3 {
+  const axes: Axes = [frame.u, frame.v, frame.w];
+  return (p) => along(axes, sub(add(origin, out(stated, p)), frame.position));
+}
+
+function piecesOf(shape: Shape, body: number, toBody: (p: Vec3) => Vec3, reach: Vec3[]): Piece[] {
+  if (shape.kind === "rod") {
+    reach.push(...([shape.from, shape.to].map(toBody)));
+    const element = svg("line", { class: "sketch-rod" });
+    element.style.setProperty("--r", String(shape.radius));
+    return [{ body, points: [toBody(shape.from), toBody(shape.to)], element, place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }) }];
+  }
+  if (shape.kind === "sphere") {
+    const element = svg("circle", { class: "sketch-ball" });
+    element.style.setProperty("--r", String(shape.radius));
+    return [{ body, points: [toBody(shape.center)], element, place: ([c]) => c && set(element, { cx: c[0], cy: c[1] }) }];
+  }
+  const [a, b, c] = scale(shape.size, 0.5);
+  const corner = (i: number): Vec3 => toBody(add(shape.center, [i & 1 ? a : -a, i & 2 ? b : -b, i & 4 ? c : -c]));
+  const edges = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]] as const;
+  const element = svg("path", { class: "sketch-box" });
+  return [{
+    body, points: Array.from({ length: 8 }, (_, i) => corner(i)), element,
+    place: (at) => set(element, { d: edges.map(([i, j]) => `M${at[i]?.join(" ")}L${at[j]?.join(" ")}`).join("") }),
+  }];
+}
+
+function triad(body: number, length: number): Piece[] {
+  return (["u", "v", "w"] as const).map((name, k) => {
+    const element = svg("line", { class: `sketch-axis axis-${name}` });
+    const tip: Vec3 = [0, 0, 0];
+    tip[k] = length;
+    return { body, points: [[0, 0, 0], tip], element, place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }) };
+  });
+}
+
+function set(element: SVGElement, values: Record<string, string | number>): void {
+  for (const [key, value] of Object.entries(values)) element.setAttribute(key, typeof value === "number" ? value.toFixed(1) : value);
+}
+
+/** To the right and up on the paper: looks along the horizontal, a little from the side and above. */
+function viewAxes(gravity: Vec3 | undefined): Axes {
+  const up: Vec3 = gravity && norm(gravity) > 0 ? unit(scale(gravity, -1)) : [0, 0, 1];
+  const flatAxis: Vec3 = Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
+  const right = unit(sub(flatAxis, scale(up, dot(flatAxis, up))));
+  const toward = cross(right, up);
+  const [turn, tilt] = [0.42, 0.26];
+  const r2 = add(scale(right, Math.cos(turn)), scale(toward, -Math.sin(turn)));
+  const f2 = add(scale(toward, Math.cos(turn)), scale(right, Math.sin(turn)));
+  const u2 = add(scale(up, Math.cos(tilt)), scale(f2, -Math.sin(tilt)));
+  return [r2, u2, f2];
+}
+
+const flat = (view: Axes, p: Vec3): [number, number] => [dot(view[0], p), dot(view[1], p)];
+
+function fit(points: [number, number][]): { x: number; y: number; scale: number } {
+  const xs = points.map(([x]) => x);
+  const ys = points.map(([, y]) => y);
+  const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+  // Mechanisms swing out of their first picture: room is left for twice its reach.
+  const reach = Math.max(x1 - x0, y1 - y0, 0.4);
+  return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, scale: Math.min(WIDTH, HEIGHT) / (reach * 2.3) };
+}

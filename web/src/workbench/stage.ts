@@ -1,0 +1,120 @@
+// Where the mechanism is seen: the sketch at once, the 3-D view when it has arrived.
+import { announce, h, setText } from "../core/dom";
+import { onTheme, recall, remember } from "../core/prefs";
+import type { Scene } from "../core/types";
+import { icon } from "../ui/icons";
+import type { Session } from "./session";
+import { sketch } from "./sketch";
+import type { ViewerHandle } from "./viewer";
+
+export function stage(session: Session, scene: Scene | undefined): { root: HTMLElement; dispose: () => void } {
+  const drawing = sketch(scene);
+  const host = h("div", { class: "viewer-host", hidden: true });
+  const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
+  const said = h("span");
+  const loading = h("div", { class: "stage-loading", hidden: true }, said, bar);
+  const toggle = h("button", { type: "button", class: "button small stage-toggle" });
+  const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, loading, toggle);
+
+  let viewer: ViewerHandle | undefined;
+  let wanted = recall("picture") !== "sketch" && !savesData();
+  let visible = false;
+  let starting = false;
+  let failed = false;
+  let gone = false;
+
+  const paint = (): void => {
+    const on = viewer !== undefined && wanted;
+    host.hidden = !on;
+    drawing.root.toggleAttribute("inert", on);
+    root.classList.toggle("has-viewer", on);
+    loading.hidden = !(starting || failed) || !wanted;
+    toggle.replaceChildren(icon("cube"), wanted ? "Show the sketch" : "Show in 3-D");
+  };
+
+  const start = async (): Promise<void> => {
+    if (viewer || starting || !wanted || !visible || gone) return;
+    starting = true;
+    failed = false;
+    setText(said, "Loading the 3-D view…");
+    bar.hidden = false;
+    paint();
+    try {
+      const { openViewer } = await import("./viewer");
+      host.hidden = false;
+      host.classList.add("is-starting");
+      const opened = await openViewer(host, {
+        progress: (fraction) => {
+          bar.value = fraction;
+          setText(said, fraction < 1 ? `Loading the 3-D view, ${Math.round(fraction * 100)} %` : "Starting the 3-D view…");
+        },
+        selected: (path) => root.dispatchEvent(new CustomEvent("triad:select", { detail: path, bubbles: true })),
+      });
+      if (gone) {
+        opened.close();
+        return;
+      }
+      viewer = opened;
+      session.resubscribe();
+    } catch (error) {
+      failed = true;
+      bar.hidden = true;
+      host.replaceChildren();
+      setText(said, `The 3-D view cannot run here; the sketch and the tables show the same run. (${error instanceof Error ? error.message : String(error)})`);
+      announce("The 3-D view could not be loaded. The sketch and the tables show the same run.");
+    } finally {
+      host.classList.remove("is-starting");
+      starting = false;
+      paint();
+    }
+  };
+
+  toggle.addEventListener("click", () => {
+    wanted = !wanted;
+    remember("picture", wanted ? null : "sketch");
+    paint();
+    void start();
+  });
+
+  const seen = new IntersectionObserver((entries) => {
+    visible = entries.some((entry) => entry.isIntersecting);
+    void start();
+  }, { rootMargin: "200px" });
+  seen.observe(root);
+
+  const undo = [
+    session.on("opened", () => viewer?.begin()),
+    session.on("blocks", (block) => viewer?.send(block)),
+    session.on("shown", () => {
+      const state = session.shown;
+      if (!state) return;
+      if (!viewer || !wanted) drawing.update(state);
+      viewer?.show(session.time);
+    }),
+    // The viewer takes its theme when it starts: it is started again, from the browser's cache.
+    onTheme(() => {
+      if (!viewer) return;
+      viewer.close();
+      viewer = undefined;
+      host.replaceChildren();
+      void start();
+    }),
+  ];
+  paint();
+
+  return {
+    root,
+    dispose: () => {
+      gone = true;
+      seen.disconnect();
+      for (const step of undo) step();
+      viewer?.close();
+    },
+  };
+}
+
+/** Somebody who asked the browser to save data gets 11 MB only on request. */
+function savesData(): boolean {
+  const connection = (navigator as Navigator & { connection?: { saveData?: boolean } }).connection;
+  return connection?.saveData === true;
+}

@@ -1,0 +1,92 @@
+// Play, pause, step, look back: the clock of the page.
+import { h, setText } from "../core/dom";
+import { fixedPlain, seconds } from "../core/format";
+import { bind } from "../core/keys";
+import { icon, type IconName } from "../ui/icons";
+import type { Session } from "./session";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+const STRIDES = [0.01, 0.05, 0.1, 0.5, 1];
+
+export function transport(session: Session, plannedDuration: number | undefined): { root: HTMLElement; dispose: () => void } {
+  const button = (name: IconName, label: string, keys: string, run: () => void, cls = ""): HTMLButtonElement =>
+    h("button", { type: "button", class: `button icon-button ${cls}`, "aria-label": label, title: `${label} (${keys})`, onclick: run }, icon(name));
+
+  const stride = h("select", { class: "field compact", "aria-label": "Length of a step by time" },
+    ...STRIDES.map((value) => h("option", { value: String(value), selected: value === 0.1 }, `${value} s`)));
+  const speed = h("select", { class: "field compact", "aria-label": "Speed" },
+    ...SPEEDS.map((value) => h("option", { value: String(value), selected: value === 1 }, `${value} ×`)));
+
+  const stepTime = (): void => void session.step({ seconds: Number(stride.value) });
+  const stepOnce = (): void => void session.step({ steps: 1 });
+  const changeSpeed = (by: number): void => {
+    speed.selectedIndex = Math.max(0, Math.min(SPEEDS.length - 1, speed.selectedIndex + by));
+    session.setSpeed(Number(speed.value));
+  };
+  speed.addEventListener("change", () => session.setSpeed(Number(speed.value)));
+
+  const play = button("play", "Play", "space", () => void session.toggle(), "primary play");
+  const back = button("back", "Back to the moment before", "←", () => session.back());
+  const live = h("button", { type: "button", class: "button small live", hidden: true, onclick: () => session.seek(Infinity) }, icon("live"), "Newest time");
+  const slider = h("input", { type: "range", class: "timeline", min: "0", max: String(plannedDuration ?? 10), step: "0.001", value: "0", "aria-label": "Time" });
+  slider.addEventListener("input", () => session.seek(Number(slider.value)));
+  const clock = h("output", { class: "clock", "aria-live": "off" }, "0.000");
+  const until = h("span", { class: "clock-until" }, plannedDuration ? `of ${seconds(plannedDuration, 0)}` : "");
+  const mode = h("span", { class: "clock-mode" });
+
+  let playing: boolean | undefined;
+  const paint = (): void => {
+    const state = session.latest;
+    if (!state) return;
+    const time = session.time;
+    slider.max = String(state.duration);
+    slider.value = String(time);
+    slider.style.setProperty("--done", `${state.duration > 0 ? (100 * time) / state.duration : 0}%`);
+    slider.style.setProperty("--computed", `${state.duration > 0 ? (100 * state.time) / state.duration : 0}%`);
+    slider.setAttribute("aria-valuetext", `${seconds(time)} of ${seconds(state.duration, 0)}, computed up to ${seconds(state.time)}`);
+    setText(clock, fixedPlain(time, 3));
+    setText(until, `of ${Number(state.duration.toFixed(3))} s`);
+    setText(mode, session.reviewing ? "looking back" : state.error ? "stopped" : state.finished ? "complete" : state.playing ? "running" : "paused");
+    live.hidden = !session.reviewing;
+    back.disabled = time <= 0;
+    if (playing !== state.playing) {
+      playing = state.playing;
+      const label = playing ? "Pause" : "Play";
+      play.replaceChildren(icon(playing ? "pause" : "play"));
+      play.setAttribute("aria-label", label);
+      play.title = `${label} (space)`;
+    }
+  };
+  const silence = session.on("shown", paint);
+
+  const release = bind([
+    { keys: [" "], shown: "space", says: "Play or pause", run: () => void session.toggle() },
+    { keys: ["ArrowRight"], shown: "→", says: "One integrator step", run: stepOnce },
+    { keys: ["ArrowLeft"], shown: "←", says: "Back to the moment before, without computing", run: () => session.back() },
+    { keys: ["ArrowUp"], shown: "↑", says: "Step by time", run: stepTime },
+    { keys: ["+", "="], shown: "+", says: "Faster", run: () => changeSpeed(1) },
+    { keys: ["-"], shown: "−", says: "Slower", run: () => changeSpeed(-1) },
+    { keys: ["Backspace"], shown: "Backspace", says: "Back to the start", run: () => void session.reset() },
+  ]);
+
+  const root = h("div", { class: "transport", role: "group", "aria-label": "Run of the simulation" },
+    h("div", { class: "timeline-row" }, slider),
+    h("div", { class: "transport-row" },
+      h("div", { class: "transport-group" },
+        button("reset", "Reset to the start", "backspace", () => void session.reset()),
+        back, play,
+        button("step", "One integrator step", "→", stepOnce)),
+      h("div", { class: "transport-group joined" },
+        button("skip", "Step by time", "↑", stepTime), stride),
+      h("p", { class: "clock-box" }, clock, " ", until, mode),
+      live,
+      h("label", { class: "transport-group speed" }, h("span", null, "Speed"), speed)));
+
+  return {
+    root,
+    dispose: () => {
+      release();
+      silence();
+    },
+  };
+}

@@ -1,0 +1,103 @@
+// The rerun viewer, fetched when it is wanted, kept alive between pages, fed by our own socket.
+import type { LogChannel, WebViewer } from "@rerun-io/web-viewer";
+import { theme } from "../core/prefs";
+
+const TIMELINE = "time";
+const NANOSECONDS = 1e9;
+
+export interface ViewerHandle {
+  send: (block: Uint8Array) => void;
+  /** Shows the recording at a time in seconds. */
+  show: (time: number) => void;
+  /** The next blocks belong to a recording that begins anew. */
+  begin: () => void;
+  close: () => void;
+}
+
+export interface ViewerHooks {
+  progress: (fraction: number) => void;
+  selected: (entityPath: string) => void;
+}
+
+/** Starts the viewer inside `host`. Rejects with a sentence when this browser cannot run it. */
+export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise<ViewerHandle> {
+  const { WebViewer } = await import("@rerun-io/web-viewer");
+  const viewer = new WebViewer();
+  const restore = watchDownload(hooks.progress);
+  try {
+    await viewer.start(null, host, {
+      width: "100%", height: "100%", hide_welcome_screen: true, render_backend: "webgl",
+      allow_fullscreen: false, theme: theme(),
+    });
+  } finally {
+    restore();
+  }
+  for (const panel of ["top", "blueprint", "selection", "time"] as const) viewer.override_panel_state(panel, "hidden");
+  return handle(viewer, hooks);
+}
+
+function handle(viewer: WebViewer, hooks: ViewerHooks): ViewerHandle {
+  let channel: LogChannel | undefined;
+  let recording: string | null = null;
+  let wanted: number | undefined;
+  let opened = 0;
+
+  viewer.on("recording_open", (event) => {
+    if (event.application_id !== "triad") return;
+    recording = event.recording_id;
+    viewer.set_active_recording_id(event.recording_id);
+    settle();
+  });
+  viewer.on("selection_change", (event) => {
+    for (const item of event.items) if (item.type === "entity") hooks.selected(item.entity_path);
+  });
+
+  /** The page's clock is the only one: the viewer stands at the time that the page shows. */
+  const settle = (): void => {
+    if (recording === null || wanted === undefined) return;
+    if (viewer.get_active_timeline(recording) !== TIMELINE) viewer.set_active_timeline(recording, TIMELINE);
+    viewer.set_current_time(recording, TIMELINE, Math.round(wanted * NANOSECONDS));
+  };
+
+  return {
+    begin: () => {
+      channel?.close();
+      opened += 1;
+      channel = viewer.open_channel(`triad-${opened}`);
+    },
+    send: (block) => channel?.send_rrd(block),
+    show: (time) => {
+      wanted = time;
+      settle();
+    },
+    close: () => {
+      channel?.close();
+      viewer.stop();
+    },
+  };
+}
+
+/**
+ * The viewer measures its download against the packed length and would stand at 100 % early.
+ * While it starts, its one .wasm request is counted here against the true length.
+ */
+function watchDownload(progress: (fraction: number) => void): () => void {
+  const original = window.fetch;
+  window.fetch = async (input, init) => {
+    const response = await original(input, init);
+    const url = input instanceof Request ? input.url : String(input);
+    if (!url.endsWith(".wasm") || !response.ok || !response.body) return response;
+    let received = 0;
+    const counted = response.body.pipeThrough(new TransformStream<Uint8Array, Uint8Array>({
+      transform(chunk, controller) {
+        received += chunk.byteLength;
+        progress(Math.min(1, received / __VIEWER_BYTES__));
+        controller.enqueue(chunk);
+      },
+    }));
+    return new Response(counted, { status: response.status, headers: response.headers });
+  };
+  return () => {
+    window.fetch = original;
+  };
+}
