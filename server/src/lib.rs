@@ -1,1 +1,36 @@
-//! The workbench.
+//! The workbench: command line, HTTP interface, live sessions, viewer stream and gradebook.
+//!
+//! Mechanics live in `triad_engine`, grading in `triad_lessons`; this crate only carries what they say. In reading
+//! order: errors and bounds, the parts, then the two ways of use.
+
+pub mod problem;
+
+pub mod limits;
+
+pub mod grading;
+pub mod scenes;
+pub mod store;
+pub mod stream;
+
+pub mod session;
+
+pub mod app;
+
+pub mod api;
+pub mod page;
+
+pub mod cli;
+
+use problem::Problem;
+
+/// The server as one service; tests call it in process.
+pub fn app(state: app::App) -> axum::Router {
+    api::router(state)
+}
+
+/// Runs work that computes or waits for the disk on a thread that may block.
+pub(crate) async fn blocking<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+) -> Result<T, Problem> {
+    tokio::task::spawn_blocking(work).await.map_err(Problem::internal)?
+}

@@ -1,2 +1,7 @@
 //! The `triad` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    triad::cli::main()
+}

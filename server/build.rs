@@ -1,0 +1,151 @@
+//! Builds the web page if its sources are newer than the last build, and embeds it into the binary.
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::SystemTime;
+use std::{env, fs, io};
+
+/// What the page is made from, relative to `web/`.
+const SOURCES: [&str; 8] = [
+    "src",
+    "build",
+    "public",
+    "index.html",
+    "package.json",
+    "package-lock.json",
+    "tsconfig.json",
+    "vite.config.ts",
+];
+
+fn main() {
+    if let Err(error) = embed() {
+        for line in error.to_string().lines() {
+            println!("cargo::error={line}");
+        }
+    }
+}
+
+fn embed() -> Result<(), Box<dyn Error>> {
+    let server = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
+    let web = server.parent().ok_or("the server's folder has no parent")?.join("web");
+    let dist = web.join("dist");
+    println!("cargo::rerun-if-changed=build.rs");
+    for source in SOURCES {
+        let source = web.join(source);
+        if source.exists() {
+            println!("cargo::rerun-if-changed={}", source.display());
+        }
+    }
+    let sources = SOURCES.iter().filter_map(|source| newest(&web.join(source))).max();
+    let built = fs::metadata(dist.join("index.html")).and_then(|m| m.modified()).ok();
+    if built.is_none_or(|built| sources.is_some_and(|changed| changed > built)) {
+        build_page(&web)?;
+    }
+    write_table(&dist)
+}
+
+/// Time of the last change below `path`, folders themselves left out (tools write into them).
+fn newest(path: &Path) -> Option<SystemTime> {
+    let meta = fs::metadata(path).ok()?;
+    if !meta.is_dir() {
+        return meta.modified().ok();
+    }
+    fs::read_dir(path).ok()?.filter_map(|entry| newest(&entry.ok()?.path())).max()
+}
+
+fn build_page(web: &Path) -> Result<(), Box<dyn Error>> {
+    let lock = newest(&web.join("package-lock.json"));
+    let installed = newest(&web.join("node_modules/.package-lock.json"));
+    if installed.is_none() || lock > installed {
+        npm(web, &["ci", "--no-audit", "--no-fund"])?;
+    }
+    npm(web, &["run", "build"])
+}
+
+fn npm(web: &Path, arguments: &[&str]) -> Result<(), Box<dyn Error>> {
+    let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    let shown = format!("npm {} (in {})", arguments.join(" "), web.display());
+    let output =
+        Command::new(program).args(arguments).current_dir(web).output().map_err(|error| {
+            match error.kind() {
+                io::ErrorKind::NotFound => {
+                    "the web page needs Node.js 20 or later to be built, and `npm` was not found: \
+             install Node.js from https://nodejs.org or with your package manager, then build again"
+                        .to_owned()
+                }
+                _ => format!("`{shown}` could not be started: {error}"),
+            }
+        })?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let said = [output.stdout, output.stderr].concat();
+    Err(format!("`{shown}` failed; the page was not built. It said:\n{}", String::from_utf8_lossy(&said))
+        .into())
+}
+
+/// One file of the page, with its compressed copies.
+#[derive(Default)]
+struct Asset {
+    plain: Option<PathBuf>,
+    gzip: Option<PathBuf>,
+    brotli: Option<PathBuf>,
+}
+
+fn write_table(dist: &Path) -> Result<(), Box<dyn Error>> {
+    let mut assets = BTreeMap::new();
+    collect(dist, dist, &mut assets)?;
+    let out = PathBuf::from(env::var("OUT_DIR")?);
+    let mut table = String::from("&[\n");
+    for (index, (name, asset)) in assets.iter().enumerate() {
+        let stored = asset.plain.as_ref().or(asset.gzip.as_ref()).or(asset.brotli.as_ref());
+        let tag = fnv(&fs::read(stored.ok_or("an asset has no file")?)?);
+        // Copies, so that a build of the page during a build of the binary cannot mix two pages.
+        let include = |file: &Option<PathBuf>, kind: &str| -> Result<String, Box<dyn Error>> {
+            let Some(file) = file else { return Ok("None".into()) };
+            let copy = out.join(format!("asset-{index}.{kind}"));
+            fs::copy(file, &copy)?;
+            Ok(format!("Some(include_bytes!({:?}))", copy.display().to_string()))
+        };
+        let plain = include(&asset.plain, "plain")?;
+        let gzip = include(&asset.gzip, "gz")?;
+        let brotli = include(&asset.brotli, "br")?;
+        writeln!(
+            table,
+            "    Asset {{ path: {name:?}, tag: \"\\\"{tag:016x}\\\"\", plain: {plain}, gzip: {gzip}, brotli: {brotli} }},"
+        )?;
+    }
+    table.push(']');
+    fs::write(out.join("assets.rs"), table)?;
+    Ok(())
+}
+
+fn collect(dist: &Path, folder: &Path, assets: &mut BTreeMap<String, Asset>) -> Result<(), Box<dyn Error>> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            collect(dist, &path, assets)?;
+            continue;
+        }
+        let parts = path.strip_prefix(dist)?.iter().map(|part| part.to_string_lossy());
+        let name = parts.collect::<Vec<_>>().join("/");
+        if let Some(name) = name.strip_suffix(".gz") {
+            assets.entry(name.to_owned()).or_default().gzip = Some(path);
+        } else if let Some(name) = name.strip_suffix(".br") {
+            assets.entry(name.to_owned()).or_default().brotli = Some(path);
+        } else {
+            assets.entry(name).or_default().plain = Some(path);
+        }
+    }
+    Ok(())
+}
+
+/// FNV-1a: tells two versions of a file apart.
+fn fnv(bytes: &[u8]) -> u64 {
+    bytes
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+}

@@ -1,0 +1,152 @@
+//! Reading requests, with errors that name the place.
+
+use axum::extract::rejection::{BytesRejection, PathRejection, QueryRejection};
+use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
+use axum::http::request::Parts;
+use axum::http::{StatusCode, header};
+use serde::de::DeserializeOwned;
+use serde_path_to_error::Segment;
+
+use crate::problem::Problem;
+
+/// A request body in JSON. A missing body is read as `{}` where everything in it is optional.
+#[derive(Debug)]
+pub struct Json<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Json<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
+        let media = request.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok());
+        let is_json = media.is_none_or(|media| {
+            let essence = media.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
+            essence == "application/json" || essence.ends_with("+json")
+        });
+        let stated = media.unwrap_or("nothing").to_owned();
+        let bytes = axum::body::Bytes::from_request(request, state).await.map_err(unreadable_body)?;
+        if !is_json || (stated == "nothing" && !bytes.is_empty()) {
+            return Err(Problem::new(
+                StatusCode::UNSUPPORTED_MEDIA_TYPE,
+                "not-json",
+                format!("the body must be JSON; the content-type header says {stated}"),
+                "send the header content-type: application/json",
+            ));
+        }
+        if bytes.is_empty() {
+            return match serde_json::from_str("{}") {
+                Ok(value) => Ok(Self(value)),
+                Err(_) => Err(Problem::new(
+                    StatusCode::BAD_REQUEST,
+                    "missing-body",
+                    "the request has no body",
+                    "send a JSON document; /api/openapi.json says what belongs into it",
+                )),
+            };
+        }
+        parse(&bytes).map(Self)
+    }
+}
+
+/// Reads JSON; errors point to the place.
+pub fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Problem> {
+    let mut reader = serde_json::Deserializer::from_slice(bytes);
+    let value = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let pointer: String = error.path().iter().map(segment).collect();
+        invalid(&pointer, error.inner())
+    })?;
+    reader.end().map_err(|error| invalid("", &error))?;
+    Ok(value)
+}
+
+fn segment(segment: &Segment) -> String {
+    match segment {
+        Segment::Seq { index } => format!("/{index}"),
+        Segment::Map { key } | Segment::Enum { variant: key } => {
+            format!("/{}", key.replace('~', "~0").replace('/', "~1"))
+        }
+        Segment::Unknown => String::new(),
+    }
+}
+
+fn invalid(pointer: &str, error: &serde_json::Error) -> Problem {
+    use serde_json::error::Category;
+    let (status, code, hint) = match error.classify() {
+        Category::Data => (
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "invalid-request",
+            "compare with the request's schema in /api/openapi.json",
+        ),
+        Category::Syntax | Category::Eof | Category::Io => (
+            StatusCode::BAD_REQUEST,
+            "invalid-json",
+            "check the brackets, quotation marks and commas at that place",
+        ),
+    };
+    Problem::new(status, code, format!("the body could not be read: {error}"), hint)
+        .at(pointer, error.to_string())
+}
+
+fn unreadable_body(rejection: BytesRejection) -> Problem {
+    if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
+        return too_large();
+    }
+    Problem::new(
+        StatusCode::BAD_REQUEST,
+        "unreadable-body",
+        format!("the body did not arrive whole: {}", rejection.body_text()),
+        "send the request again",
+    )
+}
+
+/// The answer to a body that exceeds the bound.
+pub fn too_large() -> Problem {
+    Problem::new(
+        StatusCode::PAYLOAD_TOO_LARGE,
+        "request-too-large",
+        "the request's body is larger than this server takes",
+        "send a smaller scene, or run it on the command line: triad run SCENE",
+    )
+}
+
+/// The variable parts of an address.
+#[derive(Debug)]
+pub struct At<T>(pub T);
+
+impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for At<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let found = Path::<T>::from_request_parts(parts, state).await;
+        found.map(|Path(value)| Self(value)).map_err(|rejection: PathRejection| {
+            Problem::new(
+                StatusCode::BAD_REQUEST,
+                "invalid-address",
+                format!("the address could not be read: {}", rejection.body_text()),
+                "see /api/openapi.json for the form of the addresses",
+            )
+        })
+    }
+}
+
+/// The parameters after the question mark of an address.
+#[derive(Debug)]
+pub struct Asked<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Asked<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let found = Query::<T>::from_request_parts(parts, state).await;
+        found.map(|Query(value)| Self(value)).map_err(|rejection: QueryRejection| {
+            Problem::new(
+                StatusCode::BAD_REQUEST,
+                "invalid-query",
+                format!(
+                    "the parameters after the question mark could not be read: {}",
+                    rejection.body_text()
+                ),
+                "see /api/openapi.json for the parameters of each address",
+            )
+        })
+    }
+}

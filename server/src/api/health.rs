@@ -1,0 +1,42 @@
+//! Whether the server is well.
+
+use axum::Json as Answer;
+use axum::extract::State;
+use serde::Serialize;
+use utoipa::ToSchema;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use crate::app::App;
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new().routes(routes!(health))
+}
+
+/// How the server is.
+#[derive(Debug, Serialize, ToSchema)]
+struct Health {
+    /// `ok`.
+    status: &'static str,
+    /// Version of the program.
+    version: &'static str,
+    /// Live sessions.
+    sessions: usize,
+    /// Live sessions that there may be.
+    most_sessions: usize,
+    /// Lessons in the course.
+    lessons: usize,
+}
+
+/// How the server is.
+#[utoipa::path(get, path = "/health", tag = "server", responses(
+    (status = 200, description = "It is well", body = Health)))]
+async fn health(State(app): State<App>) -> Answer<Health> {
+    Answer(Health {
+        status: "ok",
+        version: env!("CARGO_PKG_VERSION"),
+        sessions: app.sessions.len(),
+        most_sessions: app.limits.sessions,
+        lessons: app.course.lessons().len(),
+    })
+}

@@ -1,0 +1,111 @@
+//! The HTTP interface under `/api/v1`, and the one router of the server.
+
+mod bounds;
+mod extract;
+mod health;
+mod lessons;
+mod scenes;
+mod sessions;
+mod stream;
+mod submissions;
+
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use utoipa::OpenApi;
+use utoipa::openapi::OpenApi as Document;
+use utoipa_axum::router::OpenApiRouter;
+
+use crate::app::App;
+use crate::page;
+use crate::problem::Problem;
+
+pub(crate) use lessons::unknown as unknown_lesson;
+
+/// The head of the interface's description; addresses and schemas are added by the routes themselves.
+#[derive(OpenApi)]
+#[openapi(
+    info(
+        title = "Triad",
+        description = "A teaching workbench for multibody dynamics: lessons, live simulations, submissions. \
+            Units are SI. Errors are application/problem+json with a stable `code`, a `hint`, and pointers \
+            to the places that are wrong."
+    ),
+    tags(
+        (name = "lessons", description = "What is taught; answers never leave the server"),
+        (name = "submissions", description = "What was handed in, and what it earned"),
+        (name = "scenes", description = "Built-in scenes, and what a scene amounts to"),
+        (name = "sessions", description = "Live simulations"),
+        (name = "server", description = "The server itself")
+    )
+)]
+struct Head;
+
+fn described() -> (Router<App>, Document) {
+    OpenApiRouter::with_openapi(Head::openapi())
+        .nest(
+            "/api/v1",
+            OpenApiRouter::new()
+                .merge(lessons::routes())
+                .merge(submissions::routes())
+                .merge(scenes::routes())
+                .merge(sessions::routes())
+                .merge(stream::routes())
+                .merge(health::routes()),
+        )
+        .split_for_parts()
+}
+
+/// The description of the interface (OpenAPI 3.1).
+pub fn openapi() -> Document {
+    described().1
+}
+
+/// The whole server: page, interface and streams on one port.
+pub fn router(app: App) -> Router {
+    let (routes, document) = described();
+    let limit = app.limits.request_bytes;
+    routes
+        .route("/api/openapi.json", get(move || async move { axum::Json(document) }))
+        .route("/api/{*rest}", axum::routing::any(unknown_address))
+        .fallback(page::serve)
+        .method_not_allowed_fallback(|| async { page::method_not_allowed() })
+        .layer(DefaultBodyLimit::max(limit))
+        .layer(middleware::from_fn_with_state(app.clone(), bounds::refuse_large_bodies))
+        .layer(middleware::from_fn(uncached_interface))
+        .with_state(app)
+}
+
+async fn unknown_address(uri: axum::http::Uri) -> Response {
+    Problem::new(
+        StatusCode::NOT_FOUND,
+        "not-found",
+        format!("there is nothing at {}", uri.path()),
+        "the API is described at /api/openapi.json",
+    )
+    .into_response()
+}
+
+/// Answers of the interface are of the moment.
+async fn uncached_interface(request: axum::extract::Request, next: Next) -> Response {
+    let is_interface = request.uri().path().starts_with("/api/");
+    let mut response = next.run(request).await;
+    if is_interface {
+        response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
+    }
+    response
+}
+
+/// Closes idle sessions for as long as the server runs.
+pub async fn keep_house(app: App) {
+    let mut often = tokio::time::interval(Duration::from_secs(15));
+    loop {
+        often.tick().await;
+        app.sessions.expire(&app.limits);
+    }
+}

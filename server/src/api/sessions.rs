@@ -1,0 +1,328 @@
+//! Live sessions: create, look, step, play, pause, reset, delete.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::IntoResponse;
+use serde::{Deserialize, Serialize};
+use triad_engine::scene::{Scene, Stabilization};
+use utoipa::ToSchema;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::{At, Json};
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::session::{SessionState, Source};
+use crate::{blocking, scenes};
+
+/// Integrator steps that one request may take.
+const MOST_STEPS: u32 = 100_000;
+/// Simulated seconds a second that a session may play.
+const SPEEDS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new()
+        .routes(routes!(create))
+        .routes(routes!(show, delete))
+        .routes(routes!(step))
+        .routes(routes!(play))
+        .routes(routes!(pause))
+        .routes(routes!(reset))
+        .routes(routes!(jacobian))
+        .routes(routes!(multipliers))
+}
+
+/// What to simulate: exactly one of `lesson`, `builtin` and `scene`.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct NewSession {
+    /// The scenario of a lesson, by the lesson's slug.
+    lesson: Option<String>,
+    /// A built-in scene, by name.
+    #[schema(example = "n-four-bar:2")]
+    builtin: Option<String>,
+    /// A scene; its schema is at /api/v1/schema/scene.
+    #[schema(value_type = Option<Object>)]
+    scene: Option<serde_json::Value>,
+    /// Settings that replace those of the scene.
+    #[serde(default)]
+    overrides: Overrides,
+}
+
+/// Settings that replace those of the scene.
+#[derive(Debug, Default, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+struct Overrides {
+    /// End of the simulation, s.
+    duration: Option<f64>,
+    /// Time between frames, s.
+    every: Option<f64>,
+    /// Tolerance of the integrator.
+    tolerance: Option<f64>,
+    /// How the constraints are kept.
+    #[schema(value_type = Option<Object>)]
+    stabilization: Option<Stabilization>,
+}
+
+impl Overrides {
+    fn apply(self, scene: &mut Scene) {
+        let simulation = &mut scene.simulation;
+        simulation.duration = self.duration.unwrap_or(simulation.duration);
+        simulation.every = self.every.unwrap_or(simulation.every);
+        simulation.tolerance = self.tolerance.unwrap_or(simulation.tolerance);
+        simulation.stabilization = self.stabilization.unwrap_or(simulation.stabilization);
+    }
+}
+
+/// Start a live simulation.
+#[utoipa::path(post, path = "/sessions", tag = "sessions", request_body = NewSession, responses(
+    (status = 201, description = "The session, at its start", body = SessionState,
+        headers(("location" = String, description = "Its address"))),
+    (status = 422, description = "The scene was refused", body = ProblemDocument),
+    (status = 503, description = "All sessions are in use", body = ProblemDocument)))]
+async fn create(
+    State(app): State<App>,
+    Json(wanted): Json<NewSession>,
+) -> Result<impl IntoResponse, Problem> {
+    let session = blocking(move || {
+        let (mut scene, source) = choose(&app, wanted.lesson, wanted.builtin, wanted.scene)?;
+        wanted.overrides.apply(&mut scene);
+        let written_here = matches!(source, Source::Scene(_));
+        let started = app.sessions.start(&scene, source, &app.limits);
+        started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })
+    })
+    .await?;
+    let state = session.state();
+    let mut headers = HeaderMap::new();
+    if let Ok(address) = state.links.this.parse() {
+        headers.insert(header::LOCATION, address);
+    }
+    Ok((StatusCode::CREATED, headers, axum::Json(state)))
+}
+
+fn choose(
+    app: &App,
+    lesson: Option<String>,
+    builtin: Option<String>,
+    scene: Option<serde_json::Value>,
+) -> Result<(Scene, Source), Problem> {
+    match (lesson, builtin, scene) {
+        (Some(slug), None, None) => {
+            let lesson = super::lessons::find(app, &slug)?;
+            let scene = Scene::from_json(&lesson.scene.to_string())?;
+            Ok((scene, Source::Lesson(slug)))
+        }
+        (None, Some(name), None) => Ok((scenes::builtin_within(&name, &app.limits)?, Source::Builtin(name))),
+        (None, None, Some(value)) => {
+            let scene = Scene::from_json(&value.to_string())
+                .map_err(|error| Problem::from(error).within("/scene"))?;
+            let name = scene.name.clone();
+            Ok((scene, Source::Scene(name)))
+        }
+        _ => Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "what-to-simulate",
+            "a session needs exactly one of `lesson`, `builtin` and `scene`",
+            r#"for example {"builtin": "simple-pendulum"}"#,
+        )),
+    }
+}
+
+/// A session's state.
+#[utoipa::path(get, path = "/sessions/{id}", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "The state now", body = SessionState),
+    (status = 404, description = "No such session", body = ProblemDocument)))]
+async fn show(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.state()))
+}
+
+/// Close a session.
+#[utoipa::path(delete, path = "/sessions/{id}", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 204, description = "It is closed"),
+    (status = 404, description = "No such session", body = ProblemDocument)))]
+async fn delete(State(app): State<App>, At(id): At<String>) -> Result<StatusCode, Problem> {
+    app.sessions.remove(&id)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// How far to step: `steps` of the integrator or simulated `seconds`; one step if neither is given.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct Stride {
+    /// Integrator steps, 1 to 100000.
+    steps: Option<u32>,
+    /// Simulated seconds, above 0.
+    seconds: Option<f64>,
+}
+
+/// Step a session; it is paused first.
+#[utoipa::path(post, path = "/sessions/{id}/step", tag = "sessions", params(("id" = String, Path)),
+    request_body = Stride, responses(
+    (status = 200, description = "The state after it", body = SessionState),
+    (status = 409, description = "The simulation has stopped", body = ProblemDocument),
+    (status = 422, description = "The engine could not go on; the last good state is kept", body = ProblemDocument)))]
+async fn step(
+    State(app): State<App>,
+    At(id): At<String>,
+    Json(stride): Json<Stride>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    let session = app.sessions.get(&id)?;
+    let state = match (stride.steps, stride.seconds) {
+        (_, None) => {
+            let steps = stride.steps.unwrap_or(1);
+            if !(1..=MOST_STEPS).contains(&steps) {
+                return Err(out_of_range(
+                    "/steps",
+                    format!("steps must be from 1 to {MOST_STEPS}, not {steps}"),
+                ));
+            }
+            session.steps(steps).await?
+        }
+        (None, Some(seconds)) => {
+            if seconds.is_nan() || seconds <= 0.0 || seconds > 1e6 {
+                return Err(out_of_range(
+                    "/seconds",
+                    format!("seconds must be above 0, at most 1e6, not {seconds}"),
+                ));
+            }
+            session.seconds(seconds).await?
+        }
+        (Some(_), Some(_)) => {
+            return Err(out_of_range("/seconds", "give either steps or seconds, not both".into()));
+        }
+    };
+    Ok(axum::Json(state))
+}
+
+fn out_of_range(pointer: &str, detail: String) -> Problem {
+    Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "out-of-range",
+        detail.clone(),
+        "send a value within the stated range",
+    )
+    .at(pointer, detail)
+}
+
+/// How fast to play.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct Pace {
+    /// Simulated seconds a second, 0.001 to 1000; 1 if it is not given.
+    speed: Option<f64>,
+}
+
+/// Let time run.
+#[utoipa::path(post, path = "/sessions/{id}/play", tag = "sessions", params(("id" = String, Path)),
+    request_body = Pace, responses(
+    (status = 200, description = "The state at that moment", body = SessionState),
+    (status = 409, description = "The simulation has stopped", body = ProblemDocument)))]
+async fn play(
+    State(app): State<App>,
+    At(id): At<String>,
+    Json(pace): Json<Pace>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    let session = app.sessions.get(&id)?;
+    let speed = pace.speed.unwrap_or(1.0);
+    if !SPEEDS.contains(&speed) {
+        return Err(out_of_range("/speed", format!("speed must be from 0.001 to 1000, not {speed}")));
+    }
+    Ok(axum::Json(session.play(speed).await?))
+}
+
+/// Stop time.
+#[utoipa::path(post, path = "/sessions/{id}/pause", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "The state at that moment", body = SessionState)))]
+async fn pause(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.pause().await?))
+}
+
+/// Go back to the start; the recording begins anew.
+#[utoipa::path(post, path = "/sessions/{id}/reset", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "The state at the start", body = SessionState)))]
+async fn reset(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.reset().await?))
+}
+
+/// The Jacobian of the constraints: a sparse matrix whose rows and columns have names.
+#[derive(Debug, Serialize, ToSchema)]
+struct JacobianView {
+    /// What each row is: its joint or body, and the row.
+    rows: Vec<String>,
+    /// What each column is: its body, and the coordinate.
+    columns: Vec<String>,
+    /// Row, column, value, and whether the entry never changes; entries that are not listed are zero by structure.
+    #[schema(value_type = Vec<Vec<Object>>)]
+    entries: Vec<(usize, usize, f64, bool)>,
+}
+
+/// The Jacobian at the session's time.
+#[utoipa::path(get, path = "/sessions/{id}/jacobian", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "Pattern and values", body = JacobianView)))]
+async fn jacobian(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<JacobianView>, Problem> {
+    let session = app.sessions.get(&id)?;
+    let found = session.jacobian().await?;
+    let entries = found.entries.iter().map(|e| (e.row, e.column, e.value, e.constant)).collect();
+    Ok(axum::Json(JacobianView { rows: found.rows, columns: found.columns, entries }))
+}
+
+/// The multiplier of one row.
+#[derive(Debug, Serialize, ToSchema)]
+struct MultiplierView {
+    /// The row.
+    label: String,
+    /// Its multiplier.
+    value: f64,
+}
+
+/// The reaction in one joint.
+#[derive(Debug, Serialize, ToSchema)]
+struct ReactionView {
+    /// Name of the joint.
+    joint: String,
+    /// The multipliers of its rows.
+    rows: Vec<MultiplierView>,
+    /// Force on the body `on`, N: body j of the joint, or body i if j is the ground.
+    #[schema(value_type = Vec<f64>)]
+    force_on_j: [f64; 3],
+    /// Moment, N m, about the point `at`.
+    #[schema(value_type = Vec<f64>)]
+    moment_on_j: [f64; 3],
+    /// The joint's point in the world, m.
+    #[schema(value_type = Vec<f64>)]
+    at: [f64; 3],
+    /// The body that the force acts on.
+    on: String,
+    /// The body that exerts it.
+    by: String,
+    /// The frame of all components.
+    expressed_in: String,
+}
+
+/// The multipliers and reactions at the session's time, joint by joint.
+#[utoipa::path(get, path = "/sessions/{id}/multipliers", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "One entry a joint", body = Vec<ReactionView>)))]
+async fn multipliers(
+    State(app): State<App>,
+    At(id): At<String>,
+) -> Result<axum::Json<Vec<ReactionView>>, Problem> {
+    let session = app.sessions.get(&id)?;
+    let found = session.multipliers().await?;
+    let joints = found.into_iter().map(|joint| ReactionView {
+        joint: joint.joint,
+        rows: joint
+            .rows
+            .into_iter()
+            .map(|row| MultiplierView { label: row.label, value: row.value })
+            .collect(),
+        force_on_j: joint.force,
+        moment_on_j: joint.moment,
+        at: joint.about,
+        on: joint.on,
+        by: joint.by,
+        expressed_in: joint.expressed_in.into(),
+    });
+    Ok(axum::Json(joints.collect()))
+}

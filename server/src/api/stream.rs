@@ -1,0 +1,141 @@
+//! The live stream of a session, over a WebSocket.
+//!
+//! Binary messages are complete RRD blocks for the viewer, from the beginning of the recording. Text messages are
+//! JSON: `{"type":"state",…}` at most ten times a second, `{"type":"reset"}` when the recording begins anew (the
+//! viewer must forget the old one), `{"type":"closed"}` at the end.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
+use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
+use axum::extract::{FromRequestParts, Request, State};
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Serialize;
+use tokio::sync::watch;
+use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::At;
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::session::SessionState;
+use crate::stream::{Delivery, Watcher};
+
+/// Between two states on one socket.
+const STATE_INTERVAL: Duration = Duration::from_millis(100);
+/// Between two pings, so that nobody between us closes a quiet connection.
+const PING_INTERVAL: Duration = Duration::from_secs(20);
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new().routes(routes!(stream))
+}
+
+/// What a watcher is told in text.
+#[derive(Serialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+enum Notice<'a> {
+    State(&'a SessionState),
+    Reset,
+    Closed,
+}
+
+/// Watch a session: a WebSocket of RRD blocks (binary) and states (text).
+#[utoipa::path(get, path = "/sessions/{id}/stream", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 101, description = "The socket is open"),
+    (status = 404, description = "No such session", body = ProblemDocument),
+    (status = 426, description = "The request is not a WebSocket's", body = ProblemDocument)))]
+async fn stream(State(app): State<App>, At(id): At<String>, request: Request) -> Result<Response, Problem> {
+    let session = app.sessions.get(&id)?;
+    let (mut parts, _) = request.into_parts();
+    let upgrade = WebSocketUpgrade::from_request_parts(&mut parts, &app).await;
+    let upgrade = upgrade.map_err(|rejection: WebSocketUpgradeRejection| {
+        Problem::new(
+            StatusCode::UPGRADE_REQUIRED,
+            "not-a-websocket",
+            format!("this address is a WebSocket: {}", rejection.body_text()),
+            "open it with new WebSocket(…), or read the state at the session's own address",
+        )
+    })?;
+    let patience = app.limits.stalled_viewer;
+    Ok(upgrade.max_message_size(4096).on_upgrade(move |socket| async move {
+        let watcher = session.watch();
+        let states = session.states();
+        // The session may be deleted while it is watched.
+        drop(session);
+        Line { socket, patience }.serve(watcher, states).await;
+    }))
+}
+
+/// One open socket.
+struct Line {
+    socket: WebSocket,
+    patience: Duration,
+}
+
+/// The other side has gone, or takes nothing.
+struct Lost;
+
+impl Line {
+    async fn serve(mut self, mut watcher: Watcher, mut states: watch::Receiver<Arc<SessionState>>) {
+        let mut beat = interval(STATE_INTERVAL);
+        beat.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        states.mark_changed();
+        let mut last_ping = Instant::now();
+        loop {
+            let sent = tokio::select! {
+                received = self.socket.recv() => match received {
+                    // Nothing that a watcher says changes the session.
+                    Some(Ok(message)) if !matches!(message, Message::Close(_)) => Ok(()),
+                    _ => return,
+                },
+                delivery = watcher.next() => match delivery {
+                    Some(Delivery::Blocks(blocks)) => self.blocks(blocks).await,
+                    Some(Delivery::Restarted) => self.tell(&Notice::Reset).await,
+                    None => return,
+                },
+                _ = beat.tick() => match states.has_changed() {
+                    Ok(true) => {
+                        let state = Arc::clone(&states.borrow_and_update());
+                        self.tell(&Notice::State(&state)).await
+                    }
+                    Ok(false) if last_ping.elapsed() > PING_INTERVAL => {
+                        last_ping = Instant::now();
+                        self.send(Message::Ping(axum::body::Bytes::new())).await
+                    }
+                    Ok(false) => Ok(()),
+                    Err(_) => {
+                        // The worker is gone, and with it the session.
+                        drop(self.tell(&Notice::Closed).await);
+                        drop(self.send(Message::Close(None)).await);
+                        return;
+                    }
+                },
+            };
+            if sent.is_err() {
+                return;
+            }
+        }
+    }
+
+    async fn blocks(&mut self, blocks: Vec<axum::body::Bytes>) -> Result<(), Lost> {
+        for block in blocks {
+            self.send(Message::Binary(block)).await?;
+        }
+        Ok(())
+    }
+
+    async fn tell(&mut self, notice: &Notice<'_>) -> Result<(), Lost> {
+        let text = serde_json::to_string(notice).map_err(|_| Lost)?;
+        self.send(Message::Text(text.into())).await
+    }
+
+    async fn send(&mut self, message: Message) -> Result<(), Lost> {
+        match timeout(self.patience, self.socket.send(message)).await {
+            Ok(Ok(())) => Ok(()),
+            Ok(Err(_)) | Err(_) => Err(Lost),
+        }
+    }
+}

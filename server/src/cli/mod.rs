@@ -1,0 +1,229 @@
+//! The command line: everything that the page does can be done here too.
+
+mod check;
+mod csv;
+mod grade;
+mod lesson;
+mod run;
+mod serve;
+mod terminal;
+
+use std::net::IpAddr;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::problem::Problem;
+
+/// Ends of `--help`: what a newcomer does first.
+const EXAMPLES: &str = "\
+Examples:
+  triad                                        open the workbench at http://127.0.0.1:8080
+  triad run simple-pendulum                    run a built-in scene and see how far it can be trusted
+  triad run n-four-bar:2 --until 5 --out a.csv write positions, velocities and reactions
+  triad check my-scene.json                    count bodies, rows and degrees of freedom
+  triad lesson list                            the lessons of the course
+
+Exit codes:
+  0  done
+  1  done, and the answer is no: the run stopped early, the exercise is not passed, the course has faults
+  2  the command line was not understood
+  3  the input was refused: a scene, a lesson or a submission
+  4  the machine refused: a file, a port or a database";
+
+/// A teaching workbench for multibody dynamics.
+///
+/// Without a command it serves the workbench at <http://127.0.0.1:8080>: lessons with live mechanisms and graded
+/// exercises.
+#[derive(Debug, Parser)]
+#[command(name = "triad", version, after_help = EXAMPLES, arg_required_else_help = false)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// For machines: print JSON only.
+    #[arg(long, global = true)]
+    json: bool,
+    /// The folder of a course, instead of the one that is built in.
+    #[arg(long, global = true, value_name = "DIR", env = "TRIAD_COURSE")]
+    course: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Serve the workbench: page, HTTP API and live streams on one port.
+    #[command(after_help = "Examples:\n  triad serve --port 9000\n  \
+        triad serve --host 0.0.0.0 --database /srv/triad/grades.db   (for a class on one network)")]
+    Serve(Serve),
+    /// Run a scene; tells energy drift, constraint violation and work.
+    #[command(after_help = "Examples:\n  triad run simple-pendulum\n  \
+        triad run n-four-bar:2 --until 5 --every 0.01 --out positions.csv\n  \
+        triad run my-scene.json --rrd run.rrd      (then: rerun run.rrd)\n  \
+        triad run free-body --json | jq .summary.energy_drift")]
+    Run(Run),
+    /// Count what a scene amounts to: bodies, coordinates, rows, rank, degrees of freedom, redundant rows.
+    #[command(after_help = "Example:\n  triad check n-four-bar:3")]
+    Check {
+        /// A built-in scene's name, or a file.
+        scene: String,
+    },
+    /// List the built-in scenes.
+    Scenes,
+    /// Grade a submission as the workbench would; nothing is kept.
+    #[command(
+        after_help = "Example:\n  triad grade simple-pendulum answers.json\n\nA submission looks like\n  \
+        {\"student\": \"ada\", \"answers\": {\"tension\": {\"value\": \"29.4\", \"unit\": \"N\"}}}"
+    )]
+    Grade {
+        /// The lesson's slug; see `triad lesson list`.
+        lesson: String,
+        /// The file with the answers.
+        submission: PathBuf,
+    },
+    /// The lessons of the course.
+    #[command(subcommand)]
+    Lesson(Lesson),
+    /// Print the JSON Schema of scenes, for editors.
+    #[command(after_help = "Example:\n  triad schema > scene.schema.json")]
+    Schema,
+}
+
+#[derive(Debug, Subcommand)]
+enum Lesson {
+    /// List the lessons.
+    List,
+    /// Prove the course: references pass, wrong answers get their own feedback, every number has a source.
+    #[command(after_help = "Examples:\n  triad lesson check\n  triad lesson check simple-pendulum\n  \
+        triad --course my-course lesson check")]
+    Check {
+        /// Only this lesson.
+        lesson: Option<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+struct Serve {
+    /// Address to listen at; 0.0.0.0 lets the whole network in.
+    #[arg(long, default_value = "127.0.0.1")]
+    host: IpAddr,
+    /// Port to listen at; 0 takes any free one.
+    #[arg(long, default_value_t = 8080)]
+    port: u16,
+    /// The gradebook; made if it is not there.
+    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
+    database: PathBuf,
+    /// Live simulations at a time.
+    #[arg(long, default_value_t = 64, value_name = "N")]
+    max_sessions: usize,
+    /// Bodies that a live simulation may have.
+    #[arg(long, default_value_t = 500, value_name = "N")]
+    max_bodies: usize,
+}
+
+impl Default for Serve {
+    fn default() -> Self {
+        Self {
+            host: IpAddr::from([127, 0, 0, 1]),
+            port: 8080,
+            database: "triad.db".into(),
+            max_sessions: 64,
+            max_bodies: 500,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+struct Run {
+    /// A built-in scene's name (`triad scenes` lists them), or a file.
+    scene: String,
+    /// End of the run in seconds, instead of the scene's.
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Time between outputs in seconds, instead of the scene's.
+    #[arg(long, value_name = "S")]
+    every: Option<f64>,
+    /// Tolerance of the integrator, instead of the scene's.
+    #[arg(long, value_name = "TOL")]
+    tolerance: Option<f64>,
+    /// Write positions, velocities and reactions as CSV (`-` for standard output).
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+    /// Write a recording for the rerun viewer.
+    #[arg(long, value_name = "FILE.rrd")]
+    rrd: Option<PathBuf>,
+    /// Show the run in a native rerun viewer that listens at this address.
+    #[arg(long, value_name = "URL", num_args = 0..=1, default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
+    rerun: Option<String>,
+}
+
+/// How a command ended, if nothing was refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Done.
+    Done,
+    /// Done, and the answer is no.
+    No,
+}
+
+/// Runs the command that the program was called with.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let json = arguments.json;
+    match dispatch(arguments) {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::No) => ExitCode::from(1),
+        Err(problem) => {
+            if json {
+                terminal::print_json(&problem.document());
+            } else {
+                eprintln!("{} {problem}", terminal::error_word());
+            }
+            ExitCode::from(if machine_refused(&problem) { 4 } else { 3 })
+        }
+    }
+}
+
+fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
+    let Arguments { command, json, course } = arguments;
+    let course = || lesson::course(course.as_deref());
+    match command.unwrap_or_else(|| Command::Serve(Serve::default())) {
+        Command::Serve(options) => serve::serve(&options, course()?),
+        Command::Run(options) => run::run(&options, json),
+        Command::Check { scene } => check::check(&scene, json),
+        Command::Scenes => Ok(check::list(json)),
+        Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
+        Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
+        Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
+        Command::Schema => {
+            terminal::print_json(&triad_engine::scene::schema());
+            Ok(Outcome::Done)
+        }
+    }
+}
+
+/// Whether a problem lies in the machine rather than in what was given.
+fn machine_refused(problem: &Problem) -> bool {
+    problem.status().is_server_error() || matches!(problem.code(), "unreadable-file" | "no-such-file")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent_and_serves_by_default() {
+        Arguments::command().debug_assert();
+        assert!(Arguments::parse_from(["triad"]).command.is_none());
+        let parsed = Arguments::parse_from(["triad", "run", "free-body", "--until", "1", "--json"]);
+        assert!(parsed.json);
+        let Some(Command::Serve(serve)) = Arguments::parse_from(["triad", "serve"]).command else {
+            panic!("serve is a command");
+        };
+        let default = Serve::default();
+        assert_eq!(
+            (serve.host, serve.port, &serve.database, serve.max_sessions, serve.max_bodies),
+            (default.host, default.port, &default.database, default.max_sessions, default.max_bodies)
+        );
+    }
+}

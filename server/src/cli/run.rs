@@ -1,0 +1,221 @@
+//! `triad run`.
+
+use std::path::Path;
+
+use axum::http::StatusCode;
+use serde_json::json;
+use triad_engine::scene::Scene;
+use triad_engine::simulation::{Simulation, Summary};
+
+use super::csv::Table;
+use super::terminal::{Progress, print_json, print_line, progress};
+use super::{Outcome, Run};
+use crate::problem::Problem;
+use crate::scenes;
+use crate::session::{cast, sample};
+use crate::stream::{RecordError, Recorder, Sample};
+
+/// Samples that are encoded together.
+const BATCH: usize = 256;
+/// Rows that a table or recording may have.
+const MOST_OUTPUTS: f64 = 1e7;
+
+/// Runs a scene to its end.
+pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
+    let scene = scene(options)?;
+    let mut simulation = Simulation::new(&scene)?;
+    let mut outputs = Outputs::open(options, &scene, &mut simulation)?;
+    let bar = progress(&scene.name, simulation.duration(), json);
+    let stopped = advance(&mut simulation, &mut outputs, scene.simulation.every, &bar);
+    drop(bar);
+    // What was reached before an error is kept.
+    outputs.finish()?;
+    let stopped = match stopped {
+        Ok(()) => None,
+        Err(Stop::Engine(problem)) => Some(problem),
+        Err(Stop::Output(problem)) => return Err(problem),
+    };
+    report(&scene, &mut simulation, options, stopped.as_ref(), json);
+    Ok(if stopped.is_none() { Outcome::Done } else { Outcome::No })
+}
+
+fn scene(options: &Run) -> Result<Scene, Problem> {
+    let mut scene = scenes::named_or_in_file(&options.scene)?;
+    let simulation = &mut scene.simulation;
+    simulation.duration = options.until.unwrap_or(simulation.duration);
+    simulation.every = options.every.unwrap_or(simulation.every);
+    simulation.tolerance = options.tolerance.unwrap_or(simulation.tolerance);
+    let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
+    let outputs = simulation.duration / simulation.every;
+    if writes && outputs > MOST_OUTPUTS {
+        return Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "too-many-outputs",
+            format!("{} s in steps of {} s make {outputs:.0} outputs", simulation.duration, simulation.every),
+            "give a larger --every, or a smaller --until",
+        ));
+    }
+    Ok(scene)
+}
+
+/// Why a run ended early.
+enum Stop {
+    /// The engine could not go on.
+    Engine(Problem),
+    /// An output could not be written.
+    Output(Problem),
+}
+
+fn advance(
+    simulation: &mut Simulation,
+    outputs: &mut Outputs,
+    every: f64,
+    bar: &Progress,
+) -> Result<(), Stop> {
+    outputs.write(simulation).map_err(Stop::Output)?;
+    let mut index = 0_u64;
+    while !simulation.finished() {
+        index += 1;
+        let time = (index as f64 * every).min(simulation.duration());
+        simulation.advance_to(time).map_err(|error| Stop::Engine(error.into()))?;
+        outputs.write(simulation).map_err(Stop::Output)?;
+        bar.reached(time);
+    }
+    Ok(())
+}
+
+/// Where a run goes.
+struct Outputs {
+    table: Option<Table>,
+    recorders: Vec<Recorder>,
+    waiting: Vec<Sample>,
+}
+
+impl Outputs {
+    fn open(options: &Run, scene: &Scene, simulation: &mut Simulation) -> Result<Self, Problem> {
+        let mut table = None;
+        if let Some(path) = &options.out {
+            let joints = simulation.multipliers();
+            let bodies: Vec<&str> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
+            let opened = Table::create(path, &scene.name, &bodies, &joints);
+            table = Some(opened.map_err(|error| unwritable(path, &error))?);
+        }
+        let mut recorders = Vec::new();
+        let id = uuid::Uuid::new_v4().simple().to_string();
+        if let Some(path) = &options.rrd {
+            let recorder = Recorder::to_file(path, &id, cast(scene, simulation));
+            recorders.push(recorder.map_err(|error| unwritable(path, &error))?);
+        }
+        if let Some(url) = &options.rerun {
+            let recorder = Recorder::to_viewer(url, &id, cast(scene, simulation));
+            recorders.push(recorder.map_err(|error| no_viewer(url, &error))?);
+        }
+        Ok(Self { table, recorders, waiting: Vec::new() })
+    }
+
+    fn write(&mut self, simulation: &mut Simulation) -> Result<(), Problem> {
+        if let Some(table) = &mut self.table {
+            let frame = simulation.frame();
+            let joints = simulation.multipliers();
+            let summary = simulation.summary();
+            table.row(&frame, &joints, &summary).map_err(|error| output_failed(&error))?;
+        }
+        if !self.recorders.is_empty() {
+            self.waiting.push(sample(simulation));
+            if self.waiting.len() >= BATCH {
+                self.encode()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn encode(&mut self) -> Result<(), Problem> {
+        for recorder in &mut self.recorders {
+            recorder.write(&self.waiting).map_err(|error| output_failed(&error))?;
+        }
+        self.waiting.clear();
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), Problem> {
+        self.encode()?;
+        for recorder in &self.recorders {
+            recorder.flush().map_err(|error| output_failed(&error))?;
+        }
+        self.table.take().map_or(Ok(()), |table| table.finish().map_err(|error| output_failed(&error)))
+    }
+}
+
+fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Problem {
+    Problem::new(
+        StatusCode::INTERNAL_SERVER_ERROR,
+        "unwritable-file",
+        format!("{} cannot be written: {error}", path.display()),
+        "check that the folder exists and is writable",
+    )
+}
+
+fn no_viewer(url: &str, error: &RecordError) -> Problem {
+    Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "no-viewer",
+        format!("no viewer can be reached at {url}: {error}"),
+        "start the viewer with `rerun`, and give its address, like rerun+http://127.0.0.1:9876/proxy",
+    )
+}
+
+fn output_failed(error: &impl std::fmt::Display) -> Problem {
+    Problem::new(
+        StatusCode::INTERNAL_SERVER_ERROR,
+        "output-failed",
+        format!("the output could not be written: {error}"),
+        "check that the disk is not full",
+    )
+}
+
+fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Option<&Problem>, json: bool) {
+    let summary = simulation.summary();
+    if json {
+        print_json(&json!({
+            "scene": scene.name,
+            "settings": scene.simulation,
+            "summary": summary,
+            "notes": simulation.notes(),
+            "stopped": stopped.map(Problem::document),
+        }));
+        return;
+    }
+    // A table on standard output must stay a table.
+    let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
+    let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
+    for line in lines(scene, &summary, simulation.notes()) {
+        say(&line);
+    }
+    for file in [&options.out, &options.rrd].into_iter().flatten() {
+        say(&format!("  written                {}", file.display()));
+    }
+    if let Some(problem) = stopped {
+        eprintln!("{} {problem}", super::terminal::error_word());
+    }
+}
+
+fn lines(scene: &Scene, s: &Summary, notes: &[String]) -> Vec<String> {
+    let mut lines = vec![
+        format!("{}: {} s of {} s", scene.name, s.time, scene.simulation.duration),
+        format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
+        format!(
+            "  constraint violation   {:.2e} position, {:.2e} velocity",
+            s.position_violation, s.velocity_violation
+        ),
+        format!(
+            "  steps                  {} accepted, {} rejected, last {:.3e} s",
+            s.steps, s.rejected, s.step_size
+        ),
+        format!(
+            "  work                   {} evaluations, {} factorizations, {} solves, {} projections",
+            s.evaluations, s.factorizations, s.solves, s.projections
+        ),
+    ];
+    lines.extend(notes.iter().map(|note| format!("  note                   {note}")));
+    lines
+}

@@ -1,0 +1,67 @@
+//! `triad serve`.
+
+use std::net::SocketAddr;
+
+use axum::http::StatusCode;
+use tokio::net::TcpListener;
+use triad_lessons::Course;
+
+use super::terminal::print_line;
+use super::{Outcome, Serve};
+use crate::app::App;
+use crate::limits::Limits;
+use crate::problem::Problem;
+use crate::store::Store;
+
+/// Serves until it is told to stop.
+pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
+    let store = Store::open(&options.database)?;
+    let limits = Limits { sessions: options.max_sessions, bodies: options.max_bodies, ..Limits::default() };
+    let app = App::new(course, store, limits);
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
+    runtime.block_on(listen(options, app))?;
+    Ok(Outcome::Done)
+}
+
+async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
+    let wanted = SocketAddr::new(options.host, options.port);
+    let listener = TcpListener::bind(wanted).await.map_err(|error| {
+        Problem::new(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "port-unavailable",
+            format!("cannot listen at {wanted}: {error}"),
+            "another program may use that port: choose one with --port, or --port 0 for any free one",
+        )
+    })?;
+    let address = listener.local_addr().map_err(Problem::internal)?;
+    print_line(&format!(
+        "Triad is at http://{address}  ({} lessons; Ctrl-C stops it)",
+        app.course.lessons().len()
+    ));
+    print_line(&format!("Submissions are kept in {}", options.database.display()));
+    tokio::spawn(crate::api::keep_house(app.clone()));
+    let sessions = app.sessions.clone();
+    let stop = async move {
+        stopped().await;
+        // Open streams end with their sessions; otherwise they would keep the server up.
+        sessions.clear();
+    };
+    axum::serve(listener, crate::app(app)).with_graceful_shutdown(stop).await.map_err(Problem::internal)
+}
+
+/// Waits for Ctrl-C, or for the system's request to end.
+async fn stopped() {
+    #[cfg(unix)]
+    {
+        use tokio::signal::unix::{SignalKind, signal};
+        if let Ok(mut term) = signal(SignalKind::terminate()) {
+            tokio::select! {
+                _ = tokio::signal::ctrl_c() => {}
+                _ = term.recv() => {}
+            }
+            return;
+        }
+    }
+    drop(tokio::signal::ctrl_c().await);
+}

@@ -1,0 +1,65 @@
+//! Printing for people and for machines.
+
+use std::io::{IsTerminal, Write};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+/// Prints a JSON document.
+pub(super) fn print_json(value: &impl Serialize) {
+    if let Ok(text) = serde_json::to_string_pretty(value) {
+        print_line(&text);
+    }
+}
+
+/// Prints a line; a reader that has had enough (`| head`) is no error.
+pub(super) fn print_line(line: &str) {
+    drop(writeln!(std::io::stdout(), "{line}"));
+}
+
+/// `error:`, red where colours are shown.
+pub(super) fn error_word() -> &'static str {
+    let plain = std::env::var_os("NO_COLOR").is_some() || !std::io::stderr().is_terminal();
+    if plain { "error:" } else { "\x1b[1;31merror:\x1b[0m" }
+}
+
+/// A bar that fills from 0 to `end` seconds of simulated time; hidden where nobody would see it.
+pub(super) fn progress(name: &str, end: f64, hidden: bool) -> Progress {
+    if hidden || !std::io::stderr().is_terminal() {
+        return Progress { bar: ProgressBar::hidden(), end };
+    }
+    let bar = ProgressBar::new(SCALE);
+    if let Ok(style) = ProgressStyle::with_template("{prefix} [{bar:40}] {msg} · {eta} left") {
+        bar.set_style(style.progress_chars("━╸ "));
+    }
+    bar.set_prefix(name.to_owned());
+    Progress { bar, end }
+}
+
+/// Resolution of the bar.
+const SCALE: u64 = 10_000;
+
+/// A bar of simulated time.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    end: f64,
+}
+
+impl Progress {
+    /// Shows that the run has reached `time`.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    pub(super) fn reached(&self, time: f64) {
+        if self.bar.is_hidden() {
+            return;
+        }
+        let part = if self.end > 0.0 { (time / self.end).clamp(0.0, 1.0) } else { 1.0 };
+        self.bar.set_position((part * SCALE as f64) as u64);
+        self.bar.set_message(format!("{time:.2} of {} s", self.end));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,43 @@
+//! From what a student hands in to a verdict: the same for the page, HTTP and the command line.
+
+use axum::http::StatusCode;
+use triad_lessons::GradeError;
+use triad_lessons::lesson::Lesson;
+use triad_lessons::submission::{Submission, SubmissionError};
+use triad_lessons::verdict::Verdict;
+
+use crate::problem::Problem;
+
+impl From<SubmissionError> for Problem {
+    fn from(error: SubmissionError) -> Self {
+        let status = match &error {
+            SubmissionError::Unreadable { .. } => StatusCode::UNPROCESSABLE_ENTITY,
+            SubmissionError::TooLarge { .. } => StatusCode::PAYLOAD_TOO_LARGE,
+        };
+        let problem = Self::new(status, error.code(), error.to_string(), error.hint());
+        match error {
+            SubmissionError::Unreadable { place, problem: what } if place != "submission" => {
+                problem.at(format!("/{}", place.replace(['.', '['], "/").replace(']', "")), what)
+            }
+            SubmissionError::Unreadable { problem: what, .. } => problem.at("", what),
+            SubmissionError::TooLarge { .. } => problem,
+        }
+    }
+}
+
+impl From<GradeError> for Problem {
+    fn from(error: GradeError) -> Self {
+        let GradeError::UnknownQuestion { id, .. } = &error;
+        let pointer = format!("/answers/{id}");
+        let detail = error.to_string();
+        let hint = "answer only the questions of this lesson, by their ids";
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, error.code(), detail.clone(), hint).at(pointer, detail)
+    }
+}
+
+/// Reads a submission and grades it.
+pub fn grade(lesson: &Lesson, text: &str) -> Result<(Submission, Verdict), Problem> {
+    let submission = Submission::from_json(text)?;
+    let verdict = triad_lessons::grade(lesson, &submission)?;
+    Ok((submission, verdict))
+}

@@ -1,0 +1,44 @@
+//! The bounds that keep one server alive for a whole class.
+//!
+//! Each bound that is hit is a clear [`Problem`](crate::problem::Problem), never an exhausted machine.
+
+use std::time::Duration;
+
+/// What one server allows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Limits {
+    /// Live sessions at a time.
+    pub sessions: usize,
+    /// Bodies in a scene, checked before anything is built from it.
+    pub bodies: usize,
+    /// Joints, drivers and loads in a scene together.
+    pub connections: usize,
+    /// Bytes of a request's body.
+    pub request_bytes: usize,
+    /// A session that nobody watches or asks for this long is closed.
+    pub idle: Duration,
+    /// Wall-clock time that one request may keep the engine busy.
+    pub command_time: Duration,
+    /// Bytes of a session's recording, encoded or waiting to be.
+    pub recording_bytes: usize,
+    /// A viewer that takes no data for this long is disconnected.
+    pub stalled_viewer: Duration,
+    /// Submissions returned by one request.
+    pub submissions: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            sessions: 64,
+            bodies: 500,
+            connections: 2000,
+            request_bytes: 8 << 20,
+            idle: Duration::from_secs(30 * 60),
+            command_time: Duration::from_secs(60),
+            recording_bytes: 128 << 20,
+            stalled_viewer: Duration::from_secs(30),
+            submissions: 1000,
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The web page, embedded into the binary when it was built.
+//!
+//! Files under `assets/` carry a hash of their content in their names, so browsers may keep them for ever.
+//! Compressed copies were made at build time; the viewer's 47 MB exist only compressed.
+
+use std::io::Read;
+
+use axum::body::Bytes;
+use axum::extract::Request;
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use crate::problem::Problem;
+
+/// One embedded file.
+#[derive(Debug)]
+struct Asset {
+    /// Path below the page's root, without a leading slash.
+    path: &'static str,
+    /// Entity tag, with its quotation marks.
+    tag: &'static str,
+    plain: Option<&'static [u8]>,
+    gzip: Option<&'static [u8]>,
+    brotli: Option<&'static [u8]>,
+}
+
+static ASSETS: &[Asset] = include!(concat!(env!("OUT_DIR"), "/assets.rs"));
+
+/// What may run and load in the page: only what this server sent.
+const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; \
+    style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; \
+    connect-src 'self' ws: wss: data: blob:; frame-ancestors 'self'; base-uri 'self'; form-action 'self'";
+
+/// Answers every request that is not for the API: a file of the page, or the page itself.
+pub async fn serve(request: Request) -> Response {
+    if !matches!(*request.method(), Method::GET | Method::HEAD) {
+        return method_not_allowed();
+    }
+    let path = request.uri().path().trim_start_matches('/');
+    let found = find(if path.is_empty() { "index.html" } else { path }).or_else(|| {
+        // Addresses without a file name belong to the page's own router.
+        let last = path.rsplit('/').next().unwrap_or(path);
+        let is_view = !path.starts_with("api/") && !path.starts_with("assets/") && !last.contains('.');
+        is_view.then(|| find("index.html")).flatten()
+    });
+    match found {
+        Some(asset) => respond(asset, request.headers()),
+        None => Problem::new(
+            StatusCode::NOT_FOUND,
+            "not-found",
+            format!("there is nothing at /{path}"),
+            "the lessons are at /, the API is described at /api/openapi.json",
+        )
+        .into_response(),
+    }
+}
+
+/// The answer to a method that an address does not have.
+pub fn method_not_allowed() -> Response {
+    Problem::new(
+        StatusCode::METHOD_NOT_ALLOWED,
+        "method-not-allowed",
+        "this address does not take that method",
+        "see /api/openapi.json for the methods of each address; the Allow header lists them too",
+    )
+    .into_response()
+}
+
+fn find(path: &str) -> Option<&'static Asset> {
+    ASSETS.binary_search_by(|asset| asset.path.cmp(path)).ok().map(|index| &ASSETS[index])
+}
+
+fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
+    let cache =
+        if asset.path.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
+    let mut headers = HeaderMap::new();
+    let mut set = |name, value: &'static str| headers.insert(name, HeaderValue::from_static(value));
+    set(header::CONTENT_TYPE, media_type(asset.path));
+    set(header::CACHE_CONTROL, cache);
+    set(header::ETAG, asset.tag);
+    set(header::VARY, "accept-encoding");
+    set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
+    if asset.path.ends_with(".html") {
+        set(header::CONTENT_SECURITY_POLICY, POLICY);
+    }
+    let known = request.get(header::IF_NONE_MATCH).and_then(|value| value.to_str().ok());
+    if known.is_some_and(|known| known.split(',').any(|tag| tag.trim().trim_start_matches("W/") == asset.tag))
+    {
+        return (StatusCode::NOT_MODIFIED, headers).into_response();
+    }
+    let (encoding, body) = match choose(asset, request) {
+        Ok(chosen) => chosen,
+        Err(problem) => return problem.into_response(),
+    };
+    if let Some(encoding) = encoding {
+        headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static(encoding));
+    }
+    (headers, body).into_response()
+}
+
+/// The smallest copy that the caller can read.
+fn choose(asset: &'static Asset, request: &HeaderMap) -> Result<(Option<&'static str>, Bytes), Problem> {
+    if let Some(brotli) = asset.brotli.filter(|_| accepts(request, "br")) {
+        return Ok((Some("br"), Bytes::from_static(brotli)));
+    }
+    if let Some(gzip) = asset.gzip.filter(|_| accepts(request, "gzip")) {
+        return Ok((Some("gzip"), Bytes::from_static(gzip)));
+    }
+    if let Some(plain) = asset.plain {
+        return Ok((None, Bytes::from_static(plain)));
+    }
+    // A caller that reads nothing compressed, and a file that is kept compressed only.
+    let mut plain = Vec::new();
+    flate2::read::GzDecoder::new(asset.gzip.unwrap_or_default())
+        .read_to_end(&mut plain)
+        .map_err(Problem::internal)?;
+    Ok((None, plain.into()))
+}
+
+/// Whether the caller reads `encoding`: named, and not with a weight of zero.
+fn accepts(request: &HeaderMap, encoding: &str) -> bool {
+    let listed = request.get_all(header::ACCEPT_ENCODING).iter().filter_map(|value| value.to_str().ok());
+    listed.flat_map(|list| list.split(',')).any(|entry| {
+        let mut parts = entry.split(';').map(str::trim);
+        let refused = |part: &str| part.strip_prefix("q=").is_some_and(|q| q.parse() == Ok(0.0));
+        parts.next() == Some(encoding) && !parts.any(refused)
+    })
+}
+
+fn media_type(path: &str) -> &'static str {
+    match path.rsplit('.').next().unwrap_or_default() {
+        "html" => "text/html; charset=utf-8",
+        "js" => "text/javascript; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "json" => "application/json",
+        "wasm" => "application/wasm",
+        "svg" => "image/svg+xml",
+        "png" => "image/png",
+        "ico" => "image/x-icon",
+        "woff2" => "font/woff2",
+        "txt" => "text/plain; charset=utf-8",
+        _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_can_be_found_by_bisection_and_every_one_has_content() {
+        assert!(ASSETS.is_sorted_by(|a, b| a.path < b.path));
+        assert!(find("index.html").is_some(), "the page is embedded");
+        assert!(ASSETS.iter().all(|asset| asset.plain.is_some() || asset.gzip.is_some()));
+    }
+
+    #[test]
+    fn a_weight_of_zero_refuses_an_encoding() {
+        let mut headers = HeaderMap::new();
+        headers.insert(header::ACCEPT_ENCODING, HeaderValue::from_static("br;q=0, gzip;q=0.5"));
+        assert!(!accepts(&headers, "br"));
+        assert!(accepts(&headers, "gzip"));
+        assert!(!accepts(&headers, "zstd"));
+    }
+}

@@ -1,0 +1,101 @@
+//! Finding scenes: built-in ones by name, others in files; and the engine's errors in this crate's words.
+
+use std::path::{Path, PathBuf};
+
+use axum::http::StatusCode;
+use triad_engine::EngineError;
+use triad_engine::catalogue;
+use triad_engine::scene::{self, Scene};
+
+use crate::limits::Limits;
+use crate::problem::{Problem, suggest};
+
+impl From<EngineError> for Problem {
+    fn from(error: EngineError) -> Self {
+        let status = match &error {
+            EngineError::Catalogue(_) => StatusCode::NOT_FOUND,
+            EngineError::Scene(scene::SceneError::TooLong { .. }) => StatusCode::PAYLOAD_TOO_LARGE,
+            _ => StatusCode::UNPROCESSABLE_ENTITY,
+        };
+        let detail = error.to_string();
+        let problem = Self::new(status, error.code(), detail.clone(), error.hint());
+        match error.pointer() {
+            Some(pointer) => problem.at(pointer, detail),
+            None => problem,
+        }
+    }
+}
+
+impl From<scene::SceneError> for Problem {
+    fn from(error: scene::SceneError) -> Self {
+        EngineError::from(error).into()
+    }
+}
+
+/// The built-in scene called `name`, such as `n-four-bar:2`.
+pub fn builtin(name: &str) -> Result<Scene, Problem> {
+    catalogue::scene(name).map_err(|error| EngineError::from(error).into())
+}
+
+/// The built-in scene of that name, or the scene in that file.
+pub fn named_or_in_file(spec: &str) -> Result<Scene, Problem> {
+    let path = Path::new(spec);
+    if path.is_file() {
+        return in_file(path);
+    }
+    let unknown = match catalogue::scene(spec) {
+        Ok(scene) => return Ok(scene),
+        Err(error) => Problem::from(EngineError::from(error)),
+    };
+    // A name with a separator or an extension was meant as a file, but `n-four-bar:0` was not.
+    let looks_like_file = spec.contains(['/', '\\']) || path.extension().is_some();
+    let names = || catalogue::ENTRIES.iter().map(|entry| entry.name);
+    let base = spec.split(':').next().unwrap_or(spec);
+    if looks_like_file {
+        return Err(Problem::new(
+            StatusCode::NOT_FOUND,
+            "no-such-file",
+            format!("there is no file {spec}"),
+            format!("check the path, or run a built-in scene: {}", names().collect::<Vec<_>>().join(", ")),
+        ));
+    }
+    if names().any(|name| name.split(':').next() == Some(base)) {
+        return Err(unknown);
+    }
+    Err(Problem::new(
+        StatusCode::NOT_FOUND,
+        "unknown-scene",
+        format!("there is no built-in scene and no file called \"{spec}\""),
+        suggest(base, names()),
+    ))
+}
+
+fn in_file(path: &Path) -> Result<Scene, Problem> {
+    let text = read(path, scene::MAX_TEXT as u64)?;
+    Ok(Scene::from_json(&text)?)
+}
+
+/// A text file of at most `limit` bytes.
+pub fn read(path: &Path, limit: u64) -> Result<String, Problem> {
+    let refused = |cause: String, hint: &'static str| {
+        let shown: PathBuf = path.to_owned();
+        Problem::new(
+            StatusCode::BAD_REQUEST,
+            "unreadable-file",
+            format!("{} cannot be read: {cause}", shown.display()),
+            hint,
+        )
+    };
+    let size = std::fs::metadata(path).map_err(|e| refused(e.to_string(), "check the path"))?.len();
+    if size > limit {
+        return Err(refused(format!("it has {size} bytes, more than {limit}"), "use a smaller file"));
+    }
+    std::fs::read_to_string(path).map_err(|e| refused(e.to_string(), "it must be a text file in UTF-8"))
+}
+
+/// A scene for the server: the built-in of that name, within the server's bounds.
+pub fn builtin_within(name: &str, limits: &Limits) -> Result<Scene, Problem> {
+    let scene = builtin(name)?;
+    crate::session::bounded(&scene, limits)?;
+    Ok(scene)
+}

@@ -1,0 +1,187 @@
+//! Live simulations: each in a thread of its own, all of them in one bounded registry.
+
+mod film;
+mod registry;
+mod state;
+mod worker;
+
+pub(crate) use film::{cast, sample};
+pub use registry::{Registry, bounded};
+pub use state::{BodyState, Links, SessionState, Source};
+
+use std::sync::atomic::Ordering;
+use std::sync::mpsc;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use axum::http::StatusCode;
+use tokio::sync::{oneshot, watch};
+use triad_engine::equations::Jacobian;
+use triad_engine::reaction::JointMultipliers;
+use triad_engine::scene::Scene;
+use triad_engine::simulation::Simulation;
+
+use crate::limits::Limits;
+use crate::problem::Problem;
+use crate::stream::{Hub, Watcher};
+use film::Film;
+use worker::{Command, Reply, Signals, Worker};
+
+/// Commands that may wait for one session.
+const QUEUE: usize = 32;
+
+/// A handle on a live simulation; dropping the last one ends its thread.
+#[derive(Debug)]
+pub struct Session {
+    commands: mpsc::SyncSender<Command>,
+    signals: Arc<Signals>,
+    state: watch::Receiver<Arc<SessionState>>,
+    hub: Arc<Hub>,
+    touched: Mutex<Instant>,
+}
+
+impl Session {
+    /// Assembles a scene and starts its thread. Blocks until the scene is assembled.
+    pub fn start(scene: &Scene, source: Source, limits: &Limits) -> Result<Self, Problem> {
+        let mut simulation = Simulation::new(scene)?;
+        let id = uuid::Uuid::new_v4().simple().to_string();
+        let hub = Arc::new(Hub::default());
+        let mut film = Film::new(&id, cast(scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
+        film.take(&mut simulation)?;
+        let signals = Arc::new(Signals::default());
+        let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
+        let extra = state::Extra {
+            id: id.clone(),
+            source: source.clone(),
+            title: title.clone(),
+            playing: false,
+            speed: 1.0,
+            frames: 1,
+            frames_encoded: 0,
+            watchers: 0,
+            force_scale: film.force_scale(),
+            error: None,
+        };
+        let (sender, state) = watch::channel(Arc::new(SessionState::of(&mut simulation, &extra)));
+        let worker = Worker {
+            id,
+            source,
+            title,
+            simulation,
+            film,
+            signals: Arc::clone(&signals),
+            state: sender,
+            command_time: limits.command_time,
+            play: None,
+            speed: 1.0,
+            error: None,
+        };
+        let (commands, received) = mpsc::sync_channel(QUEUE);
+        std::thread::Builder::new()
+            .name("triad-session".into())
+            .spawn(move || worker.run(&received))
+            .map_err(Problem::internal)?;
+        Ok(Self { commands, signals, state, hub, touched: Mutex::new(Instant::now()) })
+    }
+
+    /// The state now.
+    pub fn state(&self) -> Arc<SessionState> {
+        self.touch();
+        Arc::clone(&self.state.borrow())
+    }
+
+    /// Follows the state as it changes.
+    pub fn states(&self) -> watch::Receiver<Arc<SessionState>> {
+        self.state.clone()
+    }
+
+    /// Takes integrator steps.
+    pub async fn steps(&self, count: u32) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Steps(count, reply)).await
+    }
+
+    /// Lets simulated seconds pass.
+    pub async fn seconds(&self, seconds: f64) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Seconds(seconds, reply)).await
+    }
+
+    /// Lets time run, `speed` simulated seconds a second.
+    pub async fn play(&self, speed: f64) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Play(speed, reply)).await
+    }
+
+    /// Stops time, also in the middle of a long step.
+    pub async fn pause(&self) -> Result<Arc<SessionState>, Problem> {
+        self.signals.interrupt.store(true, Ordering::Relaxed);
+        self.ask(Command::Pause).await
+    }
+
+    /// Goes back to the start and begins another recording.
+    pub async fn reset(&self) -> Result<Arc<SessionState>, Problem> {
+        self.signals.interrupt.store(true, Ordering::Relaxed);
+        self.ask(Command::Reset).await
+    }
+
+    /// The Jacobian at the current time.
+    pub async fn jacobian(&self) -> Result<Jacobian, Problem> {
+        self.ask(Command::Jacobian).await
+    }
+
+    /// The multipliers at the current time, joint by joint.
+    pub async fn multipliers(&self) -> Result<Vec<JointMultipliers>, Problem> {
+        self.ask(Command::Multipliers).await
+    }
+
+    /// Watches the recording from its beginning.
+    pub fn watch(&self) -> Watcher {
+        self.touch();
+        let watcher = self.hub.watch();
+        // A queue that is full has a worker that is busy, and it looks for watchers when it is done.
+        drop(self.commands.try_send(Command::Watched));
+        watcher
+    }
+
+    async fn ask<T>(&self, command: impl FnOnce(Reply<T>) -> Command) -> Result<T, Problem> {
+        self.touch();
+        let (reply, answer) = oneshot::channel();
+        self.commands.try_send(command(reply)).map_err(|refused| match refused {
+            mpsc::TrySendError::Full(_) => Problem::new(
+                StatusCode::SERVICE_UNAVAILABLE,
+                "session-busy",
+                "the session has too many requests waiting",
+                "wait until the earlier ones are answered, or pause the session",
+            ),
+            mpsc::TrySendError::Disconnected(_) => gone(),
+        })?;
+        answer.await.map_err(|_| gone())?
+    }
+
+    fn touch(&self) {
+        *self.touched.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
+    }
+
+    /// How long nobody has asked for it or watched it.
+    fn idle(&self) -> Duration {
+        if self.hub.watchers() > 0 {
+            return Duration::ZERO;
+        }
+        self.touched.lock().unwrap_or_else(PoisonError::into_inner).elapsed()
+    }
+
+    /// Stops the thread as soon as it can leave its step.
+    fn close(&self) {
+        self.signals.closed.store(true, Ordering::Relaxed);
+        self.signals.interrupt.store(true, Ordering::Relaxed);
+        // Wakes a thread that waits; one that is busy sees the flag.
+        drop(self.commands.try_send(Command::Watched));
+    }
+}
+
+fn gone() -> Problem {
+    Problem::new(
+        StatusCode::GONE,
+        "session-closed",
+        "the session was closed while it was asked",
+        "start another session",
+    )
+}

@@ -1,0 +1,127 @@
+//! All live sessions.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use axum::http::StatusCode;
+use triad_engine::scene::Scene;
+
+use super::{Session, Source};
+use crate::limits::Limits;
+use crate::problem::Problem;
+
+/// The sessions of one server, bounded in number, closed when nobody wants them any more.
+#[derive(Debug, Default)]
+pub struct Registry {
+    sessions: Mutex<Sessions>,
+}
+
+#[derive(Debug, Default)]
+struct Sessions {
+    live: BTreeMap<String, Arc<Session>>,
+    /// Being assembled: they take a place already.
+    coming: usize,
+}
+
+impl Registry {
+    /// Starts a session. Blocks until its scene is assembled.
+    pub fn start(&self, scene: &Scene, source: Source, limits: &Limits) -> Result<Arc<Session>, Problem> {
+        bounded(scene, limits)?;
+        self.expire(limits);
+        {
+            let mut sessions = self.lock();
+            if sessions.live.len() + sessions.coming >= limits.sessions {
+                return Err(Problem::new(
+                    StatusCode::SERVICE_UNAVAILABLE,
+                    "too-many-sessions",
+                    format!("all {} sessions of this server are in use", limits.sessions),
+                    format!(
+                        "delete a session that is no longer needed; idle ones are closed after {} minutes",
+                        limits.idle.as_secs() / 60
+                    ),
+                ));
+            }
+            sessions.coming += 1;
+        }
+        let started = Session::start(scene, source, limits).map(Arc::new);
+        let mut sessions = self.lock();
+        sessions.coming -= 1;
+        let session = started?;
+        sessions.live.insert(session.state().id.clone(), Arc::clone(&session));
+        Ok(session)
+    }
+
+    /// The session called `id`.
+    pub fn get(&self, id: &str) -> Result<Arc<Session>, Problem> {
+        self.lock().live.get(id).cloned().ok_or_else(|| unknown(id))
+    }
+
+    /// Closes the session called `id`.
+    pub fn remove(&self, id: &str) -> Result<(), Problem> {
+        let session = self.lock().live.remove(id).ok_or_else(|| unknown(id))?;
+        session.close();
+        Ok(())
+    }
+
+    /// Closes sessions that have been idle too long.
+    pub fn expire(&self, limits: &Limits) {
+        self.lock().live.retain(|_, session| {
+            let keep = session.idle() < limits.idle;
+            if !keep {
+                session.close();
+            }
+            keep
+        });
+    }
+
+    /// Closes all sessions.
+    pub fn clear(&self) {
+        let live = std::mem::take(&mut self.lock().live);
+        for session in live.values() {
+            session.close();
+        }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.lock().live.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Sessions> {
+        // Counts and map are changed together under one lock, each in a single statement.
+        self.sessions.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Refuses a scene that is too large for this server before anything is built from it.
+pub fn bounded(scene: &Scene, limits: &Limits) -> Result<(), Problem> {
+    for (list, count, limit) in
+        [("bodies", scene.bodies.len(), limits.bodies), ("joints", scene.joints.len(), limits.connections)]
+    {
+        if count > limit {
+            let detail = format!("the scene has {count} {list}, this server takes {limit}");
+            return Err(Problem::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "scene-too-large",
+                detail.clone(),
+                "make the scene smaller, or run it on the command line: triad run SCENE",
+            )
+            .at(format!("/{list}"), detail));
+        }
+    }
+    Ok(())
+}
+
+fn unknown(id: &str) -> Problem {
+    Problem::new(
+        StatusCode::NOT_FOUND,
+        "unknown-session",
+        format!("there is no session {id}"),
+        "it may have been deleted, or closed because nobody used it; start another with POST /api/v1/sessions",
+    )
+}

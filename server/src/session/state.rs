@@ -1,0 +1,192 @@
+//! What a session tells about itself.
+
+use serde::Serialize;
+use triad_engine::simulation::Simulation;
+use utoipa::ToSchema;
+
+use crate::problem::{Problem, ProblemDocument};
+
+/// Where a session's scene came from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Source {
+    /// A lesson, by its slug.
+    Lesson(String),
+    /// A built-in scene, by its name.
+    Builtin(String),
+    /// A scene sent with the request, by the name it states.
+    Scene(String),
+}
+
+/// A body at the session's time.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct BodyState {
+    /// Name.
+    pub name: String,
+    /// Centre of mass in the world, m.
+    #[schema(value_type = Vec<f64>)]
+    pub position: [f64; 3],
+    /// First principal axis in the world.
+    #[schema(value_type = Vec<f64>)]
+    pub u: [f64; 3],
+    /// Second principal axis in the world.
+    #[schema(value_type = Vec<f64>)]
+    pub v: [f64; 3],
+    /// Third principal axis in the world.
+    #[schema(value_type = Vec<f64>)]
+    pub w: [f64; 3],
+    /// Velocity of the centre of mass in the world, m/s.
+    #[schema(value_type = Vec<f64>)]
+    pub velocity: [f64; 3],
+    /// Angular velocity in the world, rad/s.
+    #[schema(value_type = Vec<f64>)]
+    pub angular_velocity: [f64; 3],
+}
+
+/// Where to go from here.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct Links {
+    /// This session.
+    #[serde(rename = "self")]
+    pub this: String,
+    /// Its stream: a WebSocket.
+    pub stream: String,
+    /// Its Jacobian.
+    pub jacobian: String,
+    /// Its multipliers.
+    pub multipliers: String,
+}
+
+impl Links {
+    /// The links of session `id`.
+    pub fn new(id: &str) -> Self {
+        let this = format!("/api/v1/sessions/{id}");
+        Self {
+            stream: format!("{this}/stream"),
+            jacobian: format!("{this}/jacobian"),
+            multipliers: format!("{this}/multipliers"),
+            this,
+        }
+    }
+}
+
+/// A session at one moment.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SessionState {
+    /// Its name in addresses.
+    pub id: String,
+    /// Where its scene came from.
+    pub source: Source,
+    /// Title of its scene.
+    pub title: String,
+    /// Time of the simulation, s.
+    pub time: f64,
+    /// End of the simulation, s.
+    pub duration: f64,
+    /// Whether time runs.
+    pub playing: bool,
+    /// Simulated seconds a second while it plays.
+    pub speed: f64,
+    /// Whether the end was reached.
+    pub finished: bool,
+    /// Generalized coordinates, in the order of the Jacobian's columns.
+    pub q: Vec<f64>,
+    /// Their rates.
+    pub q_dot: Vec<f64>,
+    /// Energy, J.
+    pub energy: f64,
+    /// Change of the energy since the start, J.
+    pub energy_drift: f64,
+    /// Largest violation of the position constraints.
+    pub position_violation: f64,
+    /// Largest violation of the velocity constraints.
+    pub velocity_violation: f64,
+    /// Integrator steps accepted.
+    pub steps: u64,
+    /// Integrator steps rejected.
+    pub rejected: u64,
+    /// Evaluations of the equations of motion.
+    pub evaluations: u64,
+    /// Factorizations of a matrix.
+    pub factorizations: u64,
+    /// Projections onto the constraints.
+    pub projections: u64,
+    /// Frames recorded, and how many of them were encoded because somebody watched.
+    pub frames: u64,
+    /// See `frames`.
+    pub frames_encoded: u64,
+    /// How many watch the stream.
+    pub watchers: usize,
+    /// Length of a reaction's arrow in the viewer, m/N.
+    pub force_scale: f64,
+    /// What the engine found or corrected in the scene.
+    pub notes: Vec<String>,
+    /// Why the simulation stopped before its end; the last good state is kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<ProblemDocument>,
+    /// The bodies, in the scene's order.
+    pub bodies: Vec<BodyState>,
+    /// Where to go from here.
+    pub links: Links,
+}
+
+/// What the worker knows beside the simulation.
+#[derive(Debug, Clone)]
+pub(super) struct Extra {
+    pub id: String,
+    pub source: Source,
+    pub title: String,
+    pub playing: bool,
+    pub speed: f64,
+    pub frames: u64,
+    pub frames_encoded: u64,
+    pub watchers: usize,
+    pub force_scale: f64,
+    pub error: Option<Problem>,
+}
+
+impl SessionState {
+    /// The state of a simulation.
+    pub(super) fn of(simulation: &mut Simulation, extra: &Extra) -> Self {
+        let summary = simulation.summary();
+        let frame = simulation.frame();
+        let bodies = simulation.model().bodies.iter().zip(&frame.bodies).map(|(body, pose)| BodyState {
+            name: body.name.clone(),
+            position: pose.position,
+            u: pose.u,
+            v: pose.v,
+            w: pose.w,
+            velocity: pose.velocity,
+            angular_velocity: pose.angular_velocity,
+        });
+        Self {
+            id: extra.id.clone(),
+            source: extra.source.clone(),
+            title: extra.title.clone(),
+            time: simulation.time(),
+            duration: simulation.duration(),
+            playing: extra.playing,
+            speed: extra.speed,
+            finished: summary.finished,
+            q: simulation.q().to_vec(),
+            q_dot: simulation.q_dot().to_vec(),
+            energy: summary.energy,
+            energy_drift: summary.energy_drift,
+            position_violation: summary.position_violation,
+            velocity_violation: summary.velocity_violation,
+            steps: summary.steps,
+            rejected: summary.rejected,
+            evaluations: summary.evaluations,
+            factorizations: summary.factorizations,
+            projections: summary.projections,
+            frames: extra.frames,
+            frames_encoded: extra.frames_encoded,
+            watchers: extra.watchers,
+            force_scale: extra.force_scale,
+            notes: simulation.notes().to_vec(),
+            error: extra.error.as_ref().map(Problem::document),
+            bodies: bodies.collect(),
+            links: Links::new(&extra.id),
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! The thread that owns a session's simulation: it waits for commands, and lets time run while the session plays.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use axum::http::StatusCode;
+use tokio::sync::{oneshot, watch};
+use triad_engine::equations::Jacobian;
+use triad_engine::reaction::JointMultipliers;
+use triad_engine::simulation::Simulation;
+
+use super::film::Film;
+use super::state::{Extra, SessionState, Source};
+use crate::problem::Problem;
+
+/// How often a playing session goes on: about thirty times a second.
+const BEAT: Duration = Duration::from_millis(33);
+
+/// What a caller may ask for; the answer comes back through the sender.
+#[derive(Debug)]
+pub(super) enum Command {
+    /// Take integrator steps.
+    Steps(u32, Reply<Arc<SessionState>>),
+    /// Let simulated seconds pass.
+    Seconds(f64, Reply<Arc<SessionState>>),
+    /// Let time run at so many simulated seconds a second.
+    Play(f64, Reply<Arc<SessionState>>),
+    /// Stop time.
+    Pause(Reply<Arc<SessionState>>),
+    /// Go back to the start.
+    Reset(Reply<Arc<SessionState>>),
+    /// Tell the Jacobian.
+    Jacobian(Reply<Jacobian>),
+    /// Tell the multipliers.
+    Multipliers(Reply<Vec<JointMultipliers>>),
+    /// Somebody has come to watch.
+    Watched,
+}
+
+/// Where an answer goes; the caller may have left.
+pub(super) type Reply<T> = oneshot::Sender<Result<T, Problem>>;
+
+/// Flags that reach a worker while it is busy.
+#[derive(Debug, Default)]
+pub(super) struct Signals {
+    /// Leave off what you are doing, the next command is urgent.
+    pub interrupt: AtomicBool,
+    /// The session is closed.
+    pub closed: AtomicBool,
+}
+
+/// A session's simulation with all that belongs to it.
+pub(super) struct Worker {
+    pub id: String,
+    pub source: Source,
+    pub title: String,
+    pub simulation: Simulation,
+    pub film: Film,
+    pub signals: Arc<Signals>,
+    pub state: watch::Sender<Arc<SessionState>>,
+    pub command_time: Duration,
+    /// Set while time runs.
+    pub play: Option<Play>,
+    pub speed: f64,
+    pub error: Option<Problem>,
+}
+
+/// Time that runs: simulated time `from` was at the wall clock's `since`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Play {
+    since: Instant,
+    from: f64,
+}
+
+impl Worker {
+    /// Serves commands until the session is closed.
+    pub(super) fn run(mut self, commands: &Receiver<Command>) {
+        self.publish();
+        let mut next_beat = Instant::now();
+        while !self.signals.closed.load(Ordering::Relaxed) {
+            let received = if self.play.is_some() {
+                commands.recv_timeout(next_beat.saturating_duration_since(Instant::now()))
+            } else {
+                commands.recv().map_err(|_| RecvTimeoutError::Disconnected)
+            };
+            match received {
+                Ok(command) => self.obey(command),
+                Err(RecvTimeoutError::Timeout) => {
+                    next_beat = Instant::now() + BEAT;
+                    self.beat();
+                }
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    }
+
+    fn obey(&mut self, command: Command) {
+        self.signals.interrupt.store(false, Ordering::Relaxed);
+        // A caller that has gone away no longer wants the answer: nothing is lost if it cannot be delivered.
+        match command {
+            Command::Steps(count, reply) => {
+                let result = self.ready().and_then(|()| self.steps(count));
+                drop(reply.send(self.answer(result)));
+            }
+            Command::Seconds(seconds, reply) => {
+                let result = self.ready().and_then(|()| self.seconds(seconds));
+                drop(reply.send(self.answer(result)));
+            }
+            Command::Play(speed, reply) => {
+                let result = self.ready().map(|()| {
+                    self.speed = speed;
+                    self.play = Some(Play { since: Instant::now(), from: self.simulation.time() });
+                });
+                drop(reply.send(self.answer(result)));
+            }
+            Command::Pause(reply) => {
+                self.play = None;
+                drop(reply.send(self.answer(Ok(()))));
+            }
+            Command::Reset(reply) => {
+                self.play = None;
+                self.error = None;
+                self.simulation.reset();
+                self.film.restart();
+                let result = self.film.take(&mut self.simulation);
+                drop(reply.send(self.answer(result)));
+            }
+            Command::Jacobian(reply) => drop(reply.send(Ok(self.simulation.jacobian()))),
+            Command::Multipliers(reply) => drop(reply.send(Ok(self.simulation.multipliers()))),
+            Command::Watched => {
+                let developed = self.film.develop();
+                self.note(developed);
+                self.publish();
+            }
+        }
+    }
+
+    /// Refuses to go on from a state that the engine could not leave.
+    fn ready(&mut self) -> Result<(), Problem> {
+        self.play = None;
+        match &self.error {
+            None => Ok(()),
+            Some(error) => Err(Problem::new(
+                StatusCode::CONFLICT,
+                "session-stopped",
+                format!("the simulation stopped at {:.6} s: {error}", self.simulation.time()),
+                "reset the session to start over; its last good state can still be read",
+            )),
+        }
+    }
+
+    fn steps(&mut self, count: u32) -> Result<(), Problem> {
+        let deadline = Instant::now() + self.command_time;
+        for _ in 0..count {
+            if self.simulation.time() >= self.simulation.duration()
+                || self.signals.interrupt.load(Ordering::Relaxed)
+            {
+                break;
+            }
+            self.simulation.step()?;
+            self.film.take(&mut self.simulation)?;
+            self.in_time(deadline)?;
+        }
+        Ok(())
+    }
+
+    fn seconds(&mut self, seconds: f64) -> Result<(), Problem> {
+        let target = self.simulation.time() + seconds;
+        self.advance(target, Instant::now() + self.command_time)
+    }
+
+    /// Goes to simulated time `target`, or to the end of the run, unless it is interrupted.
+    fn advance(&mut self, target: f64, deadline: Instant) -> Result<(), Problem> {
+        let every = self.simulation.model().settings.every;
+        let target = target.min(self.simulation.duration());
+        while self.simulation.time() < target && !self.signals.interrupt.load(Ordering::Relaxed) {
+            // The next of the scene's output times; the slack keeps rounding from making one twice.
+            let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
+            self.simulation.advance_to(next.min(target))?;
+            self.film.take(&mut self.simulation)?;
+            self.in_time(deadline)?;
+        }
+        Ok(())
+    }
+
+    fn in_time(&self, deadline: Instant) -> Result<(), Problem> {
+        if Instant::now() < deadline {
+            return Ok(());
+        }
+        Err(Problem::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            "time-budget-exceeded",
+            format!(
+                "after {} s of computing the simulation has reached {:.6} s",
+                self.command_time.as_secs(),
+                self.simulation.time()
+            ),
+            "what was computed is kept: ask for smaller steps, or play",
+        ))
+    }
+
+    /// One beat of a playing session. Simulated time follows the wall clock; where the engine cannot keep up,
+    /// the session runs slower rather than in leaps.
+    fn beat(&mut self) {
+        let Some(play) = self.play else { return };
+        let now = Instant::now();
+        let target = play.from + (now - play.since).as_secs_f64() * self.speed;
+        let reached = self.advance_within(target, now + BEAT);
+        if self.simulation.time() < target {
+            self.play = Some(Play { since: Instant::now(), from: self.simulation.time() });
+        }
+        if reached.is_err() || self.simulation.time() >= self.simulation.duration() {
+            self.play = None;
+        }
+        self.note(reached);
+        let developed = self.film.develop();
+        self.note(developed);
+        self.publish();
+    }
+
+    /// Like `advance`, but running out of wall time is no error.
+    fn advance_within(&mut self, target: f64, deadline: Instant) -> Result<(), Problem> {
+        match self.advance(target, deadline) {
+            Err(problem) if problem.code() == "time-budget-exceeded" => Ok(()),
+            other => other,
+        }
+    }
+
+    /// Keeps the first error that stopped the simulation.
+    fn note(&mut self, result: Result<(), Problem>) {
+        if let Err(problem) = result {
+            self.play = None;
+            self.error.get_or_insert(problem);
+        }
+    }
+
+    /// The answer to a command: the state after it, or what went wrong.
+    fn answer(&mut self, result: Result<(), Problem>) -> Result<Arc<SessionState>, Problem> {
+        let developed = self.film.develop();
+        if let Err(problem) = &result {
+            // Asking too much at once stops nothing; an engine that cannot go on, or a full recording, does.
+            if !matches!(problem.code(), "time-budget-exceeded" | "session-stopped") {
+                self.note(result.clone());
+            }
+        }
+        self.note(developed);
+        self.publish();
+        result.map(|()| Arc::clone(&self.state.borrow()))
+    }
+
+    fn publish(&mut self) {
+        let (frames, frames_encoded) = self.film.counts();
+        let extra = Extra {
+            id: self.id.clone(),
+            source: self.source.clone(),
+            title: self.title.clone(),
+            playing: self.play.is_some(),
+            speed: self.speed,
+            frames,
+            frames_encoded,
+            watchers: self.film.watchers(),
+            force_scale: self.film.force_scale(),
+            error: self.error.clone(),
+        };
+        self.state.send_replace(Arc::new(SessionState::of(&mut self.simulation, &extra)));
+    }
+}

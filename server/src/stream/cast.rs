@@ -1,0 +1,136 @@
+//! Who appears in a recording: the bodies with their shapes, the joints with their rows, and the scales.
+
+use triad_engine::model::{BodyRef, Model};
+use triad_engine::scene::{Scene, Shape};
+
+/// A body as it is drawn.
+#[derive(Debug, Clone)]
+pub struct Actor {
+    /// Name.
+    pub name: String,
+    /// Shapes in the author's frame.
+    pub shapes: Vec<Shape>,
+    /// Centre of mass in the author's frame.
+    pub center_of_mass: [f64; 3],
+    /// Principal axes in the author's frame: row k of this table holds the components of axis k.
+    pub principal_axes: [[f64; 3]; 3],
+    /// Points of its joints, in its principal frame.
+    pub joint_points: Vec<[f64; 3]>,
+}
+
+/// A joint as it is drawn.
+#[derive(Debug, Clone)]
+pub struct Tie {
+    /// Name.
+    pub name: String,
+    /// The names of its rows.
+    pub rows: Vec<String>,
+}
+
+/// The pattern of the Jacobian.
+#[derive(Debug, Clone, Default)]
+pub struct Pattern {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// Row, column, and whether the entry never changes.
+    pub entries: Vec<(usize, usize, bool)>,
+}
+
+/// All that a recording says once.
+#[derive(Debug, Clone)]
+pub struct Cast {
+    /// Title of the recording.
+    pub title: String,
+    /// The bodies, in the scene's order.
+    pub bodies: Vec<Actor>,
+    /// The joints, in the scene's order.
+    pub joints: Vec<Tie>,
+    /// The pattern of the Jacobian.
+    pub pattern: Pattern,
+    /// Gravity, which says what is up.
+    pub gravity: [f64; 3],
+    /// Extent of the mechanism at the start, in metres.
+    pub size: f64,
+    /// Length of a reaction's arrow, in metres a newton; one for the whole scene.
+    pub force_scale: f64,
+}
+
+impl Cast {
+    /// The cast of a checked scene, its joints' rows and its Jacobian's pattern.
+    pub fn new(scene: &Scene, model: &Model, joints: Vec<Tie>, pattern: Pattern) -> Self {
+        let bodies: Vec<Actor> = scene
+            .bodies
+            .iter()
+            .zip(&model.bodies)
+            .enumerate()
+            .map(|(index, (written, body))| Actor {
+                name: written.name.clone(),
+                shapes: written.shape.clone(),
+                center_of_mass: body.center_of_mass.into(),
+                // nalgebra hands out columns, and column k is axis k.
+                principal_axes: body.principal_axes.into(),
+                joint_points: joint_points(model, index),
+            })
+            .collect();
+        let size = extent(model, &bodies);
+        let weight: f64 = model.bodies.iter().map(|body| body.mass).sum::<f64>() * model.gravity.norm();
+        let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
+        Self {
+            title: title.clone(),
+            bodies,
+            joints,
+            pattern,
+            gravity: model.gravity.into(),
+            size,
+            // The weight of everything is drawn half as long as the mechanism.
+            force_scale: 0.5 * size / if weight > 0.0 { weight } else { 1.0 },
+        }
+    }
+}
+
+fn joint_points(model: &Model, body: usize) -> Vec<[f64; 3]> {
+    let mut points = Vec::new();
+    for joint in &model.joints {
+        for (side, point) in joint.bodies.iter().zip(&joint.points) {
+            if *side == BodyRef::Moving(body) {
+                points.push((*point).into());
+            }
+        }
+    }
+    points
+}
+
+/// Half the diagonal of the box that holds the bodies, their joints and their shapes at the start.
+fn extent(model: &Model, bodies: &[Actor]) -> f64 {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for (body, actor) in model.bodies.iter().zip(bodies) {
+        let in_principal = |p: &[f64; 3]| body.point_to_principal(&(*p).into());
+        let ends = actor.shapes.iter().flat_map(|shape| match shape {
+            Shape::Rod { from, to, .. } => vec![*from, *to],
+            Shape::Sphere { center, radius } => {
+                vec![center.map(|x| x - radius), center.map(|x| x + radius)]
+            }
+            Shape::Box { center, size } => {
+                let corner = |sign: f64| std::array::from_fn(|k| center[k] + 0.5 * sign * size[k]);
+                vec![corner(-1.0), corner(1.0)]
+            }
+        });
+        let mut local: Vec<_> = ends.map(|point| in_principal(&point)).collect();
+        for point in &actor.joint_points {
+            local.push((*point).into());
+        }
+        local.push([0.0; 3].into());
+        for point in local {
+            let world = body.position + body.directors * point;
+            for k in 0..3 {
+                low[k] = low[k].min(world[k]);
+                high[k] = high[k].max(world[k]);
+            }
+        }
+    }
+    let diagonal = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
+    if diagonal.is_finite() && diagonal > 1e-9 { 0.5 * diagonal } else { 1.0 }
+}

@@ -1,0 +1,186 @@
+//! Shapes, axes and the Jacobian's picture: everything that is logged once.
+
+use rerun::{
+    Arrows3D, Boxes3D, Capsules3D, Color, EntityPath, EntityPathPart, FillMode, Image, LineStrips3D,
+    Points3D, Quaternion, RecordingStream, RecordingStreamResult, SeriesLines, Transform3D, ViewCoordinates,
+};
+use triad_engine::scene::Shape;
+
+use super::cast::{Actor, Cast, Pattern};
+
+/// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
+const PALETTE: [[u8; 3]; 6] =
+    [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [0, 114, 178], [204, 121, 167]];
+/// Reactions are vermilion everywhere.
+pub(super) const REACTION: [u8; 3] = [213, 94, 0];
+/// Directors u, v, w: red, green, blue as everywhere.
+const AXES: [[u8; 3]; 3] = [[220, 60, 60], [60, 170, 60], [70, 110, 230]];
+/// The largest picture of a Jacobian, in pixels a side; a larger one is drawn smaller.
+const LARGEST_PICTURE: usize = 1024;
+
+/// An entity path of parts that are taken literally, whatever characters they have.
+pub(super) fn path(parts: &[&str]) -> EntityPath {
+    EntityPath::new(parts.iter().map(|part| EntityPathPart::new(*part)).collect())
+}
+
+/// Logs all that does not change.
+pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingStreamResult<()> {
+    let up = if cast.gravity[1].abs() > cast.gravity[2].abs() {
+        ViewCoordinates::RIGHT_HAND_Y_UP()
+    } else {
+        ViewCoordinates::RIGHT_HAND_Z_UP()
+    };
+    recording.log_static("world", &up)?;
+    recording.log_static("world/ground", &axes(0.35 * cast.size, ["x", "y", "z"]))?;
+    for (index, body) in cast.bodies.iter().enumerate() {
+        log_body(recording, body, PALETTE[index % PALETTE.len()], cast.size)?;
+    }
+    for joint in &cast.joints {
+        for row in &joint.rows {
+            let at = path(&["plots", "multipliers", &joint.name, row]);
+            recording.log_static(at, &SeriesLines::new().with_names([format!("{} {row}", joint.name)]))?;
+        }
+    }
+    for (entity, name) in [
+        ("plots/energy", "energy"),
+        ("plots/violation/position", "position, m"),
+        ("plots/violation/velocity", "velocity, m/s"),
+    ] {
+        recording.log_static(entity, &SeriesLines::new().with_names([name]))?;
+    }
+    if cast.pattern.rows > 0 {
+        recording.log_static("jacobian", &picture(&cast.pattern))?;
+    }
+    Ok(())
+}
+
+fn axes(length: f64, labels: [&str; 3]) -> Arrows3D {
+    let vectors = [[length, 0.0, 0.0], [0.0, length, 0.0], [0.0, 0.0, length]];
+    Arrows3D::from_vectors(vectors.map(single))
+        .with_colors(AXES.map(color))
+        .with_labels(labels)
+        .with_radii([narrow(0.012 * length)])
+}
+
+fn log_body(recording: &RecordingStream, body: &Actor, rgb: [u8; 3], size: f64) -> RecordingStreamResult<()> {
+    let at = |part: &str| path(&["world", "bodies", &body.name, part]);
+    recording.log_static(at("axes"), &axes(0.2 * size, ["u", "v", "w"]).with_show_labels(false))?;
+    if body.shapes.is_empty() {
+        // A body that nobody drew is a ball at the centre of mass, with a bar to each of its joints.
+        let bars = body.joint_points.iter().map(|&point| [[0.0_f32; 3], single(point)]);
+        recording.log_static(
+            at("shape"),
+            &LineStrips3D::new(bars).with_colors([color(rgb)]).with_radii([narrow(0.02 * size)]),
+        )?;
+        let ball = Points3D::new([[0.0_f32; 3]]).with_colors([color(rgb)]).with_radii([narrow(0.05 * size)]);
+        return recording.log_static(at("center"), &ball);
+    }
+    // Shapes are written in the author's frame; the body's entity moves with the principal one.
+    let rows = body.principal_axes;
+    let offset: [f64; 3] =
+        std::array::from_fn(|k| -(0..3).map(|m| rows[k][m] * body.center_of_mass[m]).sum::<f64>());
+    let columns: [[f64; 3]; 3] = std::array::from_fn(|m| std::array::from_fn(|k| rows[k][m]));
+    recording.log_static(
+        at("shape"),
+        &Transform3D::from_translation_mat3x3(single(offset), columns.map(single)),
+    )?;
+    for (index, shape) in body.shapes.iter().enumerate() {
+        let entity = path(&["world", "bodies", &body.name, "shape", &index.to_string()]);
+        log_shape(recording, entity, shape, color(rgb))?;
+    }
+    Ok(())
+}
+
+fn log_shape(
+    recording: &RecordingStream,
+    entity: EntityPath,
+    shape: &Shape,
+    color: Color,
+) -> RecordingStreamResult<()> {
+    match shape {
+        Shape::Rod { from, to, radius } => {
+            let (length, rotation) = from_z(std::array::from_fn(|k| to[k] - from[k]));
+            let rod = Capsules3D::from_lengths_and_radii([narrow(length)], [narrow(*radius)])
+                .with_translations([single(*from)])
+                .with_quaternions([rotation])
+                .with_fill_mode(FillMode::Solid)
+                .with_colors([color]);
+            recording.log_static(entity, &rod)
+        }
+        Shape::Sphere { center, radius } => recording.log_static(
+            entity,
+            &Points3D::new([single(*center)]).with_radii([narrow(*radius)]).with_colors([color]),
+        ),
+        Shape::Box { center, size } => {
+            let solid = Boxes3D::from_centers_and_sizes([single(*center)], [single(*size)])
+                .with_fill_mode(FillMode::Solid)
+                .with_colors([color]);
+            recording.log_static(entity, &solid)
+        }
+    }
+}
+
+/// Length of a vector, and the rotation that takes +z to its direction.
+fn from_z(vector: [f64; 3]) -> (f64, Quaternion) {
+    let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length == 0.0 {
+        return (0.0, Quaternion::from_xyzw([0.0, 0.0, 0.0, 1.0]));
+    }
+    let [x, y, z] = vector.map(|component| component / length);
+    let q = if z > -1.0 + 1e-12 { [-y, x, 0.0, 1.0 + z] } else { [1.0, 0.0, 0.0, 0.0] };
+    let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+    (length, Quaternion::from_xyzw(q.map(|c| narrow(c / norm))))
+}
+
+/// The pattern as an image: rows downwards, coordinates to the right, constant entries blue, others orange.
+fn picture(pattern: &Pattern) -> Image {
+    let shrink = pattern.rows.max(pattern.columns).div_ceil(LARGEST_PICTURE).max(1);
+    let (width, height) = (pattern.columns.div_ceil(shrink), pattern.rows.div_ceil(shrink));
+    let mut pixels = vec![245_u8; 3 * width * height];
+    // Constant entries first, so that one that changes is seen where several share a pixel.
+    for constant in [true, false] {
+        let rgb = if constant { [0, 114, 178] } else { [230, 159, 0] };
+        for &(row, column, _) in pattern.entries.iter().filter(|entry| entry.2 == constant) {
+            let first = 3 * ((row / shrink) * width + column / shrink);
+            pixels[first..first + 3].copy_from_slice(&rgb);
+        }
+    }
+    let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    Image::from_rgb24(pixels, [side(width), side(height)])
+}
+
+fn color(rgb: [u8; 3]) -> Color {
+    Color::from_rgb(rgb[0], rgb[1], rgb[2])
+}
+
+/// The viewer draws in single precision.
+#[allow(clippy::cast_possible_truncation)]
+pub(super) fn narrow(x: f64) -> f32 {
+    x as f32
+}
+
+/// The viewer draws in single precision.
+pub(super) fn single(vector: [f64; 3]) -> [f32; 3] {
+    vector.map(narrow)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rotates +z by a quaternion.
+    fn turned([x, y, z, w]: [f32; 4]) -> [f32; 3] {
+        [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]
+    }
+
+    #[test]
+    fn rods_point_from_one_end_to_the_other() {
+        for vector in [[0.0, 0.0, -2.0], [3.0, 0.0, 0.0], [1.0, -2.0, 0.5], [0.0, 0.0, 1.0]] {
+            let (length, rotation) = from_z(vector);
+            let direction = turned(rotation.0);
+            for k in 0..3 {
+                assert!((f64::from(direction[k]) * length - vector[k]).abs() < 1e-5, "{vector:?}");
+            }
+        }
+    }
+}

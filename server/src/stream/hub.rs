@@ -1,0 +1,157 @@
+//! One recording, kept once, watched by many.
+//!
+//! A watcher holds no queue: only its place in the one history. One that is slow, or stands still, costs
+//! nothing and harms nobody; it reads on from its place when it can.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use axum::body::Bytes;
+use tokio::sync::watch;
+
+/// The encoded recording of a session: complete RRD blocks, oldest first.
+#[derive(Debug)]
+pub struct Hub {
+    history: Mutex<History>,
+    /// Changes whenever the history does.
+    changed: watch::Sender<()>,
+    watchers: AtomicUsize,
+}
+
+#[derive(Debug, Default)]
+struct History {
+    /// Counts the recordings: a reset starts another.
+    epoch: u64,
+    blocks: Vec<Bytes>,
+    bytes: usize,
+}
+
+impl Default for Hub {
+    fn default() -> Self {
+        Self { history: Mutex::default(), changed: watch::Sender::new(()), watchers: AtomicUsize::new(0) }
+    }
+}
+
+impl Hub {
+    /// Adds a block for everybody, now and later.
+    pub fn push(&self, block: Vec<u8>) {
+        let mut history = self.lock();
+        history.bytes += block.len();
+        history.blocks.push(block.into());
+        drop(history);
+        self.changed.send_replace(());
+    }
+
+    /// Forgets the recording; watchers are told that another one begins.
+    pub fn restart(&self) {
+        let mut history = self.lock();
+        *history = History { epoch: history.epoch + 1, ..History::default() };
+        drop(history);
+        self.changed.send_replace(());
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.lock().bytes
+    }
+
+    /// How many watch now.
+    pub fn watchers(&self) -> usize {
+        self.watchers.load(Ordering::Relaxed)
+    }
+
+    /// Starts watching from the beginning of the recording.
+    pub fn watch(self: &Arc<Self>) -> Watcher {
+        self.watchers.fetch_add(1, Ordering::Relaxed);
+        let epoch = self.lock().epoch;
+        Watcher { changed: self.changed.subscribe(), hub: Arc::clone(self), epoch, next: 0 }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, History> {
+        // Every change is a single push or assignment, so a panic elsewhere leaves nothing half-done.
+        self.history.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// What a watcher is handed.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Delivery {
+    /// The next blocks, each complete in itself.
+    Blocks(Vec<Bytes>),
+    /// The recording was replaced: forget what was delivered.
+    Restarted,
+}
+
+/// A place in a recording.
+#[derive(Debug)]
+pub struct Watcher {
+    hub: Arc<Hub>,
+    changed: watch::Receiver<()>,
+    epoch: u64,
+    next: usize,
+}
+
+impl Watcher {
+    /// What there is now, if anything, without waiting.
+    pub fn poll(&mut self) -> Option<Delivery> {
+        let history = self.hub.lock();
+        if history.epoch != self.epoch {
+            self.epoch = history.epoch;
+            self.next = 0;
+            return Some(Delivery::Restarted);
+        }
+        let blocks: Vec<Bytes> = history.blocks[self.next..].to_vec();
+        self.next = history.blocks.len();
+        (!blocks.is_empty()).then_some(Delivery::Blocks(blocks))
+    }
+
+    /// Waits for what comes next; `None` once the session is gone.
+    pub async fn next(&mut self) -> Option<Delivery> {
+        loop {
+            self.changed.borrow_and_update();
+            if let Some(delivery) = self.poll() {
+                return Some(delivery);
+            }
+            self.changed.changed().await.ok()?;
+        }
+    }
+}
+
+impl Drop for Watcher {
+    fn drop(&mut self) {
+        self.hub.watchers.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_late_watcher_gets_the_history_and_a_slow_one_catches_up() {
+        let hub = Arc::new(Hub::default());
+        let mut slow = hub.watch();
+        hub.push(vec![1]);
+        hub.push(vec![2]);
+        let mut late = hub.watch();
+        let both = Some(Delivery::Blocks(vec![Bytes::from_static(&[1]), Bytes::from_static(&[2])]));
+        assert_eq!(late.poll(), both);
+        assert_eq!(late.poll(), None);
+        assert_eq!(slow.poll(), both);
+        assert_eq!((hub.watchers(), hub.bytes()), (2, 2));
+        drop(late);
+        assert_eq!(hub.watchers(), 1);
+    }
+
+    #[test]
+    fn a_restart_is_announced_once_and_the_old_blocks_are_gone() {
+        let hub = Arc::new(Hub::default());
+        let mut watcher = hub.watch();
+        hub.push(vec![1]);
+        hub.restart();
+        hub.push(vec![2]);
+        assert_eq!(watcher.poll(), Some(Delivery::Restarted));
+        assert_eq!(watcher.poll(), Some(Delivery::Blocks(vec![Bytes::from_static(&[2])])));
+        assert_eq!(hub.bytes(), 1);
+    }
+}

@@ -1,0 +1,23 @@
+//! From samples to what the rerun viewer shows: one recording a session, encoded once however many watch.
+//!
+//! ```text
+//! Sample ─▶ Recorder ─▶ blocks ─▶ Hub ─▶ Watcher, Watcher, …   (the page, over our own socket)
+//!                    └▶ a file, or a native viewer
+//! ```
+
+mod cast;
+mod geometry;
+mod hub;
+mod layout;
+mod recorder;
+mod sample;
+
+pub use cast::{Actor, Cast, Pattern, Tie};
+pub use hub::{Delivery, Hub, Watcher};
+pub use recorder::{RecordError, Recorder};
+pub use sample::{Pose, Reaction, Sample};
+
+/// Name under which the viewer knows the recordings.
+pub const APPLICATION: &str = "triad";
+/// The time line: simulated time.
+pub const TIMELINE: &str = "time";

@@ -1,0 +1,180 @@
+//! Writes samples into a recording of the rerun viewer, in batches.
+
+use std::path::Path;
+use std::time::Duration;
+
+use rerun::sink::BinaryStreamStorage;
+use rerun::{
+    Arrows3D, Points3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
+    Scalars, TimeColumn, Transform3D,
+};
+
+use super::cast::Cast;
+use super::geometry::{self, narrow, path, single};
+use super::sample::Sample;
+use super::{APPLICATION, TIMELINE, layout};
+
+/// Why a recording could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The viewer's library refused.
+    #[error("the recording could not be written: {0}")]
+    Stream(#[from] RecordingStreamError),
+    /// The encoder did not finish in time.
+    #[error("the recording could not be flushed: {0}")]
+    Flush(String),
+}
+
+/// Where a recording goes.
+enum Sink {
+    /// Blocks for somebody to take.
+    Blocks(BinaryStreamStorage),
+    /// A file or a viewer, written by the library itself.
+    Elsewhere,
+}
+
+/// One recording being written.
+pub struct Recorder {
+    recording: RecordingStream,
+    sink: Sink,
+    cast: Cast,
+    encoded: u64,
+}
+
+impl Recorder {
+    /// A recording whose blocks are taken with [`Recorder::block`]. `id` tells it from others in one viewer.
+    pub fn to_blocks(id: &str, cast: Cast) -> Result<Self, RecordError> {
+        let recording = builder(id, &cast).buffered()?;
+        let sink = Sink::Blocks(recording.binary_stream());
+        Self::start(recording, sink, cast)
+    }
+
+    /// A recording in a file.
+    pub fn to_file(file: &Path, id: &str, cast: Cast) -> Result<Self, RecordError> {
+        let recording = builder(id, &cast).save(file)?;
+        Self::start(recording, Sink::Elsewhere, cast)
+    }
+
+    /// A recording in a native viewer that listens at `url`, like `rerun+http://127.0.0.1:9876/proxy`.
+    pub fn to_viewer(url: &str, id: &str, cast: Cast) -> Result<Self, RecordError> {
+        let recording = builder(id, &cast).connect_grpc_opts(url)?;
+        Self::start(recording, Sink::Elsewhere, cast)
+    }
+
+    fn start(recording: RecordingStream, sink: Sink, cast: Cast) -> Result<Self, RecordError> {
+        geometry::log_static(&recording, &cast)?;
+        Ok(Self { recording, sink, cast, encoded: 0 })
+    }
+
+    /// How many samples have been encoded.
+    pub fn encoded(&self) -> u64 {
+        self.encoded
+    }
+
+    /// Writes samples, which must be in the order of time.
+    pub fn write(&mut self, samples: &[Sample]) -> Result<(), RecordError> {
+        if samples.is_empty() {
+            return Ok(());
+        }
+        self.write_bodies(samples)?;
+        self.write_joints(samples)?;
+        self.write_series(&["plots", "energy"], samples, |s| s.energy)?;
+        self.write_series(&["plots", "violation", "position"], samples, |s| s.position_violation)?;
+        self.write_series(&["plots", "violation", "velocity"], samples, |s| s.velocity_violation)?;
+        self.encoded += samples.len() as u64;
+        Ok(())
+    }
+
+    fn write_bodies(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
+        for (index, body) in self.cast.bodies.iter().enumerate() {
+            let poses = || samples.iter().map(|sample| sample.poses[index]);
+            let columns = Transform3D::update_fields()
+                .with_many_translation(poses().map(|pose| single(pose.position)))
+                .with_many_mat3x3(poses().map(|pose| pose.axes.map(single)))
+                .columns_of_unit_batches()?;
+            self.recording.send_columns(path(&["world", "bodies", &body.name]), [times(samples)], columns)?;
+        }
+        Ok(())
+    }
+
+    fn write_joints(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
+        let known: Vec<&Sample> =
+            samples.iter().filter(|sample| sample.reactions.len() == self.cast.joints.len()).collect();
+        if known.is_empty() {
+            return Ok(());
+        }
+        let time = || TimeColumn::new_duration_secs(TIMELINE, known.iter().map(|sample| sample.time));
+        let [red, green, blue] = geometry::REACTION;
+        let paint = rerun::Color::from_rgb(red, green, blue);
+        for (index, joint) in self.cast.joints.iter().enumerate() {
+            let reactions = || known.iter().map(|sample| &sample.reactions[index]);
+            let arrows = Arrows3D::update_fields()
+                .with_origins(reactions().map(|r| single(r.at)))
+                .with_vectors(reactions().map(|r| single(r.force.map(|f| f * self.cast.force_scale))))
+                .with_colors(reactions().map(|_| paint))
+                .with_radii(reactions().map(|_| narrow(0.01 * self.cast.size)))
+                .columns_of_unit_batches()?;
+            self.recording.send_columns(path(&["world", "joints", &joint.name]), [time()], arrows)?;
+            let pins = Points3D::update_fields()
+                .with_positions(reactions().map(|r| single(r.at)))
+                .with_radii(reactions().map(|_| narrow(0.02 * self.cast.size)))
+                .columns_of_unit_batches()?;
+            self.recording.send_columns(path(&["world", "joints", &joint.name, "point"]), [time()], pins)?;
+            for (k, row) in joint.rows.iter().enumerate() {
+                let values = reactions().map(|r| r.multipliers.get(k).copied().unwrap_or(f64::NAN));
+                let columns = Scalars::new(values).columns_of_unit_batches()?;
+                let at = path(&["plots", "multipliers", &joint.name, row]);
+                self.recording.send_columns(at, [time()], columns)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_series(
+        &self,
+        at: &[&str],
+        samples: &[Sample],
+        value: impl Fn(&Sample) -> f64,
+    ) -> RecordingStreamResult<()> {
+        let columns = Scalars::new(samples.iter().map(value)).columns_of_unit_batches()?;
+        self.recording.send_columns(path(at), [times(samples)], columns)
+    }
+
+    /// Everything written since the last call, as one complete block; nothing if the recording goes elsewhere.
+    pub fn block(&self) -> Result<Option<Vec<u8>>, RecordError> {
+        self.flush()?;
+        Ok(match &self.sink {
+            Sink::Blocks(storage) => storage.read(),
+            Sink::Elsewhere => None,
+        })
+    }
+
+    /// Waits until everything written has left this process or reached the disk.
+    pub fn flush(&self) -> Result<(), RecordError> {
+        self.recording
+            .flush_with_timeout(Duration::from_secs(10))
+            .map_err(|error| RecordError::Flush(error.to_string()))
+    }
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        if let Sink::Blocks(storage) = &self.sink {
+            // Blocks that nobody will take; the library would complain about them.
+            if self.recording.flush_with_timeout(Duration::from_secs(1)).is_ok() {
+                storage.read();
+            }
+        }
+    }
+}
+
+fn builder(id: &str, cast: &Cast) -> RecordingStreamBuilder {
+    RecordingStreamBuilder::new(APPLICATION)
+        .recording_id(id)
+        .recording_name(cast.title.clone())
+        .with_blueprint(layout::blueprint())
+}
+
+fn times(samples: &[Sample]) -> TimeColumn {
+    TimeColumn::new_duration_secs(TIMELINE, samples.iter().map(|sample| sample.time))
+}

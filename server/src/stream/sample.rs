@@ -1,0 +1,46 @@
+//! What is recorded of one instant.
+
+/// A body at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Centre of mass in the world, in metres.
+    pub position: [f64; 3],
+    /// Principal axes u, v, w in the world, unit vectors.
+    pub axes: [[f64; 3]; 3],
+}
+
+/// A joint's reaction at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reaction {
+    /// Where it acts, in the world, in metres.
+    pub at: [f64; 3],
+    /// The force on the joint's second body, in the world, in newtons.
+    pub force: [f64; 3],
+    /// The multipliers of the joint's rows.
+    pub multipliers: Vec<f64>,
+}
+
+/// The whole mechanism at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// Time of the simulation, in seconds.
+    pub time: f64,
+    /// One a body, in the scene's order.
+    pub poses: Vec<Pose>,
+    /// One a joint, in the scene's order; empty where the reactions could not be found.
+    pub reactions: Vec<Reaction>,
+    /// Energy, in joules.
+    pub energy: f64,
+    /// Norm of the position constraints, in metres.
+    pub position_violation: f64,
+    /// Norm of the velocity constraints, in metres a second.
+    pub velocity_violation: f64,
+}
+
+impl Sample {
+    /// About how many bytes it takes to hold this sample, or to encode it.
+    pub fn size(&self) -> usize {
+        let rows: usize = self.reactions.iter().map(|reaction| reaction.multipliers.len() + 6).sum();
+        size_of::<f64>() * (4 + 12 * self.poses.len() + rows)
+    }
+}
