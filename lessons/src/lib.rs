@@ -1,1 +1,35 @@
-//! Lessons.
+//! Lessons: reading a course, proving it, showing it without its answers, grading what students hand in.
+//!
+//! Content is data. `lessons/course/NN-slug/` holds `lesson.toml` (title, objectives, steps), `lesson.md` (text),
+//! `figures/`, `scene.json` (the scenario), `exercise.toml` (questions), `reference/answers.toml` (answers and
+//! their sources) and `wrong/*.toml` (wrong answers that must be recognised). The last three never leave the
+//! server: pages are built from [`Lesson::public_view`] only.
+//!
+//! Reading order: [`files`] (what an author writes), [`course`] and [`lesson`] (reading it), [`exercise`]
+//! (questions ready to grade), [`tolerance`], [`units`], [`number`], [`expression`] (the parts of an answer),
+//! [`submission`], [`grade`], [`verdict`], and [`check`] (proving a course).
+
+pub mod check;
+pub mod course;
+pub mod exercise;
+pub mod expression;
+pub mod figure;
+pub mod files;
+mod grade;
+pub mod lesson;
+pub mod markdown;
+pub mod number;
+pub mod submission;
+pub mod tolerance;
+pub mod units;
+pub mod verdict;
+
+#[cfg(test)]
+mod tests;
+
+pub use check::{Problem, check_course, check_lesson, reference_submission};
+pub use course::{Course, CourseError};
+pub use grade::{GradeError, grade};
+pub use lesson::{Lesson, LessonError, LessonSummary, LessonView};
+pub use submission::{Submission, SubmissionError};
+pub use verdict::{Mark, QuestionVerdict, Verdict};

@@ -1,0 +1,144 @@
+//! Trying out the answers: blank ones, the references, the wrong ones.
+
+use std::collections::BTreeSet;
+
+use super::Found;
+use crate::exercise::{Body, Question};
+use crate::grade::grade;
+use crate::lesson::Lesson;
+use crate::markdown::render_short;
+use crate::submission::{Answer, Entry, Submission};
+use crate::tolerance::Shape;
+use crate::verdict::{Mark, QuestionVerdict};
+
+/// A student who fills in nothing must not pass.
+pub(super) fn starter_fails(found: &mut Found) {
+    match grade(found.lesson, &Submission::default()) {
+        Ok(verdict) if !verdict.passed && verdict.earned == 0.0 && verdict.possible > 0.0 => {}
+        Ok(_) => found.add(
+            "exercise.toml",
+            0,
+            "a blank submission earns points or passes",
+            "check points and pass_mark",
+        ),
+        Err(error) => found.add("exercise.toml", 0, error.to_string(), "correct it"),
+    }
+    if !(found.lesson.exercise.pass_mark > 0.0 && found.lesson.exercise.pass_mark <= 1.0) {
+        found.add("exercise.toml", 0, "pass_mark is not above 0 and up to 1", "write pass_mark = 0.7");
+    }
+}
+
+/// The answers that must pass.
+pub fn reference_submission(lesson: &Lesson) -> Submission {
+    let answer = |question: &Question| match &question.body {
+        Body::Quantity(q) => {
+            let number = |x: &f64| Entry::Text(format!("{x:.15e}"));
+            let value = match q.size {
+                [1, 1] if q.shape == Shape::Number => number(&q.reference[0]),
+                [_, 1] if q.shape == Shape::Vector => Entry::List(q.reference.iter().map(number).collect()),
+                [_, columns] => Entry::List(
+                    q.reference
+                        .chunks(columns)
+                        .map(|row| Entry::List(row.iter().map(number).collect()))
+                        .collect(),
+                ),
+            };
+            Answer { value: Some(value), unit: Some(q.unit.text().to_owned()), choice: None }
+        }
+        Body::Choice { right, .. } => Answer { choice: Some(right.clone()), ..Answer::default() },
+        Body::Formula(f) => {
+            Answer { value: Some(Entry::Text(f.reference_text.clone())), ..Answer::default() }
+        }
+    };
+    let answers = lesson.exercise.questions.iter().map(|q| (q.id.clone(), answer(q))).collect();
+    Submission { student: None, answers }
+}
+
+/// The references must pass.
+pub(super) fn reference_passes(found: &mut Found) {
+    let Ok(verdict) = grade(found.lesson, &reference_submission(found.lesson)) else { return };
+    for question in verdict.questions.iter().filter(|q| q.verdict != Mark::Right) {
+        let what = format!("its own reference is judged {:?}", question.verdict);
+        found.question(&question.id, what, "compare reference/answers.toml with the question");
+    }
+    if !verdict.passed {
+        found.add("reference/answers.toml", 0, "the reference does not pass the lesson", "correct it");
+    }
+}
+
+/// Every wrong answer must fail with its own feedback, and every misconception must be shown by one.
+pub(super) fn wrong_answers_fail(found: &mut Found) {
+    let lesson = found.lesson;
+    let mut shown: BTreeSet<(String, String)> = BTreeSet::new();
+    for (name, wrong) in &lesson.wrong {
+        if wrong.about.trim().is_empty() {
+            found.add(name, 0, "about is empty", "say what the student was thinking");
+        }
+        if wrong.answers.is_empty() || !wrong.answers.keys().eq(wrong.expect.keys()) {
+            found.add(name, 0, "answers and expect do not name the same questions", "add one line for each");
+            continue;
+        }
+        let mut submission = reference_submission(lesson);
+        submission.answers.extend(wrong.answers.clone());
+        let verdict = match grade(lesson, &submission) {
+            Ok(verdict) => verdict,
+            Err(error) => {
+                found.add(name, 0, error.to_string(), "correct the id");
+                continue;
+            }
+        };
+        for (id, slip) in &wrong.expect {
+            let Some(given) = verdict.questions.iter().find(|q| q.id == *id) else { continue };
+            match recognised(lesson.question(id), slip, given) {
+                Ok(()) => {
+                    shown.insert((id.clone(), slip.clone()));
+                }
+                Err(what) => {
+                    found.add(name, 0, format!("{id}: {what}"), "correct the answer or the feedback");
+                }
+            }
+        }
+    }
+    for question in &lesson.exercise.questions {
+        let names: Vec<&String> = match &question.body {
+            Body::Quantity(q) => q.misconceptions.iter().map(|m| &m.id).collect(),
+            Body::Formula(f) => f.misconceptions.iter().map(|(id, ..)| id).collect(),
+            Body::Choice { .. } => Vec::new(),
+        };
+        for name in names.into_iter().filter(|n| !shown.contains(&(question.id.clone(), (*n).clone()))) {
+            let what = format!("no wrong answer shows the misconception {name}");
+            found.question(&question.id, what, format!("add wrong/{name}.toml"));
+        }
+    }
+    if lesson.wrong.len() < 2 {
+        found.add(
+            "wrong",
+            0,
+            "there are fewer than two wrong answers",
+            "add one file for each misconception",
+        );
+    }
+}
+
+/// Whether an answer was judged wrong with the feedback of this slip.
+fn recognised(question: Option<&Question>, slip: &str, given: &QuestionVerdict) -> Result<(), String> {
+    if given.verdict != Mark::Wrong {
+        return Err(format!("the wrong answer is judged {:?}", given.verdict));
+    }
+    if given.slip.as_deref() != Some(slip) {
+        let got = given.slip.as_deref().unwrap_or("nothing");
+        return Err(format!("expected the feedback of {slip}, recognised {got}"));
+    }
+    let feedback = match question.map(|q| &q.body) {
+        Some(Body::Quantity(q)) => q.misconceptions.iter().find(|m| m.id == slip).map(|m| &m.feedback),
+        Some(Body::Choice { options, .. }) => options.iter().find(|o| o.id == slip).map(|o| &o.reason),
+        Some(Body::Formula(f)) => f.misconceptions.iter().find(|(id, ..)| id == slip).map(|(.., text)| text),
+        None => None,
+    };
+    match feedback {
+        Some(text) if !given.message_html.contains(&render_short(text)) => {
+            Err(format!("the feedback of {slip} does not come"))
+        }
+        _ => Ok(()),
+    }
+}

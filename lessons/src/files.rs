@@ -1,0 +1,206 @@
+//! The files of a course exactly as an author writes them. Unknown keys are refused.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::submission::{Answer, Entry};
+
+/// `course.toml`: the course as a whole.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CourseFile {
+    /// Version of this file format; 1.
+    pub format_version: u32,
+    /// Title of the course.
+    pub title: String,
+}
+
+/// `NN-slug/lesson.toml`: what a lesson is about.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LessonFile {
+    /// Title.
+    pub title: String,
+    /// One sentence for the list of lessons.
+    pub summary: String,
+    /// How long a student needs, in minutes (10 to 40).
+    pub minutes: u32,
+    /// What the student can do afterwards; each begins with a verb.
+    pub objectives: Vec<String>,
+    /// Slugs of the lessons that come before.
+    #[serde(default)]
+    pub prerequisites: Vec<String>,
+    /// Predict, run, check, explain.
+    #[serde(default, rename = "step")]
+    pub steps: Vec<StepFile>,
+}
+
+/// One step of working with the scenario.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StepFile {
+    /// What the student does here.
+    pub kind: StepKind,
+    /// What to do, in Markdown.
+    pub text: String,
+}
+
+/// The four steps of a lesson.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StepKind {
+    /// Commit to an expectation before the run.
+    Predict,
+    /// Run the scenario.
+    Run,
+    /// Compare with the expectation.
+    Check,
+    /// Say why.
+    Explain,
+}
+
+/// `exercise.toml`: the questions. Never leaves the server.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExerciseFile {
+    /// Share of the points that passes the lesson, above 0 and up to 1.
+    pub pass_mark: f64,
+    /// The questions, in order.
+    #[serde(rename = "question")]
+    pub questions: Vec<QuestionFile>,
+}
+
+/// Kind of a question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum QuestionKind {
+    /// One number with a unit.
+    Number,
+    /// A list of components in a stated frame, judged by its norm.
+    Vector,
+    /// Rows of numbers, judged by the norm of all entries.
+    Matrix,
+    /// One of several options.
+    Choice,
+    /// An expression in named symbols, compared at random points.
+    Formula,
+}
+
+/// One question. Which keys it needs depends on its kind.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct QuestionFile {
+    /// Name of the question, unique in the lesson: small letters, digits and dashes.
+    pub id: String,
+    /// Kind.
+    pub kind: QuestionKind,
+    /// What is asked, in Markdown.
+    pub prompt: String,
+    /// Points.
+    pub points: f64,
+    /// Hints, given one at a time.
+    pub hints: Vec<String>,
+    /// Said when the answer is right: why it is so.
+    #[serde(default)]
+    pub right: String,
+    /// Unit of the reference (number, vector, matrix); empty for a pure number.
+    pub unit: Option<String>,
+    /// The student has to find the unit: it is not shown, and a part of the points is for it.
+    #[serde(default)]
+    pub asks_unit: bool,
+    /// Frame of the components, as words that fit "Components in …" (vector, matrix).
+    pub frame: Option<String>,
+    /// How close is close enough (number, vector, matrix).
+    pub tolerance: Option<ToleranceFile>,
+    /// Wrong answers that are recognised.
+    #[serde(default, rename = "misconception")]
+    pub misconceptions: Vec<MisconceptionFile>,
+    /// Options (choice).
+    #[serde(default, rename = "option")]
+    pub options: Vec<OptionFile>,
+    /// Symbols of the formula and the range from which each is drawn for the comparison (formula).
+    #[serde(default)]
+    pub symbols: BTreeMap<String, [f64; 2]>,
+}
+
+/// How close is close enough.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToleranceFile {
+    /// Share of the reference's size.
+    #[serde(default)]
+    pub relative: f64,
+    /// Fixed part, in the question's unit.
+    #[serde(default)]
+    pub absolute: f64,
+    /// Only the exact number counts.
+    #[serde(default)]
+    pub exact: bool,
+}
+
+/// A slip of thought and the answer it leads to.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MisconceptionFile {
+    /// Name, unique in the question.
+    pub id: String,
+    /// The answer it leads to, in the question's unit.
+    pub value: Entry,
+    /// What to tell the student, in Markdown: the slip, not the answer.
+    pub feedback: String,
+}
+
+/// One option of a choice.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OptionFile {
+    /// Letter or name.
+    pub id: String,
+    /// The option, in Markdown.
+    pub text: String,
+    /// Why it is right or wrong, shown to who chose it, in Markdown.
+    pub reason: String,
+}
+
+/// `reference/answers.toml`: the answer to one question and where it comes from. Never leaves the server.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReferenceFile {
+    /// Number or expression, list of these, formula, or the id of the right option.
+    pub value: Entry,
+    /// Bound on the reference's own error, in the question's unit. Needed for numbers.
+    #[serde(default)]
+    pub error: f64,
+    /// What kind of source it is.
+    pub provenance: ProvenanceKind,
+    /// The source in words: the derivation, the publication, the independent program.
+    pub source: String,
+}
+
+/// Where a reference comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ProvenanceKind {
+    /// Derived on paper; the derivation is in the source.
+    ClosedForm,
+    /// Printed or published by somebody else.
+    Published,
+    /// Computed by a program that shares no code with this engine.
+    Independent,
+    /// A definition or an argument (for choices).
+    Argument,
+}
+
+/// `wrong/NAME.toml`: what a student with a misconception sends, and what must be recognised.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WrongFile {
+    /// The thought behind it.
+    pub about: String,
+    /// The answers that are wrong; all other questions are answered by the reference.
+    pub answers: BTreeMap<String, Answer>,
+    /// For each of these answers the misconception, or the option, whose feedback must come.
+    pub expect: BTreeMap<String, String>,
+}

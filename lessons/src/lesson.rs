@@ -1,0 +1,369 @@
+//! A lesson: read from its folder, shown to students without its answers.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use thiserror::Error;
+
+use crate::exercise::{self, Body, Exercise, Question, QuestionError};
+use crate::files::{ExerciseFile, LessonFile, QuestionKind, ReferenceFile, StepFile, StepKind, WrongFile};
+use crate::markdown::{self, Rendered};
+use crate::tolerance::Shape;
+
+/// The files of one folder: path below it, content.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// Why a lesson could not be read. Each names the file and says what to do.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum LessonError {
+    /// A file is not there.
+    #[error("{file} is missing; {remedy}")]
+    Missing {
+        /// Path of the file.
+        file: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A file is not what its name says.
+    #[error("{file}, line {line}: {problem}")]
+    Unreadable {
+        /// Path of the file.
+        file: String,
+        /// Line from 1.
+        line: usize,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// A question cannot be used.
+    #[error("{file}, line {line}: {error}")]
+    Question {
+        /// Path of the file.
+        file: String,
+        /// Line of the question.
+        line: usize,
+        /// What is wrong with it.
+        error: QuestionError,
+    },
+}
+
+impl LessonError {
+    /// Stable short name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Missing { .. } => "lesson-file-missing",
+            Self::Unreadable { .. } => "lesson-file-unreadable",
+            Self::Question { .. } => "lesson-question",
+        }
+    }
+}
+
+/// A lesson with everything that belongs to it, answers included. Only its views may leave the server.
+#[derive(Debug, Clone)]
+pub struct Lesson {
+    /// Stable name for addresses: the folder's name without its number.
+    pub slug: String,
+    /// Place in the course, from 1.
+    pub number: u32,
+    /// Name of the folder.
+    pub folder: String,
+    /// Title, summary, objectives and steps.
+    pub about: LessonFile,
+    /// The text, rendered.
+    pub text: Rendered,
+    /// The scenario as JSON.
+    pub scene: serde_json::Value,
+    /// The questions with their answers.
+    pub exercise: Exercise,
+    /// Wrong submissions that must be recognised, by file name.
+    pub wrong: BTreeMap<String, WrongFile>,
+    /// Fingerprint of every file of the lesson.
+    pub hash: String,
+    pub(crate) files: Files,
+    pub(crate) figures: BTreeMap<String, String>,
+}
+
+impl Lesson {
+    /// Reads a lesson from its files; `folder` is `NN-slug`.
+    pub fn from_files(folder: &str, files: Files) -> Result<Self, LessonError> {
+        let path = |file: &str| format!("{folder}/{file}");
+        let split = folder.split_once('-').and_then(|(n, slug)| Some((n.parse::<u32>().ok()?, slug)));
+        let Some((number, slug)) = split else {
+            let problem = "a lesson's folder is named NN-slug, for example 02-simple-pendulum".to_owned();
+            return Err(LessonError::Unreadable { file: folder.to_owned(), line: 1, problem });
+        };
+        let reader = Reader { folder, files: &files };
+        let about: LessonFile =
+            reader.toml("lesson.toml", "it holds title, summary, minutes and objectives")?;
+        let mut figures = BTreeMap::new();
+        for name in named(&files, "figures/", "svg") {
+            figures.insert(name.clone(), reader.text(name, "")?.to_owned());
+        }
+        let text = markdown::render(reader.text("lesson.md", "it holds the text of the lesson")?, &figures);
+        let scene_text = reader.text("scene.json", "it holds the scenario; start from a built-in one")?;
+        let scene = serde_json::from_str(scene_text).map_err(|e| LessonError::Unreadable {
+            file: path("scene.json"),
+            line: e.line(),
+            problem: e.to_string(),
+        })?;
+        let questions: ExerciseFile = reader.toml("exercise.toml", "it holds the questions")?;
+        let references: BTreeMap<String, ReferenceFile> =
+            reader.toml("reference/answers.toml", "it holds the right answers and their sources")?;
+        let exercise = exercise::build(questions, references).map_err(|error| {
+            let content = reader.text("exercise.toml", "").unwrap_or_default();
+            let line = line_of(content, &error.question);
+            LessonError::Question { file: path("exercise.toml"), line, error }
+        })?;
+        let mut wrong = BTreeMap::new();
+        for name in named(&files, "wrong/", "toml") {
+            wrong.insert(name.clone(), reader.toml(name, "")?);
+        }
+        let (slug, hash) = (slug.to_owned(), fingerprint(&files));
+        let folder = folder.to_owned();
+        Ok(Self { slug, number, folder, about, text, scene, exercise, wrong, hash, files, figures })
+    }
+
+    /// A question by its id.
+    pub fn question(&self, id: &str) -> Option<&Question> {
+        self.exercise.questions.iter().find(|q| q.id == id)
+    }
+
+    /// Hint number `k` (from 1) of a question, as HTML.
+    pub fn hint_html(&self, question: &str, k: usize) -> Option<String> {
+        Some(markdown::render_short(self.question(question)?.hints.get(k.checked_sub(1)?)?))
+    }
+
+    /// The entry for the list of lessons.
+    pub fn summary(&self) -> LessonSummary {
+        LessonSummary {
+            slug: self.slug.clone(),
+            number: self.number,
+            title: self.about.title.clone(),
+            summary: self.about.summary.clone(),
+            minutes: self.about.minutes,
+            objectives: self.about.objectives.clone(),
+        }
+    }
+
+    /// What a student may see: the text, the scenario and the questions, but no answer.
+    pub fn public_view(&self) -> LessonView {
+        LessonView {
+            summary: self.summary(),
+            prerequisites: self.about.prerequisites.clone(),
+            html: self.text.html.clone(),
+            scene: self.scene.clone(),
+            steps: self.about.steps.iter().map(StepView::new).collect(),
+            exercise: ExerciseView {
+                pass_mark: self.exercise.pass_mark,
+                questions: self.exercise.questions.iter().map(QuestionView::new).collect(),
+            },
+        }
+    }
+}
+
+/// A lesson in the list of lessons.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct LessonSummary {
+    /// Stable name for addresses.
+    pub slug: String,
+    /// Place in the course, from 1.
+    pub number: u32,
+    /// Title.
+    pub title: String,
+    /// One sentence.
+    pub summary: String,
+    /// Time a student needs.
+    pub minutes: u32,
+    /// What the student can do afterwards.
+    pub objectives: Vec<String>,
+}
+
+/// A lesson as a student sees it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct LessonView {
+    /// Title, summary and so on.
+    #[serde(flatten)]
+    pub summary: LessonSummary,
+    /// Slugs of the lessons that come before.
+    pub prerequisites: Vec<String>,
+    /// The text as safe HTML.
+    pub html: String,
+    /// The scenario.
+    pub scene: serde_json::Value,
+    /// Predict, run, check, explain; may be empty.
+    pub steps: Vec<StepView>,
+    /// The questions.
+    pub exercise: ExerciseView,
+}
+
+/// A step as a student sees it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct StepView {
+    /// What to do here.
+    pub kind: StepKind,
+    /// The step as safe HTML.
+    pub html: String,
+}
+
+/// The questions as a student sees them.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ExerciseView {
+    /// Share of the points that passes.
+    pub pass_mark: f64,
+    /// The questions in order.
+    pub questions: Vec<QuestionView>,
+}
+
+/// A question as a student sees it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct QuestionView {
+    /// Id under which the answer is sent.
+    pub id: String,
+    /// Kind.
+    pub kind: QuestionKind,
+    /// What is asked, as safe HTML.
+    pub prompt_html: String,
+    /// Unit that is assumed unless another is given; absent for choices and where the unit is asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
+    /// True if the student has to give the unit.
+    pub asks_unit: bool,
+    /// Rows and columns to fill in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<[usize; 2]>,
+    /// Symbols that a formula may use.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub symbols: Vec<String>,
+    /// What counts as right, in words.
+    pub rule: String,
+    /// Points.
+    pub points: f64,
+    /// Options of a choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub options: Option<Vec<OptionView>>,
+    /// How many hints there are.
+    pub hints_available: usize,
+}
+
+/// An option as a student sees it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct OptionView {
+    /// Id to send.
+    pub id: String,
+    /// The option as safe HTML.
+    pub html: String,
+}
+
+impl StepView {
+    fn new(step: &StepFile) -> Self {
+        Self { kind: step.kind, html: markdown::render_short(&step.text) }
+    }
+}
+
+impl QuestionView {
+    fn new(question: &Question) -> Self {
+        let (mut unit, mut asks_unit, mut size, mut symbols, mut options) =
+            (None, false, None, Vec::new(), None);
+        let rule = match &question.body {
+            Body::Quantity(q) => {
+                asks_unit = q.asks_unit;
+                unit = (!asks_unit).then(|| q.unit.text().to_owned());
+                size = (q.shape != Shape::Number).then_some(q.size);
+                let shown = if asks_unit { "" } else { q.unit.text() };
+                q.rule.sentence(q.shape, shown, q.frame.as_deref())
+            }
+            Body::Choice { options: all, .. } => {
+                let view = |o: &exercise::Choice| OptionView {
+                    id: o.id.clone(),
+                    html: markdown::render_short(&o.text),
+                };
+                options = Some(all.iter().map(view).collect());
+                "Choose one option.".to_owned()
+            }
+            Body::Formula(f) => {
+                symbols.clone_from(&f.symbols);
+                format!(
+                    "Any form of the right formula counts; it is compared with ours at many points. Symbols: {}.",
+                    f.symbols.join(", ")
+                )
+            }
+        };
+        Self {
+            id: question.id.clone(),
+            kind: question.kind,
+            prompt_html: markdown::render_short(&question.prompt),
+            unit,
+            asks_unit,
+            size,
+            symbols,
+            rule,
+            points: question.points,
+            options,
+            hints_available: question.hints.len(),
+        }
+    }
+}
+
+/// Names of the files in one subfolder with this extension.
+fn named<'a>(files: &'a Files, folder: &'a str, extension: &'a str) -> impl Iterator<Item = &'a String> {
+    files.keys().filter(move |name| {
+        name.starts_with(folder) && Path::new(name).extension().is_some_and(|e| e == extension)
+    })
+}
+
+/// Reads the files of one folder and names the place of every error.
+struct Reader<'a> {
+    folder: &'a str,
+    files: &'a Files,
+}
+
+impl<'a> Reader<'a> {
+    fn text(&self, name: &str, remedy: &'static str) -> Result<&'a str, LessonError> {
+        let file = format!("{}/{name}", self.folder);
+        let bytes =
+            self.files.get(name).ok_or_else(|| LessonError::Missing { file: file.clone(), remedy })?;
+        std::str::from_utf8(bytes).map_err(|error| {
+            let line = String::from_utf8_lossy(&bytes[..error.valid_up_to()]).matches('\n').count() + 1;
+            LessonError::Unreadable {
+                file,
+                line,
+                problem: "it is not UTF-8 text; save it as UTF-8".to_owned(),
+            }
+        })
+    }
+
+    fn toml<T: DeserializeOwned>(&self, name: &str, remedy: &'static str) -> Result<T, LessonError> {
+        let text = self.text(name, remedy)?;
+        toml::from_str(text).map_err(|error| LessonError::Unreadable {
+            file: format!("{}/{name}", self.folder),
+            line: error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1),
+            problem: error.message().to_owned(),
+        })
+    }
+}
+
+/// Line of the question with this id.
+pub(crate) fn line_of(exercise_toml: &str, id: &str) -> usize {
+    let wanted = format!("\"{id}\"");
+    exercise_toml
+        .lines()
+        .position(|l| l.trim_start().starts_with("id") && l.contains(&wanted))
+        .map_or(1, |index| index + 1)
+}
+
+/// 64-bit FNV-1a over all names and contents. It tells versions apart; it is no protection against forgery.
+fn fingerprint(files: &Files) -> String {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut feed = |bytes: &[u8]| {
+        for byte in bytes.iter().chain(&[0]) {
+            hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    for (name, content) in files {
+        feed(name.as_bytes());
+        feed(content);
+    }
+    format!("{hash:016x}")
+}

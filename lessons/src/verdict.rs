@@ -1,0 +1,67 @@
+//! What grading says: one verdict for a submission, one for each of its questions.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The outcome of grading a submission. The same submission always gives the same verdict.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Verdict {
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// The student, if the submission names one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub student: Option<String>,
+    /// Points earned.
+    pub earned: f64,
+    /// Points that can be earned.
+    pub possible: f64,
+    /// Whether the lesson counts as passed: enough points, and nothing left that could not be read.
+    pub passed: bool,
+    /// False if an answer could not be read or needs more digits: fix it and send again, no attempt is used.
+    pub gradable: bool,
+    /// The questions in the lesson's order.
+    pub questions: Vec<QuestionVerdict>,
+    /// What graded it.
+    pub provenance: Provenance,
+}
+
+/// The outcome for one question.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct QuestionVerdict {
+    /// The question's id.
+    pub id: String,
+    /// Points earned.
+    pub earned: f64,
+    /// Points that can be earned.
+    pub possible: f64,
+    /// Right, wrong, blank or invalid.
+    pub verdict: Mark,
+    /// Feedback for the student, as safe HTML.
+    pub message_html: String,
+    /// Name of the slip that was recognised; for statistics and for the checks of authors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slip: Option<String>,
+}
+
+/// How one answer was judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Mark {
+    /// Full points.
+    Right,
+    /// Not right; the message says what it can.
+    Wrong,
+    /// Nothing was filled in.
+    Blank,
+    /// Could not be judged (unreadable, wrong form, too few digits); no attempt is used.
+    Invalid,
+}
+
+/// What graded a submission, so that a grade can be traced and repeated.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Provenance {
+    /// Version of the engine and of the grader.
+    pub engine: String,
+    /// Fingerprint of every file of the lesson (64-bit FNV-1a, hexadecimal).
+    pub lesson_hash: String,
+}
