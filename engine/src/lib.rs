@@ -1,1 +1,54 @@
-//! The engine.
+//! Rigid mechanisms in fully Cartesian coordinates with a generic rigid body: the formulation and its analyses.
+//!
+//! Pure computation: no clocks, files, threads or logging; the same scene gives the same bits. The modules stand in
+//! reading order, from what an author writes to what a run tells. Equation numbers refer to `THEORY.md`.
+//!
+//! ```
+//! use triad_engine::{catalogue, simulation::Simulation};
+//!
+//! let scene = catalogue::scene("simple-pendulum")?;
+//! let mut pendulum = Simulation::new(&scene)?;
+//! pendulum.advance_to(1.0)?;
+//! assert!(pendulum.summary().energy_drift.abs() < 1e-7);
+//! # Ok::<(), triad_engine::EngineError>(())
+//! ```
+
+pub mod scene;
+
+pub mod model;
+
+pub mod lift;
+
+pub mod row;
+
+pub mod joint;
+
+pub mod system;
+
+pub mod sparse;
+
+pub mod elimination;
+
+pub mod equations;
+
+pub mod rank;
+
+pub mod reaction;
+
+pub mod integrate;
+
+pub mod mechanism;
+
+pub mod simulation;
+
+pub mod check;
+
+pub mod catalogue;
+
+mod error;
+
+pub use error::EngineError;
+pub use scene::Scene;
+
+/// Version of the engine, recorded with every grade.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,0 +1,135 @@
+//! Built-in scenes by name.
+
+mod four_bar;
+
+use crate::model::nearest_name;
+use crate::scene::Scene;
+
+/// A built-in scene, or a family of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Name, with `:N` where a number belongs.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub summary: &'static str,
+}
+
+/// All built-in scenes.
+pub const ENTRIES: &[Entry] = &[
+    Entry {
+        name: "simple-pendulum",
+        summary: "A point mass of 1 kg on a rod of 1 m, released horizontally (A01)",
+    },
+    Entry {
+        name: "n-four-bar:N",
+        summary: "N four-bar windows in a row, through their singular positions (A02); N from 1 to 1000",
+    },
+    Entry {
+        name: "spatial-double-pendulum",
+        summary: "Two cylinders on spherical joints in non-planar motion (C04)",
+    },
+    Entry { name: "free-body", summary: "A torque-free body with three different moments of inertia (C01)" },
+    Entry { name: "free-body-flip", summary: "The same body turning about its middle axis: it flips (C01)" },
+];
+
+/// Scenes that are plain data.
+const FIXED: &[(&str, &str)] = &[
+    ("simple-pendulum", include_str!("catalogue/simple-pendulum.json")),
+    ("spatial-double-pendulum", include_str!("catalogue/spatial-double-pendulum.json")),
+    ("free-body", include_str!("catalogue/free-body.json")),
+    ("free-body-flip", include_str!("catalogue/free-body-flip.json")),
+];
+
+/// Why there is no such built-in scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CatalogueError {
+    /// No scene of that name.
+    #[error("there is no built-in scene \"{name}\"")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// One that is nearly the same.
+        nearest: Option<String>,
+    },
+    /// A family that needs a number, or a number out of its range.
+    #[error("\"{family}\" needs a whole number from {low} to {high} after a colon, not \"{number}\"")]
+    Number {
+        /// The family.
+        family: &'static str,
+        /// What was written.
+        number: String,
+        /// Least number.
+        low: usize,
+        /// Greatest number.
+        high: usize,
+    },
+}
+
+impl CatalogueError {
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unknown { .. } => "unknown-scene",
+            Self::Number { .. } => "scene-number",
+        }
+    }
+
+    /// What to try.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Unknown { nearest: Some(nearest), .. } => format!("Did you mean \"{nearest}\"?"),
+            Self::Unknown { nearest: None, .. } => {
+                let names: Vec<&str> = ENTRIES.iter().map(|e| e.name).collect();
+                format!("Built-in scenes: {}.", names.join(", "))
+            }
+            Self::Number { family, .. } => format!("For example \"{family}:2\"."),
+        }
+    }
+}
+
+/// The built-in scene of a name such as `simple-pendulum` or `n-four-bar:40`.
+pub fn scene(name: &str) -> Result<Scene, CatalogueError> {
+    if let Some((_, text)) = FIXED.iter().find(|(fixed, _)| *fixed == name) {
+        // The texts are checked by a test; a broken one must still not panic.
+        return Scene::from_json(text)
+            .map_err(|_| CatalogueError::Unknown { name: name.to_owned(), nearest: None });
+    }
+    let (family, number) = name.split_once(':').unwrap_or((name, ""));
+    if family == "n-four-bar" {
+        return ranged("n-four-bar", number, 1, 1000).map(four_bar::scene);
+    }
+    let names = ENTRIES.iter().map(|e| e.name);
+    Err(CatalogueError::Unknown { name: name.to_owned(), nearest: nearest_name(name, names) })
+}
+
+fn ranged(family: &'static str, number: &str, low: usize, high: usize) -> Result<usize, CatalogueError> {
+    number.parse().ok().filter(|n| (low..=high).contains(n)).ok_or_else(|| CatalogueError::Number {
+        family,
+        number: number.to_owned(),
+        low,
+        high,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Simulation;
+
+    #[test]
+    fn every_scene_of_the_list_starts() {
+        for entry in ENTRIES {
+            let name = entry.name.replace(":N", ":3");
+            let scene = scene(&name).unwrap();
+            assert_eq!(scene.name, name.replace(':', "-"));
+            Simulation::new(&scene).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_misspelt_name_is_answered_with_the_nearest() {
+        let error = scene("simple-pendulm").unwrap_err();
+        assert_eq!(error.hint(), "Did you mean \"simple-pendulum\"?");
+        assert_eq!(scene("n-four-bar:0").unwrap_err().code(), "scene-number");
+    }
+}

@@ -1,0 +1,110 @@
+//! What can go wrong between a text and a finished run.
+
+use crate::catalogue::CatalogueError;
+use crate::model::ModelError;
+use crate::scene::SceneError;
+
+/// Any failure of the engine: what, where, and what to try.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EngineError {
+    /// The text is not a scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// There is no built-in scene of that name.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
+    /// The scene cannot be.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// No position near the given one satisfies the joints.
+    #[error(
+        "the mechanism cannot be assembled near its start: joint \"{joint}\" stays open by {violation:.3e} (moved by \
+         {moved:.3e} m)"
+    )]
+    Assembly {
+        /// The joint whose rows are violated most.
+        joint: String,
+        /// Its index.
+        index: usize,
+        /// Largest violation of its rows.
+        violation: f64,
+        /// How far the bodies were moved in the attempt, m.
+        moved: f64,
+    },
+    /// The step control found no step that meets the tolerance.
+    #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance")]
+    StepTooSmall {
+        /// Time, s.
+        time: f64,
+        /// The step that was refused, s.
+        step: f64,
+    },
+    /// The accelerations are no longer finite.
+    #[error("the run diverges at t = {time:.6} s: accelerations are no longer finite numbers")]
+    Diverged {
+        /// Time, s.
+        time: f64,
+    },
+    /// A time outside the run was asked for.
+    #[error("t = {time} s is outside the run, which goes from {from} s to {to} s")]
+    TimeOutside {
+        /// The time asked for, s.
+        time: f64,
+        /// First time that can be reached, s.
+        from: f64,
+        /// Last time, s.
+        to: f64,
+    },
+}
+
+impl EngineError {
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Scene(SceneError::TooLong { .. }) => "scene-too-long",
+            Self::Scene(SceneError::Syntax { .. }) => "scene-syntax",
+            Self::Scene(SceneError::TooMany { .. }) => "scene-too-large",
+            Self::Catalogue(error) => error.code(),
+            Self::Model(error) => error.code(),
+            Self::Assembly { .. } => "assembly-failed",
+            Self::StepTooSmall { .. } => "step-too-small",
+            Self::Diverged { .. } => "diverged",
+            Self::TimeOutside { .. } => "time-outside-run",
+        }
+    }
+
+    /// Where in the scene, as a JSON pointer, if it is at one place.
+    pub fn pointer(&self) -> Option<String> {
+        match self {
+            Self::Scene(SceneError::Syntax { pointer, .. }) => Some(pointer.clone()),
+            Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
+            Self::Model(error) => Some(error.pointer()),
+            Self::Assembly { index, .. } => Some(format!("/joints/{index}")),
+            _ => None,
+        }
+    }
+
+    /// What to try.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Scene(SceneError::TooLong { .. } | SceneError::TooMany { .. }) => {
+                "Split the mechanism, or leave out what does not move.".to_owned()
+            }
+            Self::Scene(SceneError::Syntax { .. }) => {
+                "Compare the place with the JSON Schema of a scene (`triad schema`).".to_owned()
+            }
+            Self::Catalogue(error) => error.hint(),
+            Self::Model(error) => error.hint(),
+            Self::Assembly { .. } => {
+                "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
+                    .to_owned()
+            }
+            Self::StepTooSmall { .. } | Self::Diverged { .. } => {
+                "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
+                 joint that locks or a body that is far too light."
+                    .to_owned()
+            }
+            Self::TimeOutside { .. } => "Ask for a time within the run, or reset it first.".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! A system with its changing state: what integrators move, and where consistency is made and kept.
+
+use crate::elimination::Elimination;
+use crate::error::EngineError;
+use crate::integrate::Plant;
+use crate::scene::Stabilization;
+use crate::system::System;
+
+/// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
+const NEGLIGIBLE: f64 = 0.1;
+/// |Φ| and |Φ̇| relative to the size of the mechanism below which a state is consistent.
+const CONSISTENT: f64 = 1e-13;
+/// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
+const FARTHEST: f64 = 0.35;
+
+/// A system and the state it is evaluated at.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    /// What never changes.
+    pub system: System,
+    /// What changes.
+    pub elimination: Elimination,
+    /// Projections of steps so far.
+    pub projections: u64,
+}
+
+impl Mechanism {
+    /// Allocates for a system.
+    pub fn new(system: System) -> Self {
+        Self { elimination: Elimination::new(&system), system, projections: 0 }
+    }
+
+    /// Takes over y = (q, q̇) without evaluating anything else.
+    pub fn set_state(&mut self, y: &[f64]) {
+        let (q, q_dot) = y.split_at(self.system.coordinates);
+        self.elimination.place(&self.system, q);
+        self.elimination.set_velocity(&self.system, q_dot);
+    }
+
+    /// Moves a start onto the constraints. Returns what was corrected, in words.
+    pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, EngineError> {
+        let n = self.system.coordinates;
+        let length = self.system.length;
+        let mut notes = Vec::new();
+        let given = y.to_vec();
+        self.set_state(y);
+        let was_redundant = self.elimination.is_redundant();
+        self.elimination.set_redundant(true);
+        let (opening, _) = self.elimination.violation(&self.system);
+        for _ in 0..40 {
+            self.elimination.linearize(&self.system);
+            let step = self.elimination.correct_positions(&self.system, &mut y[..n]);
+            self.elimination.place(&self.system, &y[..n]);
+            if step.is_nan() || step <= CONSISTENT * length {
+                break;
+            }
+        }
+        let (left, _) = self.elimination.violation(&self.system);
+        let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+        // A comparison that is false for NaN as well.
+        let solved = y.iter().all(|x| x.is_finite())
+            && left <= 1e-9 * length.max(1.0)
+            && moved <= FARTHEST * length.max(1.0);
+        if !solved {
+            return Err(self.assembly_error(&given, moved));
+        }
+        if opening > 1e-9 * length {
+            notes.push(format!(
+                "positions violated the constraints by {opening:.3e}; bodies were moved by up to {moved:.3e} onto them"
+            ));
+        }
+        self.elimination.set_velocity(&self.system, &y[n..]);
+        let (_, rate) = self.elimination.violation(&self.system);
+        self.elimination.linearize(&self.system);
+        for _ in 0..3 {
+            self.elimination.correct_velocities(&self.system, &mut y[n..]);
+            self.elimination.set_velocity(&self.system, &y[n..]);
+        }
+        let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+        if rate > 1e-9 * length {
+            notes.push(format!(
+                "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
+            ));
+        }
+        self.elimination.set_redundant(was_redundant);
+        Ok(notes)
+    }
+
+    fn assembly_error(&mut self, given: &[f64], moved: f64) -> EngineError {
+        // The joint that is open at the given start says more than the one left open by the failed attempt.
+        self.set_state(given);
+        let (index, violation) = self.elimination.worst_group(&self.system);
+        let joint = self.system.groups.get(index).map_or_else(String::new, |g| g.name.clone());
+        EngineError::Assembly { joint, index, violation, moved }
+    }
+
+    fn baumgarte(&self) -> (f64, f64) {
+        match self.system.model.settings.stabilization {
+            Stabilization::Projection => (0.0, 0.0),
+            Stabilization::Baumgarte { alpha, beta } => (alpha, beta),
+        }
+    }
+}
+
+impl Plant for Mechanism {
+    fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) {
+        let n = self.system.coordinates;
+        let (q, q_dot) = y.split_at(n);
+        rate[..n].copy_from_slice(q_dot);
+        let baumgarte = self.baumgarte();
+        self.elimination.accelerate(&self.system, q, q_dot, baumgarte, &mut rate[n..]);
+    }
+
+    fn settle(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
+        if self.system.model.settings.stabilization != Stabilization::Projection {
+            return;
+        }
+        self.projections += 1;
+        let n = self.system.coordinates;
+        let length = self.system.length;
+        let (mut moved, mut least) = (0.0, f64::INFINITY);
+        for _ in 0..3 {
+            let step = self.elimination.correct_positions(&self.system, &mut y[..n]);
+            self.elimination.place(&self.system, &y[..n]);
+            moved += step;
+            // Stop when consistent, or when rounding keeps the correction from shrinking.
+            if step <= CONSISTENT * length || step > 0.5 * least {
+                break;
+            }
+            least = step;
+        }
+        self.elimination.set_velocity(&self.system, &y[n..]);
+        for _ in 0..2 {
+            let step = self.elimination.correct_velocities(&self.system, &mut y[n..]);
+            self.elimination.set_velocity(&self.system, &y[n..]);
+            moved += step;
+            if step <= CONSISTENT * length {
+                break;
+            }
+        }
+        let tolerance = self.system.model.settings.tolerance;
+        if moved > NEGLIGIBLE * tolerance {
+            self.rate(t, y, rate);
+        } else {
+            rate[..n].copy_from_slice(&y[n..]);
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! A body with its centre of mass, principal axes and start.
+
+use super::{ModelError, finite};
+use crate::scene::{Body, Coordinates, Inertia, Orientation, Triple};
+use nalgebra::{Matrix3, Quaternion, SymmetricEigen, Unit, UnitQuaternion, Vector3};
+
+/// How far from orthonormal directors may be, to be corrected instead of refused.
+const DIRECTOR_SLACK: f64 = 0.3;
+/// Relative slack of the triangle inequality and of symmetry: rounding of printed data.
+const PRINTED: f64 = 1e-6;
+
+/// A checked body, its start written with the centre of mass and the principal axes.
+#[derive(Clone, Debug)]
+pub struct ModelBody {
+    /// Name.
+    pub name: String,
+    /// Mass m, kg.
+    pub mass: f64,
+    /// Principal moments of inertia about u, v, w, kg m².
+    pub principal: Vector3<f64>,
+    /// Which coordinates describe it.
+    pub coordinates: Coordinates,
+    /// Centre of mass in the author's frame, m.
+    pub center_of_mass: Vector3<f64>,
+    /// Principal axes in the author's frame, as columns.
+    pub principal_axes: Matrix3<f64>,
+    /// Start: centre of mass r in the world, m.
+    pub position: Vector3<f64>,
+    /// Start: directors u, v, w in the world, as columns.
+    pub directors: Matrix3<f64>,
+    /// Start: velocity of the centre of mass, m/s.
+    pub velocity: Vector3<f64>,
+    /// Start: angular velocity in the world frame, rad/s.
+    pub angular_velocity: Vector3<f64>,
+}
+
+impl ModelBody {
+    /// Checks body `index` of a scene.
+    pub(super) fn new(
+        body: &Body,
+        index: usize,
+        coordinates: Coordinates,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, ModelError> {
+        let at = |key: &str| format!("/bodies/{index}/{key}");
+        let vectors = [
+            ("center_of_mass", body.center_of_mass),
+            ("position", body.position),
+            ("velocity", body.velocity),
+            ("angular_velocity", body.angular_velocity),
+        ];
+        for (key, vector) in vectors {
+            finite(&vector, &at(key))?;
+        }
+        finite(&[body.mass], &at("mass"))?;
+        if body.mass <= 0.0 {
+            return Err(ModelError::Mass { body: body.name.clone(), pointer: at("mass"), mass: body.mass });
+        }
+        let (principal, principal_axes) = principal_inertia(body, &at("inertia"), notes)?;
+        let frame = orientation(body, &at("orientation"), notes)?;
+        let center_of_mass = Vector3::from(body.center_of_mass);
+        let angular_velocity = Vector3::from(body.angular_velocity);
+        let arm = frame * center_of_mass;
+        Ok(Self {
+            name: body.name.clone(),
+            mass: body.mass,
+            principal,
+            coordinates: body.coordinates.unwrap_or(coordinates),
+            center_of_mass,
+            principal_axes,
+            position: Vector3::from(body.position) + arm,
+            directors: frame * principal_axes,
+            velocity: Vector3::from(body.velocity) + angular_velocity.cross(&arm),
+            angular_velocity,
+        })
+    }
+
+    /// Coordinates (ξ, η, ζ) in the principal frame of a point of the author's frame.
+    pub fn point_to_principal(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.principal_axes.tr_mul(&(point - self.center_of_mass))
+    }
+
+    /// Components in the principal frame of a vector of the author's frame.
+    pub fn vector_to_principal(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.principal_axes.tr_mul(vector)
+    }
+}
+
+/// Principal moments and axes (columns, right-handed) of a body's inertia.
+fn principal_inertia(
+    body: &Body,
+    pointer: &str,
+    notes: &mut Vec<String>,
+) -> Result<(Vector3<f64>, Matrix3<f64>), ModelError> {
+    let (moments, axes) = match &body.inertia {
+        None => (Vector3::zeros(), Matrix3::identity()),
+        Some(Inertia::Principal(moments)) => {
+            finite(moments, &format!("{pointer}/principal"))?;
+            (Vector3::from(*moments), Matrix3::identity())
+        }
+        Some(Inertia::Tensor(rows)) => {
+            let (moments, axes) = diagonalize(body, rows, &format!("{pointer}/tensor"))?;
+            if axes != Matrix3::identity() {
+                notes.push(format!(
+                    "body \"{}\": principal moments {:.6e}, {:.6e}, {:.6e} kg m² found along {}",
+                    body.name,
+                    moments[0],
+                    moments[1],
+                    moments[2],
+                    axes.column_iter()
+                        .map(|a| format!("({:.6}, {:.6}, {:.6})", a[0], a[1], a[2]))
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                ));
+            }
+            (moments, axes)
+        }
+    };
+    let slack = PRINTED * moments.amax();
+    let total = moments.sum();
+    if moments.iter().any(|&i| i < 0.0 || 2.0 * i > total + slack) {
+        return Err(ModelError::Inertia {
+            body: body.name.clone(),
+            pointer: pointer.to_owned(),
+            a: moments[0],
+            b: moments[1],
+            c: moments[2],
+        });
+    }
+    Ok((moments, axes))
+}
+
+fn diagonalize(
+    body: &Body,
+    rows: &[Triple; 3],
+    pointer: &str,
+) -> Result<(Vector3<f64>, Matrix3<f64>), ModelError> {
+    for (i, row) in rows.iter().enumerate() {
+        finite(row, &format!("{pointer}/{i}"))?;
+    }
+    let tensor = Matrix3::from_fn(|i, j| rows[i][j]);
+    let largest = tensor.amax();
+    for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+        let difference = (tensor[(row, column)] - tensor[(column, row)]).abs();
+        if difference > PRINTED * largest {
+            let (body, pointer) = (body.name.clone(), pointer.to_owned());
+            return Err(ModelError::Asymmetric { body, pointer, row, column, difference });
+        }
+    }
+    if [(0, 1), (0, 2), (1, 2)].iter().all(|&(i, j)| tensor[(i, j)] == 0.0 && tensor[(j, i)] == 0.0) {
+        return Ok((tensor.diagonal(), Matrix3::identity()));
+    }
+    let eigen = SymmetricEigen::new((tensor + tensor.transpose()) * 0.5);
+    // Keep each principal axis next to the author's axis that it is nearest to, so that the frame reads well.
+    let mut order = [0, 1, 2];
+    let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let score = |p: &[usize; 3]| (0..3).map(|k| eigen.eigenvectors[(k, p[k])].abs()).sum::<f64>();
+    for candidate in permutations {
+        if score(&candidate) > score(&order) {
+            order = candidate;
+        }
+    }
+    let mut axes = Matrix3::zeros();
+    for k in 0..3 {
+        let axis = eigen.eigenvectors.column(order[k]);
+        let sign = if axis[k] < 0.0 { -1.0 } else { 1.0 };
+        axes.set_column(k, &(axis * sign));
+    }
+    if axes.determinant() < 0.0 {
+        let third = -axes.column(2);
+        axes.set_column(2, &third);
+    }
+    Ok((Vector3::from_fn(|k, _| eigen.eigenvalues[order[k]]), axes))
+}
+
+fn orientation(body: &Body, pointer: &str, notes: &mut Vec<String>) -> Result<Matrix3<f64>, ModelError> {
+    let fail = |reason: String| ModelError::Orientation {
+        body: body.name.clone(),
+        pointer: pointer.to_owned(),
+        reason,
+    };
+    let Some(written) = &body.orientation else { return Ok(Matrix3::identity()) };
+    let numbers = [written.u, written.v, written.w, written.axis]
+        .into_iter()
+        .flatten()
+        .flatten()
+        .chain(written.quaternion.into_iter().flatten())
+        .chain(written.angle);
+    finite(&numbers.collect::<Vec<_>>(), pointer)?;
+    match *written {
+        Orientation { u: Some(u), v: Some(v), w, quaternion: None, axis: None, angle: None } => {
+            from_directors(&Vector3::from(u), &Vector3::from(v), w.map(Vector3::from), |reason| {
+                notes.push(format!("body \"{}\": {reason}", body.name));
+            })
+            .map_err(fail)
+        }
+        Orientation { u: None, v: None, w: None, quaternion: Some(q), axis: None, angle: None } => {
+            let quaternion = Quaternion::new(q[0], q[1], q[2], q[3]);
+            let norm = quaternion.norm();
+            if (norm - 1.0).abs() > DIRECTOR_SLACK {
+                return Err(fail(format!("the quaternion has the norm {norm}, not 1")));
+            }
+            if (norm - 1.0).abs() > PRINTED {
+                notes
+                    .push(format!("body \"{}\": the quaternion of norm {norm:.6} was normalized", body.name));
+            }
+            Ok(UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix().into_inner())
+        }
+        Orientation { u: None, v: None, w: None, quaternion: None, axis: Some(axis), angle: Some(angle) } => {
+            let axis = Unit::try_new(Vector3::from(axis), 1e-12)
+                .ok_or_else(|| fail("the axis of the rotation has no length".to_owned()))?;
+            Ok(UnitQuaternion::from_axis_angle(&axis, angle).to_rotation_matrix().into_inner())
+        }
+        _ => Err(fail("the orientation is given in none of the three ways, or in more than one".to_owned())),
+    }
+}
+
+/// Directors as columns, corrected onto orthonormal ones if they are near them.
+fn from_directors(
+    u: &Vector3<f64>,
+    v: &Vector3<f64>,
+    w: Option<Vector3<f64>>,
+    mut note: impl FnMut(String),
+) -> Result<Matrix3<f64>, String> {
+    let error = (u.norm() - 1.0).abs().max((v.norm() - 1.0).abs()).max(u.dot(v).abs());
+    if error > DIRECTOR_SLACK {
+        return Err(format!(
+            "u and v are not perpendicular unit vectors: |u| = {:.6}, |v| = {:.6}, u·v = {:.6}",
+            u.norm(),
+            v.norm(),
+            u.dot(v)
+        ));
+    }
+    // The symmetric correction (each director moves equally), one Newton step at a time.
+    let (mut a, mut b) = (u.normalize(), v.normalize());
+    for _ in 0..8 {
+        let half = 0.5 * a.dot(&b);
+        (a, b) = ((a - b * half).normalize(), (b - a * half).normalize());
+    }
+    let c = a.cross(&b);
+    if let Some(w) = w {
+        if w.dot(&c) < 0.0 {
+            return Err("u, v, w are left-handed: w must be u × v, not its opposite".to_owned());
+        }
+        if (w - c).norm() > DIRECTOR_SLACK {
+            return Err("w is not u × v".to_owned());
+        }
+    }
+    if error > PRINTED {
+        note(format!("directors off by {error:.3e} were made orthonormal"));
+    }
+    Ok(Matrix3::from_columns(&[a, b, c]))
+}

@@ -1,0 +1,214 @@
+//! What can be wrong with a scene that reads well.
+
+/// A scene that cannot be: what, where, and what to try.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// There is nothing to move.
+    #[error("the scene has no bodies")]
+    NoBodies,
+    /// Two elements of one list share a name.
+    #[error("{list}[{index}]: the name \"{name}\" is already used by {list}[{first}]")]
+    DuplicateName {
+        /// Which list.
+        list: &'static str,
+        /// The second element of that name.
+        index: usize,
+        /// The first element of that name.
+        first: usize,
+        /// The name.
+        name: String,
+    },
+    /// An empty name, or that of the ground.
+    #[error("{list}[{index}]: \"{name}\" cannot be the name of an element")]
+    ReservedName {
+        /// Which list.
+        list: &'static str,
+        /// Which element.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A joint names a body that is not there.
+    #[error("joint \"{joint}\": there is no body \"{name}\"")]
+    UnknownBody {
+        /// The joint.
+        joint: String,
+        /// Where the name stands.
+        pointer: String,
+        /// The name.
+        name: String,
+        /// The name of a body that is nearly the same, or nothing.
+        nearest: Option<String>,
+    },
+    /// A joint between a body and itself.
+    #[error("joint \"{joint}\": it joins \"{body}\" to itself")]
+    SameBody {
+        /// The joint.
+        joint: String,
+        /// Where.
+        pointer: String,
+        /// The body.
+        body: String,
+    },
+    /// A number that is infinite or not a number.
+    #[error("{pointer}: {value} is not a finite number")]
+    NotFinite {
+        /// Where.
+        pointer: String,
+        /// The number.
+        value: f64,
+    },
+    /// A number outside its range.
+    #[error("{pointer}: {value} is not between {low} and {high}")]
+    OutOfRange {
+        /// Where.
+        pointer: String,
+        /// The number.
+        value: f64,
+        /// Least value.
+        low: f64,
+        /// Greatest value.
+        high: f64,
+    },
+    /// A mass that is zero or negative.
+    #[error("body \"{body}\": its mass is {mass} kg, but a mass must be positive")]
+    Mass {
+        /// The body.
+        body: String,
+        /// Where.
+        pointer: String,
+        /// The mass, kg.
+        mass: f64,
+    },
+    /// Principal moments that no distribution of mass has.
+    #[error(
+        "body \"{body}\": its principal moments of inertia {a}, {b}, {c} kg m² break the triangle inequality \
+         (each must be at least zero and at most the sum of the other two)"
+    )]
+    Inertia {
+        /// The body.
+        body: String,
+        /// Where.
+        pointer: String,
+        /// First moment, kg m².
+        a: f64,
+        /// Second moment, kg m².
+        b: f64,
+        /// Third moment, kg m².
+        c: f64,
+    },
+    /// An inertia tensor that is not symmetric.
+    #[error(
+        "body \"{body}\": its inertia tensor is not symmetric (I[{row}][{column}] differs by {difference} kg m²)"
+    )]
+    Asymmetric {
+        /// The body.
+        body: String,
+        /// Where.
+        pointer: String,
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+        /// By how much the two entries differ.
+        difference: f64,
+    },
+    /// An orientation that is none.
+    #[error("body \"{body}\": {reason}")]
+    Orientation {
+        /// The body.
+        body: String,
+        /// Where.
+        pointer: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A joint without something that it needs, or with something that it does not know.
+    #[error("joint \"{joint}\": {reason}")]
+    Geometry {
+        /// The joint.
+        joint: String,
+        /// Where.
+        pointer: String,
+        /// What is missing or too much.
+        reason: String,
+    },
+}
+
+impl ModelError {
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoBodies => "no-bodies",
+            Self::DuplicateName { .. } => "duplicate-name",
+            Self::ReservedName { .. } => "reserved-name",
+            Self::UnknownBody { .. } => "unknown-body",
+            Self::SameBody { .. } => "joint-to-itself",
+            Self::NotFinite { .. } => "not-finite",
+            Self::OutOfRange { .. } => "out-of-range",
+            Self::Mass { .. } => "mass-not-positive",
+            Self::Inertia { .. } => "inertia-not-physical",
+            Self::Asymmetric { .. } => "inertia-not-symmetric",
+            Self::Orientation { .. } => "orientation-invalid",
+            Self::Geometry { .. } => "joint-geometry",
+        }
+    }
+
+    /// Where in the scene, as a JSON pointer.
+    pub fn pointer(&self) -> String {
+        match self {
+            Self::NoBodies => "/bodies".to_owned(),
+            Self::DuplicateName { list, index, .. } | Self::ReservedName { list, index, .. } => {
+                format!("/{list}/{index}/name")
+            }
+            Self::UnknownBody { pointer, .. }
+            | Self::SameBody { pointer, .. }
+            | Self::NotFinite { pointer, .. }
+            | Self::OutOfRange { pointer, .. }
+            | Self::Mass { pointer, .. }
+            | Self::Inertia { pointer, .. }
+            | Self::Asymmetric { pointer, .. }
+            | Self::Orientation { pointer, .. }
+            | Self::Geometry { pointer, .. } => pointer.clone(),
+        }
+    }
+
+    /// What to try.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::NoBodies => "Add at least one body with a name and a mass.".to_owned(),
+            Self::DuplicateName { .. } => "Give each element of a list its own name.".to_owned(),
+            Self::ReservedName { .. } => {
+                "Choose a name that is not empty and not \"ground\", which is the fixed body.".to_owned()
+            }
+            Self::UnknownBody { nearest: Some(name), .. } => format!("Did you mean \"{name}\"?"),
+            Self::UnknownBody { nearest: None, .. } => {
+                "Use the name of one of the bodies, or \"ground\".".to_owned()
+            }
+            Self::SameBody { .. } => "Name two different bodies, one of which may be \"ground\".".to_owned(),
+            Self::NotFinite { .. } => "Write an ordinary number.".to_owned(),
+            Self::OutOfRange { low, high, .. } => format!("Choose a value from {low} to {high}."),
+            Self::Mass { .. } => "Give a positive mass in kg; a light body may have 1e-9 kg.".to_owned(),
+            Self::Inertia { .. } => {
+                "Check the units (kg m²) and that the moments are about the centre of mass; for a flat body the \
+                 largest is the sum of the other two."
+                    .to_owned()
+            }
+            Self::Asymmetric { .. } => {
+                "Write the same number on both sides of the diagonal; off-diagonal entries are minus the products \
+                 of inertia."
+                    .to_owned()
+            }
+            Self::Orientation { .. } => {
+                "Give either u and v (perpendicular unit vectors), or a unit quaternion [w, x, y, z], or an axis and \
+                 an angle in radians."
+                    .to_owned()
+            }
+            Self::Geometry { .. } => {
+                "Give points and axes either in the world at the start (point, axis, axes) or in the frames of both \
+                 bodies (point_i and point_j, axis_i and axis_j)."
+                    .to_owned()
+            }
+        }
+    }
+}

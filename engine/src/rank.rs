@@ -1,0 +1,73 @@
+//! Rank of the joint rows, degrees of freedom and dependent rows — THEORY section 8.
+//!
+//! The rank is taken at a consistent position a little away from the given one: a mechanism often starts in a
+//! singular position, where it would mislead. The dependent rows are those that the factorization of S has to drop.
+
+use crate::elimination::Elimination;
+use crate::system::System;
+
+/// A relative pivot below this belongs to a dependent row.
+const DEPENDENT: f64 = 1e-10;
+/// How far the position is moved away from the given one, relative to the size of the mechanism.
+const AWAY: f64 = 0.03;
+
+/// What the pivots say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rank {
+    /// Rank of the joint rows that the solver keeps.
+    pub rank: usize,
+    /// The solver rows that depend on others.
+    pub dependent: Vec<usize>,
+}
+
+/// Finds the rank near the consistent position q; `elimination` is left at another state.
+pub fn analyze(system: &System, elimination: &mut Elimination, q: &[f64]) -> Rank {
+    let was_redundant = elimination.is_redundant();
+    elimination.set_redundant(true);
+    let mut nearby = moved_away(system, elimination, q);
+    elimination.place(system, &nearby);
+    if elimination.violation(system).0 > 1e-9 {
+        nearby.copy_from_slice(q);
+        elimination.place(system, &nearby);
+    }
+    let pivots = elimination.pivots(system, DEPENDENT);
+    elimination.set_redundant(was_redundant);
+    let dependent: Vec<usize> =
+        pivots.iter().filter(|(_, pivot)| *pivot <= DEPENDENT).map(|(row, _)| *row).collect();
+    let mut dependent = dependent;
+    dependent.sort_unstable();
+    Rank { rank: system.solver_rows - dependent.len(), dependent }
+}
+
+/// A consistent position a little away from q, along an arbitrary admissible velocity.
+fn moved_away(system: &System, elimination: &mut Elimination, q: &[f64]) -> Vec<f64> {
+    let mut q = q.to_vec();
+    elimination.place(system, &q);
+    let mut velocity = vec![0.0; q.len()];
+    // Any fixed direction that no mechanism is built along will do; this one has no symmetry.
+    for (i, v) in velocity.iter_mut().enumerate() {
+        *v = (1.0 + i as f64 * 0.754_877_666_2).sin();
+    }
+    elimination.set_velocity(system, &velocity);
+    elimination.linearize(system);
+    for _ in 0..2 {
+        elimination.correct_velocities(system, &mut velocity);
+        elimination.set_velocity(system, &velocity);
+    }
+    let largest = velocity.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+    if largest < 1e-9 {
+        return q;
+    }
+    let scale = AWAY * system.length / largest;
+    for (q, v) in q.iter_mut().zip(&velocity) {
+        *q += scale * v;
+    }
+    for _ in 0..12 {
+        elimination.place(system, &q);
+        elimination.linearize(system);
+        if elimination.correct_positions(system, &mut q) < 1e-14 {
+            break;
+        }
+    }
+    q
+}

@@ -1,0 +1,274 @@
+//! A scene that runs: time, state, steps, and what can be asked of them.
+
+use crate::elimination::Counters;
+use crate::equations::{self, Jacobian};
+use crate::error::EngineError;
+use crate::integrate::{Dop853, Plant, Stop};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::rank::{self, Rank};
+use crate::reaction::{self, JointMultipliers};
+use crate::scene::Scene;
+use crate::system::System;
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// A body at one moment, in the world frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BodyFrame {
+    /// Centre of mass, m.
+    pub position: [f64; 3],
+    /// Director u, a principal axis.
+    pub u: [f64; 3],
+    /// Director v.
+    pub v: [f64; 3],
+    /// Director w.
+    pub w: [f64; 3],
+    /// Velocity of the centre of mass, m/s.
+    pub velocity: [f64; 3],
+    /// Angular velocity, rad/s.
+    pub angular_velocity: [f64; 3],
+}
+
+/// All bodies at one moment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Frame {
+    /// Time, s.
+    pub time: f64,
+    /// The bodies, in the scene's order.
+    pub bodies: Vec<BodyFrame>,
+}
+
+/// What a run has cost and how far it can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Time, s.
+    pub time: f64,
+    /// Kinetic plus potential energy, J.
+    pub energy: f64,
+    /// Energy less that of the start, J.
+    pub energy_drift: f64,
+    /// Largest |Φ|.
+    pub position_violation: f64,
+    /// Largest |Φ̇|.
+    pub velocity_violation: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Size of the last step, s.
+    pub step_size: f64,
+    /// Evaluations of the accelerations.
+    pub evaluations: u64,
+    /// Factorizations.
+    pub factorizations: u64,
+    /// Back-solves.
+    pub solves: u64,
+    /// Projections onto the constraints.
+    pub projections: u64,
+    /// Whether the end of the run is reached.
+    pub finished: bool,
+}
+
+/// A scene that runs.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    mechanism: Mechanism,
+    integrator: Dop853,
+    start: Vec<f64>,
+    rank: Rank,
+    notes: Vec<String>,
+    /// Time of the state that is shown, not after the end of the last step.
+    time: f64,
+    /// The state that is shown.
+    shown: Vec<f64>,
+    start_energy: f64,
+}
+
+impl Simulation {
+    /// Checks, assembles and starts a scene.
+    pub fn new(scene: &Scene) -> Result<Self, EngineError> {
+        Self::from_model(Model::new(scene)?)
+    }
+
+    /// Assembles and starts a checked model.
+    pub fn from_model(model: Model) -> Result<Self, EngineError> {
+        let tolerance = model.settings.tolerance;
+        let mut notes = model.notes.clone();
+        let mut mechanism = Mechanism::new(System::new(model));
+        let n = mechanism.system.coordinates;
+        let mut start = vec![0.0; 2 * n];
+        let (q, q_dot) = start.split_at_mut(n);
+        mechanism.system.start(q, q_dot);
+        notes.extend(mechanism.assemble(&mut start)?);
+        let rank = rank::analyze(&mechanism.system, &mut mechanism.elimination, &start[..n]);
+        mechanism.elimination.set_redundant(!rank.dependent.is_empty());
+        mechanism.elimination.counters = Counters::default();
+        mechanism.set_state(&start);
+        let start_energy = mechanism.elimination.energy(&mechanism.system);
+        let integrator = Dop853::new(&mut mechanism, 0.0, &start, tolerance);
+        let shown = start.clone();
+        Ok(Self { mechanism, integrator, start, rank, notes, time: 0.0, shown, start_energy })
+    }
+
+    /// The assembled system.
+    pub fn system(&self) -> &System {
+        &self.mechanism.system
+    }
+
+    /// The checked model.
+    pub fn model(&self) -> &Model {
+        &self.mechanism.system.model
+    }
+
+    /// Rank of the joint rows near the start.
+    pub fn rank(&self) -> &Rank {
+        &self.rank
+    }
+
+    /// What was found or corrected.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// End of the run, s.
+    pub fn duration(&self) -> f64 {
+        self.model().settings.duration
+    }
+
+    /// Time of the state that is shown, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Generalized coordinates that are shown.
+    pub fn q(&self) -> &[f64] {
+        &self.shown[..self.system().coordinates]
+    }
+
+    /// Generalized velocities that are shown.
+    pub fn q_dot(&self) -> &[f64] {
+        &self.shown[self.system().coordinates..]
+    }
+
+    /// Whether the end of the run is reached.
+    pub fn finished(&self) -> bool {
+        self.time >= self.duration()
+    }
+
+    /// Back to the start; counters begin anew.
+    pub fn reset(&mut self) {
+        self.mechanism.elimination.counters = Counters::default();
+        self.mechanism.projections = 0;
+        let tolerance = self.model().settings.tolerance;
+        self.integrator = Dop853::new(&mut self.mechanism, 0.0, &self.start, tolerance);
+        self.time = 0.0;
+        self.shown.copy_from_slice(&self.start);
+    }
+
+    /// Goes on by one step of the integrator (or to the end of the step that the shown state lies in).
+    pub fn step(&mut self) -> Result<(), EngineError> {
+        if self.time >= self.integrator.time() && !self.finished() {
+            self.integrate_one()?;
+        }
+        self.time = self.integrator.time();
+        self.shown.copy_from_slice(self.integrator.state());
+        Ok(())
+    }
+
+    /// Goes on to time t, at most the end of the run.
+    pub fn advance_to(&mut self, t: f64) -> Result<(), EngineError> {
+        let t = t.min(self.duration());
+        if t.is_nan() || t < self.time {
+            return Err(EngineError::TimeOutside { time: t, from: self.time, to: self.duration() });
+        }
+        while self.integrator.time() < t {
+            self.integrate_one()?;
+        }
+        self.integrator.interpolate(&mut self.mechanism, t, &mut self.shown);
+        self.time = t;
+        Ok(())
+    }
+
+    fn integrate_one(&mut self) -> Result<(), EngineError> {
+        let end = self.duration();
+        self.integrator.step(&mut self.mechanism, end).map_err(|stop| match stop {
+            Stop::StepTooSmall { time, step } => EngineError::StepTooSmall { time, step },
+            Stop::NotFinite { time } => EngineError::Diverged { time },
+        })
+    }
+
+    /// Bodies at the shown state.
+    pub fn frame(&mut self) -> Frame {
+        self.mechanism.set_state(&self.shown);
+        let bodies = self.mechanism.elimination.bodies.iter().map(|state| {
+            let e = state.q.e;
+            // ω = ½ Σ e_k × ė_k — eq. (6.4).
+            let omega: Vector3<f64> =
+                (0..3).map(|k| e[k].cross(&state.q_dot.e[k])).sum::<Vector3<f64>>() * 0.5;
+            BodyFrame {
+                position: state.q.r.into(),
+                u: e[0].into(),
+                v: e[1].into(),
+                w: e[2].into(),
+                velocity: state.q_dot.r.into(),
+                angular_velocity: omega.into(),
+            }
+        });
+        Frame { time: self.time, bodies: bodies.collect() }
+    }
+
+    /// Cost and trust at the shown state.
+    pub fn summary(&mut self) -> Summary {
+        self.mechanism.set_state(&self.shown);
+        let elimination = &self.mechanism.elimination;
+        let energy = elimination.energy(&self.mechanism.system);
+        let (position_violation, velocity_violation) = elimination.violation(&self.mechanism.system);
+        let counters = elimination.counters;
+        let steps = self.integrator.steps;
+        Summary {
+            time: self.time,
+            energy,
+            energy_drift: energy - self.start_energy,
+            position_violation,
+            velocity_violation,
+            steps: steps.accepted,
+            rejected: steps.rejected,
+            step_size: self.integrator.last_step(),
+            evaluations: counters.evaluations,
+            factorizations: counters.factorizations,
+            solves: counters.solves,
+            projections: self.mechanism.projections,
+            finished: self.finished(),
+        }
+    }
+
+    /// The Jacobian Φ_q at the shown state, rigid-body rows first.
+    pub fn jacobian(&mut self) -> Jacobian {
+        self.mechanism.set_state(&self.shown);
+        equations::jacobian(&self.mechanism.system, &self.mechanism.elimination)
+    }
+
+    /// Accelerations q̈ at the shown state.
+    pub fn accelerations(&mut self) -> Vec<f64> {
+        self.without_counting(|mechanism, shown| {
+            let mut rate = vec![0.0; shown.len()];
+            mechanism.rate(0.0, shown, &mut rate);
+            rate.split_off(mechanism.system.coordinates)
+        })
+    }
+
+    /// Multipliers λ and reactions of each joint at the shown state.
+    pub fn multipliers(&mut self) -> Vec<JointMultipliers> {
+        self.accelerations();
+        reaction::multipliers(&self.mechanism.system, &self.mechanism.elimination)
+    }
+
+    /// What is asked out of curiosity must not change the counters of the run.
+    fn without_counting<T>(&mut self, ask: impl FnOnce(&mut Mechanism, &[f64]) -> T) -> T {
+        let counters = self.mechanism.elimination.counters;
+        let answer = ask(&mut self.mechanism, &self.shown);
+        self.mechanism.elimination.counters = counters;
+        answer
+    }
+}

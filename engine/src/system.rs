@@ -1,0 +1,279 @@
+//! The assembled system: everything that never changes during a run.
+
+use crate::joint;
+use crate::lift;
+use crate::model::{BodyRef, Model};
+use crate::row::{Feature, FeatureId, Form};
+use crate::scene::Coordinates;
+use nalgebra::Vector3;
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// A body as the equations of motion see it.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Mass m, kg.
+    pub mass: f64,
+    /// Principal moments of inertia, kg m².
+    pub principal: Vector3<f64>,
+    /// Ī of u, v, w: the diagonal of the constant mass matrix is (m, Ī_u, Ī_v, Ī_w) — eq. (6.2).
+    pub ibar: Vector3<f64>,
+    /// Inertia added to each principal moment in the factorization alone, for a body that has none about some
+    /// axis; refinement takes its effect out again — THEORY section 7.
+    pub lent: f64,
+    /// Which coordinates describe it.
+    pub coordinates: Coordinates,
+    /// Its first coordinate in q.
+    pub first: usize,
+}
+
+/// The rows of one joint.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Name of the joint.
+    pub name: String,
+    /// Its row forms.
+    pub forms: Range<usize>,
+    /// Its equations as written, within all equations of joints.
+    pub equations: Range<usize>,
+    /// Its rows in the solver.
+    pub solver: Range<usize>,
+    /// Its incidences: one for each moving body that it touches.
+    pub incidences: Range<usize>,
+}
+
+/// A joint's rows meeting a body: an m × 6 block of the twist Jacobian.
+#[derive(Clone, Copy, Debug)]
+pub struct Incidence {
+    /// The joint.
+    pub group: usize,
+    /// The body.
+    pub body: usize,
+    /// Offset of the block (rows are contiguous).
+    pub offset: usize,
+    /// Number of rows m.
+    pub rows: usize,
+}
+
+/// A row form with its place among the rows.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The statement.
+    pub form: Form,
+    /// Its name within its joint.
+    pub label: &'static str,
+    /// First equation, within all equations of joints.
+    pub equation: usize,
+    /// First solver row.
+    pub solver: usize,
+    /// First solver row within its joint.
+    pub local: usize,
+    /// For each feature of the form in order (a, b, or a₊, a₋, b₊, b₋), the incidence of its body.
+    pub incidence: [usize; 4],
+}
+
+/// Marks a feature of the ground, which meets no moving body.
+pub const NO_INCIDENCE: usize = usize::MAX;
+
+/// The assembled system.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The model it was assembled from.
+    pub model: Model,
+    /// The moving bodies.
+    pub bodies: Vec<Body>,
+    /// All features; those of moving bodies come first.
+    pub features: Vec<Feature>,
+    /// How many features move.
+    pub moving: usize,
+    /// The rows.
+    pub rows: Vec<Row>,
+    /// The joints.
+    pub groups: Vec<Group>,
+    /// Where joints meet bodies.
+    pub incidences: Vec<Incidence>,
+    /// For each body, the incidences that touch it.
+    pub touching: Vec<Vec<usize>>,
+    /// Number of generalized coordinates.
+    pub coordinates: usize,
+    /// Number of rigid-body rows.
+    pub rigid_rows: usize,
+    /// Number of joint equations as written.
+    pub equations: usize,
+    /// Number of joint rows in the solver.
+    pub solver_rows: usize,
+    /// Numbers in all incidence blocks.
+    pub block_numbers: usize,
+    /// A length of the mechanism, m: the largest local coordinate of a joint's point, or 1.
+    pub length: f64,
+}
+
+impl System {
+    /// Assembles a model.
+    pub fn new(model: Model) -> Self {
+        let (features, written) = collect(&model);
+        let mut system = Self {
+            bodies: Vec::with_capacity(model.bodies.len()),
+            moving: features.iter().filter(|f| f.body != BodyRef::Ground).count(),
+            features,
+            rows: Vec::new(),
+            groups: Vec::with_capacity(model.joints.len()),
+            incidences: Vec::new(),
+            touching: vec![Vec::new(); model.bodies.len()],
+            coordinates: 0,
+            rigid_rows: 0,
+            equations: 0,
+            solver_rows: 0,
+            block_numbers: 0,
+            length: 1.0,
+            model,
+        };
+        system.length = system.characteristic_length();
+        system.add_bodies();
+        for (index, forms) in written.into_iter().enumerate() {
+            system.add_group(index, forms);
+        }
+        system
+    }
+
+    fn characteristic_length(&self) -> f64 {
+        let largest = self
+            .features
+            .iter()
+            .filter(|f| f.point && f.body != BodyRef::Ground)
+            .map(|f| f.local.norm())
+            .fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    fn add_bodies(&mut self) {
+        for body in &self.model.bodies {
+            let j = body.principal;
+            let half = 0.5 * j.sum();
+            let ibar = j.map(|i| (half - i).max(0.0));
+            // A moment far below m L² is as good as none for the factorization.
+            let scale = body.mass * self.length * self.length;
+            let lent = if j.min() < 1e-7 * scale { 1e-4 * scale } else { 0.0 };
+            self.bodies.push(Body {
+                mass: body.mass,
+                principal: j,
+                ibar,
+                lent,
+                coordinates: body.coordinates,
+                first: self.coordinates,
+            });
+            self.coordinates += lift::size(body.coordinates);
+            self.rigid_rows += lift::rigid_rows(body.coordinates);
+        }
+    }
+
+    fn add_group(&mut self, index: usize, forms: Vec<joint::LabelledForm>) {
+        let size: usize = forms.iter().map(|(_, form)| form.independent()).sum();
+        let first = self.incidences.len();
+        let mut bodies: Vec<usize> = forms
+            .iter()
+            .flat_map(|(_, form)| form.features())
+            .filter_map(|f| match self.features[f].body {
+                BodyRef::Ground => None,
+                BodyRef::Moving(body) => Some(body),
+            })
+            .collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        for body in bodies {
+            self.touching[body].push(self.incidences.len());
+            self.incidences.push(Incidence { group: index, body, offset: self.block_numbers, rows: size });
+            self.block_numbers += 6 * size;
+        }
+        let (first_form, first_equation) = (self.rows.len(), self.equations);
+        let mut local = 0;
+        for (label, form) in forms {
+            let mut incidence = [NO_INCIDENCE; 4];
+            for (k, f) in form.features().enumerate() {
+                if let BodyRef::Moving(body) = self.features[f].body {
+                    let found = (first..self.incidences.len()).find(|&i| self.incidences[i].body == body);
+                    incidence[k] = found.unwrap_or(NO_INCIDENCE);
+                }
+            }
+            self.rows.push(Row {
+                form,
+                label,
+                equation: self.equations,
+                solver: self.solver_rows + local,
+                local,
+                incidence,
+            });
+            self.equations += form.equations();
+            local += form.independent();
+        }
+        self.groups.push(Group {
+            name: self.model.joints[index].name.clone(),
+            forms: first_form..self.rows.len(),
+            equations: first_equation..self.equations,
+            solver: self.solver_rows..self.solver_rows + size,
+            incidences: first..self.incidences.len(),
+        });
+        self.solver_rows += size;
+    }
+
+    /// Whether any body has no inertia about some axis.
+    pub fn lends_inertia(&self) -> bool {
+        self.bodies.iter().any(|b| b.lent > 0.0)
+    }
+
+    /// Writes the start of the model as (q, q̇), each of [`System::coordinates`] numbers.
+    pub fn start(&self, q: &mut [f64], q_dot: &mut [f64]) {
+        for (body, model) in self.bodies.iter().zip(&self.model.bodies) {
+            let range = body.first..body.first + lift::size(body.coordinates);
+            let e = [0, 1, 2].map(|k| model.directors.column(k).into_owned());
+            let position = lift::Lift { r: model.position, e };
+            let velocity = lift::Lift { r: model.velocity, e: e.map(|e| model.angular_velocity.cross(&e)) };
+            lift::store(body.coordinates, &position, &mut q[range.clone()]);
+            lift::store(body.coordinates, &velocity, &mut q_dot[range]);
+        }
+    }
+}
+
+/// Bits of a feature, for recognising the same one again.
+type FeatureKey = (BodyRef, bool, [u64; 3]);
+
+/// All features, those of moving bodies first, and the forms of each joint.
+fn collect(model: &Model) -> (Vec<Feature>, Vec<Vec<joint::LabelledForm>>) {
+    let mut known: HashMap<FeatureKey, FeatureId> = HashMap::new();
+    let mut features: Vec<Feature> = Vec::new();
+    let mut written: Vec<Vec<joint::LabelledForm>> = Vec::with_capacity(model.joints.len());
+    for joint in &model.joints {
+        written.push(joint::rows(joint, |feature| {
+            let key = (feature.body, feature.point, [0, 1, 2].map(|k| feature.local[k].to_bits()));
+            *known.entry(key).or_insert_with(|| {
+                features.push(feature);
+                features.len() - 1
+            })
+        }));
+    }
+    let mut order: Vec<FeatureId> = (0..features.len()).collect();
+    order.sort_by_key(|&f| features[f].body == BodyRef::Ground);
+    let mut place = vec![0; features.len()];
+    for (new, &old) in order.iter().enumerate() {
+        place[old] = new;
+    }
+    for (_, form) in written.iter_mut().flatten() {
+        relabel(form, &place);
+    }
+    (order.iter().map(|&old| features[old]).collect(), written)
+}
+
+fn relabel(form: &mut Form, place: &[FeatureId]) {
+    match form {
+        Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
+            *a = place[*a];
+            *b = place[*b];
+        }
+        Form::Product { a, b, .. } => {
+            for difference in [a, b] {
+                difference.plus = place[difference.plus];
+                difference.minus = difference.minus.map(|f| place[f]);
+            }
+        }
+    }
+}
