@@ -9,7 +9,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use table::{PLAIN, PREFIXABLE, PREFIXES, SPELLINGS};
+use table::lookup;
 
 /// Longest unit text that is read, in characters.
 const MAX_LENGTH: usize = 64;
@@ -334,31 +334,6 @@ impl Parser<'_> {
             .ok_or_else(|| self.syntax("its exponents are out of range"))?;
         Ok((base.0.powi(power), dimension))
     }
-}
-
-fn find(symbol: &str) -> Option<(f64, Dimension)> {
-    if let Some((_, factor, exponents)) = PREFIXABLE.iter().chain(PLAIN).find(|(s, ..)| *s == symbol) {
-        return Some((*factor, Dimension(*exponents)));
-    }
-    PREFIXES.iter().find_map(|(prefix, scale)| {
-        let rest = symbol.strip_prefix(prefix)?;
-        let (_, factor, exponents) = PREFIXABLE.iter().find(|(s, ..)| *s == rest)?;
-        Some((scale * factor, Dimension(*exponents)))
-    })
-}
-
-fn lookup(symbol: &str) -> Result<(f64, Dimension), UnitError> {
-    find(symbol).ok_or_else(|| {
-        let lower = symbol.to_lowercase();
-        let spelling =
-            SPELLINGS.iter().find(|(wrong, _)| *wrong == lower).map(|(_, right)| (*right).to_owned());
-        let other_case = || {
-            let known = PREFIXABLE.iter().chain(PLAIN).map(|(s, ..)| (*s).to_owned());
-            let prefixed = ["kg", "kN", "kJ", "kW", "MPa", "mm", "cm", "km"].map(str::to_owned);
-            known.chain(prefixed).find(|s| s.to_lowercase() == lower)
-        };
-        UnitError::Unknown { symbol: symbol.to_owned(), suggestion: spelling.or_else(other_case) }
-    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! The units, prefixes and misspellings that are known.
 
+use super::{Dimension, UnitError};
+
 /// Units that take SI prefixes: symbol, factor, dimension.
-pub(super) const PREFIXABLE: &[(&str, f64, [i32; 7])] = &[
+const PREFIXABLE: &[(&str, f64, [i32; 7])] = &[
     ("m", 1.0, [1, 0, 0, 0, 0, 0, 0]),
     ("g", 1e-3, [0, 1, 0, 0, 0, 0, 0]),
     ("s", 1.0, [0, 0, 1, 0, 0, 0, 0]),
@@ -18,7 +20,7 @@ pub(super) const PREFIXABLE: &[(&str, f64, [i32; 7])] = &[
 ];
 
 /// Units without prefixes.
-pub(super) const PLAIN: &[(&str, f64, [i32; 7])] = &[
+const PLAIN: &[(&str, f64, [i32; 7])] = &[
     ("deg", std::f64::consts::PI / 180.0, [0, 0, 0, 0, 0, 0, 0]),
     ("°", std::f64::consts::PI / 180.0, [0, 0, 0, 0, 0, 0, 0]),
     ("rev", std::f64::consts::TAU, [0, 0, 0, 0, 0, 0, 0]),
@@ -33,7 +35,7 @@ pub(super) const PLAIN: &[(&str, f64, [i32; 7])] = &[
 ];
 
 /// SI prefixes.
-pub(super) const PREFIXES: &[(&str, f64)] = &[
+const PREFIXES: &[(&str, f64)] = &[
     ("G", 1e9),
     ("M", 1e6),
     ("k", 1e3),
@@ -48,7 +50,7 @@ pub(super) const PREFIXES: &[(&str, f64)] = &[
 ];
 
 /// Spellings that are meant well.
-pub(super) const SPELLINGS: &[(&str, &str)] = &[
+const SPELLINGS: &[(&str, &str)] = &[
     ("sec", "s"),
     ("secs", "s"),
     ("second", "s"),
@@ -73,3 +75,29 @@ pub(super) const SPELLINGS: &[(&str, &str)] = &[
     ("kgm", "kg m"),
     ("mps", "m/s"),
 ];
+
+fn find(symbol: &str) -> Option<(f64, Dimension)> {
+    if let Some((_, factor, exponents)) = PREFIXABLE.iter().chain(PLAIN).find(|(s, ..)| *s == symbol) {
+        return Some((*factor, Dimension(*exponents)));
+    }
+    PREFIXES.iter().find_map(|(prefix, scale)| {
+        let rest = symbol.strip_prefix(prefix)?;
+        let (_, factor, exponents) = PREFIXABLE.iter().find(|(s, ..)| *s == rest)?;
+        Some((scale * factor, Dimension(*exponents)))
+    })
+}
+
+/// The factor and dimension of a symbol with or without prefix.
+pub(super) fn lookup(symbol: &str) -> Result<(f64, Dimension), UnitError> {
+    find(symbol).ok_or_else(|| {
+        let lower = symbol.to_lowercase();
+        let spelling =
+            SPELLINGS.iter().find(|(wrong, _)| *wrong == lower).map(|(_, right)| (*right).to_owned());
+        let other_case = || {
+            let known = PREFIXABLE.iter().chain(PLAIN).map(|(s, ..)| (*s).to_owned());
+            let prefixed = ["kg", "kN", "kJ", "kW", "MPa", "mm", "cm", "km"].map(str::to_owned);
+            known.chain(prefixed).find(|s| s.to_lowercase() == lower)
+        };
+        UnitError::Unknown { symbol: symbol.to_owned(), suggestion: spelling.or_else(other_case) }
+    })
+}
