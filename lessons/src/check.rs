@@ -1,6 +1,7 @@
 //! Proving a course: what an author promises is tried out, and every complaint names its place and a remedy.
 
 mod answers;
+mod measured;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -63,7 +64,7 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Problem> {
     about(course, &mut found);
     text(course, &mut found);
     stray_files(&mut found);
-    scene(&mut found);
+    measured::scene(&mut found);
     for question in &lesson.exercise.questions {
         question_itself(question, &mut found);
     }
@@ -212,12 +213,6 @@ fn stray_files(found: &mut Found) {
                 found.add(name, 0, what, "rename it");
             }
         }
-    }
-}
-
-fn scene(found: &mut Found) {
-    if !found.lesson.scene.is_object() {
-        found.add("scene.json", 1, "it is not a scene", "write an object with bodies and joints");
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use crate::expression::Expression;
-use crate::files::{ExerciseFile, ProvenanceKind, QuestionFile, QuestionKind, ReferenceFile};
+use crate::files::{ExerciseFile, MeasuredFile, ProvenanceKind, QuestionFile, QuestionKind, ReferenceFile};
 use crate::submission::Entry;
 use crate::tolerance::{Rule, Shape};
 use crate::units::Unit;
@@ -40,6 +40,8 @@ pub struct Question {
     pub provenance: ProvenanceKind,
     /// The reference's source in words.
     pub source: String,
+    /// Where the scenario shows the same value.
+    pub measured: Option<MeasuredFile>,
 }
 
 impl Question {
@@ -194,6 +196,7 @@ pub(crate) fn build(
             body,
             provenance: reference.provenance,
             source: reference.source,
+            measured: reference.measured,
         });
     }
     if let Some(id) = references.keys().next() {

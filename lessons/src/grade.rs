@@ -87,10 +87,7 @@ pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeE
         passed: gradable && earned >= lesson.exercise.pass_mark * possible * (1.0 - 1e-12),
         gradable,
         questions,
-        provenance: Provenance {
-            engine: env!("CARGO_PKG_VERSION").to_owned(),
-            lesson_hash: lesson.hash.clone(),
-        },
+        provenance: Provenance { engine: triad_engine::VERSION.to_owned(), lesson_hash: lesson.hash.clone() },
     })
 }
 

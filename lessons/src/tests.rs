@@ -146,7 +146,10 @@ fn broken(path: &str, from: &str, to: &str) -> Result<Vec<String>, String> {
 fn checks_complain_with_place_and_remedy() {
     for (path, from, to, says) in [
         ("exercise.toml", "value = 9.81\n", "value = 29.5\n", "the misconception static is a right answer"),
-        ("exercise.toml", "relative = 0.005", "relative = 1e-8", "at least ten times the error"),
+        ("reference/answers.toml", "error = 1e-12", "error = 0.1", "at least ten times the error"),
+        ("scene.json", "-9.81", "-9.80", "the scene shows"),
+        ("scene.json", "\"revolute\"", "\"hinge\"", "hinge"),
+        ("scene.json", "[0, 0, 1], \"rows\"", "[0, 0, 0], \"rows\"", "pin"),
         ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be told apart"),
         ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
         ("reference/answers.toml", "value = \"b\"", "value = \"a\"", "judged Right"),
