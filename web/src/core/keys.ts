@@ -46,12 +46,24 @@ function taken(event: KeyboardEvent): boolean {
   return false;
 }
 
+/** The viewer's canvas swallows all keys; the page's own keys must work there too. */
+function inViewer(event: KeyboardEvent): boolean {
+  return event.target instanceof HTMLCanvasElement && event.target.closest("[data-viewer]") !== null;
+}
+
+// Heard before anything else, because the viewer stops the events that it sees.
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;
+  if (inViewer(event) && event.key === "Tab") {
+    // The browser moves the focus on: nobody is caught inside the canvas.
+    event.stopImmediatePropagation();
+    return;
+  }
   if (!shortcuts.on() && event.key !== "?") return;
   if (taken(event) || document.querySelector("dialog[open]")) return;
   const shortcut = active.get(event.key);
   if (!shortcut) return;
   event.preventDefault();
+  event.stopImmediatePropagation();
   shortcut.run();
-});
+}, { capture: true });

@@ -18,7 +18,7 @@ function charts(state: SessionState): Chart[] {
   const list: Chart[] = [
     { label: "Energy drift", curves: [{ label: "ΔE", unit: "J", of: (s) => s.energy_drift }] },
     { label: "Constraint violation", log: true, curves: [
-      { label: "|Φ|", unit: "", of: (s) => s.position_violation }, { label: "|Φ̇|", unit: "", of: (s) => s.velocity_violation }] },
+      { label: "|Φ|", unit: "", of: (s) => s.position_violation }, { label: "|dΦ/dt|", unit: "", of: (s) => s.velocity_violation }] },
   ];
   state.bodies.forEach((body, at) => {
     const xyz = (symbol: string, unit: string, of: (s: SessionState, k: number) => number | undefined): Curve[] =>

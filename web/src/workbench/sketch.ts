@@ -36,7 +36,7 @@ export function sketch(scene: Scene | undefined): Sketch {
     });
     const grounds = (scene?.joints ?? []).flatMap((joint) => (joint.point ? [joint.point] : []));
     reach.push(...grounds);
-    const span = fit(reach.map((p) => flat(view, p)));
+    const span = fit(reach.map((p) => flat(view, p)), grounds.map((p) => flat(view, p)));
     project = (p) => {
       const [x, y] = flat(view, p);
       return [WIDTH / 2 + (x - span.x) * span.scale, HEIGHT / 2 - (y - span.y) * span.scale];
@@ -123,11 +123,11 @@ function viewAxes(gravity: Vec3 | undefined): Axes {
 
 const flat = (view: Axes, p: Vec3): [number, number] => [dot(view[0], p), dot(view[1], p)];
 
-function fit(points: [number, number][]): { x: number; y: number; scale: number } {
-  const xs = points.map(([x]) => x);
-  const ys = points.map(([, y]) => y);
-  const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  // Mechanisms swing out of their first picture: room is left for twice its reach.
-  const reach = Math.max(x1 - x0, y1 - y0, 0.4);
-  return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, scale: Math.min(WIDTH, HEIGHT) / (reach * 2.3) };
+/** Mechanisms swing about their ground: the circle that holds their first picture around it is kept in view. */
+function fit(points: [number, number][], about: [number, number][]): { x: number; y: number; scale: number } {
+  const around = about.length > 0 ? about : points;
+  const middle = (k: 0 | 1): number => around.reduce((sum, point) => sum + point[k], 0) / Math.max(1, around.length);
+  const [x, y] = [middle(0), middle(1)];
+  const reach = Math.max(0.2, ...points.map(([px, py]) => Math.hypot(px - x, py - y)));
+  return { x, y, scale: Math.min(WIDTH, HEIGHT) / (reach * 2.2) };
 }

@@ -7,14 +7,21 @@ import type { Session } from "./session";
 import { sketch } from "./sketch";
 import type { ViewerHandle } from "./viewer";
 
-export function stage(session: Session, scene: Scene | undefined): { root: HTMLElement; dispose: () => void } {
+export interface Stage {
+  root: HTMLElement;
+  /** Changes between sketch and 3-D view; it has its place among the controls. */
+  toggle: HTMLElement;
+  dispose: () => void;
+}
+
+export function stage(session: Session, scene: Scene | undefined): Stage {
   const drawing = sketch(scene);
-  const host = h("div", { class: "viewer-host", hidden: true });
+  const host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
   const said = h("span");
   const loading = h("div", { class: "stage-loading", hidden: true }, said, bar);
-  const toggle = h("button", { type: "button", class: "button small stage-toggle" });
-  const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, loading, toggle);
+  const toggle = h("button", { type: "button", class: "button quiet small" });
+  const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, loading);
 
   let viewer: ViewerHandle | undefined;
   let wanted = recall("picture") !== "sketch" && !savesData();
@@ -29,7 +36,7 @@ export function stage(session: Session, scene: Scene | undefined): { root: HTMLE
     drawing.root.toggleAttribute("inert", on);
     root.classList.toggle("has-viewer", on);
     loading.hidden = !(starting || failed) || !wanted;
-    toggle.replaceChildren(icon("cube"), wanted ? "Show the sketch" : "Show in 3-D");
+    toggle.replaceChildren(icon("cube"), wanted ? "Sketch instead" : "3-D view");
   };
 
   const start = async (): Promise<void> => {
@@ -104,6 +111,7 @@ export function stage(session: Session, scene: Scene | undefined): { root: HTMLE
 
   return {
     root,
+    toggle,
     dispose: () => {
       gone = true;
       seen.disconnect();

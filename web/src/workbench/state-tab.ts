@@ -22,13 +22,13 @@ export function stateTab(session: Session): InspectorTab {
   const time = figure("Time", "Simulated time");
   const energy = figure("Energy", "Kinetic and potential energy together");
   const drift = figure("Energy drift", "Change of the energy since the start: it should stay near zero where nothing is lost");
-  const phi = figure("|Φ|", "How far the positions are from meeting the constraints");
-  const phiDot = figure("|Φ̇|", "How far the velocities are from meeting the constraints");
+  const phi = figure("Violation |Φ|", "How far the positions are from meeting the constraints");
+  const phiDot = figure("Its rate |dΦ/dt|", "How far the velocities are from meeting the constraints");
   const steps = figure("Steps", "Accepted steps of the integrator, and rejected ones");
   const evaluations = figure("Evaluations", "How often the accelerations were computed");
   const factors = figure("Factorizations", "How often a matrix was factorized");
   const table = liveTable("Coordinates q and their rates", "Coordinate", [
-    { label: "q", number: true }, { label: "q̇", unit: "1/s", number: true },
+    { label: "q", number: true }, { label: "dq/dt", unit: "per s", number: true },
   ]);
   const more = h("button", { type: "button", class: "button quiet small", hidden: true });
   let limit = FIRST_ROWS;

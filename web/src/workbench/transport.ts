@@ -8,7 +8,7 @@ import type { Session } from "./session";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const STRIDES = [0.01, 0.05, 0.1, 0.5, 1];
 
-export function transport(session: Session, plannedDuration: number | undefined): { root: HTMLElement; dispose: () => void } {
+export function transport(session: Session, plannedDuration: number | undefined, more: HTMLElement): { root: HTMLElement; dispose: () => void } {
   const button = (name: IconName, label: string, keys: string, run: () => void, cls = ""): HTMLButtonElement =>
     h("button", { type: "button", class: `button icon-button ${cls}`, "aria-label": label, title: `${label} (${keys})`, onclick: run }, icon(name));
 
@@ -80,7 +80,7 @@ export function transport(session: Session, plannedDuration: number | undefined)
         button("skip", "Step by time", "↑", stepTime), stride),
       h("p", { class: "clock-box" }, clock, " ", until, mode),
       live,
-      h("label", { class: "transport-group speed" }, h("span", null, "Speed"), speed)));
+      h("div", { class: "transport-group speed" }, more, h("label", { class: "switch" }, h("span", null, "Speed"), speed))));
 
   return {
     root,

@@ -24,6 +24,7 @@ export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise
   const { WebViewer } = await import("@rerun-io/web-viewer");
   const viewer = new WebViewer();
   const restore = watchDownload(hooks.progress);
+  const giveBack = keepFocus(host);
   try {
     await viewer.start(null, host, {
       width: "100%", height: "100%", hide_welcome_screen: true, render_backend: "webgl",
@@ -31,7 +32,10 @@ export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise
     });
   } finally {
     restore();
+    giveBack();
   }
+  viewer.canvas?.setAttribute("role", "img");
+  viewer.canvas?.setAttribute("aria-label", "3-D view of the mechanism. Its numbers stand in the tables of the inspector.");
   for (const panel of ["top", "blueprint", "selection", "time"] as const) viewer.override_panel_state(panel, "hidden");
   return handle(viewer, hooks);
 }
@@ -101,3 +105,26 @@ function watchDownload(progress: (fraction: number) => void): () => void {
     window.fetch = original;
   };
 }
+
+/** The viewer takes the focus when it starts. Somebody may be reading or typing: it is given back. */
+function keepFocus(host: HTMLElement): () => void {
+  let last: Element | null = document.activeElement;
+  const follow = (event: FocusEvent): void => {
+    if (event.target instanceof Element && !host.contains(event.target) && !isTextAgent(event.target)) last = event.target;
+  };
+  document.addEventListener("focusin", follow);
+  return () => {
+    document.removeEventListener("focusin", follow);
+    for (const agent of document.querySelectorAll(":scope > body > input")) {
+      agent.setAttribute("tabindex", "-1");
+      agent.setAttribute("aria-hidden", "true");
+    }
+    const now = document.activeElement;
+    if (!(now instanceof HTMLElement) || !(host.contains(now) || isTextAgent(now))) return;
+    if (last instanceof HTMLElement && last !== document.body && last.isConnected) last.focus({ preventScroll: true });
+    else now.blur();
+  };
+}
+
+/** The hidden input that the viewer adds to the page to receive text. */
+const isTextAgent = (element: Element): boolean => element.parentElement === document.body && element instanceof HTMLInputElement;

@@ -18,7 +18,7 @@ export function workbench(root: HTMLElement, options: BenchOptions): () => void 
   const session = new Session(options.source);
   const trouble = h("div", { class: "trouble" });
   const picture = stage(session, options.scene);
-  const controls = transport(session, options.scene?.simulation?.duration);
+  const controls = transport(session, options.scene?.simulation?.duration, picture.toggle);
   const details = inspector(session);
 
   session.on("problem", (error) => {
