@@ -36,7 +36,11 @@ export function historyList(lesson: Lesson): History {
         return;
       }
       try {
-        verdicts = await api.submissions({ student: who, lesson: lesson.slug });
+        const stored = await api.submissions({ student: who, lesson: lesson.slug });
+        if (who !== student.get()) return;
+        // A verdict that arrived while the list was on its way is kept.
+        const fresh = verdicts.filter((verdict) => verdict.student === who && !stored.some((other) => other.id === verdict.id));
+        verdicts = [...fresh, ...stored];
         verdicts.sort((a, b) => b.submitted_at.localeCompare(a.submitted_at));
         paint();
       } catch (error) {

@@ -52,6 +52,7 @@ function dialog(title: string, ...children: HTMLElement[]): HTMLDialogElement {
 }
 
 export function setStudent(name: string): void {
+  if (name.trim() === student.get()) return;
   student.set(name);
   dispatchEvent(new Event("triad:student"));
 }

@@ -1,6 +1,6 @@
 // Curves over time from the states that arrived. A click in a plot moves the page's clock.
 import { h } from "../core/dom";
-import { sci, seconds } from "../core/format";
+import { num, sci, seconds } from "../core/format";
 import { onTheme } from "../core/prefs";
 import type { SessionState } from "../core/types";
 import { empty } from "../ui/notice";
@@ -59,7 +59,7 @@ export function plotsTab(session: Session): InspectorTab {
     const states = session.past.all;
     const shown = chart();
     if (!shown) return;
-    place.textContent = `At ${seconds(state.time)}: ${shown.curves.map((curve) => `${curve.label} = ${sci(curve.of(state), 4)} ${curve.unit}`.trim()).join(",  ")}`;
+    place.textContent = `At ${seconds(state.time)}: ${shown.curves.map((curve) => `${curve.label} = ${num(curve.of(state), 6)} ${curve.unit}`.trim()).join(",  ")}`;
     fillTable(shown, states);
     if (states.length < 2) {
       canvas.replaceChildren(empty("Nothing to plot yet", "Play or step the run: the curves grow with it."));

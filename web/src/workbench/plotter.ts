@@ -58,6 +58,7 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
         ctx.save();
         ctx.strokeStyle = color("--accent");
         ctx.lineWidth = devicePixelRatio;
+        ctx.setLineDash([]);
         ctx.beginPath();
         ctx.moveTo(x, bbox.top);
         ctx.lineTo(x, bbox.top + bbox.height);
@@ -66,6 +67,7 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
       }],
     },
     cursor: { drag: { x: false, y: false } },
+    legend: { live: false },
   }, data, place);
   plot.over.addEventListener("click", (event) => drawing.seek(plot.posToVal(event.offsetX, "x")));
   return plot;

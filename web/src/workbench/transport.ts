@@ -70,7 +70,7 @@ export function transport(session: Session, plannedDuration: number | undefined,
   ]);
 
   const root = h("div", { class: "transport", role: "group", "aria-label": "Run of the simulation" },
-    h("div", { class: "timeline-row" }, slider),
+    h("div", { class: "timeline-row" }, slider, more),
     h("div", { class: "transport-row" },
       h("div", { class: "transport-group" },
         button("reset", "Reset to the start", "backspace", () => void session.reset()),
@@ -80,7 +80,7 @@ export function transport(session: Session, plannedDuration: number | undefined,
         button("skip", "Step by time", "↑", stepTime), stride),
       h("p", { class: "clock-box" }, clock, " ", until, mode),
       live,
-      h("div", { class: "transport-group speed" }, more, h("label", { class: "switch" }, h("span", null, "Speed"), speed))));
+      h("label", { class: "transport-group speed" }, h("span", null, "Speed"), speed)));
 
   return {
     root,
