@@ -31,6 +31,8 @@ pub mod elimination;
 
 pub mod equations;
 
+pub mod literal;
+
 pub mod rank;
 
 pub mod reaction;

@@ -1,0 +1,67 @@
+//! Which rows of a matrix are independent.
+
+use nalgebra::DMatrix;
+
+/// A largest set of independent rows, by QR factorization of the transpose with column pivoting, in ascending order.
+///
+/// At each step the row with the largest part across those already taken is taken; rows whose largest part is below
+/// `tolerance` times the length of the longest row depend on the others. Among equals the first row wins.
+pub fn independent_rows(matrix: &DMatrix<f64>, tolerance: f64) -> Vec<usize> {
+    // Columns are contiguous: work on the transpose, one column for each row.
+    let mut rest = matrix.transpose();
+    let count = rest.ncols();
+    let mut left: Vec<usize> = (0..count).collect();
+    let mut norms: Vec<f64> = rest.column_iter().map(|column| column.norm_squared()).collect();
+    let longest = norms.iter().fold(0.0f64, |a, b| a.max(*b));
+    let smallest = tolerance * tolerance * longest;
+    let mut taken = Vec::with_capacity(count.min(rest.nrows()));
+    while let Some((place, norm)) = largest(&left, &norms) {
+        // Near its end the updated norm is rounding; the column itself knows better.
+        let row = left[place];
+        let true_norm = rest.column(row).norm_squared();
+        if true_norm < 0.5 * norm {
+            norms[row] = true_norm;
+            continue;
+        }
+        if true_norm <= smallest {
+            break;
+        }
+        left.remove(place);
+        taken.push(row);
+        let direction = rest.column(row) / true_norm.sqrt();
+        for &other in &left {
+            let mut column = rest.column_mut(other);
+            let along = column.dot(&direction);
+            if along != 0.0 {
+                column.axpy(-along, &direction, 1.0);
+                norms[other] -= along * along;
+            }
+        }
+    }
+    taken.sort_unstable();
+    taken
+}
+
+/// Place in `left` of the row with the largest norm, and that norm.
+fn largest(left: &[usize], norms: &[f64]) -> Option<(usize, f64)> {
+    let mut best = None;
+    for (place, &row) in left.iter().enumerate() {
+        if best.is_none_or(|(_, norm)| norms[row] > norm) {
+            best = Some((place, norms[row]));
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_that_is_a_sum_of_others_is_left_out() {
+        let matrix =
+            DMatrix::from_row_slice(4, 3, &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 1e-3]);
+        assert_eq!(independent_rows(&matrix, 1e-9), [0, 2, 3]);
+        assert_eq!(independent_rows(&matrix, 1e-2), [0, 2]);
+    }
+}
