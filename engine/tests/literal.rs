@@ -22,8 +22,12 @@ fn the_elimination_agrees_with_the_literal_equations_at_any_state() {
             }
             let (system, mut elimination, mut q, mut q_dot) = start(&scene);
             let mut random = Random::new(seed + 1000);
-            q.iter_mut().for_each(|x| *x += 0.05 * random.number());
-            q_dot.iter_mut().for_each(|x| *x += random.number());
+            for x in &mut q {
+                *x += 0.05 * random.number();
+            }
+            for x in &mut q_dot {
+                *x += random.number();
+            }
             let mut acceleration = vec![0.0; q.len()];
             elimination.accelerate(&system, &q, &q_dot, (0.0, 0.0), &mut acceleration);
             let solution = Literal::new(&system, &elimination).solve().unwrap();
