@@ -198,6 +198,8 @@ pub struct MeasuredFile {
     pub body: Option<String>,
     /// What of the body, in the ground frame.
     pub motion: Option<MotionKind>,
+    /// With position or velocity: a point other than the centre of mass, by its lengths along u, v, w from there, m.
+    pub point: Option<[f64; 3]>,
     /// A joint, with `force_on` or `moment_on`.
     pub joint: Option<String>,
     /// The body, or `ground`, on which the joint's force acts.

@@ -76,7 +76,7 @@ fn measure(scene: &Scene, simulation: &mut Simulation, measured: &MeasuredFile) 
     } else if let Some(joint) = &measured.joint {
         reaction(simulation, joint, measured)?
     } else if let Some(body) = &measured.body {
-        motion(scene, simulation, body, measured.motion)?
+        motion(scene, simulation, body, measured)?
     } else {
         return Err("measured names neither a count, the energy, a joint nor a body".to_owned());
     };
@@ -112,14 +112,18 @@ fn motion(
     scene: &Scene,
     simulation: &mut Simulation,
     body: &str,
-    motion: Option<MotionKind>,
+    measured: &MeasuredFile,
 ) -> Result<[f64; 3], String> {
     let index = scene.bodies.iter().position(|b| b.name == body);
     let frame = simulation.frame();
     let state = index.and_then(|k| frame.bodies.get(k)).ok_or_else(|| format!("there is no body {body}"))?;
-    match motion {
-        Some(MotionKind::Position) => Ok(state.position),
-        Some(MotionKind::Velocity) => Ok(state.velocity),
+    let [xi, eta, zeta] = measured.point.unwrap_or_default();
+    let arm: [f64; 3] = std::array::from_fn(|k| xi * state.u[k] + eta * state.v[k] + zeta * state.w[k]);
+    let [a, b, c] = state.angular_velocity;
+    let turning = [b * arm[2] - c * arm[1], c * arm[0] - a * arm[2], a * arm[1] - b * arm[0]];
+    match measured.motion {
+        Some(MotionKind::Position) => Ok(std::array::from_fn(|k| state.position[k] + arm[k])),
+        Some(MotionKind::Velocity) => Ok(std::array::from_fn(|k| state.velocity[k] + turning[k])),
         Some(MotionKind::AngularVelocity) => Ok(state.angular_velocity),
         Some(MotionKind::U) => Ok(state.u),
         Some(MotionKind::V) => Ok(state.v),
