@@ -26,7 +26,10 @@ export function navigate(path: string): void {
 export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route["open"]): void {
   let current: Page | undefined;
 
+  let shownPath = "";
+
   const show = (first: boolean): void => {
+    shownPath = location.pathname;
     current?.dispose?.();
     outlet.replaceChildren();
     const path = location.pathname.replace(/\/+$/, "") || "/";
@@ -45,13 +48,16 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
       if (here) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
-    if (!first) {
+    if (!first && !location.hash) {
       scrollTo(0, 0);
       outlet.focus({ preventScroll: true });
     }
   };
 
-  addEventListener("popstate", () => show(false));
+  addEventListener("popstate", () => {
+    // A step to another place of the same page is the browser's own business.
+    if (location.pathname !== shownPath) show(false);
+  });
   addEventListener("triad:navigate", () => show(false));
   document.addEventListener("click", (event) => {
     if (event.defaultPrevented || event.button !== 0) return;
@@ -61,7 +67,7 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
     if (link.pathname.startsWith("/api/")) return;
     if (link.pathname === location.pathname && link.hash) return;
     event.preventDefault();
-    if (link.href !== location.href) navigate(link.pathname + link.search);
+    if (link.href !== location.href) navigate(link.pathname + link.search + link.hash);
   });
   show(true);
 }

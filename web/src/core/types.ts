@@ -20,7 +20,12 @@ export interface Question {
   id: string;
   kind: "number" | "vector" | "choice";
   prompt_html: string;
+  /** The unit that the answer is read in. */
   unit?: string | null;
+  /** Whether the student has to write the unit. */
+  asks_unit?: boolean;
+  /** Rows and columns of a vector's answer. */
+  size?: [number, number];
   /** The sentence that states the tolerance, written from the rule that grades. */
   rule: string;
   points: number;
@@ -37,7 +42,7 @@ export interface Lesson {
   prerequisites: string[];
   html: string;
   scene: Scene | string;
-  exercise: { questions: Question[] };
+  exercise: { questions: Question[]; pass_mark?: number };
 }
 
 export interface Scene {
@@ -104,7 +109,9 @@ export interface SessionState {
   evaluations: number;
   factorizations: number;
   finished: boolean;
-  error?: Problem | string | null;
+  error?: Problem | null;
+  /** What the engine found or corrected in the scene. */
+  notes?: string[];
   bodies: BodyFrame[];
 }
 
@@ -124,6 +131,8 @@ export interface JointMultipliers {
   at: Vec3;
   /** The body that force and moment act on. */
   on: string;
+  /** The body at the other side of the joint. */
+  by: string;
   expressed_in: string;
 }
 
@@ -153,7 +162,8 @@ export interface QuestionVerdict {
 }
 
 export interface Verdict {
-  id: string;
+  /** Null where nothing was graded, hence nothing stored. */
+  id: string | null;
   lesson: string;
   student: string;
   submitted_at: string;

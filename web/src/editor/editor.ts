@@ -128,9 +128,9 @@ function reportView(report: CheckReport): HTMLElement {
       figure("Bodies", report.bodies), figure("Coordinates", report.coordinates), figure("Rows", report.rows), figure("Rank", report.rank),
       figure("Degrees of freedom", report.degrees_of_freedom), figure("Redundant rows", redundant)),
     report.redundant.length > 0
-      ? h("div", null, h("h3", null, "Redundant rows"),
+      ? h("div", null, h("h2", null, "Redundant rows"),
         h("ul", null, ...report.redundant.map((entry) => h("li", null, h("b", null, entry.joint), `: ${entry.rows.join(", ")}`))),
         h("p", { class: "help" }, "These rows repeat what others already demand. The run is right, but how their joints share the load is not unique."))
       : null,
-    report.notes.length > 0 ? h("div", null, h("h3", null, "Notes of the engine"), h("ul", null, ...report.notes.map((note) => h("li", null, note)))) : null);
+    report.notes.length > 0 ? h("div", null, h("h2", null, "Notes of the engine"), h("ul", null, ...report.notes.map((note) => h("li", null, note)))) : null);
 }

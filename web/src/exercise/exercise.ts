@@ -1,7 +1,7 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
 import { api, problemOf } from "../core/api";
 import { announce, h } from "../core/dom";
-import { plural } from "../core/format";
+import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { recall, remember, student } from "../core/prefs";
 import type { Lesson, Verdict } from "../core/types";
@@ -83,7 +83,7 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
   addEventListener("triad:student", renamed);
 
   root.append(
-    h("div", { class: "section-head" }, h("h2", null, "Exercise"), h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}`)),
+    h("div", { class: "section-head" }, h("h2", null, "Exercise"), h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}${lesson.exercise.pass_mark ? `; ${points(lesson.exercise.pass_mark * total)} to pass` : ""}`)),
     form, past.root);
   void past.load();
   return () => removeEventListener("triad:student", renamed);

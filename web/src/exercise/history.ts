@@ -49,7 +49,7 @@ export function historyList(lesson: Lesson): History {
       }
     },
     add: (verdict) => {
-      if (!verdict.gradable || verdicts.some((before) => before.id === verdict.id)) return;
+      if (!verdict.gradable || verdict.id === null || verdicts.some((before) => before.id === verdict.id)) return;
       verdicts.unshift(verdict);
       paint();
     },

@@ -70,26 +70,33 @@ function textInput(id: string, label: string, described: string, value: string, 
 }
 
 function unitInput(question: Question, base: string, described: string, draft: string | undefined): HTMLInputElement | null {
-  if (!question.unit) return null;
-  return textInput(`${base}-unit`, "Unit", described, draft ?? question.unit, "unit-field");
+  if (!question.asks_unit) return null;
+  return textInput(`${base}-unit`, "Unit", described, draft ?? "", "unit-field");
+}
+
+/** A unit that is not asked for stands behind the field. */
+function givenUnit(question: Question): HTMLElement | null {
+  return question.unit ? h("span", { class: "given-unit" }, question.unit) : null;
 }
 
 function number1(question: Question, base: string, described: string, draft: string[] | undefined): Inputs {
   const value = textInput(`${base}-value`, "Value", described, draft?.[0] ?? "");
   const unit = unitInput(question, base, described, draft?.[1]);
   return {
-    root: h("div", { class: "answer" }, value, unit),
+    root: h("div", { class: "answer" }, value, unit ?? givenUnit(question)),
     answer: () => withUnit({ value: value.value.trim() }, unit),
     draft: () => [value.value, ...(unit ? [unit.value] : [])],
   };
 }
 
 function vector(question: Question, base: string, described: string, draft: string[] | undefined): Inputs {
-  const parts = ["x", "y", "z"].map((axis, k) => textInput(`${base}-${axis}`, `${axis} component`, described, draft?.[k] ?? ""));
-  const unit = unitInput(question, base, described, draft?.[3]);
+  const count = question.size ? question.size[0] * question.size[1] : 3;
+  const names = count === 3 ? ["x", "y", "z"] : Array.from({ length: count }, (_, k) => String(k + 1));
+  const parts = names.map((axis, k) => textInput(`${base}-${axis}`, `${axis} component`, described, draft?.[k] ?? ""));
+  const unit = unitInput(question, base, described, draft?.[count]);
   return {
     root: h("div", { class: "answer is-vector" },
-      ...parts.map((part, k) => h("span", { class: "component" }, h("span", { "aria-hidden": "true" }, "xyz"[k] ?? ""), part)), unit),
+      ...parts.map((part, k) => h("span", { class: "component" }, h("span", { "aria-hidden": "true" }, names[k] ?? ""), part)), unit ?? givenUnit(question)),
     answer: () => withUnit({ value: parts.map((part) => part.value.trim()) }, unit),
     draft: () => [...parts.map((part) => part.value), ...(unit ? [unit.value] : [])],
   };

@@ -11,12 +11,18 @@ const WORDS: Record<VerdictKind, { word: string; mark: IconName }> = {
   invalid: { word: "Cannot be read", mark: "warn" },
 };
 
+const SAID = new Set(["Right.", "Not right.", "Not answered."]);
+
 export function verdictLine(result: QuestionVerdict): HTMLElement {
   const { word, mark } = WORDS[result.verdict] ?? WORDS.invalid;
+  const text = authored(h("div", { class: "verdict-text" }), result.message_html);
+  // The heading says it already.
+  const first = text.firstElementChild;
+  if (first && SAID.has(first.textContent ?? "")) first.remove();
   return h("div", { class: `verdict is-${result.verdict}` },
     h("p", { class: "verdict-head" }, icon(mark), h("strong", null, word),
       h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`)),
-    authored(h("div", { class: "verdict-text" }), result.message_html));
+    text.textContent ? text : null);
 }
 
 export function verdictSummary(verdict: Verdict): HTMLElement {

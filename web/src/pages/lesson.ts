@@ -33,6 +33,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       undo.push(exerciseSection(exercise, lesson));
       await setMaths(text);
       await setMaths(exercise);
+      if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
       await afterPaint();
       if (leaving.signal.aborted) return;
       await openBench(lesson);

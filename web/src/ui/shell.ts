@@ -23,7 +23,7 @@ export function header(root: HTMLElement): void {
   addEventListener("triad:student", () => paintName(name));
 
   root.append(
-    h("a", { class: "brand", href: "/" }, brandMark, h("span", null, "Triad")),
+    h("a", { class: "brand", href: "/", "aria-label": "Triad, all lessons" }, brandMark, h("span", null, "Triad")),
     h("nav", { "aria-label": "Main" }, h("a", { href: "/" }, "Lessons"), h("a", { href: "/scenes" }, "Scenes")),
     h("span", { class: "header-space" }),
     name, themeButton,

@@ -1,5 +1,5 @@
 // The states that arrived, kept for looking back: thinned out evenly when they become many.
-import type { SessionState } from "../core/types";
+import type { SessionState, Vec3 } from "../core/types";
 
 const MOST = 3000;
 
@@ -26,6 +26,22 @@ export class History {
   /** The latest state not after `time`. */
   at(time: number): SessionState | undefined {
     return this.states[this.indexAt(time)];
+  }
+
+  /** The bodies at `time`, drawn evenly between the two states around it. */
+  between(time: number): SessionState | undefined {
+    const at = this.indexAt(time);
+    const [a, b] = [this.states[at], this.states[at + 1]];
+    if (!a || !b || time <= a.time || b.bodies.length !== a.bodies.length) return a;
+    const part = (time - a.time) / (b.time - a.time);
+    const mix = (p: Vec3, q: Vec3): Vec3 => [0, 1, 2].map((k) => (p[k] ?? 0) + part * ((q[k] ?? 0) - (p[k] ?? 0))) as Vec3;
+    return {
+      ...a,
+      bodies: a.bodies.map((body, k) => {
+        const next = b.bodies[k] ?? body;
+        return { ...body, position: mix(body.position, next.position), u: mix(body.u, next.u), v: mix(body.v, next.v), w: mix(body.w, next.w) };
+      }),
+    };
   }
 
   /** The latest state strictly before `time`. */

@@ -62,9 +62,9 @@ export function wrench(joint: JointMultipliers, body: BodyFrame | undefined, sid
 }
 
 function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: About, frame: Frame): HTMLElement {
-  const body = bodies.find((entry) => entry.name === joint.on);
+  const on = side === "j" ? joint.on : joint.by;
+  const body = bodies.find((entry) => entry.name === on);
   const { force, moment } = wrench(joint, body, side, about, frame);
-  const on = side === "j" ? joint.on : `the body that holds ${joint.on}`;
   const point = about === "centre" && body ? body.position : joint.at;
   const axes = frame === "body" && body ? ["u", "v", "w"] : ["x", "y", "z"];
   const row = (label: string, symbol: string, value: Vec3, unit: string): HTMLElement => h("tr", null,
@@ -74,7 +74,7 @@ function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: A
 
   return h("article", { class: "joint" },
     h("h3", null, joint.joint),
-    h("p", { class: "said" }, `On ${on}; moment about ${about === "centre" && body ? `the centre of mass of ${joint.on}` : "the joint"} at (${point.map((part) => num(part, 4)).join(", ")}) m; components in ${frame === "body" && body ? `the axes of ${joint.on}` : "the world frame"}.`),
+    h("p", { class: "said" }, `On ${on}; moment about ${about === "centre" && body ? `the centre of mass of ${on}` : "the joint"} at (${point.map((part) => num(part, 4)).join(", ")}) m; components in ${frame === "body" && body ? `the axes of ${on}` : "the world frame"}.`),
     h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${joint.joint}` },
       h("table", { class: "data" },
         h("thead", { class: "visually-hidden" }, h("tr", null, h("th", { scope: "col" }, "Quantity"), ...axes.map((axis) => h("th", { scope: "col" }, axis)), h("th", { scope: "col" }, "Size"))),

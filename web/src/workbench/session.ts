@@ -2,10 +2,12 @@
 import { api, ApiError, type SessionSource } from "../core/api";
 import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
-import type { Problem, SessionState } from "../core/types";
+import type { SessionState } from "../core/types";
 import { banner } from "../ui/notice";
 import { History } from "./history";
 
+/** Between two states of a running session, s. */
+const STATE_INTERVAL = 0.1;
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 
 type Events = {
@@ -13,7 +15,7 @@ type Events = {
   shown: () => void;
   /** Blocks of the recording, complete in themselves. */
   blocks: (bytes: Uint8Array) => void;
-  /** A new connection: the recording follows from its beginning. */
+  /** A new connection, or a run from the start: a recording follows from its beginning. */
   opened: () => void;
   problem: (error: unknown) => void;
 };
@@ -24,6 +26,7 @@ export class Session {
   readonly past = new History();
   speed = 1;
   private cursor: number | null = null;
+  private cameAt = 0;
   private socket: WebSocket | undefined;
   private retry = 0;
   private timer = 0;
@@ -56,6 +59,17 @@ export class Session {
   /** The time under the cursor, s. */
   get time(): number {
     return this.cursor ?? this.latest?.time ?? 0;
+  }
+
+  /**
+   * The time to draw at, s. While time runs, states come ten times a second: the picture follows one
+   * interval behind and moves evenly between them.
+   */
+  get smoothTime(): number {
+    const state = this.latest;
+    if (!state?.playing || this.cursor !== null) return this.time;
+    const since = (performance.now() - this.cameAt) / 1000;
+    return state.time - state.speed * Math.max(0, STATE_INTERVAL - since);
   }
 
   async start(): Promise<void> {
@@ -150,6 +164,7 @@ export class Session {
 
   private take(state: SessionState): void {
     const before = this.latest;
+    this.cameAt = performance.now();
     if (before && state.id === before.id && state.time < before.time) {
       this.past.clear();
       this.cursor = null;
@@ -157,7 +172,7 @@ export class Session {
     this.latest = state;
     this.past.add(state);
     this.emit("shown");
-    if (state.error && !before?.error) this.report(runProblem(state.error, state.time));
+    if (state.error && !before?.error) this.report(state.error);
     if (state.finished && before && !before.finished) this.tell();
   }
 
@@ -184,6 +199,7 @@ export class Session {
 
   private read(text: string): void {
     const message = JSON.parse(text) as { type?: string } & SessionState;
+    if (message.type === "reset") this.emit("opened");
     if (message.type !== "state") return;
     // A step asked for by HTTP may overtake its own echo on the socket.
     if (this.busy) return;
@@ -257,9 +273,4 @@ export class Session {
     this.disconnect();
     if (this.latest) api.dropSession(this.latest.id);
   };
-}
-
-function runProblem(error: Problem | string, time: number): Problem {
-  if (typeof error !== "string") return error;
-  return { title: `The run stopped at ${seconds(time)}`, detail: error, hint: "Reset it, or loosen the tolerance of the scene." };
 }

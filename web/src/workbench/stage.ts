@@ -1,6 +1,6 @@
 // Where the mechanism is seen: the sketch at once, the 3-D view when it has arrived.
 import { announce, h, setText } from "../core/dom";
-import { onTheme, recall, remember } from "../core/prefs";
+import { onTheme, recall, reducedMotion, remember } from "../core/prefs";
 import type { Scene } from "../core/types";
 import { icon } from "../ui/icons";
 import type { Session } from "./session";
@@ -29,7 +29,20 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
   let starting = false;
   let failed = false;
   let gone = false;
+  let ticking = false;
 
+  const draw = (): void => {
+    const time = session.smoothTime;
+    const state = session.past.between(time) ?? session.shown;
+    if (!state) return;
+    if (!viewer || !wanted) drawing.update(state);
+    viewer?.show(time);
+  };
+  const tick = (): void => {
+    ticking = !gone && session.latest?.playing === true && !session.reviewing;
+    draw();
+    if (ticking) requestAnimationFrame(tick);
+  };
   const paint = (): void => {
     const on = viewer !== undefined && wanted;
     host.hidden = !on;
@@ -93,10 +106,8 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
     session.on("opened", () => viewer?.begin()),
     session.on("blocks", (block) => viewer?.send(block)),
     session.on("shown", () => {
-      const state = session.shown;
-      if (!state) return;
-      if (!viewer || !wanted) drawing.update(state);
-      viewer?.show(session.time);
+      draw();
+      if (session.latest?.playing && !session.reviewing && !ticking && !reducedMotion()) tick();
     }),
     // The viewer takes its theme when it starts: it is started again, from the browser's cache.
     onTheme(() => {

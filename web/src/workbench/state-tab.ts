@@ -31,6 +31,7 @@ export function stateTab(session: Session): InspectorTab {
     { label: "q", number: true }, { label: "dq/dt", unit: "per s", number: true },
   ]);
   const more = h("button", { type: "button", class: "button quiet small", hidden: true });
+  const notes = h("ul", { class: "notes", "aria-label": "Notes of the engine about this scene" });
   let limit = FIRST_ROWS;
   let names: string[] | undefined;
   let asked = "";
@@ -59,6 +60,9 @@ export function stateTab(session: Session): InspectorTab {
     setText(steps.value, state.rejected > 0 ? `${state.steps} (+ ${state.rejected} rejected)` : String(state.steps));
     setText(evaluations.value, String(state.evaluations));
     setText(factors.value, String(state.factorizations));
+    const said = state.notes ?? [];
+    notes.hidden = said.length === 0;
+    if (notes.childElementCount !== said.length) notes.replaceChildren(...said.map((text) => h("li", null, text)));
     const shown = Math.min(limit, state.q.length);
     table.update(state.q.slice(0, shown).map((q, k) => ({
       head: names?.[k] ?? `q${k + 1}`,
@@ -71,7 +75,7 @@ export function stateTab(session: Session): InspectorTab {
   return {
     root: h("div", { class: "stack" },
       h("dl", { class: "figures" }, ...[time, energy, drift, phi, phiDot, steps, evaluations, factors].map((item) => item.root)),
-      table.root, more),
+      notes, table.root, more),
     refresh,
   };
 }
