@@ -1,5 +1,6 @@
 //! Built-in scenes by name.
 
+mod chain;
 mod four_bar;
 
 use crate::model::nearest_name;
@@ -23,6 +24,10 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         name: "n-four-bar:N",
         summary: "N four-bar windows in a row, through their singular positions (A02); N from 1 to 1000",
+    },
+    Entry {
+        name: "spatial-chain:N",
+        summary: "N rods on spherical joints swinging in space, for measuring; N from 1 to 5000",
     },
     Entry {
         name: "spatial-double-pendulum",
@@ -97,6 +102,9 @@ pub fn scene(name: &str) -> Result<Scene, CatalogueError> {
     let (family, number) = name.split_once(':').unwrap_or((name, ""));
     if family == "n-four-bar" {
         return ranged("n-four-bar", number, 1, 1000).map(four_bar::scene);
+    }
+    if family == "spatial-chain" {
+        return ranged("spatial-chain", number, 1, crate::scene::MAX_BODIES).map(chain::scene);
     }
     let names = ENTRIES.iter().map(|e| e.name);
     Err(CatalogueError::Unknown { name: name.to_owned(), nearest: nearest_name(name, names) })

@@ -1,11 +1,15 @@
-//! Block-sparse Cholesky factorization S = L Lᵀ whose order and fill are fixed once.
+//! Block-sparse factorization S = L D Lᵀ whose order and fill are fixed once.
 //!
 //! The blocks are the joints: S has a block for each pair of joints that share a moving body, so its graph is that
 //! of the mechanism. The elimination order is greedy minimum degree; for chains, trees and ladders of loops the fill,
 //! and with it the cost, is linear in the number of joints. The numeric phase runs a program of block operations
-//! that was written down at assembly: it neither searches nor allocates.
+//! that was written down at assembly: it neither searches nor allocates. Diagonal blocks are inverted outright, so
+//! that a solve is a chain of short products without divisions.
+
+mod kernel;
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Where a block of S is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +18,22 @@ pub struct Slot {
     pub offset: usize,
     /// Whether the stored block is the transpose of the one asked for.
     pub transposed: bool,
+}
+
+/// Largest block: no joint or driver has more rows.
+pub const MAX_BLOCK: usize = 12;
+
+/// Runs `$call` with the constant `$n` equal to a block's size.
+macro_rules! by_size {
+    ($size:expr, $n:ident => $call:expr) => {
+        by_size!(@ $size, $n => $call; 1 2 3 4 5 6 7 8 9 10 11 12)
+    };
+    (@ $size:expr, $n:ident => $call:expr; $($value:literal)*) => {
+        match $size {
+            $($value => { const $n: usize = $value; $call })*
+            _ => {}
+        }
+    };
 }
 
 /// What a factorization met.
@@ -27,18 +47,21 @@ pub struct Pivots {
 
 #[derive(Clone, Debug)]
 struct Column {
-    block: usize,
     size: usize,
+    /// First scalar row.
+    start: usize,
     diagonal: usize,
-    below: std::ops::Range<usize>,
-    updates: std::ops::Range<usize>,
+    below: Range<usize>,
+    updates: Range<usize>,
 }
 
-/// A block L_ij below the diagonal.
+/// A block below the diagonal.
 #[derive(Clone, Debug)]
 struct Below {
     block: usize,
     rows: usize,
+    /// First scalar row.
+    start: usize,
     offset: usize,
 }
 
@@ -52,7 +75,7 @@ struct Update {
     columns: usize,
 }
 
-/// The matrix and its factor, in one store.
+/// The matrix and its factor S = L D Lᵀ, D block-diagonal.
 #[derive(Clone, Debug)]
 pub struct BlockCholesky {
     columns: Vec<Column>,
@@ -60,9 +83,10 @@ pub struct BlockCholesky {
     updates: Vec<Update>,
     /// Place of each block in the elimination order.
     rank: Vec<usize>,
-    /// First scalar row of each block.
-    start: Vec<usize>,
+    /// S, used up by the factorization.
     values: Vec<f64>,
+    /// D⁻¹ on the diagonal, blocks of L below it.
+    factors: Vec<f64>,
     /// Diagonal of S before the factorization.
     diagonal: Vec<f64>,
 }
@@ -95,16 +119,16 @@ impl BlockCholesky {
             below: Vec::new(),
             updates: Vec::new(),
             rank,
-            start,
             values: Vec::new(),
+            factors: Vec::new(),
             diagonal: vec![0.0; sizes.iter().sum()],
         };
-        factor.lay_out(sizes, &order, &fill);
+        factor.lay_out(sizes, &start, &order, &fill);
         factor.write_updates();
         factor
     }
 
-    fn lay_out(&mut self, sizes: &[usize], order: &[usize], fill: &[Vec<usize>]) {
+    fn lay_out(&mut self, sizes: &[usize], start: &[usize], order: &[usize], fill: &[Vec<usize>]) {
         let mut next = 0;
         for (&block, neighbours) in order.iter().zip(fill) {
             let size = sizes[block];
@@ -114,13 +138,14 @@ impl BlockCholesky {
             let mut rows: Vec<usize> = neighbours.clone();
             rows.sort_by_key(|&i| self.rank[i]);
             for i in rows {
-                self.below.push(Below { block: i, rows: sizes[i], offset: next });
+                self.below.push(Below { block: i, rows: sizes[i], start: start[i], offset: next });
                 next += sizes[i] * size;
             }
             let below = first..self.below.len();
-            self.columns.push(Column { block, size, diagonal, below, updates: 0..0 });
+            self.columns.push(Column { size, start: start[block], diagonal, below, updates: 0..0 });
         }
         self.values = vec![0.0; next];
+        self.factors = vec![0.0; next];
     }
 
     fn write_updates(&mut self) {
@@ -177,124 +202,113 @@ impl BlockCholesky {
         self.columns.len() + self.below.len()
     }
 
-    /// Replaces S by the factor of S + ε diag(S).
+    /// Factors S + ε diag(S); S is used up.
     ///
     /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops
     /// its row. `visit` sees each relative pivot with its scalar row.
+    #[inline(always)]
     pub fn factor(&mut self, epsilon: f64, skip: f64, mut visit: impl FnMut(usize, f64)) -> Pivots {
         let mut pivots = Pivots { smallest: f64::INFINITY, row: 0 };
-        let values = self.values.as_mut_slice();
+        let mut note = |row: usize, relative: f64| {
+            visit(row, relative);
+            if relative < pivots.smallest {
+                pivots = Pivots { smallest: relative, row };
+            }
+        };
+        // The shift of every diagonal entry is relative to S itself, so it comes before any update.
         for column in &self.columns {
             let n = column.size;
-            let first = self.start[column.block];
             for i in 0..n {
-                let entry = &mut values[column.diagonal + i * n + i];
-                self.diagonal[first + i] = *entry;
+                let entry = &mut self.values[column.diagonal + i * n + i];
+                self.diagonal[column.start + i] = *entry;
                 *entry += epsilon * *entry;
             }
         }
-        for column in &self.columns {
-            let n = column.size;
-            let first = self.start[column.block];
-            let (head, tail) = values.split_at_mut(column.diagonal + n * n);
-            let l = &mut head[column.diagonal..];
-            for i in 0..n {
-                for k in 0..i {
-                    let dot: f64 = (0..k).map(|p| l[i * n + p] * l[k * n + p]).sum();
-                    l[i * n + k] = (l[i * n + k] - dot) / l[k * n + k];
-                }
-                let dot: f64 = (0..i).map(|p| l[i * n + p] * l[i * n + p]).sum();
-                let pivot = l[i * n + i] - dot;
-                let reference = self.diagonal[first + i];
-                let relative = if reference > 0.0 { pivot / reference } else { 0.0 };
-                visit(first + i, relative);
-                if relative < pivots.smallest {
-                    pivots = Pivots { smallest: relative, row: first + i };
-                }
-                l[i * n + i] = if relative > skip { pivot.sqrt() } else { f64::INFINITY };
-            }
-            for below in &self.below[column.below.clone()] {
-                let at = below.offset - (column.diagonal + n * n);
-                solve_rows(l, n, &mut tail[at..at + below.rows * n]);
-            }
-            for update in &self.updates[column.updates.clone()] {
-                apply(values, update, n);
-            }
+        for place in 0..self.columns.len() {
+            let size = self.columns[place].size;
+            by_size!(size, N => self.factor_column::<N>(place, skip, &mut note));
         }
         pivots
     }
 
-    /// Replaces b by the solution of L Lᵀ x = b.
+    #[inline(always)]
+    fn factor_column<const N: usize>(&mut self, place: usize, skip: f64, note: &mut impl FnMut(usize, f64)) {
+        let column = &self.columns[place];
+        let at = column.diagonal..column.diagonal + N * N;
+        let (Some(block), Some(reference)) = (
+            self.values[at.clone()].as_chunks::<N>().0.first_chunk::<N>(),
+            self.diagonal[column.start..].first_chunk::<N>(),
+        ) else {
+            return;
+        };
+        let inverse = kernel::invert(block, reference, skip, |i, relative| note(column.start + i, relative));
+        self.factors[at].copy_from_slice(inverse.as_flattened());
+        for below in &self.below[column.below.clone()] {
+            let at = below.offset..below.offset + below.rows * N;
+            kernel::scale(&inverse, &self.values[at.clone()], &mut self.factors[at]);
+        }
+        for update in &self.updates[column.updates.clone()] {
+            // The target belongs to a later column than the blocks it is made of.
+            let (done, later) = self.values.split_at_mut(update.target);
+            kernel::update::<N>(
+                &self.factors[update.left..update.left + update.rows * N],
+                &done[update.right..update.right + update.columns * N],
+                update.columns,
+                &mut later[..update.rows * update.columns],
+            );
+        }
+    }
+
+    /// Replaces b by the solution of S x = b.
+    #[inline(always)]
     pub fn solve(&self, x: &mut [f64]) {
         for column in &self.columns {
-            let n = column.size;
-            let first = self.start[column.block];
-            let l = &self.values[column.diagonal..column.diagonal + n * n];
-            for i in 0..n {
-                let dot: f64 = (0..i).map(|p| l[i * n + p] * x[first + p]).sum();
-                x[first + i] = (x[first + i] - dot) / l[i * n + i];
-            }
-            for below in &self.below[column.below.clone()] {
-                let block = &self.values[below.offset..below.offset + below.rows * n];
-                let target = self.start[below.block];
-                for (i, row) in block.chunks_exact(n).enumerate() {
-                    let dot: f64 = row.iter().zip(&x[first..first + n]).map(|(a, b)| a * b).sum();
-                    x[target + i] -= dot;
-                }
-            }
+            by_size!(column.size, N => self.forward::<N>(column, x));
         }
         for column in self.columns.iter().rev() {
-            let n = column.size;
-            let first = self.start[column.block];
-            for below in &self.below[column.below.clone()] {
-                let block = &self.values[below.offset..below.offset + below.rows * n];
-                let source = self.start[below.block];
-                for (i, row) in block.chunks_exact(n).enumerate() {
-                    let value = x[source + i];
-                    for (p, a) in row.iter().enumerate() {
-                        x[first + p] -= a * value;
-                    }
-                }
-            }
-            let l = &self.values[column.diagonal..column.diagonal + n * n];
-            for i in (0..n).rev() {
-                let dot: f64 = (i + 1..n).map(|p| l[p * n + i] * x[first + p]).sum();
-                x[first + i] = (x[first + i] - dot) / l[i * n + i];
-            }
+            by_size!(column.size, N => self.backward::<N>(column, x));
         }
     }
-}
 
-/// Each row b of `block` becomes the solution of x Lᵀ = b.
-fn solve_rows(l: &[f64], n: usize, block: &mut [f64]) {
-    for row in block.chunks_exact_mut(n) {
-        for k in 0..n {
-            let dot: f64 = (0..k).map(|p| row[p] * l[k * n + p]).sum();
-            row[k] = (row[k] - dot) / l[k * n + k];
+    #[inline(always)]
+    fn forward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
+        let Some(&y) = x[column.start..].first_chunk::<N>() else { return };
+        for below in &self.below[column.below.clone()] {
+            let block = &self.factors[below.offset..below.offset + below.rows * N];
+            kernel::forward(block, &y, &mut x[below.start..below.start + below.rows]);
         }
     }
-}
 
-fn apply(values: &mut [f64], update: &Update, n: usize) {
-    for i in 0..update.rows {
-        for k in 0..update.columns {
-            let left = update.left + i * n;
-            let right = update.right + k * n;
-            let dot: f64 = (0..n).map(|p| values[left + p] * values[right + p]).sum();
-            values[update.target + i * update.columns + k] -= dot;
+    #[inline(always)]
+    fn backward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
+        let inverse = self.factors[column.diagonal..].as_chunks::<N>().0;
+        let (Some(inverse), Some(y)) = (inverse.first_chunk::<N>(), x[column.start..].first_chunk::<N>())
+        else {
+            return;
+        };
+        let mut solution = kernel::multiply(inverse, y);
+        for below in &self.below[column.below.clone()] {
+            let block = &self.factors[below.offset..below.offset + below.rows * N];
+            kernel::backward(block, &x[below.start..below.start + below.rows], &mut solution);
         }
+        x[column.start..column.start + N].copy_from_slice(&solution);
     }
 }
 
 /// Greedy minimum degree: the order, and for each eliminated block its neighbours at that moment.
+///
+/// Among equals the block that was touched longest ago goes first, so that a chain is eliminated from both ends and
+/// neighbouring steps of the program do not wait for each other.
 fn minimum_degree(mut graph: Vec<BTreeSet<usize>>) -> (Vec<usize>, Vec<Vec<usize>>) {
-    let mut queue: BTreeSet<(usize, usize)> = graph.iter().enumerate().map(|(i, n)| (n.len(), i)).collect();
+    let mut touched = vec![0; graph.len()];
+    let mut queue: BTreeSet<(usize, usize, usize)> =
+        graph.iter().enumerate().map(|(i, n)| (n.len(), 0, i)).collect();
     let mut order = Vec::with_capacity(graph.len());
     let mut fill = Vec::with_capacity(graph.len());
-    while let Some((_, block)) = queue.pop_first() {
+    while let Some((_, _, block)) = queue.pop_first() {
         let neighbours: Vec<usize> = std::mem::take(&mut graph[block]).into_iter().collect();
         for &i in &neighbours {
-            queue.remove(&(graph[i].len(), i));
+            queue.remove(&(graph[i].len(), touched[i], i));
             graph[i].remove(&block);
         }
         for (at, &i) in neighbours.iter().enumerate() {
@@ -303,10 +317,11 @@ fn minimum_degree(mut graph: Vec<BTreeSet<usize>>) -> (Vec<usize>, Vec<Vec<usize
                 graph[j].insert(i);
             }
         }
-        for &i in &neighbours {
-            queue.insert((graph[i].len(), i));
-        }
         order.push(block);
+        for &i in &neighbours {
+            touched[i] = order.len();
+            queue.insert((graph[i].len(), touched[i], i));
+        }
         fill.push(neighbours);
     }
     (order, fill)
