@@ -23,7 +23,9 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Json<T> {
             essence == "application/json" || essence.ends_with("+json")
         });
         let stated = media.unwrap_or("nothing").to_owned();
-        let bytes = axum::body::Bytes::from_request(request, state).await.map_err(unreadable_body)?;
+        let bytes = axum::body::Bytes::from_request(request, state)
+            .await
+            .map_err(|rejection| unreadable_body(&rejection))?;
         if !is_json || (stated == "nothing" && !bytes.is_empty()) {
             return Err(Problem::new(
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -86,7 +88,7 @@ fn invalid(pointer: &str, error: &serde_json::Error) -> Problem {
         .at(pointer, error.to_string())
 }
 
-fn unreadable_body(rejection: BytesRejection) -> Problem {
+fn unreadable_body(rejection: &BytesRejection) -> Problem {
     if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
         return too_large();
     }

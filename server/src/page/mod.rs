@@ -40,7 +40,8 @@ pub async fn serve(request: Request) -> Response {
     let found = find(if path.is_empty() { "index.html" } else { path }).or_else(|| {
         // Addresses without a file name belong to the page's own router.
         let last = path.rsplit('/').next().unwrap_or(path);
-        let is_view = !path.starts_with("api/") && !path.starts_with("assets/") && !last.contains('.');
+        let is_view =
+            path != "api" && !path.starts_with("api/") && !path.starts_with("assets/") && !last.contains('.');
         is_view.then(|| find("index.html")).flatten()
     });
     match found {
@@ -80,7 +81,7 @@ fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
     set(header::ETAG, asset.tag);
     set(header::VARY, "accept-encoding");
     set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
-    if asset.path.ends_with(".html") {
+    if media_type(asset.path).starts_with("text/html") {
         set(header::CONTENT_SECURITY_POLICY, POLICY);
     }
     let known = request.get(header::IF_NONE_MATCH).and_then(|value| value.to_str().ok());

@@ -3,11 +3,13 @@
 //! Samples are taken at the scene's own output times and wait unencoded until somebody watches.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
+use super::worker::BEAT;
 use crate::problem::Problem;
 use crate::stream::{Cast, Hub, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Tie};
 
@@ -25,12 +27,25 @@ pub(crate) struct Film {
     frames: u64,
     encoded: u64,
     last: f64,
+    /// When blocks were last made, and how long to wait until the next.
+    developed: Instant,
+    pace: Duration,
 }
+
+/// A block costs some kilobytes an entity whatever it holds: so many entities are streamed at the full rate,
+/// larger scenes more seldom.
+const ENTITIES_AT_FULL_RATE: usize = 16;
+/// The longest wait between two blocks.
+const SLOWEST: Duration = Duration::from_millis(500);
 
 impl Film {
     /// The film of session `id`, which holds at most `limit` bytes.
     pub(crate) fn new(id: &str, cast: Cast, hub: Arc<Hub>, limit: usize) -> Self {
+        let entities = cast.bodies.len() + 2 * cast.joints.len() + 2;
+        let beats = u32::try_from(entities / ENTITIES_AT_FULL_RATE).unwrap_or(u32::MAX);
         Self {
+            developed: Instant::now(),
+            pace: BEAT.saturating_mul(beats).min(SLOWEST),
             cast,
             hub,
             id: id.to_owned(),
@@ -61,6 +76,11 @@ impl Film {
         Ok(())
     }
 
+    /// Encodes what waits, if anybody watches and it is time.
+    pub(crate) fn develop_in_turn(&mut self) -> Result<(), Problem> {
+        if self.developed.elapsed() < self.pace { Ok(()) } else { self.develop() }
+    }
+
     /// Encodes what waits, if anybody watches.
     pub(crate) fn develop(&mut self) -> Result<(), Problem> {
         if self.hub.watchers() == 0 || (self.waiting.is_empty() && self.recorder.is_some()) {
@@ -73,6 +93,7 @@ impl Film {
                 empty.insert(Recorder::to_blocks(&id, self.cast.clone()).map_err(unrecorded)?)
             }
         };
+        self.developed = Instant::now();
         recorder.write(&self.waiting).map_err(unrecorded)?;
         self.encoded += self.waiting.len() as u64;
         self.waiting.clear();

@@ -16,7 +16,7 @@ use super::state::{Extra, SessionState, Source};
 use crate::problem::Problem;
 
 /// How often a playing session goes on: about thirty times a second.
-const BEAT: Duration = Duration::from_millis(33);
+pub(super) const BEAT: Duration = Duration::from_millis(33);
 
 /// What a caller may ask for; the answer comes back through the sender.
 #[derive(Debug)]
@@ -206,16 +206,20 @@ impl Worker {
     fn beat(&mut self) {
         let Some(play) = self.play else { return };
         let now = Instant::now();
-        let target = play.from + (now - play.since).as_secs_f64() * self.speed;
+        let every = self.simulation.model().settings.every;
+        let due = play.from + (now - play.since).as_secs_f64() * self.speed;
+        // Frames fall on the scene's own output times, so that two runs record the same ones.
+        let target =
+            if due < self.simulation.duration() { (due / every + 1e-6).floor() * every } else { due };
         let reached = self.advance_within(target, now + BEAT);
-        if self.simulation.time() < target {
+        if self.simulation.time() + every < target {
             self.play = Some(Play { since: Instant::now(), from: self.simulation.time() });
         }
         if reached.is_err() || self.simulation.time() >= self.simulation.duration() {
             self.play = None;
         }
         self.note(reached);
-        let developed = self.film.develop();
+        let developed = if self.play.is_some() { self.film.develop_in_turn() } else { self.film.develop() };
         self.note(developed);
         self.publish();
     }

@@ -11,8 +11,10 @@ use super::cast::{Actor, Cast, Pattern};
 /// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
 const PALETTE: [[u8; 3]; 6] =
     [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [0, 114, 178], [204, 121, 167]];
+/// Joints are grey.
+const PIN: [u8; 3] = [120, 120, 120];
 /// Reactions are vermilion everywhere.
-pub(super) const REACTION: [u8; 3] = [213, 94, 0];
+const REACTION: [u8; 3] = [213, 94, 0];
 /// Directors u, v, w: red, green, blue as everywhere.
 const AXES: [[u8; 3]; 3] = [[220, 60, 60], [60, 170, 60], [70, 110, 230]];
 /// The largest picture of a Jacobian, in pixels a side; a larger one is drawn smaller.
@@ -36,18 +38,19 @@ pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingS
         log_body(recording, body, PALETTE[index % PALETTE.len()], cast.size)?;
     }
     for joint in &cast.joints {
-        for row in &joint.rows {
-            let at = path(&["plots", "multipliers", &joint.name, row]);
-            recording.log_static(at, &SeriesLines::new().with_names([format!("{} {row}", joint.name)]))?;
-        }
+        let arrow = Arrows3D::update_fields()
+            .with_colors([color(REACTION)])
+            .with_radii([narrow(0.01 * cast.size)])
+            .with_labels([joint.name.as_str()])
+            .with_show_labels(false);
+        recording.log_static(path(&["world", "joints", &joint.name]), &arrow)?;
+        let names = joint.rows.iter().map(|row| format!("{} {row}", joint.name));
+        let lines = SeriesLines::new().with_names(names);
+        recording.log_static(path(&["plots", "multipliers", &joint.name]), &lines)?;
     }
-    for (entity, name) in [
-        ("plots/energy", "energy"),
-        ("plots/violation/position", "position, m"),
-        ("plots/violation/velocity", "velocity, m/s"),
-    ] {
-        recording.log_static(entity, &SeriesLines::new().with_names([name]))?;
-    }
+    recording.log_static("plots/energy", &SeriesLines::new().with_names(["energy, J"]))?;
+    let violation = SeriesLines::new().with_names(["position, m", "velocity, m/s"]);
+    recording.log_static("plots/violation", &violation)?;
     if cast.pattern.rows > 0 {
         recording.log_static("jacobian", &picture(&cast.pattern))?;
     }
@@ -65,6 +68,11 @@ fn axes(length: f64, labels: [&str; 3]) -> Arrows3D {
 fn log_body(recording: &RecordingStream, body: &Actor, rgb: [u8; 3], size: f64) -> RecordingStreamResult<()> {
     let at = |part: &str| path(&["world", "bodies", &body.name, part]);
     recording.log_static(at("axes"), &axes(0.2 * size, ["u", "v", "w"]).with_show_labels(false))?;
+    if !body.joint_points.is_empty() {
+        let pins = Points3D::new(body.joint_points.iter().map(|&point| single(point)));
+        recording
+            .log_static(at("joints"), &pins.with_colors([color(PIN)]).with_radii([narrow(0.02 * size)]))?;
+    }
     if body.shapes.is_empty() {
         // A body that nobody drew is a ball at the centre of mass, with a bar to each of its joints.
         let bars = body.joint_points.iter().map(|&point| [[0.0_f32; 3], single(point)]);

@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use rerun::sink::BinaryStreamStorage;
 use rerun::{
-    Arrows3D, Points3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
-    Scalars, TimeColumn, Transform3D,
+    Arrows3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, Scalars,
+    TimeColumn, Transform3D,
 };
 
 use super::cast::Cast;
-use super::geometry::{self, narrow, path, single};
+use super::geometry::{self, path, single};
 use super::sample::Sample;
 use super::{APPLICATION, TIMELINE, layout};
 
@@ -78,9 +78,8 @@ impl Recorder {
         }
         self.write_bodies(samples)?;
         self.write_joints(samples)?;
-        self.write_series(&["plots", "energy"], samples, |s| s.energy)?;
-        self.write_series(&["plots", "violation", "position"], samples, |s| s.position_violation)?;
-        self.write_series(&["plots", "violation", "velocity"], samples, |s| s.velocity_violation)?;
+        self.write_series("plots/energy", samples, |s| [s.energy])?;
+        self.write_series("plots/violation", samples, |s| [s.position_violation, s.velocity_violation])?;
         self.encoded += samples.len() as u64;
         Ok(())
     }
@@ -98,46 +97,37 @@ impl Recorder {
     }
 
     fn write_joints(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
-        let known: Vec<&Sample> =
-            samples.iter().filter(|sample| sample.reactions.len() == self.cast.joints.len()).collect();
+        let joints = &self.cast.joints;
+        let known: Vec<&Sample> = samples.iter().filter(|s| s.reactions.len() == joints.len()).collect();
         if known.is_empty() {
             return Ok(());
         }
         let time = || TimeColumn::new_duration_secs(TIMELINE, known.iter().map(|sample| sample.time));
-        let [red, green, blue] = geometry::REACTION;
-        let paint = rerun::Color::from_rgb(red, green, blue);
-        for (index, joint) in self.cast.joints.iter().enumerate() {
+        for (index, joint) in joints.iter().enumerate() {
             let reactions = || known.iter().map(|sample| &sample.reactions[index]);
             let arrows = Arrows3D::update_fields()
                 .with_origins(reactions().map(|r| single(r.at)))
                 .with_vectors(reactions().map(|r| single(r.force.map(|f| f * self.cast.force_scale))))
-                .with_colors(reactions().map(|_| paint))
-                .with_radii(reactions().map(|_| narrow(0.01 * self.cast.size)))
                 .columns_of_unit_batches()?;
             self.recording.send_columns(path(&["world", "joints", &joint.name]), [time()], arrows)?;
-            let pins = Points3D::update_fields()
-                .with_positions(reactions().map(|r| single(r.at)))
-                .with_radii(reactions().map(|_| narrow(0.02 * self.cast.size)))
-                .columns_of_unit_batches()?;
-            self.recording.send_columns(path(&["world", "joints", &joint.name, "point"]), [time()], pins)?;
-            for (k, row) in joint.rows.iter().enumerate() {
-                let values = reactions().map(|r| r.multipliers.get(k).copied().unwrap_or(f64::NAN));
-                let columns = Scalars::new(values).columns_of_unit_batches()?;
-                let at = path(&["plots", "multipliers", &joint.name, row]);
-                self.recording.send_columns(at, [time()], columns)?;
-            }
+            let rows = joint.rows.len();
+            let values = reactions()
+                .flat_map(|r| (0..rows).map(|k| r.multipliers.get(k).copied().unwrap_or(f64::NAN)));
+            let columns = Scalars::new(values).columns(vec![rows; known.len()])?;
+            self.recording.send_columns(path(&["plots", "multipliers", &joint.name]), [time()], columns)?;
         }
         Ok(())
     }
 
-    fn write_series(
+    /// One value or several of each sample, as lines of one plot.
+    fn write_series<const N: usize>(
         &self,
-        at: &[&str],
+        entity: &str,
         samples: &[Sample],
-        value: impl Fn(&Sample) -> f64,
+        values: impl Fn(&Sample) -> [f64; N],
     ) -> RecordingStreamResult<()> {
-        let columns = Scalars::new(samples.iter().map(value)).columns_of_unit_batches()?;
-        self.recording.send_columns(path(at), [times(samples)], columns)
+        let columns = Scalars::new(samples.iter().flat_map(values)).columns(vec![N; samples.len()])?;
+        self.recording.send_columns(entity, [times(samples)], columns)
     }
 
     /// Everything written since the last call, as one complete block; nothing if the recording goes elsewhere.

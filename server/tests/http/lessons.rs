@@ -1,0 +1,119 @@
+//! Lessons, hints, submissions.
+
+use serde_json::{Value, json};
+
+use crate::{get, post, server};
+
+#[tokio::test]
+async fn lessons_are_listed_and_shown_without_their_answers() {
+    let server = server();
+    let list = get(&server, "/api/v1/lessons").await.json();
+    let slugs: Vec<&str> =
+        list.as_array().expect("a list").iter().filter_map(|l| l["slug"].as_str()).collect();
+    assert!(slugs.contains(&"simple-pendulum"), "{slugs:?}");
+    for slug in slugs {
+        let reply = get(&server, &format!("/api/v1/lessons/{slug}")).await;
+        assert_eq!(reply.status, 200);
+        let lesson = reply.json();
+        assert!(lesson["html"].as_str().is_some_and(|html| html.len() > 200));
+        let questions = lesson["exercise"]["questions"].as_array().expect("questions");
+        assert!(questions.len() >= 3);
+        for question in questions {
+            for secret in ["reference", "right", "misconceptions", "feedback", "provenance", "source"] {
+                assert!(question.get(secret).is_none(), "{slug}: {secret} left the server");
+            }
+            let hints = question["hints_available"].as_u64().expect("a count");
+            let id = question["id"].as_str().expect("an id");
+            for k in 1..=hints {
+                let hint = get(&server, &format!("/api/v1/lessons/{slug}/questions/{id}/hints/{k}")).await;
+                assert!(hint.json()["html"].is_string(), "{slug} {id} {k}");
+            }
+            let beyond = format!("/api/v1/lessons/{slug}/questions/{id}/hints/{}", hints + 1);
+            get(&server, &beyond).await.problem(404, "unknown-hint");
+        }
+    }
+}
+
+#[tokio::test]
+async fn what_does_not_exist_is_answered_with_what_does() {
+    let server = server();
+    let problem = get(&server, "/api/v1/lessons/simple-pendulm").await.problem(404, "unknown-lesson");
+    assert!(problem["hint"].as_str().is_some_and(|hint| hint.contains("simple-pendulum")), "{problem}");
+    get(&server, "/api/v1/lessons/simple-pendulum/questions/zzz/hints/1")
+        .await
+        .problem(404, "unknown-question");
+    get(&server, "/api/v1/lessons/simple-pendulum/questions/period/hints/x")
+        .await
+        .problem(400, "invalid-address");
+    post(&server, "/api/v1/lessons/zzz/submissions", json!({"answers": {}}))
+        .await
+        .problem(404, "unknown-lesson");
+}
+
+/// The answer that passes, as the lessons' own check makes it.
+fn reference() -> Value {
+    let course = triad_lessons::Course::embedded().expect("a course");
+    let lesson = course.lesson("simple-pendulum").expect("the lesson");
+    let mut submission = triad_lessons::reference_submission(lesson);
+    submission.student = Some("ada".into());
+    serde_json::to_value(&submission).expect("JSON")
+}
+
+#[tokio::test]
+async fn a_right_and_a_wrong_submission_are_graded_kept_and_listed() {
+    let server = server();
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let right = post(&server, path, reference()).await;
+    assert_eq!(right.status, 201, "{}", right.json());
+    let verdict = right.json();
+    assert_eq!(verdict["passed"], true);
+    assert_eq!(verdict["earned"], verdict["possible"]);
+    assert_eq!(verdict["student"], "ada");
+    assert!(verdict["id"].is_string() && verdict["submitted_at"].is_string());
+    assert!(verdict["provenance"]["lesson_hash"].is_string());
+
+    let wrong = post(
+        &server,
+        path,
+        json!({"student": "eve", "answers": {"period": {"value": "9.0000", "unit": "s"}}}),
+    )
+    .await;
+    assert_eq!(wrong.json()["passed"], false);
+
+    let all = get(&server, "/api/v1/submissions").await.json();
+    assert_eq!(all.as_array().map(Vec::len), Some(2));
+    let ada = get(&server, "/api/v1/submissions?student=ada&lesson=simple-pendulum&limit=5").await.json();
+    assert_eq!(ada[0]["id"], verdict["id"]);
+    assert!(ada[0]["answers"]["period"].is_object());
+    assert_eq!(get(&server, "/api/v1/submissions?student=nobody").await.json(), json!([]));
+}
+
+#[tokio::test]
+async fn text_where_a_number_belongs_uses_no_attempt_and_is_not_kept() {
+    let server = server();
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let body = json!({"student": "ada", "answers": {"period": {"value": "quite long", "unit": "s"}}});
+    let reply = post(&server, path, body).await;
+    assert_eq!(reply.status, 200);
+    let verdict = reply.json();
+    assert_eq!((&verdict["gradable"], &verdict["id"]), (&json!(false), &Value::Null));
+    let marks: Vec<&Value> =
+        verdict["questions"].as_array().expect("questions").iter().map(|q| &q["verdict"]).collect();
+    assert!(marks.contains(&&json!("invalid")), "{marks:?}");
+    assert_eq!(get(&server, "/api/v1/submissions").await.json(), json!([]));
+}
+
+#[tokio::test]
+async fn a_submission_must_say_whose_it_is_and_what_it_answers() {
+    let server = server();
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    post(&server, path, json!({"answers": {}})).await.problem(422, "invalid-student");
+    post(&server, path, json!({"student": "x".repeat(101), "answers": {}}))
+        .await
+        .problem(422, "invalid-student");
+    let problem = post(&server, path, json!({"student": "a", "answers": {"period": {"vlaue": "1"}}})).await;
+    let problem = problem.problem(422, "submission-unreadable");
+    assert_eq!(problem["errors"][0]["pointer"], "#/answers/period/vlaue");
+    let problem = post(&server, path, json!({"student": "a", "answers": {"zzz": {"value": "1"}}})).await;
+    assert_eq!(problem.problem(422, "unknown-question")["errors"][0]["pointer"], "#/answers/zzz");
+}

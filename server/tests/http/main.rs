@@ -1,0 +1,73 @@
+//! The HTTP interface, called in process.
+
+mod bad_input;
+mod document;
+mod lessons;
+mod sessions;
+mod streams;
+
+use axum::Router;
+use axum::body::{Body, Bytes, to_bytes};
+use axum::http::{HeaderMap, Request, StatusCode, header};
+use serde_json::Value;
+use tower::ServiceExt;
+use triad::app::App;
+use triad::limits::Limits;
+use triad::store::Store;
+use triad_lessons::Course;
+
+/// A server with the built-in course and a gradebook in memory.
+fn state(limits: Limits) -> App {
+    App::new(Course::embedded().expect("a course"), Store::in_memory().expect("a store"), limits)
+}
+
+fn server() -> Router {
+    triad::app(state(Limits::default()))
+}
+
+/// What came back.
+struct Reply {
+    status: StatusCode,
+    headers: HeaderMap,
+    bytes: Bytes,
+}
+
+impl Reply {
+    fn json(&self) -> Value {
+        serde_json::from_slice(&self.bytes).expect("JSON")
+    }
+
+    fn media(&self) -> &str {
+        self.headers.get(header::CONTENT_TYPE).map_or("", |value| value.to_str().expect("text"))
+    }
+
+    /// The document of a refusal; checks everything that all refusals share.
+    fn problem(&self, status: u16, code: &str) -> Value {
+        let document = self.json();
+        assert_eq!(self.status.as_u16(), status, "{document}");
+        assert_eq!(self.media(), "application/problem+json");
+        assert_eq!(document["code"], code, "{document}");
+        assert_eq!(document["status"], status);
+        for member in ["type", "title", "detail", "hint", "trace_id"] {
+            assert!(document[member].as_str().is_some_and(|text| !text.is_empty()), "{member}: {document}");
+        }
+        assert!(document["errors"].is_array());
+        document
+    }
+}
+
+async fn send(server: &Router, request: Request<Body>) -> Reply {
+    let response = server.clone().oneshot(request).await.expect("answers");
+    let (parts, body) = response.into_parts();
+    let bytes = to_bytes(body, 64 << 20).await.expect("a body");
+    Reply { status: parts.status, headers: parts.headers, bytes }
+}
+
+async fn get(server: &Router, path: &str) -> Reply {
+    send(server, Request::get(path).body(Body::empty()).expect("a request")).await
+}
+
+async fn post(server: &Router, path: &str, body: impl ToString) -> Reply {
+    let request = Request::post(path).header(header::CONTENT_TYPE, "application/json");
+    send(server, request.body(Body::from(body.to_string())).expect("a request")).await
+}

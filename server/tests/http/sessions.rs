@@ -1,0 +1,137 @@
+//! Live sessions.
+
+use std::time::Duration;
+
+use axum::Router;
+use axum::body::Body;
+use axum::http::Request;
+use serde_json::{Value, json};
+use triad::limits::Limits;
+
+use crate::{get, post, send, server, state};
+
+async fn start(server: &Router, body: Value) -> String {
+    let reply = post(server, "/api/v1/sessions", body).await;
+    assert_eq!(reply.status, 201, "{}", reply.json());
+    let path = reply.headers["location"].to_str().expect("text").to_owned();
+    assert_eq!(reply.json()["links"]["self"], path.as_str());
+    path
+}
+
+fn close(number: &Value, expected: f64, within: f64) {
+    let number = number.as_f64().expect("a number");
+    assert!((number - expected).abs() <= within, "{number} is not {expected}");
+}
+
+#[tokio::test]
+async fn a_session_steps_by_steps_and_by_seconds_and_starts_over() {
+    let server = server();
+    let path = start(&server, json!({"builtin": "simple-pendulum"})).await;
+    let state = post(&server, &format!("{path}/step"), json!({"seconds": 0.25})).await.json();
+    close(&state["time"], 0.25, 1e-12);
+    assert_eq!(state["bodies"][0]["name"], "bob");
+    assert_eq!(state["frames"], 26, "one at the start, one every 0.01 s");
+    assert_eq!(state["frames_encoded"], 0, "nobody watches");
+    // The end of the step that the state lies in, then two more.
+    let first = post(&server, &format!("{path}/step"), "").await.json();
+    let third = post(&server, &format!("{path}/step"), json!({"steps": 2})).await.json();
+    assert_eq!(third["steps"].as_u64(), first["steps"].as_u64().map(|steps| steps + 2));
+    assert_eq!(get(&server, &path).await.json()["time"], third["time"]);
+
+    let again = post(&server, &format!("{path}/reset"), "").await.json();
+    assert_eq!((&again["time"], &again["frames"], &again["steps"]), (&json!(0.0), &json!(1), &json!(0)));
+    let repeated = post(&server, &format!("{path}/step"), json!({"seconds": 0.25})).await.json();
+    assert_eq!(repeated["q"], state["q"], "the same run gives the same numbers");
+    let end = post(&server, &format!("{path}/step"), json!({"seconds": 1000})).await.json();
+    assert_eq!((&end["finished"], &end["time"]), (&json!(true), &json!(10.0)));
+    close(&end["energy_drift"], 0.0, 1e-6);
+}
+
+#[tokio::test]
+async fn time_runs_while_a_session_plays_and_stands_when_it_is_paused() {
+    let server = server();
+    let path = start(&server, json!({"lesson": "simple-pendulum"})).await;
+    let state = post(&server, &format!("{path}/play"), json!({"speed": 4.0})).await.json();
+    assert_eq!((&state["playing"], &state["speed"]), (&json!(true), &json!(4.0)));
+    tokio::time::sleep(Duration::from_millis(400)).await;
+    let paused = post(&server, &format!("{path}/pause"), "").await.json();
+    let reached = paused["time"].as_f64().expect("a time");
+    assert!(reached > 0.4 && reached < 4.0, "{reached}");
+    assert_eq!(paused["playing"], false);
+    tokio::time::sleep(Duration::from_millis(100)).await;
+    assert_eq!(get(&server, &path).await.json()["time"], paused["time"]);
+}
+
+#[tokio::test]
+async fn the_jacobian_and_the_multipliers_have_names() {
+    let server = server();
+    let path = start(&server, json!({"builtin": "simple-pendulum"})).await;
+    post(&server, &format!("{path}/step"), json!({"seconds": 0.5})).await;
+    let jacobian = get(&server, &format!("{path}/jacobian")).await.json();
+    let (rows, columns) =
+        (jacobian["rows"].as_array().expect("rows"), jacobian["columns"].as_array().expect("columns"));
+    assert_eq!(columns.len(), 12);
+    assert!(columns.contains(&json!("bob.ux")), "{columns:?}");
+    for entry in jacobian["entries"].as_array().expect("entries") {
+        assert!(entry[0].as_u64().is_some_and(|row| row < rows.len() as u64));
+        assert!(entry[1].as_u64().is_some_and(|column| column < 12));
+        assert!(entry[2].is_number() && entry[3].is_boolean());
+    }
+    let joints = get(&server, &format!("{path}/multipliers")).await.json();
+    assert_eq!(
+        (&joints[0]["joint"], &joints[0]["on"], &joints[0]["by"]),
+        (&json!("pin"), &json!("bob"), &json!("ground"))
+    );
+    assert_eq!(joints[0]["expressed_in"], "world");
+    assert!(joints[0]["rows"][0]["value"].is_number());
+}
+
+#[tokio::test]
+async fn sessions_are_bounded_deleted_and_forgotten() {
+    let app = state(Limits { sessions: 2, ..Limits::default() });
+    let server = triad::app(app.clone());
+    let body = json!({"builtin": "free-body"});
+    let first = start(&server, body.clone()).await;
+    start(&server, body.clone()).await;
+    post(&server, "/api/v1/sessions", &body).await.problem(503, "too-many-sessions");
+    let delete = || Request::delete(&first).body(Body::empty()).expect("a request");
+    assert_eq!(send(&server, delete()).await.status, 204);
+    send(&server, delete()).await.problem(404, "unknown-session");
+    get(&server, &first).await.problem(404, "unknown-session");
+    post(&server, &format!("{first}/step"), "").await.problem(404, "unknown-session");
+    start(&server, body).await;
+    app.sessions.expire(&Limits { idle: Duration::ZERO, ..Limits::default() });
+    assert!(app.sessions.is_empty());
+}
+
+#[tokio::test]
+async fn a_bound_on_time_or_on_the_recording_is_told_and_survived() {
+    let server = triad::app(state(Limits { command_time: Duration::ZERO, ..Limits::default() }));
+    let path = start(&server, json!({"builtin": "simple-pendulum"})).await;
+    let problem = post(&server, &format!("{path}/step"), json!({"seconds": 5})).await;
+    problem.problem(503, "time-budget-exceeded");
+    let state = get(&server, &path).await.json();
+    assert!(state["error"].is_null() && state["time"].as_f64().is_some_and(|time| time > 0.0));
+
+    let server = triad::app(state_with_short_film());
+    let path = start(&server, json!({"builtin": "simple-pendulum"})).await;
+    let problem = post(&server, &format!("{path}/step"), json!({"seconds": 5})).await;
+    problem.problem(507, "recording-full");
+    assert_eq!(get(&server, &path).await.json()["error"]["code"], "recording-full");
+    post(&server, &format!("{path}/play"), "").await.problem(409, "session-stopped");
+    let reset = post(&server, &format!("{path}/reset"), "").await;
+    assert!(reset.json()["error"].is_null());
+}
+
+fn state_with_short_film() -> triad::app::App {
+    state(Limits { recording_bytes: 10_000, ..Limits::default() })
+}
+
+#[tokio::test]
+async fn settings_of_a_scene_can_be_replaced() {
+    let server = server();
+    let body = json!({"builtin": "simple-pendulum", "overrides": {"duration": 0.5, "every": 0.25, "tolerance": 1e-6}});
+    let path = start(&server, body).await;
+    let state = post(&server, &format!("{path}/step"), json!({"seconds": 9})).await.json();
+    assert_eq!((&state["time"], &state["duration"], &state["frames"]), (&json!(0.5), &json!(0.5), &json!(3)));
+}

@@ -1,0 +1,162 @@
+//! The live stream, over a real socket.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use triad::limits::Limits;
+
+use crate::{get, post, server, state};
+
+/// A message of a WebSocket.
+enum Message {
+    Text(Value),
+    Binary(Vec<u8>),
+    Other,
+}
+
+/// As little of a WebSocket client as these tests need.
+struct Client(BufReader<TcpStream>);
+
+impl Client {
+    fn open(address: SocketAddr, path: &str) -> Self {
+        let mut socket = TcpStream::connect(address).expect("connects");
+        socket.set_read_timeout(Some(Duration::from_secs(10))).expect("a timeout");
+        write!(
+            socket,
+            "GET {path} HTTP/1.1\r\nHost: test\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+             Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+        )
+        .expect("writes");
+        let mut reader = BufReader::new(socket);
+        let mut line = String::new();
+        reader.read_line(&mut line).expect("a status");
+        assert!(line.contains("101"), "{line}");
+        while line.trim() != "" {
+            line.clear();
+            reader.read_line(&mut line).expect("a header");
+        }
+        Self(reader)
+    }
+
+    fn read(&mut self) -> Message {
+        let mut head = [0_u8; 2];
+        self.0.read_exact(&mut head).expect("a message");
+        let length = match head[1] {
+            126 => {
+                let mut bytes = [0_u8; 2];
+                self.0.read_exact(&mut bytes).expect("a length");
+                u64::from(u16::from_be_bytes(bytes))
+            }
+            127 => {
+                let mut bytes = [0_u8; 8];
+                self.0.read_exact(&mut bytes).expect("a length");
+                u64::from_be_bytes(bytes)
+            }
+            short => u64::from(short),
+        };
+        let mut payload = vec![0; usize::try_from(length).expect("fits")];
+        self.0.read_exact(&mut payload).expect("a payload");
+        match head[0] & 15 {
+            1 => Message::Text(serde_json::from_slice(&payload).expect("JSON")),
+            2 => Message::Binary(payload),
+            _ => Message::Other,
+        }
+    }
+
+    /// Reads until a text of that type comes; returns it with the blocks before it.
+    fn until(&mut self, kind: &str) -> (Value, Vec<Vec<u8>>) {
+        let mut blocks = Vec::new();
+        loop {
+            match self.read() {
+                Message::Text(text) if text["type"] == kind => return (text, blocks),
+                Message::Binary(block) => blocks.push(block),
+                Message::Text(_) | Message::Other => {}
+            }
+        }
+    }
+
+    fn block(&mut self) -> Vec<u8> {
+        loop {
+            if let Message::Binary(block) = self.read() {
+                return block;
+            }
+        }
+    }
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn watchers_get_the_history_then_what_is_new_and_are_told_of_a_reset_and_of_the_end() {
+    let app = state(Limits::default());
+    let server = triad::app(app.clone());
+    let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.expect("a port");
+    let address = listener.local_addr().expect("an address");
+    let serving = server.clone();
+    tokio::spawn(async move { axum::serve(listener, serving).await });
+
+    let created =
+        post(&server, "/api/v1/sessions", json!({"builtin": "spatial-double-pendulum"})).await.json();
+    let path = created["links"]["self"].as_str().expect("a path").to_owned();
+    post(&server, &format!("{path}/step"), json!({"seconds": 0.2})).await;
+    let stream = format!("{path}/stream");
+    let open = |stream: String| tokio::task::spawn_blocking(move || Client::open(address, &stream));
+
+    let mut first = open(stream.clone()).await.expect("opens");
+    let (mut first, history) = tokio::task::spawn_blocking(move || {
+        let history = first.block();
+        (first, history)
+    })
+    .await
+    .expect("reads");
+    assert_eq!(&history[..4], b"RRF2", "a complete recording");
+
+    let state = post(&server, &format!("{path}/step"), json!({"seconds": 0.2})).await.json();
+    assert_eq!(state["frames"], state["frames_encoded"], "everything is encoded while somebody watches");
+    let encoded = state["frames_encoded"].clone();
+    let second = open(stream).await.expect("opens");
+    let (mut first, fresh) = tokio::task::spawn_blocking(move || {
+        let fresh = first.block();
+        (first, fresh)
+    })
+    .await
+    .expect("reads");
+    assert_eq!(&fresh[..4], b"RRF2");
+    assert!(fresh.len() < history.len(), "what is new is not sent with the history again");
+    let state = get(&server, &path).await.json();
+    assert_eq!(state["frames_encoded"], encoded, "a second watcher costs no encoding");
+    let (second, same) = tokio::task::spawn_blocking(move || {
+        let mut second = second;
+        let same = [second.block(), second.block()];
+        (second, same)
+    })
+    .await
+    .expect("reads");
+    assert_eq!(same, [history, fresh], "both see the same bytes");
+
+    post(&server, &format!("{path}/reset"), "").await;
+    let mut second = tokio::task::spawn_blocking(move || {
+        let mut second = second;
+        second.until("reset");
+        assert_eq!(&second.block()[..4], b"RRF2", "another recording begins");
+        second
+    })
+    .await
+    .expect("reads");
+    app.sessions.clear();
+    tokio::task::spawn_blocking(move || {
+        first.until("closed");
+        second.until("closed");
+    })
+    .await
+    .expect("ends");
+}
+
+#[tokio::test]
+async fn the_address_of_a_stream_tells_plain_requests_what_it_is() {
+    let server = server();
+    let created = post(&server, "/api/v1/sessions", json!({"builtin": "free-body"})).await.json();
+    let stream = created["links"]["stream"].as_str().expect("a path").to_owned();
+    get(&server, &stream).await.problem(426, "not-a-websocket");
+    get(&server, "/api/v1/sessions/nothing/stream").await.problem(404, "unknown-session");
+}
