@@ -33,12 +33,28 @@ export async function setMaths(root: HTMLElement): Promise<void> {
   }
 }
 
+const wide = new Set<HTMLElement>();
+
 /** A long formula scrolls by itself on a narrow screen, by keyboard too. */
 function makeScrollable(node: HTMLElement): void {
-  requestAnimationFrame(() => {
-    if (node.scrollWidth <= node.clientWidth + 1) return;
+  wide.add(node);
+  measure(node);
+  // The width is known for good when KaTeX's fonts have come.
+  void document.fonts.ready.then(() => measure(node));
+}
+
+function measure(node: HTMLElement): void {
+  if (!node.isConnected) {
+    wide.delete(node);
+    return;
+  }
+  const scrolls = node.scrollWidth > node.clientWidth;
+  if (scrolls === node.hasAttribute("tabindex")) return;
+  if (scrolls) {
     node.tabIndex = 0;
     node.setAttribute("role", "group");
     node.setAttribute("aria-label", "Formula, scrolls sideways");
-  });
+  } else for (const name of ["tabindex", "role", "aria-label"]) node.removeAttribute(name);
 }
+
+addEventListener("resize", () => wide.forEach(measure));

@@ -14,7 +14,7 @@ export function transport(session: Session, plannedDuration: number | undefined,
 
   const stride = h("select", { class: "field compact", "aria-label": "Length of a step by time" },
     ...STRIDES.map((value) => h("option", { value: String(value), selected: value === 0.1 }, `${value} s`)));
-  const speed = h("select", { class: "field compact", "aria-label": "Speed" },
+  const speed = h("select", { class: "field compact", "aria-label": "Speed", title: "Speed" },
     ...SPEEDS.map((value) => h("option", { value: String(value), selected: value === 1 }, `${value} ×`)));
 
   const stepTime = (): void => void session.step({ seconds: Number(stride.value) });
@@ -27,7 +27,7 @@ export function transport(session: Session, plannedDuration: number | undefined,
 
   const play = button("play", "Play", "space", () => void session.toggle(), "primary play");
   const back = button("back", "Back to the moment before", "←", () => session.back());
-  const live = h("button", { type: "button", class: "button small live", hidden: true, onclick: () => session.seek(Infinity) }, icon("live"), "Newest time");
+  const live = h("button", { type: "button", class: "button small live", hidden: true, title: "Looking back: go to the newest time", onclick: () => session.seek(Infinity) }, icon("live"), "To newest");
   const slider = h("input", { type: "range", class: "timeline", min: "0", max: String(plannedDuration ?? 10), step: "0.001", value: "0", "aria-label": "Time" });
   slider.addEventListener("input", () => session.seek(Number(slider.value)));
   const clock = h("output", { class: "clock", "aria-live": "off" }, "0.000");
@@ -46,8 +46,9 @@ export function transport(session: Session, plannedDuration: number | undefined,
     slider.setAttribute("aria-valuetext", `${seconds(time)} of ${seconds(state.duration, 0)}, computed up to ${seconds(state.time)}`);
     setText(clock, fixedPlain(time, 3));
     setText(until, `of ${Number(state.duration.toFixed(3))} s`);
-    setText(mode, session.reviewing ? "looking back" : state.error ? "stopped" : state.finished ? "complete" : state.playing ? "running" : "paused");
+    setText(mode, state.error ? "stopped" : state.finished ? "complete" : state.playing ? "running" : "paused");
     live.hidden = !session.reviewing;
+    mode.hidden = session.reviewing;
     back.disabled = time <= 0;
     if (playing !== state.playing) {
       playing = state.playing;
@@ -78,9 +79,8 @@ export function transport(session: Session, plannedDuration: number | undefined,
         button("step", "One integrator step", "→", stepOnce)),
       h("div", { class: "transport-group joined" },
         button("skip", "Step by time", "full stop", stepTime), stride),
-      h("p", { class: "clock-box" }, clock, " ", until, mode),
-      live,
-      h("label", { class: "transport-group speed" }, h("span", null, "Speed"), speed)));
+      h("p", { class: "clock-box" }, clock, " ", until, h("span", { class: "clock-slot" }, mode, live)),
+      h("div", { class: "transport-group speed" }, speed)));
 
   return {
     root,

@@ -60,6 +60,8 @@ function handle(viewer: WebViewer, hooks: ViewerHooks): ViewerHandle {
   const settle = (): void => {
     if (recording === null || wanted === undefined) return;
     if (viewer.get_active_timeline(recording) !== TIMELINE) viewer.set_active_timeline(recording, TIMELINE);
+    // Its own clock would run on from there, or follow the newest block.
+    if (viewer.get_playing(recording)) viewer.set_playing(recording, false);
     viewer.set_current_time(recording, TIMELINE, Math.round(wanted * NANOSECONDS));
   };
 
