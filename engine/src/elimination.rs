@@ -5,9 +5,12 @@
 //! body. Their multipliers come from S λ = …, S = A diag(m I, I_g)⁻¹ Aᵀ, which is block-sparse. This is exact for any
 //! directors, orthonormal or not, and for full and reduced bodies alike.
 
+use crate::angle::AngleState;
 use crate::lift::{self, Lift};
+use crate::load::Forces;
 use crate::model::BodyRef;
-use crate::row::{Difference, FeatureId, Form, across};
+use crate::motion::Jet;
+use crate::row::{Difference, FeatureId, Form, Target, across};
 use crate::scene::Coordinates;
 use crate::sparse::{BlockCholesky, Slot};
 use crate::system::{NO_INCIDENCE, Row, System};
@@ -68,6 +71,17 @@ struct FeatureState {
     particular: Vector3<f64>,
 }
 
+/// A scalar function of features at one state.
+#[derive(Clone, Copy, Debug, Default)]
+struct ScalarState {
+    value: f64,
+    rate: f64,
+    /// Its second derivative along Q̈ᵖ.
+    particular: f64,
+    /// The part of its second derivative that is quadratic in the velocities.
+    curvature: f64,
+}
+
 /// A product A_p D⁻¹ A_qᵀ that is added to a block of S.
 #[derive(Clone, Copy, Debug)]
 struct Contribution {
@@ -82,6 +96,14 @@ pub struct Elimination {
     /// Bodies at the current state.
     pub bodies: Vec<BodyState>,
     features: Vec<FeatureState>,
+    /// Angles at the current state.
+    pub angles: Vec<AngleState>,
+    angle_axes: Vec<FeatureId>,
+    /// Prescribed vectors and numbers at the current time.
+    curves: Vec<Jet<Vector3<f64>>>,
+    targets: Vec<Jet<f64>>,
+    time: f64,
+    forces: Forces,
     /// For each row of form `CommonVector`, the two directions across the vector.
     transverse: Vec<[Vector3<f64>; 2]>,
     /// A and A D⁻¹, block by block.
@@ -129,14 +151,20 @@ impl Elimination {
         }
         let mut features = vec![FeatureState::default(); system.features.len()];
         for (state, feature) in features.iter_mut().zip(&system.features) {
-            if feature.body == BodyRef::Ground {
+            if feature.is_fixed() {
                 state.value = feature.local;
             }
         }
         let rows = system.solver_rows;
-        Self {
+        let mut elimination = Self {
             bodies: vec![BodyState::default(); system.bodies.len()],
+            forces: Forces::new(system.bodies.len(), &system.features),
             features,
+            angles: vec![AngleState::default(); system.angles.len()],
+            angle_axes: system.angles.iter().map(|a| a.axis).collect(),
+            curves: vec![[Vector3::zeros(); 3]; system.curves.len()],
+            targets: vec![[0.0; 3]; system.targets.len()],
+            time: 0.0,
             transverse: vec![[Vector3::zeros(); 2]; system.rows.len()],
             a: vec![0.0; system.block_numbers],
             b: vec![0.0; system.block_numbers],
@@ -150,7 +178,39 @@ impl Elimination {
             lends: system.lends_inertia(),
             smallest_pivot: f64::INFINITY,
             counters: Counters::default(),
+        };
+        elimination.set_time(system, 0.0);
+        elimination
+    }
+
+    /// Takes over the time t, s, on which drivers and loads depend.
+    pub fn set_time(&mut self, system: &System, t: f64) {
+        self.time = t;
+        for (jet, curve) in self.curves.iter_mut().zip(&system.curves) {
+            *jet = curve.at(t);
         }
+        for (jet, target) in self.targets.iter_mut().zip(&system.targets) {
+            *jet = target.at(t);
+        }
+    }
+
+    /// Counts whole turns of angles from the current positions on.
+    pub fn keep_turns(&mut self) {
+        for angle in &mut self.angles {
+            angle.reference = angle.value;
+        }
+    }
+
+    /// Forgets whole turns.
+    pub fn forget_turns(&mut self) {
+        for angle in &mut self.angles {
+            angle.reference = 0.0;
+        }
+    }
+
+    /// The feature that is the axis of an angle.
+    pub fn angle_axis(&self, angle: usize) -> FeatureId {
+        self.angle_axes[angle]
     }
 
     /// Says that S is singular at every state, so that the regularization is not tried for first.
@@ -175,6 +235,23 @@ impl Elimination {
                 state.value = if feature.point { q.r + state.arm } else { state.arm };
             }
         }
+        for place in system.moving..system.changing {
+            let feature = &system.features[place];
+            let Some(curve) = feature.curve else { continue };
+            let local = self.curves[curve][0];
+            let state = &mut self.features[place];
+            match feature.body {
+                BodyRef::Ground => state.value = local,
+                BodyRef::Moving(body) => {
+                    let q = &self.bodies[body].q;
+                    state.arm = q.arm(&local);
+                    state.value = if feature.point { q.r + state.arm } else { state.arm };
+                }
+            }
+        }
+        for (state, angle) in self.angles.iter_mut().zip(&system.angles) {
+            state.place(angle.features().map(|f| self.features[f].value));
+        }
     }
 
     /// Takes over the velocities q̇; positions must be in place.
@@ -188,6 +265,26 @@ impl Elimination {
                 let arm = q_dot.arm(&feature.local);
                 state.rate = if feature.point { q_dot.r + arm } else { arm };
             }
+        }
+        for place in system.moving..system.changing {
+            let feature = &system.features[place];
+            let Some(curve) = feature.curve else { continue };
+            let [local, local_rate, _] = self.curves[curve];
+            self.features[place].rate = match feature.body {
+                BodyRef::Ground => local_rate,
+                BodyRef::Moving(body) => {
+                    let BodyState { q, q_dot, .. } = &self.bodies[body];
+                    let turning = q_dot.arm(&local) + q.arm(&local_rate);
+                    if feature.point { q_dot.r + turning } else { turning }
+                }
+            };
+        }
+        for (state, angle) in self.angles.iter_mut().zip(&system.angles) {
+            let features = angle.features();
+            state.set_velocity(
+                features.map(|f| self.features[f].value),
+                features.map(|f| self.features[f].rate),
+            );
         }
     }
 
@@ -252,6 +349,27 @@ impl Elimination {
                         }
                     }
                 }
+                Form::Relation { angles, slide, .. } => {
+                    let mut place = 0;
+                    for (angle, factor) in angles.into_iter().flatten() {
+                        let gradient = self.angles[angle].gradient;
+                        for (feature, g) in system.angles[angle].features().into_iter().zip(gradient) {
+                            self.add_gradient(system, row, 0, place, feature, &(g * factor));
+                            place += 1;
+                        }
+                    }
+                    if let Some((a, b, factor)) = slide {
+                        let (x, y) = (self.difference(a, |f| f.value), self.difference(b, |f| f.value));
+                        for (difference, g) in [(a, y * factor), (b, x * factor)] {
+                            self.add_gradient(system, row, 0, place, difference.plus, &g);
+                            place += 1;
+                            if let Some(minus) = difference.minus {
+                                self.add_gradient(system, row, 0, place, minus, &-g);
+                                place += 1;
+                            }
+                        }
+                    }
+                }
             }
         }
     }
@@ -283,6 +401,52 @@ impl Elimination {
         }
     }
 
+    /// A prescribed number and its derivatives at the current time.
+    pub fn target(&self, target: Target) -> Jet<f64> {
+        match target {
+            Target::Constant(c) => [c, 0.0, 0.0],
+            Target::Driven(curve) => self.targets[curve],
+        }
+    }
+
+    /// a · b and what its derivatives are made of.
+    fn product(&self, a: Difference, b: Difference) -> ScalarState {
+        let (x, y) = (self.difference(a, |f| f.value), self.difference(b, |f| f.value));
+        let (xr, yr) = (self.difference(a, |f| f.rate), self.difference(b, |f| f.rate));
+        let (xp, yp) = (self.difference(a, |f| f.particular), self.difference(b, |f| f.particular));
+        ScalarState {
+            value: x.dot(&y),
+            rate: x.dot(&yr) + xr.dot(&y),
+            particular: x.dot(&yp) + xp.dot(&y),
+            curvature: 2.0 * xr.dot(&yr),
+        }
+    }
+
+    /// The left side of a relation between angles and a displacement.
+    fn relation(&self, system: &System, form: &Form) -> ScalarState {
+        let mut sum = ScalarState::default();
+        let Form::Relation { angles, slide, constant } = *form else { return sum };
+        sum.value = -constant;
+        for (angle, factor) in angles.into_iter().flatten() {
+            let state = &self.angles[angle];
+            let features = system.angles[angle].features();
+            let particular: f64 =
+                features.iter().zip(&state.gradient).map(|(&f, g)| g.dot(&self.features[f].particular)).sum();
+            sum.value += factor * state.value;
+            sum.rate += factor * state.rate;
+            sum.particular += factor * particular;
+            sum.curvature += factor * state.curvature;
+        }
+        if let Some((a, b, factor)) = slide {
+            let product = self.product(a, b);
+            sum.value += factor * product.value;
+            sum.rate += factor * product.rate;
+            sum.particular += factor * product.particular;
+            sum.curvature += factor * product.curvature;
+        }
+        sum
+    }
+
     fn difference(&self, difference: Difference, of: impl Fn(&FeatureState) -> Vector3<f64>) -> Vector3<f64> {
         difference.of(|feature| of(&self.features[feature]))
     }
@@ -295,6 +459,43 @@ impl Elimination {
     /// Rate of change of [`Self::feature_value`].
     pub fn feature_rate(&self, feature: FeatureId) -> Vector3<f64> {
         self.features[feature].rate
+    }
+
+    /// Local coordinates of a feature at the current time.
+    pub fn feature_local(&self, system: &System, feature: FeatureId) -> Vector3<f64> {
+        let feature = &system.features[feature];
+        feature.curve.map_or(feature.local, |curve| self.curves[curve][0])
+    }
+
+    /// The part of a feature's rate that its prescribed motion makes.
+    pub fn driven_rate(&self, system: &System, feature: FeatureId) -> Vector3<f64> {
+        let feature = &system.features[feature];
+        let Some(curve) = feature.curve else { return Vector3::zeros() };
+        let rate = self.curves[curve][1];
+        match feature.body {
+            BodyRef::Ground => rate,
+            BodyRef::Moving(body) => self.bodies[body].q.arm(&rate),
+        }
+    }
+
+    /// The part of a feature's second derivative that its prescribed motion makes.
+    pub fn driven_acceleration(&self, system: &System, feature: FeatureId) -> Vector3<f64> {
+        let feature = &system.features[feature];
+        let Some(curve) = feature.curve else { return Vector3::zeros() };
+        let [_, rate, acceleration] = self.curves[curve];
+        match feature.body {
+            BodyRef::Ground => acceleration,
+            BodyRef::Moving(body) => {
+                let BodyState { q, q_dot, .. } = &self.bodies[body];
+                q.arm(&acceleration) + q_dot.arm(&rate) * 2.0
+            }
+        }
+    }
+
+    /// Value, rate and curvature of a relation.
+    pub fn relation_terms(&self, system: &System, form: &Form) -> (f64, f64, f64) {
+        let relation = self.relation(system, form);
+        (relation.value, relation.rate, relation.curvature)
     }
 
     fn scale_blocks(&mut self, system: &System) {
@@ -364,6 +565,22 @@ impl Elimination {
                 state.particular = self.bodies[body].particular.arm(&feature.local);
             }
         }
+        for place in system.moving..system.changing {
+            let feature = &system.features[place];
+            let Some(curve) = feature.curve else { continue };
+            let [local, local_rate, local_acceleration] = self.curves[curve];
+            let mut particular = Vector3::zeros();
+            if let BodyRef::Moving(body) = feature.body {
+                let BodyState { q, q_dot, particular: p, .. } = &self.bodies[body];
+                particular += p.arm(&local);
+                if velocity_terms {
+                    particular += q_dot.arm(&local_rate) * 2.0 + q.arm(&local_acceleration);
+                }
+            } else if velocity_terms {
+                particular = local_acceleration;
+            }
+            self.features[place].particular = particular;
+        }
     }
 
     /// Writes γ' = γ − Φ_Q Q̈ᵖ of the solver rows, γ of a product's velocity terms included if asked for, and of
@@ -385,15 +602,20 @@ impl Elimination {
                         }
                     }
                 }
-                Form::Product { a, b, constant } => {
-                    let (x, y) = (self.difference(a, |f| f.value), self.difference(b, |f| f.value));
-                    let (xr, yr) = (self.difference(a, |f| f.rate), self.difference(b, |f| f.rate));
-                    let (xp, yp) =
-                        (self.difference(a, |f| f.particular), self.difference(b, |f| f.particular));
-                    let mut gamma =
-                        shift(x.dot(&y) - constant, x.dot(&yr) + xr.dot(&y)) - x.dot(&yp) - xp.dot(&y);
+                Form::Product { a, b, target } => {
+                    let [c, c_rate, c_acceleration] = self.target(target);
+                    let product = self.product(a, b);
+                    let mut gamma = shift(product.value - c, product.rate - c_rate) - product.particular;
                     if velocity_terms {
-                        gamma -= 2.0 * xr.dot(&yr);
+                        gamma += c_acceleration - product.curvature;
+                    }
+                    self.gamma[row.solver] = gamma;
+                }
+                Form::Relation { .. } => {
+                    let relation = self.relation(system, &row.form);
+                    let mut gamma = shift(relation.value, relation.rate) - relation.particular;
+                    if velocity_terms {
+                        gamma -= relation.curvature;
                     }
                     self.gamma[row.solver] = gamma;
                 }
@@ -509,11 +731,19 @@ impl Elimination {
         }
     }
 
-    /// Weight of each body.
+    /// Weight of each body and all loads.
     fn set_forces(&mut self, system: &System) {
-        for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
-            state.force = Lift { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] };
+        let mut forces = std::mem::take(&mut self.forces);
+        for (lift, body) in forces.lifts.iter_mut().zip(&system.bodies) {
+            *lift = Lift { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] };
         }
+        for load in &system.loads {
+            load.apply(self, self.time, &mut forces);
+        }
+        for (state, lift) in self.bodies.iter_mut().zip(&forces.lifts) {
+            state.force = *lift;
+        }
+        self.forces = forces;
     }
 
     fn clear_forces(&mut self) {
@@ -568,7 +798,7 @@ impl Elimination {
                 let sum = t1 * self.lambda[row.solver] + t2 * self.lambda[row.solver + 1];
                 sum.as_slice().to_vec()
             }
-            Form::Product { .. } => vec![self.lambda[row.solver]],
+            Form::Product { .. } | Form::Relation { .. } => vec![self.lambda[row.solver]],
         }
     }
 
@@ -589,7 +819,7 @@ impl Elimination {
         let mut worst = (0, 0.0);
         for (index, group) in system.groups.iter().enumerate() {
             for row in &system.rows[group.forms.clone()] {
-                let violation = self.row_violation(&row.form).0;
+                let violation = self.row_violation(system, &row.form).0;
                 if violation > worst.1 {
                     worst = (index, violation);
                 }
@@ -599,16 +829,20 @@ impl Elimination {
     }
 
     /// Largest |Φ| and |Φ̇| of one row form.
-    fn row_violation(&self, form: &Form) -> (f64, f64) {
+    fn row_violation(&self, system: &System, form: &Form) -> (f64, f64) {
         match *form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
                 let (a, b) = (&self.features[a], &self.features[b]);
                 ((a.value - b.value).amax(), (a.rate - b.rate).amax())
             }
-            Form::Product { a, b, constant } => {
-                let (x, y) = (self.difference(a, |f| f.value), self.difference(b, |f| f.value));
-                let (xr, yr) = (self.difference(a, |f| f.rate), self.difference(b, |f| f.rate));
-                ((x.dot(&y) - constant).abs(), (x.dot(&yr) + xr.dot(&y)).abs())
+            Form::Product { a, b, target } => {
+                let product = self.product(a, b);
+                let [c, c_rate, _] = self.target(target);
+                ((product.value - c).abs(), (product.rate - c_rate).abs())
+            }
+            Form::Relation { .. } => {
+                let relation = self.relation(system, form);
+                (relation.value.abs(), relation.rate.abs())
             }
         }
     }
@@ -627,17 +861,19 @@ impl Elimination {
             }
         }
         for row in &system.rows {
-            let (value, rate) = self.row_violation(&row.form);
+            let (value, rate) = self.row_violation(system, &row.form);
             position = position.max(value);
             velocity = velocity.max(rate);
         }
         (position, velocity)
     }
 
-    /// Kinetic plus potential energy, J; positions and velocities must be in place.
+    /// Kinetic plus potential energy, springs included, J; positions and velocities must be in place.
     pub fn energy(&self, system: &System) -> f64 {
         let gravity = system.model.gravity;
-        self.bodies
+        let springs: f64 = system.loads.iter().map(|load| load.potential(self)).sum();
+        let bodies: f64 = self
+            .bodies
             .iter()
             .zip(&system.bodies)
             .map(|(state, body)| {
@@ -645,7 +881,8 @@ impl Elimination {
                 0.5 * (body.mass * state.q_dot.r.norm_squared() + turning)
                     - body.mass * gravity.dot(&state.q.r)
             })
-            .sum()
+            .sum();
+        bodies + springs
     }
 }
 

@@ -74,7 +74,9 @@ pub fn row_names(system: &System) -> Vec<String> {
 /// One equation: its value, its γ, and its gradient with respect to the lifted coordinates of bodies.
 struct Equation {
     value: f64,
-    /// −Q̇ᵀ H Q̇, before the term of reduced bodies.
+    /// ν, the rate that drivers prescribe: Φ̇ = Φ_q q̇ − ν.
+    nu: f64,
+    /// γ before the term of reduced bodies.
     gamma: f64,
     /// (body, gradient, constant in Q).
     gradient: Vec<(usize, Lift, bool)>,
@@ -91,6 +93,7 @@ fn equations(system: &System, at: &Elimination) -> Vec<Equation> {
             gradient.e[l] += state.q.e[k];
             list.push(Equation {
                 value: state.q.e[k].dot(&state.q.e[l]) - unit,
+                nu: 0.0,
                 gamma: -2.0 * state.q_dot.e[k].dot(&state.q_dot.e[l]),
                 gradient: vec![(index, gradient, false)],
             });
@@ -103,14 +106,17 @@ fn equations(system: &System, at: &Elimination) -> Vec<Equation> {
                 for k in 0..3 {
                     let g = Vector3::ith(k, 1.0);
                     let gradient = [(a, g, true), (b, -g, true)];
+                    let driven = at.driven_acceleration(system, b)[k] - at.driven_acceleration(system, a)[k];
+                    let rate = at.driven_rate(system, b)[k] - at.driven_rate(system, a)[k];
                     list.push(Equation {
                         value: x[k] - y[k],
-                        gamma: 0.0,
-                        gradient: lifted(system, &gradient),
+                        nu: rate,
+                        gamma: driven,
+                        gradient: lifted(system, at, &gradient),
                     });
                 }
             }
-            Form::Product { a, b, constant } => {
+            Form::Product { a, b, target } => {
                 let value = |d: Difference| d.of(|f| at.feature_value(f));
                 let rate = |d: Difference| d.of(|f| at.feature_rate(f));
                 let fixed =
@@ -121,11 +127,39 @@ fn equations(system: &System, at: &Elimination) -> Vec<Equation> {
                     gradient.push((own.plus, g, fixed(other)));
                     gradient.extend(own.minus.map(|minus| (minus, -g, fixed(other))));
                 }
+                let [c, c_rate, c_acceleration] = at.target(target);
+                let driven = |d: Difference| d.of(|f| at.driven_acceleration(system, f));
+                let driven_rate = |d: Difference| d.of(|f| at.driven_rate(system, f));
+                let (x, y) = (value(a), value(b));
                 list.push(Equation {
-                    value: value(a).dot(&value(b)) - constant,
-                    gamma: -2.0 * rate(a).dot(&rate(b)),
-                    gradient: lifted(system, &gradient),
+                    value: x.dot(&y) - c,
+                    nu: c_rate - driven_rate(a).dot(&y) - x.dot(&driven_rate(b)),
+                    gamma: c_acceleration
+                        - 2.0 * rate(a).dot(&rate(b))
+                        - driven(a).dot(&y)
+                        - x.dot(&driven(b)),
+                    gradient: lifted(system, at, &gradient),
                 });
+            }
+            Form::Relation { angles, slide, .. } => {
+                let (value, rate, curvature) = at.relation_terms(system, &row.form);
+                let mut gradient = Vec::with_capacity(6);
+                for (angle, factor) in angles.into_iter().flatten() {
+                    let features = system.angles[angle].features();
+                    let g = at.angles[angle].gradient;
+                    gradient.extend(features.into_iter().zip(g).map(|(f, g)| (f, g * factor, false)));
+                }
+                if let Some((a, b, factor)) = slide {
+                    for (own, other) in [(a, b), (b, a)] {
+                        let g = other.of(|f| at.feature_value(f)) * factor;
+                        gradient.push((own.plus, g, false));
+                        gradient.extend(own.minus.map(|minus| (minus, -g, false)));
+                    }
+                }
+                let gradient = lifted(system, at, &gradient);
+                // A relation does not depend on time, so that its whole rate is Φ_q q̇.
+                let along: f64 = gradient.iter().map(|(b, g, _)| g.dot(&at.bodies[*b].q_dot)).sum();
+                list.push(Equation { value, nu: along - rate, gamma: -curvature, gradient });
             }
         }
     }
@@ -133,9 +167,14 @@ fn equations(system: &System, at: &Elimination) -> Vec<Equation> {
 }
 
 /// Cᵀ g of each feature, summed by body.
-fn lifted(system: &System, parts: &[(FeatureId, Vector3<f64>, bool)]) -> Vec<(usize, Lift, bool)> {
+fn lifted(
+    system: &System,
+    at: &Elimination,
+    parts: &[(FeatureId, Vector3<f64>, bool)],
+) -> Vec<(usize, Lift, bool)> {
     let mut list: Vec<(usize, Lift, bool)> = Vec::with_capacity(2);
     for &(feature, g, constant) in parts {
+        let local = at.feature_local(system, feature);
         let feature = &system.features[feature];
         let BodyRef::Moving(body) = feature.body else { continue };
         let at = list.iter().position(|(b, ..)| *b == body).unwrap_or_else(|| {
@@ -147,9 +186,9 @@ fn lifted(system: &System, parts: &[(FeatureId, Vector3<f64>, bool)]) -> Vec<(us
             sum.r += g;
         }
         for k in 0..3 {
-            sum.e[k] += g * feature.local[k];
+            sum.e[k] += g * local[k];
         }
-        *all_constant &= constant;
+        *all_constant &= constant && feature.curve.is_none();
     }
     list
 }
@@ -157,6 +196,11 @@ fn lifted(system: &System, parts: &[(FeatureId, Vector3<f64>, bool)]) -> Vec<(us
 /// Φ of all rows.
 pub fn constraints(system: &System, at: &Elimination) -> Vec<f64> {
     equations(system, at).into_iter().map(|e| e.value).collect()
+}
+
+/// ν of all rows, Φ_q q̇ = ν — eq. (4.1).
+pub fn nu(system: &System, at: &Elimination) -> Vec<f64> {
+    equations(system, at).into_iter().map(|e| e.nu).collect()
 }
 
 /// γ of all rows, Φ_q q̈ = γ — eq. (4.2).

@@ -15,13 +15,23 @@
 
 pub mod scene;
 
+pub mod motion;
+
 pub mod model;
 
 pub mod lift;
 
+pub mod angle;
+
 pub mod row;
 
+pub mod writer;
+
 pub mod joint;
+
+pub mod driver;
+
+pub mod load;
 
 pub mod system;
 

@@ -23,6 +23,11 @@ impl Default for Lift {
 }
 
 impl Lift {
+    /// Sum of products of all twelve components.
+    pub fn dot(&self, other: &Self) -> f64 {
+        self.r.dot(&other.r) + (0..3).map(|k| self.e[k].dot(&other.e[k])).sum::<f64>()
+    }
+
     /// C Q for local coordinates (ξ, η, ζ), without the part of r: ξ u + η v + ζ w — eq. (2.3).
     pub fn arm(&self, local: &Vector3<f64>) -> Vector3<f64> {
         self.e[0] * local[0] + self.e[1] * local[1] + self.e[2] * local[2]

@@ -30,8 +30,9 @@ impl Mechanism {
         Self { elimination: Elimination::new(&system), system, projections: 0 }
     }
 
-    /// Takes over y = (q, q̇) without evaluating anything else.
-    pub fn set_state(&mut self, y: &[f64]) {
+    /// Takes over t and y = (q, q̇) without evaluating anything else.
+    pub fn set_state(&mut self, t: f64, y: &[f64]) {
+        self.elimination.set_time(&self.system, t);
         let (q, q_dot) = y.split_at(self.system.coordinates);
         self.elimination.place(&self.system, q);
         self.elimination.set_velocity(&self.system, q_dot);
@@ -43,7 +44,8 @@ impl Mechanism {
         let length = self.system.length;
         let mut notes = Vec::new();
         let given = y.to_vec();
-        self.set_state(y);
+        self.elimination.forget_turns();
+        self.set_state(0.0, y);
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
         let (opening, _) = self.elimination.violation(&self.system);
@@ -88,7 +90,7 @@ impl Mechanism {
 
     fn assembly_error(&mut self, given: &[f64], moved: f64) -> EngineError {
         // The joint that is open at the given start says more than the one left open by the failed attempt.
-        self.set_state(given);
+        self.set_state(0.0, given);
         let (index, violation) = self.elimination.worst_group(&self.system);
         let joint = self.system.groups.get(index).map_or_else(String::new, |g| g.name.clone());
         EngineError::Assembly { joint, index, violation, moved }
@@ -103,7 +105,8 @@ impl Mechanism {
 }
 
 impl Plant for Mechanism {
-    fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) {
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+        self.elimination.set_time(&self.system, t);
         let n = self.system.coordinates;
         let (q, q_dot) = y.split_at(n);
         rate[..n].copy_from_slice(q_dot);
@@ -112,6 +115,7 @@ impl Plant for Mechanism {
     }
 
     fn settle(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
+        self.elimination.keep_turns();
         if self.system.model.settings.stabilization != Stabilization::Projection {
             return;
         }

@@ -5,16 +5,32 @@
 //! directors u, v, w, which the formulation wants to be principal axes of inertia — THEORY eq. (2.1).
 
 mod body;
+mod driver;
 mod error;
 mod joint;
+mod load;
+mod reader;
 
 pub use body::ModelBody;
+pub use driver::{DriverKind, ModelDriver};
 pub use error::ModelError;
-pub use joint::{BodyRef, ModelJoint, nearest_name};
+pub use joint::ModelJoint;
+pub use load::{Element, LoadKind, ModelLoad};
+pub use reader::nearest_name;
 
 use crate::scene::{Scene, Settings, Stabilization};
 use nalgebra::Vector3;
+use reader::Reader;
 use std::collections::HashMap;
+
+/// A body by its place in the model, or the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum BodyRef {
+    /// The fixed body, whose frame is the world.
+    Ground,
+    /// A moving body.
+    Moving(usize),
+}
 
 /// A checked scene.
 #[derive(Clone, Debug)]
@@ -27,6 +43,10 @@ pub struct Model {
     pub bodies: Vec<ModelBody>,
     /// The joints, in the scene's order.
     pub joints: Vec<ModelJoint>,
+    /// The drivers, in the scene's order.
+    pub drivers: Vec<ModelDriver>,
+    /// The loads besides gravity, in the scene's order.
+    pub loads: Vec<ModelLoad>,
     /// How to run it.
     pub settings: Settings,
     /// What was found or corrected, for the author.
@@ -48,17 +68,36 @@ impl Model {
             unique_name(&mut names, "bodies", index, &written.name)?;
             bodies.push(ModelBody::new(written, index, scene.coordinates, &mut notes)?);
         }
-        let mut joint_names = HashMap::new();
+        // Joints and drivers share one space of names: both label rows.
+        let mut row_names = HashMap::new();
         let mut joints = Vec::with_capacity(scene.joints.len());
         for (index, written) in scene.joints.iter().enumerate() {
-            unique_name(&mut joint_names, "joints", index, &written.name)?;
-            joints.push(ModelJoint::new(written, index, &names, &bodies)?);
+            unique_name(&mut row_names, "joints", index, &written.name)?;
+            let (list, name) = ("joints", written.name.as_str());
+            let reader = Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
+            let joint = ModelJoint::new(written, &reader)?;
+            joints.push(joint);
+        }
+        let reader =
+            |list, index, name| Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
+        let mut drivers = Vec::with_capacity(scene.drivers.len());
+        for (index, written) in scene.drivers.iter().enumerate() {
+            unique_name(&mut row_names, "drivers", index, written.name())?;
+            drivers.push(ModelDriver::new(written, &reader("drivers", index, written.name()))?);
+        }
+        let mut load_names = HashMap::new();
+        let mut loads = Vec::with_capacity(scene.loads.len());
+        for (index, written) in scene.loads.iter().enumerate() {
+            unique_name(&mut load_names, "loads", index, written.name())?;
+            loads.push(ModelLoad::new(written, &reader("loads", index, written.name()))?);
         }
         Ok(Self {
             name: scene.name.clone(),
             gravity: Vector3::from(scene.gravity),
             bodies,
             joints,
+            drivers,
+            loads,
             settings: scene.simulation.clone(),
             notes,
         })

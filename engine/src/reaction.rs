@@ -54,7 +54,7 @@ pub fn multipliers(system: &System, elimination: &Elimination) -> Vec<JointMulti
         BodyRef::Moving(body) => system.model.bodies[body].name.clone(),
     };
     let mut joints = Vec::with_capacity(system.groups.len());
-    for (group, model) in system.groups.iter().zip(&system.model.joints) {
+    for group in &system.groups {
         let rows = group
             .forms
             .clone()
@@ -65,19 +65,19 @@ pub fn multipliers(system: &System, elimination: &Elimination) -> Vec<JointMulti
             })
             .map(|(label, value)| Multiplier { label, value })
             .collect();
-        let side = usize::from(model.bodies[1] != BodyRef::Ground);
-        let BodyRef::Moving(body) = model.bodies[side] else { continue };
+        let side = usize::from(group.bodies[1] != BodyRef::Ground);
+        let BodyRef::Moving(body) = group.bodies[side] else { continue };
         let Some(incidence) = group.incidences.clone().find(|&i| system.incidences[i].body == body) else {
             continue;
         };
         let [force, about_center] = elimination.wrench_on(system, incidence);
         let q = &elimination.bodies[body].q;
-        let arm = q.arm(&model.points[side]);
+        let arm = q.arm(&group.points[side]);
         joints.push(JointMultipliers {
             joint: group.name.clone(),
             rows,
-            on: name(model.bodies[side]),
-            by: name(model.bodies[1 - side]),
+            on: name(group.bodies[side]),
+            by: name(group.bodies[1 - side]),
             force: force.into(),
             moment: (about_center - arm.cross(&force)).into(),
             about: (q.r + arm).into(),

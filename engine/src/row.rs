@@ -5,10 +5,12 @@
 //! with constant local coordinates, or points and vectors of the ground. Φ, Φ_q, ν and γ all follow from that one
 //! statement, so they cannot disagree.
 
+use crate::angle::Angle;
 use crate::model::BodyRef;
+use crate::motion::{Curve, Jet};
 use nalgebra::Vector3;
 
-/// A point (`point`) or a vector that is fixed in a body or in the ground.
+/// A point (`point`) or a vector that is fixed in a body or in the ground, or moves in it as prescribed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
     /// Where it is fixed.
@@ -17,6 +19,15 @@ pub struct Feature {
     pub point: bool,
     /// Local coordinates (ξ, η, ζ) in the principal frame; for the ground, world components.
     pub local: Vector3<f64>,
+    /// Which curve gives the local coordinates instead, if they are functions of time.
+    pub curve: Option<usize>,
+}
+
+impl Feature {
+    /// Whether it is fixed in the ground: then nothing about it ever changes.
+    pub fn is_fixed(&self) -> bool {
+        self.body == BodyRef::Ground && self.curve.is_none()
+    }
 }
 
 /// Place of a feature in the system's list.
@@ -32,10 +43,50 @@ pub struct Difference {
 }
 
 impl Difference {
+    /// One feature.
+    pub fn one(plus: FeatureId) -> Self {
+        Self { plus, minus: None }
+    }
+
+    fn rename(&mut self, place: &[FeatureId]) {
+        self.plus = place[self.plus];
+        self.minus = self.minus.map(|f| place[f]);
+    }
+
     /// The difference of some quantity of the two features.
     pub fn of(self, quantity: impl Fn(FeatureId) -> Vector3<f64>) -> Vector3<f64> {
         let plus = quantity(self.plus);
         self.minus.map_or(plus, |minus| plus - quantity(minus))
+    }
+}
+
+/// The number that a product must have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// Always the same.
+    Constant(f64),
+    /// The value of a target curve.
+    Driven(usize),
+}
+
+/// A prescribed number: a curve, or the cosine of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetCurve {
+    /// The curve.
+    pub curve: Curve,
+    /// Whether the number is the curve's cosine.
+    pub cosine: bool,
+}
+
+impl TargetCurve {
+    /// Value, first and second derivative at time t.
+    pub fn at(&self, t: f64) -> Jet<f64> {
+        let [value, rate, acceleration] = self.curve.at(t);
+        if !self.cosine {
+            return [value, rate, acceleration];
+        }
+        let (sin, cos) = value.sin_cos();
+        [cos, -sin * rate, -cos * rate * rate - sin * acceleration]
     }
 }
 
@@ -62,6 +113,16 @@ pub enum Form {
         a: Difference,
         /// Second factor.
         b: Difference,
+        /// The number c.
+        target: Target,
+    },
+    /// Σ cᵢ θᵢ + d (a · b) − c = 0 between joint angles and a displacement: one equation (gear, screw). The only form
+    /// that is not a polynomial — eq. (4.7).
+    Relation {
+        /// Up to two angles with their factors.
+        angles: [Option<(usize, f64)>; 2],
+        /// A displacement with its factor.
+        slide: Option<(Difference, Difference, f64)>,
         /// The constant c.
         constant: f64,
     },
@@ -72,7 +133,7 @@ impl Form {
     pub fn equations(&self) -> usize {
         match self {
             Self::Coincidence { .. } | Self::CommonVector { .. } => 3,
-            Self::Product { .. } => 1,
+            Self::Product { .. } | Self::Relation { .. } => 1,
         }
     }
 
@@ -81,17 +142,42 @@ impl Form {
         match self {
             Self::Coincidence { .. } => 3,
             Self::CommonVector { .. } => 2,
-            Self::Product { .. } => 1,
+            Self::Product { .. } | Self::Relation { .. } => 1,
         }
     }
 
-    /// The features that the form speaks of.
-    pub fn features(&self) -> impl Iterator<Item = FeatureId> {
-        let list = match *self {
-            Self::Coincidence { a, b } | Self::CommonVector { a, b } => [Some(a), Some(b), None, None],
-            Self::Product { a, b, .. } => [Some(a.plus), a.minus, Some(b.plus), b.minus],
-        };
-        list.into_iter().flatten()
+    /// The features that the form speaks of, in the order in which their gradients are written.
+    pub fn features(&self, angles: &[Angle]) -> Vec<FeatureId> {
+        let of = |d: Difference| [Some(d.plus), d.minus].into_iter().flatten();
+        match *self {
+            Self::Coincidence { a, b } | Self::CommonVector { a, b } => vec![a, b],
+            Self::Product { a, b, .. } => of(a).chain(of(b)).collect(),
+            Self::Relation { angles: terms, slide, .. } => {
+                let turning = terms.into_iter().flatten().flat_map(|(k, _)| angles[k].features());
+                let sliding = slide.into_iter().flat_map(|(a, b, _)| of(a).chain(of(b)));
+                turning.chain(sliding).collect()
+            }
+        }
+    }
+
+    /// Renames features.
+    pub fn rename(&mut self, place: &[FeatureId]) {
+        match self {
+            Self::Coincidence { a, b } | Self::CommonVector { a, b } => {
+                *a = place[*a];
+                *b = place[*b];
+            }
+            Self::Product { a, b, .. } => {
+                a.rename(place);
+                b.rename(place);
+            }
+            Self::Relation { slide, .. } => {
+                if let Some((a, b, _)) = slide {
+                    a.rename(place);
+                    b.rename(place);
+                }
+            }
+        }
     }
 }
 

@@ -104,7 +104,7 @@ impl Simulation {
         let rank = rank::analyze(&mechanism.system, &mut mechanism.elimination, &start[..n]);
         mechanism.elimination.set_redundant(!rank.dependent.is_empty());
         mechanism.elimination.counters = Counters::default();
-        mechanism.set_state(&start);
+        mechanism.set_state(0.0, &start);
         let start_energy = mechanism.elimination.energy(&mechanism.system);
         let integrator = Dop853::new(&mut mechanism, 0.0, &start, tolerance);
         let shown = start.clone();
@@ -160,6 +160,7 @@ impl Simulation {
     pub fn reset(&mut self) {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
+        self.mechanism.elimination.forget_turns();
         let tolerance = self.model().settings.tolerance;
         self.integrator = Dop853::new(&mut self.mechanism, 0.0, &self.start, tolerance);
         self.time = 0.0;
@@ -200,7 +201,7 @@ impl Simulation {
 
     /// Bodies at the shown state.
     pub fn frame(&mut self) -> Frame {
-        self.mechanism.set_state(&self.shown);
+        self.mechanism.set_state(self.time, &self.shown);
         let bodies = self.mechanism.elimination.bodies.iter().map(|state| {
             let e = state.q.e;
             // ω = ½ Σ e_k × ė_k — eq. (6.4).
@@ -220,7 +221,7 @@ impl Simulation {
 
     /// Cost and trust at the shown state.
     pub fn summary(&mut self) -> Summary {
-        self.mechanism.set_state(&self.shown);
+        self.mechanism.set_state(self.time, &self.shown);
         let elimination = &self.mechanism.elimination;
         let energy = elimination.energy(&self.mechanism.system);
         let (position_violation, velocity_violation) = elimination.violation(&self.mechanism.system);
@@ -245,15 +246,16 @@ impl Simulation {
 
     /// The Jacobian Φ_q at the shown state, rigid-body rows first.
     pub fn jacobian(&mut self) -> Jacobian {
-        self.mechanism.set_state(&self.shown);
+        self.mechanism.set_state(self.time, &self.shown);
         equations::jacobian(&self.mechanism.system, &self.mechanism.elimination)
     }
 
     /// Accelerations q̈ at the shown state.
     pub fn accelerations(&mut self) -> Vec<f64> {
+        let time = self.time;
         self.without_counting(|mechanism, shown| {
             let mut rate = vec![0.0; shown.len()];
-            mechanism.rate(0.0, shown, &mut rate);
+            mechanism.rate(time, shown, &mut rate);
             rate.split_off(mechanism.system.coordinates)
         })
     }

@@ -1,12 +1,14 @@
 //! The assembled system: everything that never changes during a run.
 
-use crate::joint;
-use crate::lift;
+use crate::angle::Angle;
+use crate::load::Load;
 use crate::model::{BodyRef, Model};
-use crate::row::{Feature, FeatureId, Form};
+use crate::motion::VectorCurve;
+use crate::row::{Feature, Form, TargetCurve};
 use crate::scene::Coordinates;
+use crate::writer::{Writer, WrittenGroup};
+use crate::{driver, joint, lift};
 use nalgebra::Vector3;
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// A body as the equations of motion see it.
@@ -27,11 +29,17 @@ pub struct Body {
     pub first: usize,
 }
 
-/// The rows of one joint.
+/// The rows of one joint or driver.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// Name of the joint.
+    /// Name of the joint or driver.
     pub name: String,
+    /// Whether it is a driver.
+    pub driver: bool,
+    /// Bodies i and j.
+    pub bodies: [BodyRef; 2],
+    /// The point on each body, in its principal frame, about which the reaction is stated.
+    pub points: [Vector3<f64>; 2],
     /// Its row forms.
     pub forms: Range<usize>,
     /// Its equations as written, within all equations of joints.
@@ -68,8 +76,8 @@ pub struct Row {
     pub solver: usize,
     /// First solver row within its joint.
     pub local: usize,
-    /// For each feature of the form in order (a, b, or a₊, a₋, b₊, b₋), the incidence of its body.
-    pub incidence: [usize; 4],
+    /// For each feature of the form in the order of [`Form::features`], the incidence of its body.
+    pub incidence: [usize; 6],
 }
 
 /// Marks a feature of the ground, which meets no moving body.
@@ -82,10 +90,21 @@ pub struct System {
     pub model: Model,
     /// The moving bodies.
     pub bodies: Vec<Body>,
-    /// All features; those of moving bodies come first.
+    /// All features: first those fixed in moving bodies, then those that move as prescribed, then those fixed in
+    /// the ground.
     pub features: Vec<Feature>,
-    /// How many features move.
+    /// How many features are fixed in moving bodies.
     pub moving: usize,
+    /// How many features are not fixed in the ground.
+    pub changing: usize,
+    /// Curves of the features that move as prescribed.
+    pub curves: Vec<VectorCurve>,
+    /// Prescribed numbers.
+    pub targets: Vec<TargetCurve>,
+    /// Angles of joints.
+    pub angles: Vec<Angle>,
+    /// Loads besides gravity.
+    pub loads: Vec<Load>,
     /// The rows.
     pub rows: Vec<Row>,
     /// The joints.
@@ -111,13 +130,30 @@ pub struct System {
 impl System {
     /// Assembles a model.
     pub fn new(model: Model) -> Self {
-        let (features, written) = collect(&model);
+        let mut writer = Writer::default();
+        for joint in &model.joints {
+            joint::write(&model, joint, &mut writer);
+        }
+        for driver in &model.drivers {
+            driver::write(&model, driver, &mut writer);
+        }
+        let mut loads: Vec<Load> = model.loads.iter().map(|l| Load::new(&model, l, &mut writer)).collect();
+        let place = writer.sort_features();
+        for load in &mut loads {
+            load.rename(&place);
+        }
+        let Writer { features, curves, targets, angles, groups, .. } = writer;
         let mut system = Self {
             bodies: Vec::with_capacity(model.bodies.len()),
-            moving: features.iter().filter(|f| f.body != BodyRef::Ground).count(),
+            moving: features.iter().filter(|f| !f.is_fixed() && f.curve.is_none()).count(),
+            changing: features.iter().filter(|f| !f.is_fixed()).count(),
             features,
+            curves,
+            targets,
+            angles,
+            loads,
             rows: Vec::new(),
-            groups: Vec::with_capacity(model.joints.len()),
+            groups: Vec::with_capacity(groups.len()),
             incidences: Vec::new(),
             touching: vec![Vec::new(); model.bodies.len()],
             coordinates: 0,
@@ -130,8 +166,8 @@ impl System {
         };
         system.length = system.characteristic_length();
         system.add_bodies();
-        for (index, forms) in written.into_iter().enumerate() {
-            system.add_group(index, forms);
+        for group in groups {
+            system.add_group(group);
         }
         system
     }
@@ -167,12 +203,14 @@ impl System {
         }
     }
 
-    fn add_group(&mut self, index: usize, forms: Vec<joint::LabelledForm>) {
+    fn add_group(&mut self, written: WrittenGroup) {
+        let WrittenGroup { name, forms, bodies: pair, points, driver } = written;
+        let index = self.groups.len();
         let size: usize = forms.iter().map(|(_, form)| form.independent()).sum();
         let first = self.incidences.len();
         let mut bodies: Vec<usize> = forms
             .iter()
-            .flat_map(|(_, form)| form.features())
+            .flat_map(|(_, form)| form.features(&self.angles))
             .filter_map(|f| match self.features[f].body {
                 BodyRef::Ground => None,
                 BodyRef::Moving(body) => Some(body),
@@ -188,8 +226,8 @@ impl System {
         let (first_form, first_equation) = (self.rows.len(), self.equations);
         let mut local = 0;
         for (label, form) in forms {
-            let mut incidence = [NO_INCIDENCE; 4];
-            for (k, f) in form.features().enumerate() {
+            let mut incidence = [NO_INCIDENCE; 6];
+            for (k, f) in form.features(&self.angles).into_iter().enumerate() {
                 if let BodyRef::Moving(body) = self.features[f].body {
                     let found = (first..self.incidences.len()).find(|&i| self.incidences[i].body == body);
                     incidence[k] = found.unwrap_or(NO_INCIDENCE);
@@ -207,7 +245,10 @@ impl System {
             local += form.independent();
         }
         self.groups.push(Group {
-            name: self.model.joints[index].name.clone(),
+            name,
+            driver,
+            bodies: pair,
+            points,
             forms: first_form..self.rows.len(),
             equations: first_equation..self.equations,
             solver: self.solver_rows..self.solver_rows + size,
@@ -230,50 +271,6 @@ impl System {
             let velocity = lift::Lift { r: model.velocity, e: e.map(|e| model.angular_velocity.cross(&e)) };
             lift::store(body.coordinates, &position, &mut q[range.clone()]);
             lift::store(body.coordinates, &velocity, &mut q_dot[range]);
-        }
-    }
-}
-
-/// Bits of a feature, for recognising the same one again.
-type FeatureKey = (BodyRef, bool, [u64; 3]);
-
-/// All features, those of moving bodies first, and the forms of each joint.
-fn collect(model: &Model) -> (Vec<Feature>, Vec<Vec<joint::LabelledForm>>) {
-    let mut known: HashMap<FeatureKey, FeatureId> = HashMap::new();
-    let mut features: Vec<Feature> = Vec::new();
-    let mut written: Vec<Vec<joint::LabelledForm>> = Vec::with_capacity(model.joints.len());
-    for joint in &model.joints {
-        written.push(joint::rows(joint, |feature| {
-            let key = (feature.body, feature.point, [0, 1, 2].map(|k| feature.local[k].to_bits()));
-            *known.entry(key).or_insert_with(|| {
-                features.push(feature);
-                features.len() - 1
-            })
-        }));
-    }
-    let mut order: Vec<FeatureId> = (0..features.len()).collect();
-    order.sort_by_key(|&f| features[f].body == BodyRef::Ground);
-    let mut place = vec![0; features.len()];
-    for (new, &old) in order.iter().enumerate() {
-        place[old] = new;
-    }
-    for (_, form) in written.iter_mut().flatten() {
-        relabel(form, &place);
-    }
-    (order.iter().map(|&old| features[old]).collect(), written)
-}
-
-fn relabel(form: &mut Form, place: &[FeatureId]) {
-    match form {
-        Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-            *a = place[*a];
-            *b = place[*b];
-        }
-        Form::Product { a, b, .. } => {
-            for difference in [a, b] {
-                difference.plus = place[difference.plus];
-                difference.minus = difference.minus.map(|f| place[f]);
-            }
         }
     }
 }

@@ -13,15 +13,20 @@ pub fn scene(windows: usize) -> Scene {
     for i in 0..=windows {
         let x = i as f64;
         bodies.push(link(format!("upright-{i}"), [x, 0.5, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0], -1.0));
-        joints.push(pin(format!("A{i}"), GROUND.to_owned(), format!("upright-{i}"), [x, 0.0, 0.0]));
+        joints.push(pin(&format!("A{i}"), GROUND, &format!("upright-{i}"), [x, 0.0, 0.0]));
     }
     for i in 0..windows {
         let x = i as f64;
         let coupler = format!("coupler-{i}");
         bodies.push(link(coupler.clone(), [x + 0.5, 1.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0));
         let left = if i == 0 { "B0".to_owned() } else { format!("B{i}-right") };
-        joints.push(pin(left, format!("upright-{i}"), coupler.clone(), [x, 1.0, 0.0]));
-        joints.push(pin(format!("B{}", i + 1), coupler, format!("upright-{}", i + 1), [x + 1.0, 1.0, 0.0]));
+        joints.push(pin(&left, &format!("upright-{i}"), &coupler, [x, 1.0, 0.0]));
+        joints.push(pin(
+            &format!("B{}", i + 1),
+            &coupler,
+            &format!("upright-{}", i + 1),
+            [x + 1.0, 1.0, 0.0],
+        ));
     }
     Scene {
         name: format!("n-four-bar-{windows}"),
@@ -34,6 +39,8 @@ pub fn scene(windows: usize) -> Scene {
         coordinates: crate::scene::Coordinates::Full,
         bodies,
         joints,
+        drivers: Vec::new(),
+        loads: Vec::new(),
         simulation: Settings { duration: 10.0, ..Settings::default() },
     }
 }
@@ -62,19 +69,10 @@ fn link(name: String, position: [f64; 3], along: [f64; 3], velocity: [f64; 3], s
     }
 }
 
-fn pin(name: String, body_i: String, body_j: String, point: [f64; 3]) -> Joint {
-    Joint {
-        name,
-        kind: JointKind::Revolute,
-        body_i,
-        body_j,
-        point: Some(point),
-        point_i: None,
-        point_j: None,
-        axis: Some([0.0, 0.0, 1.0]),
-        axes: None,
-        axis_i: None,
-        axis_j: None,
-        rows: Some(AxisRows::Cv),
-    }
+fn pin(name: &str, body_i: &str, body_j: &str, point: [f64; 3]) -> Joint {
+    let mut joint = Joint::between(name, JointKind::Revolute, body_i, body_j);
+    joint.point = Some(point);
+    joint.axis = Some([0.0, 0.0, 1.0]);
+    joint.rows = Some(AxisRows::Cv);
+    joint
 }

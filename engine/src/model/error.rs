@@ -28,11 +28,11 @@ pub enum ModelError {
         /// Its name.
         name: String,
     },
-    /// A joint names a body that is not there.
-    #[error("joint \"{joint}\": there is no body \"{name}\"")]
+    /// A joint, driver or load names a body that is not there.
+    #[error("{element}: there is no body \"{name}\"")]
     UnknownBody {
-        /// The joint.
-        joint: String,
+        /// The joint, driver or load.
+        element: String,
         /// Where the name stands.
         pointer: String,
         /// The name.
@@ -123,11 +123,11 @@ pub enum ModelError {
         /// What is wrong.
         reason: String,
     },
-    /// A joint without something that it needs, or with something that it does not know.
-    #[error("joint \"{joint}\": {reason}")]
+    /// A joint, driver or load without something that it needs, or with something that it does not know.
+    #[error("{element}: {reason}")]
     Geometry {
-        /// The joint.
-        joint: String,
+        /// The joint, driver or load.
+        element: String,
         /// Where.
         pointer: String,
         /// What is missing or too much.
@@ -150,7 +150,9 @@ impl ModelError {
             Self::Inertia { .. } => "inertia-not-physical",
             Self::Asymmetric { .. } => "inertia-not-symmetric",
             Self::Orientation { .. } => "orientation-invalid",
-            Self::Geometry { .. } => "joint-geometry",
+            Self::Geometry { pointer, .. } if pointer.starts_with("/joints") => "joint-geometry",
+            Self::Geometry { pointer, .. } if pointer.starts_with("/drivers") => "driver-invalid",
+            Self::Geometry { .. } => "load-invalid",
         }
     }
 
@@ -202,6 +204,11 @@ impl ModelError {
             Self::Orientation { .. } => {
                 "Give either u and v (perpendicular unit vectors), or a unit quaternion [w, x, y, z], or an axis and \
                  an angle in radians."
+                    .to_owned()
+            }
+            Self::Geometry { pointer, .. } if !pointer.starts_with("/joints") => {
+                "Compare the element with the JSON Schema of a scene; points and vectors of a body are in its own \
+                 frame."
                     .to_owned()
             }
             Self::Geometry { .. } => {

@@ -1,18 +1,10 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
-use super::{ModelBody, ModelError, finite};
-use crate::scene::{AxisRows, GROUND, Joint, JointKind, Triple};
+use super::reader::Reader;
+use super::{BodyRef, ModelError};
+use crate::row::across;
+use crate::scene::{AxisRows, Joint, JointKind};
 use nalgebra::Vector3;
-use std::collections::HashMap;
-
-/// A body by its place in the model, or the ground.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum BodyRef {
-    /// The fixed body, whose frame is the world.
-    Ground,
-    /// A moving body.
-    Moving(usize),
-}
 
 /// A checked joint. Ground points and vectors are in the world frame, others in the principal frame of the body.
 #[derive(Clone, Debug)]
@@ -21,178 +13,188 @@ pub struct ModelJoint {
     pub name: String,
     /// What it is.
     pub kind: JointKind,
-    /// Bodies i and j.
+    /// Bodies i and j (of a gear: body j of its two joints).
     pub bodies: [BodyRef; 2],
     /// The joint's point on body i and on body j, m.
     pub points: [Vector3<f64>; 2],
     /// The joint's unit axis on body i and on body j (zero where the joint has none).
     pub axes: [Vector3<f64>; 2],
-    /// How the axis is written.
+    /// Two vectors across the axis on body i and the vectors on body j that coincide with them at the start; with
+    /// the axis they are right-handed. The angle of the joint is that from the first on i to the first on j.
+    pub cross: [[Vector3<f64>; 2]; 2],
+    /// How the axis of a revolute joint is written.
     pub rows: AxisRows,
+    /// Length of a rod, m.
+    pub length: f64,
+    /// Advance of a screw, m/rad.
+    pub pitch: f64,
+    /// Joints that a gear couples, and the angle of the second for each radian of the first.
+    pub gear: Option<([usize; 2], f64)>,
 }
 
 impl ModelJoint {
-    /// Checks joint `index` of a scene.
-    pub(super) fn new(
-        joint: &Joint,
-        index: usize,
-        names: &HashMap<String, usize>,
-        bodies: &[ModelBody],
-    ) -> Result<Self, ModelError> {
-        let reader = Reader { joint, index, bodies };
-        let pair =
-            [reader.body("body_i", &joint.body_i, names)?, reader.body("body_j", &joint.body_j, names)?];
-        if pair[0] == pair[1] {
+    /// Checks joint `reader.index` of a scene; `reader.joints` are those before it.
+    pub(super) fn new(joint: &Joint, reader: &Reader) -> Result<Self, ModelError> {
+        refuse_strangers(joint, reader)?;
+        if joint.kind == JointKind::Gear {
+            return gear(joint, reader);
+        }
+        let bodies = [reader.body("body_i", &joint.body_i)?, reader.body("body_j", &joint.body_j)?];
+        if bodies[0] == bodies[1] {
             return Err(ModelError::SameBody {
                 joint: joint.name.clone(),
                 pointer: reader.at("body_j"),
                 body: joint.body_j.clone(),
             });
         }
-        let points = reader.points(pair)?;
-        let axes = reader.axes(pair)?;
-        if joint.rows.is_some() && joint.kind != JointKind::Revolute {
-            return Err(reader.wrong("rows", "only a revolute joint can choose its rows"));
-        }
-        Ok(Self {
+        let points = points(joint, reader, bodies)?;
+        let axes = axes(joint, reader, bodies)?;
+        let mut model = Self {
             name: joint.name.clone(),
             kind: joint.kind,
-            bodies: pair,
+            bodies,
             points,
             axes,
+            cross: [[Vector3::zeros(); 2]; 2],
             rows: joint.rows.unwrap_or_default(),
-        })
+            length: 0.0,
+            pitch: 0.0,
+            gear: None,
+        };
+        if joint.kind == JointKind::Rod {
+            let ends = [0, 1].map(|side| reader.point_to_world(bodies[side], &points[side]));
+            let length = joint.length.unwrap_or_else(|| (ends[1] - ends[0]).norm());
+            model.length = reader.number("length", length, 1e-9, 1e9)?;
+        }
+        if joint.kind == JointKind::Screw {
+            let pitch = joint.pitch.ok_or_else(|| reader.wrong("pitch", "a screw needs a pitch"))?;
+            if !(pitch.is_finite() && pitch != 0.0) {
+                return Err(reader.wrong("pitch", "the pitch of a screw is a number other than zero"));
+            }
+            model.pitch = pitch / std::f64::consts::TAU;
+        }
+        if axes[0] != Vector3::zeros() {
+            model.cross = cross_vectors(reader, bodies, axes);
+        }
+        Ok(model)
     }
 }
 
-struct Reader<'a> {
-    joint: &'a Joint,
-    index: usize,
-    bodies: &'a [ModelBody],
-}
-
-impl Reader<'_> {
-    fn at(&self, key: &str) -> String {
-        format!("/joints/{}/{key}", self.index)
-    }
-
-    fn wrong(&self, key: &str, reason: &str) -> ModelError {
-        ModelError::Geometry {
-            joint: self.joint.name.clone(),
-            pointer: self.at(key),
-            reason: reason.to_owned(),
-        }
-    }
-
-    fn body(&self, key: &str, name: &str, names: &HashMap<String, usize>) -> Result<BodyRef, ModelError> {
-        if name == GROUND {
-            return Ok(BodyRef::Ground);
-        }
-        names.get(name).map(|&body| BodyRef::Moving(body)).ok_or_else(|| ModelError::UnknownBody {
-            joint: self.joint.name.clone(),
-            pointer: self.at(key),
-            name: name.to_owned(),
-            nearest: nearest_name(name, self.bodies.iter().map(|b| b.name.as_str())),
-        })
-    }
-
-    fn points(&self, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
-        let joint = self.joint;
-        match (joint.point, joint.point_i, joint.point_j) {
-            (Some(world), None, None) => {
-                let world = self.vector("point", world)?;
-                Ok(pair.map(|body| self.point_from_world(body, &world)))
-            }
-            (None, Some(i), Some(j)) => {
-                let local = [self.vector("point_i", i)?, self.vector("point_j", j)?];
-                Ok([0, 1].map(|side| match pair[side] {
-                    BodyRef::Ground => local[side],
-                    BodyRef::Moving(body) => self.bodies[body].point_to_principal(&local[side]),
-                }))
-            }
-            (None, None, None) => Err(self.wrong("point", "it has no point")),
-            _ => Err(self.wrong("point", "its point is given twice, or on one of its bodies only")),
-        }
-    }
-
-    fn axes(&self, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
-        let joint = self.joint;
-        let given = (joint.axis, joint.axes, joint.axis_i, joint.axis_j);
-        let needs_axis = joint.kind != JointKind::Spherical;
-        match given {
-            (None, None, None, None) if !needs_axis => Ok([Vector3::zeros(); 2]),
-            _ if !needs_axis => Err(self.wrong("axis", "a spherical joint has no axis")),
-            (None, None, None, None) => Err(self.wrong("axis", "it has no axis")),
-            (Some(_), None, None, None) if joint.kind == JointKind::Universal => {
-                Err(self.wrong("axis", "a universal joint has two axes: give \"axes\""))
-            }
-            (Some(world), None, None, None) => {
-                let world = self.unit("axis", world)?;
-                Ok(pair.map(|body| self.vector_from_world(body, &world)))
-            }
-            (None, Some([first, second]), None, None) => {
-                let world = [self.unit("axes/0", first)?, self.unit("axes/1", second)?];
-                Ok([0, 1].map(|side| self.vector_from_world(pair[side], &world[side])))
-            }
-            (None, None, Some(i), Some(j)) => {
-                let local = [self.unit("axis_i", i)?, self.unit("axis_j", j)?];
-                Ok([0, 1].map(|side| match pair[side] {
-                    BodyRef::Ground => local[side],
-                    BodyRef::Moving(body) => self.bodies[body].vector_to_principal(&local[side]),
-                }))
-            }
-            _ => Err(self.wrong("axis", "its axis is given twice, or on one of its bodies only")),
-        }
-    }
-
-    fn vector(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
-        finite(&value, &self.at(key))?;
-        Ok(Vector3::from(value))
-    }
-
-    fn unit(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
-        self.vector(key, value)?.try_normalize(1e-12).ok_or_else(|| self.wrong(key, "the axis has no length"))
-    }
-
-    fn point_from_world(&self, body: BodyRef, world: &Vector3<f64>) -> Vector3<f64> {
-        match body {
-            BodyRef::Ground => *world,
-            BodyRef::Moving(body) => {
-                let body = &self.bodies[body];
-                body.directors.tr_mul(&(world - body.position))
-            }
-        }
-    }
-
-    fn vector_from_world(&self, body: BodyRef, world: &Vector3<f64>) -> Vector3<f64> {
-        match body {
-            BodyRef::Ground => *world,
-            BodyRef::Moving(body) => self.bodies[body].directors.tr_mul(world),
-        }
+/// Keys that a kind of joint does not know are errors, not noise.
+fn refuse_strangers(joint: &Joint, reader: &Reader) -> Result<(), ModelError> {
+    let kind = joint.kind;
+    let gear = kind == JointKind::Gear;
+    let has_point =
+        joint.point.is_some() || joint.points.is_some() || joint.point_i.is_some() || joint.point_j.is_some();
+    let has_axis =
+        joint.axis.is_some() || joint.axes.is_some() || joint.axis_i.is_some() || joint.axis_j.is_some();
+    let named = !joint.body_i.is_empty() || !joint.body_j.is_empty();
+    let rules = [
+        (
+            "rows",
+            joint.rows.is_some() && kind != JointKind::Revolute,
+            "only a revolute joint chooses its rows",
+        ),
+        ("length", joint.length.is_some() && kind != JointKind::Rod, "only a rod has a length"),
+        ("pitch", joint.pitch.is_some() && kind != JointKind::Screw, "only a screw has a pitch"),
+        ("joints", joint.joints.is_some() && !gear, "only a gear couples two joints"),
+        ("ratio", joint.ratio.is_some() && !gear, "only a gear has a ratio"),
+        ("point", gear && has_point, "a gear has no point: it couples the angles of two joints"),
+        ("axis", gear && has_axis, "a gear has no axis: it couples the angles of two joints"),
+        ("body_i", gear && named, "a gear names two joints, not two bodies"),
+        ("axis", kind == JointKind::Spherical && has_axis, "a spherical joint has no axis"),
+        ("axis", kind == JointKind::Rod && has_axis, "a rod has no axis"),
+    ];
+    match rules.iter().find(|(_, broken, _)| *broken) {
+        Some((key, _, reason)) => Err(reader.wrong(key, *reason)),
+        None => Ok(()),
     }
 }
 
-/// The candidate that differs from `name` in the fewest letters, if it is near.
-pub fn nearest_name<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
-    candidates
-        .take(1000)
-        .map(|candidate| (edit_distance(name, candidate), candidate))
-        .min()
-        .filter(|(distance, _)| *distance <= name.len().max(3) / 3)
-        .map(|(_, candidate)| candidate.to_owned())
+fn gear(joint: &Joint, reader: &Reader) -> Result<ModelJoint, ModelError> {
+    let Some([first, second]) = &joint.joints else {
+        return Err(reader.wrong("joints", "a gear needs the names of two revolute joints"));
+    };
+    let ratio = joint.ratio.ok_or_else(|| reader.wrong("ratio", "a gear needs a ratio"))?;
+    let ratio = reader.number("ratio", ratio, -1e6, 1e6)?;
+    let pair = [reader.joint(first, &[JointKind::Revolute])?, reader.joint(second, &[JointKind::Revolute])?];
+    if pair[0] == pair[1] {
+        return Err(reader.wrong("joints", "a gear couples two different joints"));
+    }
+    let [a, b] = pair.map(|index| &reader.joints[index]);
+    Ok(ModelJoint {
+        name: joint.name.clone(),
+        kind: JointKind::Gear,
+        bodies: [a.bodies[1], b.bodies[1]],
+        points: [a.points[1], b.points[1]],
+        axes: [a.axes[1], b.axes[1]],
+        cross: [[Vector3::zeros(); 2]; 2],
+        rows: AxisRows::default(),
+        length: 0.0,
+        pitch: 0.0,
+        gear: Some((pair, ratio)),
+    })
 }
 
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(64).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().take(64).enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+fn points(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
+    match (joint.point, joint.points, joint.point_i, joint.point_j) {
+        (Some(_), None, None, None) if joint.kind == JointKind::Rod => {
+            Err(reader
+                .wrong("point", "a rod has two points: give \"points\", or \"point_i\" and \"point_j\""))
         }
+        (Some(world), None, None, None) => {
+            let world = reader.vector("point", world)?;
+            Ok(pair.map(|body| reader.point_from_world(body, &world)))
+        }
+        (None, Some([first, second]), None, None) => {
+            let world = [reader.vector("points/0", first)?, reader.vector("points/1", second)?];
+            Ok([0, 1].map(|side| reader.point_from_world(pair[side], &world[side])))
+        }
+        (None, None, Some(i), Some(j)) => {
+            let local = [reader.vector("point_i", i)?, reader.vector("point_j", j)?];
+            Ok([0, 1].map(|side| reader.local_point(pair[side], &local[side])))
+        }
+        (None, None, None, None) => Err(reader.wrong("point", "it has no point")),
+        _ => Err(reader.wrong("point", "its point is given twice, or on one of its bodies only")),
     }
-    row[b.len()]
+}
+
+fn axes(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
+    let given = (joint.axis, joint.axes, joint.axis_i, joint.axis_j);
+    let needs_axis = !matches!(joint.kind, JointKind::Spherical | JointKind::Rod);
+    match given {
+        (None, None, None, None) if !needs_axis => Ok([Vector3::zeros(); 2]),
+        // The axis of a fixed joint only says in which directions its reaction is shown.
+        (None, None, None, None) if joint.kind == JointKind::Fixed => {
+            let world = Vector3::z();
+            Ok(pair.map(|body| reader.vector_from_world(body, &world)))
+        }
+        (None, None, None, None) => Err(reader.wrong("axis", "it has no axis")),
+        (Some(_), None, None, None) if joint.kind == JointKind::Universal => {
+            Err(reader.wrong("axis", "a universal joint has two axes: give \"axes\""))
+        }
+        (Some(world), None, None, None) => {
+            let world = reader.unit("axis", world)?;
+            Ok(pair.map(|body| reader.vector_from_world(body, &world)))
+        }
+        (None, Some([first, second]), None, None) => {
+            let world = [reader.unit("axes/0", first)?, reader.unit("axes/1", second)?];
+            Ok([0, 1].map(|side| reader.vector_from_world(pair[side], &world[side])))
+        }
+        (None, None, Some(i), Some(j)) => {
+            let local = [reader.unit("axis_i", i)?, reader.unit("axis_j", j)?];
+            Ok([0, 1].map(|side| reader.local_vector(pair[side], &local[side])))
+        }
+        _ => Err(reader.wrong("axis", "its axis is given twice, or on one of its bodies only")),
+    }
+}
+
+/// Vectors across the axis on body i, and those on body j that coincide with them as nearly as body j's own axis
+/// allows.
+fn cross_vectors(reader: &Reader, bodies: [BodyRef; 2], axes: [Vector3<f64>; 2]) -> [[Vector3<f64>; 2]; 2] {
+    let on_i = across(&axes[0]);
+    let first = reader.vector_from_world(bodies[1], &reader.vector_to_world(bodies[0], &on_i[0]));
+    let first = first - axes[1] * axes[1].dot(&first);
+    let first = first.try_normalize(1e-6).unwrap_or_else(|| across(&axes[1])[0]);
+    [on_i, [first, axes[1].cross(&first)]]
 }

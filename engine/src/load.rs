@@ -1,0 +1,235 @@
+//! Applied forces in lifted coordinates — THEORY section 6.
+//!
+//! A force f at a point adds Cᵀ f; a moment τ adds ½ τ × e_k to each director, so that its power is τ · ω whatever
+//! its direction — eq. (6.5).
+
+use crate::elimination::Elimination;
+use crate::lift::Lift;
+use crate::model::{BodyRef, Element, LoadKind, Model, ModelLoad};
+use crate::motion::VectorCurve;
+use crate::row::{Difference, Feature, FeatureId};
+use crate::scene::LoadFrame;
+use crate::writer::Writer;
+use nalgebra::Vector3;
+
+/// A load, its geometry as features.
+#[derive(Clone, Debug)]
+pub enum Load {
+    /// Force at a point of a body.
+    Force {
+        /// The body.
+        body: usize,
+        /// The point.
+        local: Vector3<f64>,
+        /// The force.
+        force: VectorCurve,
+        /// Its frame.
+        frame: LoadFrame,
+    },
+    /// Moment on a body.
+    Moment {
+        /// The body.
+        body: usize,
+        /// The moment.
+        moment: VectorCurve,
+        /// Its frame.
+        frame: LoadFrame,
+    },
+    /// Along the line between two points.
+    Spring {
+        /// Point on body i.
+        from: FeatureId,
+        /// Point on body j.
+        to: FeatureId,
+        /// Law of the length.
+        element: Element,
+    },
+    /// About the axis of a joint.
+    Torsion {
+        /// The angle.
+        angle: usize,
+        /// Bodies i and j.
+        bodies: [BodyRef; 2],
+        /// Law of the angle.
+        element: Element,
+    },
+    /// Along the axis of a joint.
+    Slider {
+        /// The axis, on body i.
+        axis: FeatureId,
+        /// P_j − P_i.
+        between: Difference,
+        /// Law of the displacement.
+        element: Element,
+    },
+}
+
+impl Load {
+    /// Writes the features of a load.
+    pub fn new(model: &Model, load: &ModelLoad, writer: &mut Writer) -> Self {
+        match &load.kind {
+            LoadKind::Force { body, local, force, frame } => {
+                Self::Force { body: *body, local: *local, force: force.clone(), frame: *frame }
+            }
+            LoadKind::Moment { body, moment, frame } => {
+                Self::Moment { body: *body, moment: moment.clone(), frame: *frame }
+            }
+            LoadKind::Spring { bodies, locals, element } => {
+                let [from, to] = [0, 1].map(|side| writer.point(bodies[side], locals[side]));
+                Self::Spring { from, to, element: element.clone() }
+            }
+            LoadKind::Torsion { joint, element } => {
+                let joint = &model.joints[*joint];
+                let angle = writer.angle(joint);
+                Self::Torsion { angle, bodies: joint.bodies, element: element.clone() }
+            }
+            LoadKind::Slider { joint, element } => {
+                let (axis, between) = writer.slide(&model.joints[*joint]);
+                Self::Slider { axis: axis.plus, between, element: element.clone() }
+            }
+        }
+    }
+
+    /// Renames features.
+    pub fn rename(&mut self, place: &[FeatureId]) {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } | Self::Torsion { .. } => {}
+            Self::Spring { from, to, .. } => {
+                *from = place[*from];
+                *to = place[*to];
+            }
+            Self::Slider { axis, between, .. } => {
+                *axis = place[*axis];
+                between.plus = place[between.plus];
+                between.minus = between.minus.map(|f| place[f]);
+            }
+        }
+    }
+
+    /// Adds its generalized force at time t; positions and velocities must be in place.
+    pub fn apply(&self, at: &Elimination, t: f64, forces: &mut Forces) {
+        match self {
+            Self::Force { body, local, force, frame } => {
+                let force = in_world(at, *body, *frame, force.at(t)[0]);
+                forces.add_force(*body, local, &force);
+            }
+            Self::Moment { body, moment, frame } => {
+                let moment = in_world(at, *body, *frame, moment.at(t)[0]);
+                forces.add_moment(*body, &moment, &at.bodies[*body].q);
+            }
+            Self::Spring { from, to, element } => {
+                let between = at.feature_value(*to) - at.feature_value(*from);
+                let rate = at.feature_rate(*to) - at.feature_rate(*from);
+                let length = between.norm();
+                // A spring of no length has no direction to pull in.
+                let Some(direction) = between.try_normalize(f64::MIN_POSITIVE) else { return };
+                let force = direction * element.value(length, direction.dot(&rate), t);
+                forces.add_at_feature(*to, &force);
+                forces.add_at_feature(*from, &-force);
+            }
+            Self::Torsion { angle, bodies, element } => {
+                let state = &at.angles[*angle];
+                let axis = at.feature_value(at.angle_axis(*angle));
+                let moment = axis * element.value(state.value, state.rate, t);
+                for (body, sign) in [(bodies[0], -1.0), (bodies[1], 1.0)] {
+                    if let BodyRef::Moving(index) = body {
+                        forces.add_moment(index, &(moment * sign), &at.bodies[index].q);
+                    }
+                }
+            }
+            Self::Slider { axis, between, element } => {
+                let s = at.feature_value(*axis);
+                let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
+                let speed = s.dot(&rate) + at.feature_rate(*axis).dot(&d);
+                let value = element.value(s.dot(&d), speed, t);
+                // The generalized force of the displacement s · d is the transpose of its gradient.
+                forces.add_at_feature(between.plus, &(s * value));
+                if let Some(minus) = between.minus {
+                    forces.add_at_feature(minus, &(s * -value));
+                }
+                forces.add_at_feature(*axis, &(d * value));
+            }
+        }
+    }
+
+    /// Potential energy of its spring, J.
+    pub fn potential(&self, at: &Elimination) -> f64 {
+        let (element, value) = match self {
+            Self::Force { .. } | Self::Moment { .. } => return 0.0,
+            Self::Spring { from, to, element } => {
+                (element, (at.feature_value(*to) - at.feature_value(*from)).norm())
+            }
+            Self::Torsion { angle, element, .. } => (element, at.angles[*angle].value),
+            Self::Slider { axis, between, element } => {
+                (element, at.feature_value(*axis).dot(&between.of(|f| at.feature_value(f))))
+            }
+        };
+        0.5 * element.stiffness * (value - element.free).powi(2)
+    }
+}
+
+impl Element {
+    /// Force or moment in the direction of growing x.
+    fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
+        let mut value = -self.stiffness * (x - self.free) - self.damping * rate;
+        if let Some(drive) = &self.drive {
+            value += drive.at(t)[0];
+        }
+        if let Some(friction) = self.friction {
+            value -= friction.viscous * rate + friction.coulomb * (rate / friction.smoothing).tanh();
+        }
+        value
+    }
+}
+
+fn in_world(at: &Elimination, body: usize, frame: LoadFrame, vector: Vector3<f64>) -> Vector3<f64> {
+    match frame {
+        LoadFrame::World => vector,
+        LoadFrame::Body => at.bodies[body].q.arm(&vector),
+    }
+}
+
+/// Generalized applied forces of all bodies.
+#[derive(Clone, Debug, Default)]
+pub struct Forces {
+    /// G of each body.
+    pub lifts: Vec<Lift>,
+    features: Vec<Feature>,
+}
+
+impl Forces {
+    /// For the bodies and features of a system.
+    pub fn new(bodies: usize, features: &[Feature]) -> Self {
+        Self { lifts: vec![Lift::default(); bodies], features: features.to_vec() }
+    }
+
+    /// Cᵀ f for the point or vector of a feature.
+    fn add_at_feature(&mut self, feature: FeatureId, force: &Vector3<f64>) {
+        let feature = self.features[feature];
+        if let BodyRef::Moving(body) = feature.body {
+            let lift = &mut self.lifts[body];
+            if feature.point {
+                lift.r += force;
+            }
+            for k in 0..3 {
+                lift.e[k] += force * feature.local[k];
+            }
+        }
+    }
+
+    /// Cᵀ f for a force at a point of a body.
+    fn add_force(&mut self, body: usize, local: &Vector3<f64>, force: &Vector3<f64>) {
+        let lift = &mut self.lifts[body];
+        lift.r += force;
+        for k in 0..3 {
+            lift.e[k] += force * local[k];
+        }
+    }
+
+    /// ½ τ × e_k on each director of a body.
+    fn add_moment(&mut self, body: usize, moment: &Vector3<f64>, q: &Lift) {
+        for k in 0..3 {
+            self.lifts[body].e[k] += moment.cross(&q.e[k]) * 0.5;
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Prescribed functions of time with exact first and second derivatives.
+
+use crate::scene::{Motion, VectorMotion};
+use nalgebra::{Matrix3, Vector3};
+
+/// A value with its first and second derivative in time.
+pub type Jet<T> = [T; 3];
+
+/// A number as a function of time, ready to be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// c₀ + c₁ t + c₂ t² + ….
+    Polynomial(Vec<f64>),
+    /// mean + amplitude sin(frequency t + phase).
+    Harmonic {
+        /// Mean.
+        mean: f64,
+        /// Amplitude.
+        amplitude: f64,
+        /// Angular frequency, rad/s.
+        frequency: f64,
+        /// Phase, rad.
+        phase: f64,
+    },
+    /// Polynomial pieces: pieces[k] holds in (t − knots[k]) from knots[k] to the next knot. The first piece also
+    /// holds before its knot, the last also after the last knot.
+    Pieces {
+        /// Times at which pieces begin, s.
+        knots: Vec<f64>,
+        /// Coefficients of each piece.
+        pieces: Vec<[f64; 6]>,
+    },
+}
+
+impl Curve {
+    /// Prepares a motion that the model has checked.
+    pub fn new(motion: &Motion) -> Self {
+        match motion {
+            Motion::Constant { value } => Self::Polynomial(vec![*value]),
+            Motion::Ramp { start, rate } => Self::Polynomial(vec![*start, *rate]),
+            Motion::Polynomial { coefficients } => Self::Polynomial(coefficients.clone()),
+            &Motion::Harmonic { mean, amplitude, frequency, phase } => {
+                Self::Harmonic { mean, amplitude, frequency, phase }
+            }
+            &Motion::SmoothStep { from, to, start, end } => smooth_step(from, to, start, end),
+            Motion::Table { times, values } => natural_spline(times, values),
+        }
+    }
+
+    /// A curve that never changes.
+    pub fn constant(value: f64) -> Self {
+        Self::Polynomial(vec![value])
+    }
+
+    /// The same curve times a constant.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        match &mut self {
+            Self::Polynomial(coefficients) => coefficients.iter_mut().for_each(|c| *c *= factor),
+            Self::Harmonic { mean, amplitude, .. } => {
+                *mean *= factor;
+                *amplitude *= factor;
+            }
+            Self::Pieces { pieces, .. } => pieces.iter_mut().flatten().for_each(|c| *c *= factor),
+        }
+        self
+    }
+
+    /// Value, first and second derivative at time t.
+    pub fn at(&self, t: f64) -> Jet<f64> {
+        match self {
+            Self::Polynomial(coefficients) => polynomial(coefficients, t),
+            Self::Harmonic { mean, amplitude, frequency, phase } => {
+                let (sin, cos) = (frequency * t + phase).sin_cos();
+                [
+                    mean + amplitude * sin,
+                    amplitude * frequency * cos,
+                    -amplitude * frequency * frequency * sin,
+                ]
+            }
+            Self::Pieces { knots, pieces } => {
+                let piece = knots.partition_point(|&knot| knot <= t).saturating_sub(1);
+                polynomial(&pieces[piece], t - knots[piece])
+            }
+        }
+    }
+}
+
+fn polynomial(coefficients: &[f64], t: f64) -> Jet<f64> {
+    let [mut value, mut rate, mut acceleration] = [0.0; 3];
+    for &c in coefficients.iter().rev() {
+        acceleration = acceleration * t + 2.0 * rate;
+        rate = rate * t + value;
+        value = value * t + c;
+    }
+    [value, rate, acceleration]
+}
+
+/// 10 x³ − 15 x⁴ + 6 x⁵ between two constants.
+fn smooth_step(from: f64, to: f64, start: f64, end: f64) -> Curve {
+    let (d, h) = (to - from, end - start);
+    let step = [from, 0.0, 0.0, 10.0 * d / h.powi(3), -15.0 * d / h.powi(4), 6.0 * d / h.powi(5)];
+    let constant = |c| [c, 0.0, 0.0, 0.0, 0.0, 0.0];
+    // The first piece is constant: its knot only has to lie before the step.
+    Curve::Pieces { knots: vec![start - 1.0, start, end], pieces: vec![constant(from), step, constant(to)] }
+}
+
+/// The natural cubic spline: second derivatives zero at both ends, straight beyond them.
+fn natural_spline(x: &[f64], y: &[f64]) -> Curve {
+    let n = x.len();
+    let h: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
+    let slope: Vec<f64> = (0..n - 1).map(|k| (y[k + 1] - y[k]) / h[k]).collect();
+    // Second derivatives m by the tridiagonal system of the inner points.
+    let mut m = vec![0.0; n];
+    let (mut diagonal, mut right) = (vec![1.0; n], vec![0.0; n]);
+    for k in 1..n - 1 {
+        let factor = if k == 1 { 0.0 } else { h[k - 1] / diagonal[k - 1] };
+        diagonal[k] = 2.0 * (h[k - 1] + h[k]) - factor * h[k - 1];
+        right[k] = 6.0 * (slope[k] - slope[k - 1]) - factor * right[k - 1];
+    }
+    for k in (1..n - 1).rev() {
+        m[k] = (right[k] - h[k] * m[k + 1]) / diagonal[k];
+    }
+    let first = slope[0] - h[0] * (2.0 * m[0] + m[1]) / 6.0;
+    let mut knots = vec![x[0] - 1.0];
+    let mut pieces = vec![[y[0] - first, first, 0.0, 0.0, 0.0, 0.0]];
+    for k in 0..n - 1 {
+        let rate = slope[k] - h[k] * (2.0 * m[k] + m[k + 1]) / 6.0;
+        knots.push(x[k]);
+        pieces.push([y[k], rate, 0.5 * m[k], (m[k + 1] - m[k]) / (6.0 * h[k]), 0.0, 0.0]);
+    }
+    let last = slope[n - 2] + h[n - 2] * (m[n - 2] + 2.0 * m[n - 1]) / 6.0;
+    knots.push(x[n - 1]);
+    pieces.push([y[n - 1], last, 0.0, 0.0, 0.0, 0.0]);
+    Curve::Pieces { knots, pieces }
+}
+
+/// A vector as a function of time, ready to be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VectorCurve {
+    /// Each component by itself.
+    Components([Curve; 3]),
+    /// Components along three fixed directions (the columns) that are not those of the frame.
+    Rotated(Matrix3<f64>, [Curve; 3]),
+    /// Turning about a unit axis: along + cos θ across + sin θ (axis × across).
+    Turning {
+        /// Part along the axis.
+        along: Vector3<f64>,
+        /// Part across the axis, at θ = 0.
+        across: Vector3<f64>,
+        /// axis × across.
+        turned: Vector3<f64>,
+        /// θ, rad.
+        angle: Curve,
+    },
+}
+
+impl VectorCurve {
+    /// Prepares a motion that the model has checked.
+    pub fn new(motion: &VectorMotion) -> Self {
+        match motion {
+            VectorMotion::Fixed { vector } => Self::Components(vector.map(Curve::constant)),
+            VectorMotion::Components { x, y, z } => {
+                Self::Components([Curve::new(x), Curve::new(y), Curve::new(z)])
+            }
+            VectorMotion::Turning { start, axis, angle } => {
+                Self::turning(&Vector3::from(*start), &Vector3::from(*axis).normalize(), Curve::new(angle))
+            }
+        }
+    }
+
+    /// The same vector with its components in another frame, v' = rotation · v.
+    #[must_use]
+    pub fn rotated(self, rotation: &Matrix3<f64>) -> Self {
+        match self {
+            Self::Components(components) => Self::Rotated(*rotation, components),
+            Self::Rotated(first, components) => Self::Rotated(rotation * first, components),
+            Self::Turning { along, across, turned, angle } => Self::Turning {
+                along: rotation * along,
+                across: rotation * across,
+                turned: rotation * turned,
+                angle,
+            },
+        }
+    }
+
+    /// `start` turned about the unit vector `axis`.
+    pub fn turning(start: &Vector3<f64>, axis: &Vector3<f64>, angle: Curve) -> Self {
+        let along = axis * axis.dot(start);
+        Self::Turning { along, across: start - along, turned: axis.cross(start), angle }
+    }
+
+    /// Value, first and second derivative at time t.
+    pub fn at(&self, t: f64) -> Jet<Vector3<f64>> {
+        match self {
+            Self::Components(components) => jets(components, t),
+            Self::Rotated(rotation, components) => jets(components, t).map(|v| rotation * v),
+            Self::Turning { along, across, turned, angle } => {
+                let [theta, rate, acceleration] = angle.at(t);
+                let (sin, cos) = theta.sin_cos();
+                let radial = across * cos + turned * sin;
+                let tangent = turned * cos - across * sin;
+                [along + radial, tangent * rate, tangent * acceleration - radial * rate * rate]
+            }
+        }
+    }
+}
+
+fn jets(components: &[Curve; 3], t: f64) -> Jet<Vector3<f64>> {
+    let jets = [0, 1, 2].map(|k| components[k].at(t));
+    [0, 1, 2].map(|order| Vector3::from_fn(|k, _| jets[k][order]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(curve: &Curve, times: &[f64]) {
+        let h = 1e-4;
+        for &t in times {
+            let [_, rate, acceleration] = curve.at(t);
+            let (before, after) = (curve.at(t - h), curve.at(t + h));
+            let scale = 1.0 + acceleration.abs();
+            assert!(((after[0] - before[0]) / (2.0 * h) - rate).abs() < 1e-6 * scale, "rate at {t}");
+            assert!(((after[1] - before[1]) / (2.0 * h) - acceleration).abs() < 1e-5 * scale, "at {t}");
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_values() {
+        let times = [-1.3, 0.31, 0.77, 1.2, 1.9, 3.3];
+        check(&Curve::Polynomial(vec![0.3, -1.0, 2.0, 0.5]), &times);
+        check(&Curve::Harmonic { mean: 1.0, amplitude: 2.0, frequency: 3.0, phase: 0.4 }, &times);
+        check(&smooth_step(1.0, 3.0, 0.5, 2.0), &times);
+        check(&natural_spline(&[0.0, 0.5, 1.5, 2.0], &[1.0, -1.0, 2.0, 0.0]), &times);
+    }
+
+    #[test]
+    fn a_spline_meets_its_points_and_a_step_its_ends() {
+        let (x, y) = ([0.0, 0.5, 1.5, 2.0], [1.0, -1.0, 2.0, 0.0]);
+        let spline = natural_spline(&x, &y);
+        for (x, y) in x.iter().zip(y) {
+            assert!((spline.at(*x)[0] - y).abs() < 1e-14);
+            assert!((spline.at(x - 1e-12)[2] - spline.at(x + 1e-12)[2]).abs() < 1e-9);
+        }
+        let step = smooth_step(1.0, 3.0, 0.5, 2.0);
+        assert_eq!(step.at(-7.0), [1.0, 0.0, 0.0]);
+        assert_eq!(step.at(9.0), [3.0, 0.0, 0.0]);
+        assert!((step.at(2.0 - 1e-9)[0] - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_turning_vector_keeps_its_length() {
+        let start = Vector3::new(0.3, -0.2, 0.9);
+        let axis = Vector3::new(1.0, 2.0, -0.5).normalize();
+        let curve = VectorCurve::turning(&start, &axis, Curve::Polynomial(vec![0.1, 2.0, -0.3]));
+        let h = 1e-5;
+        for t in [0.0, 0.7, 2.0] {
+            let [value, rate, acceleration] = curve.at(t);
+            assert!((value.norm() - start.norm()).abs() < 1e-15);
+            let difference = (curve.at(t + h)[0] - curve.at(t - h)[0]) / (2.0 * h);
+            assert!((difference - rate).norm() < 1e-8);
+            let difference = (curve.at(t + h)[1] - curve.at(t - h)[1]) / (2.0 * h);
+            assert!((difference - acceleration).norm() < 1e-7);
+        }
+    }
+}

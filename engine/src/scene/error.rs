@@ -1,0 +1,73 @@
+//! Why a text is not a scene.
+
+use super::MAX_TEXT;
+
+/// Why a text is not a scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// The text is too long to be read.
+    #[error("the scene's text has {bytes} bytes, more than the {MAX_TEXT} that are read")]
+    TooLong {
+        /// Its length.
+        bytes: usize,
+    },
+    /// Not JSON, an unknown key, or a value of the wrong type.
+    #[error("{path} (line {line}, column {column}): {reason}")]
+    Syntax {
+        /// Where, as a path of keys.
+        path: String,
+        /// The same place as a JSON pointer.
+        pointer: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong.
+        reason: String,
+    },
+    /// More bodies, joints, drivers or loads than allowed.
+    #[error("{what}: {count} are more than the {limit} that a scene may have")]
+    TooMany {
+        /// Which list.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        limit: usize,
+    },
+}
+
+/// The error of a reader that knows the path of keys.
+pub(super) fn syntax_error(error: &serde_path_to_error::Error<serde_json::Error>) -> SceneError {
+    let path = error.path().to_string();
+    let pointer: String = error
+        .path()
+        .iter()
+        .map(|segment| match segment {
+            serde_path_to_error::Segment::Seq { index } => format!("/{index}"),
+            serde_path_to_error::Segment::Map { key } => format!("/{key}"),
+            serde_path_to_error::Segment::Enum { variant } => format!("/{variant}"),
+            serde_path_to_error::Segment::Unknown => String::new(),
+        })
+        .collect();
+    match plain_error(error.inner(), &pointer) {
+        SceneError::Syntax { pointer, line, column, reason, .. } => {
+            let path = if path == "." { "scene".to_owned() } else { path };
+            SceneError::Syntax { path, pointer, line, column, reason }
+        }
+        other => other,
+    }
+}
+
+/// The error of a reader that knows line and column only.
+pub(super) fn plain_error(error: &serde_json::Error, pointer: &str) -> SceneError {
+    let text = error.to_string();
+    let reason = text.rsplit_once(" at line ").map_or(text.clone(), |(reason, _)| reason.to_owned());
+    SceneError::Syntax {
+        path: "scene".to_owned(),
+        pointer: pointer.to_owned(),
+        line: error.line(),
+        column: error.column(),
+        reason,
+    }
+}
