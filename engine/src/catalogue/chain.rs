@@ -33,7 +33,7 @@ pub fn scene(rods: usize) -> Scene {
         });
         end_velocity += 2.0 * half;
         let previous = if i == 1 { GROUND.to_owned() } else { format!("rod-{}", i - 1) };
-        joints.push(ball(format!("ball-{i}"), previous, format!("rod-{i}"), [x - 1.0, 0.0, 0.0]));
+        joints.push(ball(&format!("ball-{i}"), &previous, &format!("rod-{i}"), [x - 1.0, 0.0, 0.0]));
     }
     Scene {
         name: format!("spatial-chain-{rods}"),
@@ -43,23 +43,14 @@ pub fn scene(rods: usize) -> Scene {
         coordinates: Coordinates::Full,
         bodies,
         joints,
+        drivers: Vec::new(),
+        loads: Vec::new(),
         simulation: Settings { duration: 2.0, ..Settings::default() },
     }
 }
 
-fn ball(name: String, body_i: String, body_j: String, point: [f64; 3]) -> Joint {
-    Joint {
-        name,
-        kind: JointKind::Spherical,
-        body_i,
-        body_j,
-        point: Some(point),
-        point_i: None,
-        point_j: None,
-        axis: None,
-        axes: None,
-        axis_i: None,
-        axis_j: None,
-        rows: None,
-    }
+fn ball(name: &str, body_i: &str, body_j: &str, point: [f64; 3]) -> Joint {
+    let mut joint = Joint::between(name, JointKind::Spherical, body_i, body_j);
+    joint.point = Some(point);
+    joint
 }
