@@ -34,7 +34,7 @@ export function header(root: HTMLElement): void {
 function paintName(button: HTMLButtonElement): void {
   const who = student.get();
   button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, "Your name"));
-  button.setAttribute("aria-label", who ? `Working as ${who}. Change the name` : "Say who you are");
+  button.setAttribute("aria-label", who ? `${who}, change the name` : "Your name");
 }
 
 function dialog(title: string, ...children: HTMLElement[]): HTMLDialogElement {

@@ -35,6 +35,11 @@ export function inspector(session: Session): { root: HTMLElement } {
     made[key]?.refresh();
   });
 
+  // A joint that was clicked in the viewer shows its force, unless its rows are being looked at.
+  session.on("selected", () => {
+    if (session.joint !== null && bar.current() !== "jacobian") bar.select("multipliers");
+    else made[bar.current()]?.refresh();
+  });
   let waiting = false;
   session.on("shown", () => {
     if (waiting) return;

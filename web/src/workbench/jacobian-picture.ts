@@ -11,7 +11,7 @@ export interface Cell {
 
 export interface Picture {
   root: HTMLElement;
-  show: (jacobian: Jacobian, constantRows: boolean[]) => void;
+  show: (jacobian: Jacobian, constantRows: boolean[], marked: string | null) => void;
   dispose: () => void;
 }
 
@@ -25,6 +25,7 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
   const holder = h("div", { class: "matrix-holder" }, canvas);
   let jacobian: Jacobian | undefined;
   let constant: boolean[] = [];
+  let marked: string | null = null;
   let grid: Layout | undefined;
   let at: Cell | undefined;
 
@@ -92,6 +93,13 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
     for (const group of groups(rows)) {
       const y = top + group.from * cell;
       line(context, 0, y, left + cell * columns.length, y);
+      if (group.name === marked) {
+        context.lineWidth = 2;
+        context.strokeStyle = color("--accent");
+        context.strokeRect(1, y + 1, left + cell * columns.length - 1, group.count * cell - 2);
+        context.lineWidth = 1;
+        context.strokeStyle = color("--line-strong");
+      }
       context.textAlign = "left";
       context.font = font(12);
       if (!grid.named || group.count === 1) text(context, group.count === 1 && grid.named ? rows[group.from] ?? "" : group.name, 0, y + (group.count * cell) / 2, left - 10);
@@ -158,7 +166,8 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
 
   return {
     root: holder,
-    show: (value, constantRows) => {
+    show: (value, constantRows, mark) => {
+      marked = mark;
       jacobian = value;
       constant = constantRows;
       draw();

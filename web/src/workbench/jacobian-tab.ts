@@ -61,7 +61,7 @@ export function jacobianTab(session: Session): InspectorTab {
     const filled = value.rows.length * value.columns.length;
     trouble.replaceChildren(...(value.rows.length === 0 ? [empty("No constraints", "This scene has no constraint rows, so there is no Jacobian to show.")] : []));
     about.textContent = `${plural(value.rows.length, "row")} (${rows.filter(Boolean).length} constant), ${plural(value.columns.length, "column")}, ${value.entries.length} entries, ${num(filled > 0 ? (100 * value.entries.length) / filled : 0, 3)} % filled, at ${seconds(state.time)}.`;
-    picture.show(value, rows);
+    picture.show(value, rows, session.joint);
     read();
     fillTable();
   }, (error) => trouble.replaceChildren(problemNotice(error)));
@@ -75,7 +75,13 @@ export function jacobianTab(session: Session): InspectorTab {
         h("li", null, h("span", { class: "swatch is-row", "aria-hidden": "true" }), "constant row"))),
     trouble, picture.root, readout, list);
   read();
-  return { root, refresh: source.refresh };
+  return {
+    root,
+    refresh: () => {
+      if (jacobian) picture.show(jacobian, constantRows(jacobian), session.joint);
+      source.refresh();
+    },
+  };
 }
 
 /** A row is constant when none of its entries changes. */

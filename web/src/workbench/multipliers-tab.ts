@@ -16,6 +16,7 @@ type About = "joint" | "centre";
 
 export function multipliersTab(session: Session): InspectorTab {
   const list = h("div", { class: "joints" });
+  let seenSelection: string | null = null;
   const when = h("p", { class: "when" });
   let joints: JointMultipliers[] = [];
   let of: SessionState | undefined;
@@ -25,9 +26,15 @@ export function multipliersTab(session: Session): InspectorTab {
   const frame = choice("Components in", [["world", "world frame"], ["body", "body axes"]], "world");
   const paint = (): void => {
     when.textContent = of ? `At ${seconds(of.time)}${session.reviewing ? ", the newest time: multipliers are not kept for earlier times" : ""}.` : "";
+    seenSelection = session.joint;
+    const keep = heldFocus(list);
     list.replaceChildren(...(joints.length === 0
       ? [empty("No joints", "This scene has no joint, hence no multiplier that is a joint force.")]
-      : joints.map((joint) => card(joint, of?.bodies ?? [], side.value() as Side, about.value() as About, frame.value() as Frame))));
+      : joints.map((joint) => card(joint, of?.bodies ?? [], side.value() as Side, about.value() as About, frame.value() as Frame, {
+        on: session.joint === joint.joint,
+        toggle: () => session.select(session.joint === joint.joint ? null : joint.joint),
+      }))));
+    keep();
   };
   for (const control of [side, about, frame]) control.root.addEventListener("change", paint);
 
@@ -39,8 +46,23 @@ export function multipliersTab(session: Session): InspectorTab {
 
   return {
     root: h("div", { class: "stack" }, h("div", { class: "switches" }, side.root, about.root, frame.root), list, when),
-    refresh: source.refresh,
+    refresh: () => {
+      if (seenSelection !== session.joint) {
+        paint();
+        list.querySelector(".joint.is-selected")?.scrollIntoView({ block: "nearest" });
+      }
+      source.refresh();
+    },
   };
+}
+
+/** The cards are made anew as time goes on; whoever stands in one with the keyboard stays there. */
+function heldFocus(list: HTMLElement): () => void {
+  const focused = document.activeElement;
+  if (!(focused instanceof HTMLElement) || !list.contains(focused)) return () => undefined;
+  const at = [...list.children].findIndex((child) => child.contains(focused));
+  const what = focused.classList.contains("joint-select") ? ".joint-select" : ".table-scroll";
+  return () => list.children[at]?.querySelector<HTMLElement>(what)?.focus({ preventScroll: true });
 }
 
 function choice(label: string, options: [string, string][], start: string): { root: HTMLElement; value: () => string } {
@@ -61,7 +83,7 @@ export function wrench(joint: JointMultipliers, body: BodyFrame | undefined, sid
   return { force, moment };
 }
 
-function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: About, frame: Frame): HTMLElement {
+function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: About, frame: Frame, selection: { on: boolean; toggle: () => void }): HTMLElement {
   const on = side === "j" ? joint.on : joint.by;
   const body = bodies.find((entry) => entry.name === on);
   const { force, moment } = wrench(joint, body, side, about, frame);
@@ -72,8 +94,8 @@ function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: A
     ...value.map((part, k) => h("td", { class: "number" }, h("span", { class: "component-name" }, `${symbol}${axes[k]} `), num(part, 6))),
     h("td", { class: "number strong" }, `${num(norm(value), 6)} `, h("span", { class: "unit" }, unit)));
 
-  return h("article", { class: "joint" },
-    h("h3", null, joint.joint),
+  return h("article", { class: selection.on ? "joint is-selected" : "joint" },
+    h("h3", null, h("button", { type: "button", class: "joint-select", "aria-pressed": String(selection.on), title: "Mark its rows in the Jacobian", onclick: selection.toggle }, joint.joint)),
     h("p", { class: "said" }, `On ${on}; moment about ${about === "centre" && body ? `the centre of mass of ${on}` : "the joint"} at (${point.map((part) => num(part, 4)).join(", ")}) m; components in ${frame === "body" && body ? `the axes of ${on}` : "the world frame"}.`),
     h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${joint.joint}` },
       h("table", { class: "data" },

@@ -15,6 +15,8 @@ type Events = {
   shown: () => void;
   /** Blocks of the recording, complete in themselves. */
   blocks: (bytes: Uint8Array) => void;
+  /** Another joint was selected, in the viewer or in the page. */
+  selected: () => void;
   /** A new connection, or a run from the start: a recording follows from its beginning. */
   opened: () => void;
   problem: (error: unknown) => void;
@@ -25,6 +27,8 @@ export class Session {
   latest: SessionState | undefined;
   readonly past = new History();
   speed = 1;
+  /** Name of the selected joint. */
+  joint: string | null = null;
   private cursor: number | null = null;
   private cameAt = 0;
   private socket: WebSocket | undefined;
@@ -32,8 +36,10 @@ export class Session {
   private timer = 0;
   private closed = false;
   private busy = false;
+  /** The page says that the connection is lost. */
+  private missed = false;
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
-    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(),
+    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(),
   };
 
   constructor(private readonly source: SessionSource) {
@@ -142,6 +148,13 @@ export class Session {
     if (before) this.seek(before.time);
   }
 
+  /** Selects a joint in every view; null selects none. */
+  select(joint: string | null): void {
+    if (this.joint === joint) return;
+    this.joint = joint;
+    for (const listener of this.listeners.selected) listener();
+  }
+
   /** Opens the stream anew: the server sends the recording from its beginning. */
   resubscribe(): void {
     if (this.closed || !this.latest) return;
@@ -185,7 +198,8 @@ export class Session {
     this.socket = socket;
     socket.onopen = () => {
       this.retry = 0;
-      banner(null);
+      if (this.missed) banner(null);
+      this.missed = false;
       this.emit("opened");
     };
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
@@ -210,7 +224,10 @@ export class Session {
     if (this.closed) return;
     const wait = RETRY_MS[Math.min(this.retry, RETRY_MS.length - 1)] ?? 8000;
     this.retry += 1;
-    if (this.retry > 1) banner("The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.", { label: "Try now", run: () => void this.comeBack() });
+    if (this.retry > 1) {
+      this.missed = true;
+      banner("The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.", { label: "Try now", run: () => void this.comeBack() });
+    }
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.comeBack(), wait);
   }
@@ -233,6 +250,7 @@ export class Session {
     this.disconnect();
     this.past.clear();
     this.cursor = null;
+    this.missed = false;
     try {
       this.latest = undefined;
       this.take(await api.createSession(this.source));

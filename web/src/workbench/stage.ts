@@ -68,7 +68,10 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
           bar.value = fraction;
           setText(said, fraction < 1 ? `Loading the 3-D view, ${Math.round(fraction * 100)} %` : "Starting the 3-D view…");
         },
-        selected: (path) => root.dispatchEvent(new CustomEvent("triad:select", { detail: path, bubbles: true })),
+        selected: (path) => {
+          const joint = /^\/?world\/joints\/([^/]+)/.exec(path)?.[1];
+          if (joint) session.select(unescaped(joint));
+        },
       });
       if (gone) {
         opened.close();
@@ -131,6 +134,9 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
     },
   };
 }
+
+/** The viewer writes special signs in paths with a backslash. */
+const unescaped = (part: string): string => part.replace(/\\(.)/g, "$1");
 
 /** Somebody who asked the browser to save data gets 11 MB only on request. */
 function savesData(): boolean {
