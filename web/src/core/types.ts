@@ -51,8 +51,20 @@ export interface Scene {
   description?: string;
   gravity?: Vec3;
   bodies?: SceneBody[];
-  joints?: { name: string; type?: string; point?: Vec3 }[];
+  joints?: SceneJoint[];
   simulation?: { duration?: number };
+}
+
+export interface SceneJoint {
+  name: string;
+  type?: string;
+  body_i?: string;
+  body_j?: string;
+  /** In the world, at the start. */
+  point?: Vec3;
+  /** In the frames of the two bodies; the ground's is the world. */
+  point_i?: Vec3;
+  point_j?: Vec3;
 }
 
 export interface SceneBody {

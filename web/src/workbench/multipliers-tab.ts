@@ -8,11 +8,8 @@ import { empty, problemNotice } from "../ui/notice";
 import { fetched } from "./fetched";
 import type { InspectorTab } from "./inspector";
 import type { Session } from "./session";
-import { add, along, cross, norm, scale, sub } from "./vec";
-
-type Side = "j" | "i";
-type Frame = "world" | "body";
-type About = "joint" | "centre";
+import { norm } from "./vec";
+import { wrench, type About, type Frame, type Side } from "./wrench";
 
 export function multipliersTab(session: Session): InspectorTab {
   const list = h("div", { class: "joints" });
@@ -68,19 +65,6 @@ function heldFocus(list: HTMLElement): () => void {
 function choice(label: string, options: [string, string][], start: string): { root: HTMLElement; value: () => string } {
   const select = h("select", { class: "field compact" }, ...options.map(([value, text]) => h("option", { value, selected: value === start }, text)));
   return { root: h("label", { class: "switch" }, h("span", null, label), select), value: () => select.value };
-}
-
-/** Force and moment as asked for: the other body feels both reversed; a new point adds its arm. */
-export function wrench(joint: JointMultipliers, body: BodyFrame | undefined, side: Side, about: About, frame: Frame): { force: Vec3; moment: Vec3 } {
-  const sign = side === "j" ? 1 : -1;
-  let force = scale(joint.force_on_j, sign);
-  let moment = scale(joint.moment_on_j, sign);
-  if (body && about === "centre") moment = add(moment, cross(sub(joint.at, body.position), force));
-  if (body && frame === "body") {
-    force = along([body.u, body.v, body.w], force);
-    moment = along([body.u, body.v, body.w], moment);
-  }
-  return { force, moment };
 }
 
 function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: About, frame: Frame, selection: { on: boolean; toggle: () => void }): HTMLElement {

@@ -1,6 +1,6 @@
 // The scene as a line drawing: at once, without WebGL, and while the 3-D view is on its way.
 import { svg } from "../core/dom";
-import type { BodyFrame, Scene, SessionState, Shape, Vec3 } from "../core/types";
+import type { BodyFrame, Scene, SceneBody, SceneJoint, SessionState, Shape, Vec3 } from "../core/types";
 import { add, along, axesOf, cross, dot, norm, out, scale, sub, unit, type Axes } from "./vec";
 
 interface Piece {
@@ -11,6 +11,7 @@ interface Piece {
   place: (shown: [number, number][]) => void;
 }
 
+const GROUND = "ground";
 const WIDTH = 800;
 const HEIGHT = 500;
 
@@ -34,7 +35,15 @@ export function sketch(scene: Scene | undefined): Sketch {
       for (const shape of stated?.shape ?? []) made.push(...piecesOf(shape, at, toBody, reach));
       reach.push(frame.position);
     });
-    const grounds = (scene?.joints ?? []).flatMap((joint) => (joint.point ? [joint.point] : []));
+    const grounds: Vec3[] = [];
+    for (const joint of scene?.joints ?? []) {
+      const fixed = joint.body_i === GROUND ? joint.point_i : joint.body_j === GROUND ? joint.point_j : undefined;
+      const onGround = joint.body_i === GROUND || joint.body_j === GROUND;
+      const carrier = state.bodies.findIndex((body) => body.name === joint.body_j);
+      const frame = state.bodies[carrier];
+      if (onGround) grounds.push(...[fixed ?? joint.point].filter((point) => point !== undefined));
+      else if (frame) made.push(...jointOn(frame, carrier, scene?.bodies?.find((body) => body.name === frame.name), joint));
+    }
     reach.push(...grounds);
     const span = fit(reach.map((p) => flat(view, p)), grounds.map((p) => flat(view, p)));
     project = (p) => {
@@ -45,11 +54,11 @@ export function sketch(scene: Scene | undefined): Sketch {
     const axisLength = 46 / span.scale;
     state.bodies.forEach((_, at) => made.push(...triad(at, axisLength)));
     root.replaceChildren(
+      ...made.map((piece) => piece.element),
       ...grounds.map((point) => {
         const [cx, cy] = project(point);
         return svg("circle", { cx, cy, r: 5, class: "sketch-joint" });
-      }),
-      ...made.map((piece) => piece.element));
+      }));
     return made;
   };
 
@@ -93,6 +102,16 @@ function piecesOf(shape: Shape, body: number, toBody: (p: Vec3) => Vec3, reach: 
     body, points: Array.from({ length: 8 }, (_, i) => corner(i)), element,
     place: (at) => set(element, { d: edges.map(([i, j]) => `M${at[i]?.join(" ")}L${at[j]?.join(" ")}`).join("") }),
   }];
+}
+
+/** A joint between two moving bodies is carried by the second one. */
+function jointOn(frame: BodyFrame, body: number, stated: SceneBody | undefined, joint: SceneJoint): Piece[] {
+  const point = joint.point
+    ? along([frame.u, frame.v, frame.w], sub(joint.point, frame.position))
+    : joint.point_j && converter(frame, stated?.position, axesOf(stated?.orientation))(joint.point_j);
+  if (!point) return [];
+  const element = svg("circle", { r: 5, class: "sketch-joint" });
+  return [{ body, points: [point], element, place: ([c]) => c && set(element, { cx: c[0], cy: c[1] }) }];
 }
 
 function triad(body: number, length: number): Piece[] {
