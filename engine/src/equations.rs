@@ -1,4 +1,4 @@
-//! The equations as a student writes them: Φ, Φ_q and γ in the generalized coordinates, rigid-body rows first.
+//! The equations as a student writes them: Φ, ν, γ and the names of rows and columns, in the generalized coordinates, rigid-body rows first.
 //!
 //! Not used by the solver, which works in twist form; both speak of the same row forms, and tests hold them together.
 
@@ -6,35 +6,10 @@ use crate::elimination::Elimination;
 use crate::lift::{self, Lift};
 use crate::model::BodyRef;
 use crate::reaction::equation_labels;
-use crate::row::{Difference, FeatureId, Form};
+use crate::row::{Difference, FeatureId, Form, Target};
 use crate::scene::Coordinates;
 use crate::system::System;
 use nalgebra::Vector3;
-use serde::Serialize;
-
-/// One number of the Jacobian that can be other than zero.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Entry {
-    /// Row.
-    pub row: usize,
-    /// Column.
-    pub column: usize,
-    /// Value at this state.
-    pub value: f64,
-    /// Whether it is the same at every state.
-    pub constant: bool,
-}
-
-/// The sparse Jacobian Φ_q with the names of its rows and columns.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Jacobian {
-    /// Names of the rows, such as `link: uu` or `pin: CP.x`.
-    pub rows: Vec<String>,
-    /// Names of the columns, such as `link.ux`.
-    pub columns: Vec<String>,
-    /// Entries in the order of rows, then columns.
-    pub entries: Vec<Entry>,
-}
 
 /// Directors (k, l) of the six rigid-body rows, in their order, and the rows' labels.
 const RIGID: [(usize, usize, &str); 6] =
@@ -71,178 +46,188 @@ pub fn row_names(system: &System) -> Vec<String> {
     names
 }
 
-/// One equation: its value, its γ, and its gradient with respect to the lifted coordinates of bodies.
-struct Equation {
-    value: f64,
-    /// ν, the rate that drivers prescribe: Φ̇ = Φ_q q̇ − ν.
-    nu: f64,
-    /// γ before the term of reduced bodies.
-    gamma: f64,
-    /// (body, gradient, constant in Q).
-    gradient: Vec<(usize, Lift, bool)>,
+/// Where an equation comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// The product of two directors of a body.
+    Rigid { body: usize, k: usize, l: usize },
+    /// A component of a row of a joint or driver.
+    Joint { row: usize, component: usize },
 }
 
-/// Every equation of every row, rigid-body rows first; positions and velocities must be in place.
-fn equations(system: &System, at: &Elimination) -> Vec<Equation> {
+/// The gradient of an equation with respect to the lifted coordinates of one body.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// The body.
+    pub body: usize,
+    /// The gradient.
+    pub gradient: Lift,
+    /// Which of r, u, v, w can be other than zero.
+    pub touched: [bool; 4],
+    /// Whether it is the same at every Q.
+    pub constant: bool,
+}
+
+/// One equation at one state.
+#[derive(Clone, Debug)]
+pub(crate) struct Equation {
+    /// Φ.
+    pub value: f64,
+    /// ν, the rate that drivers prescribe: Φ̇ = Φ_q q̇ − ν.
+    pub nu: f64,
+    /// γ before the term of reduced bodies.
+    pub gamma: f64,
+    /// Its gradient, body by body.
+    pub parts: Vec<Part>,
+}
+
+/// Where all equations come from, in their order: rigid-body rows first.
+pub(crate) fn sources(system: &System) -> Vec<Source> {
     let mut list = Vec::with_capacity(system.rigid_rows + system.equations);
-    for (index, (body, state)) in system.bodies.iter().zip(&at.bodies).enumerate() {
-        for (k, l, _) in rigid_rows(body.coordinates) {
-            let unit = if k == l { 1.0 } else { 0.0 };
-            let mut gradient = Lift::default();
-            gradient.e[k] += state.q.e[l];
-            gradient.e[l] += state.q.e[k];
-            list.push(Equation {
-                value: state.q.e[k].dot(&state.q.e[l]) - unit,
-                nu: 0.0,
-                gamma: -2.0 * state.q_dot.e[k].dot(&state.q_dot.e[l]),
-                gradient: vec![(index, gradient, false)],
-            });
-        }
+    for (body, data) in system.bodies.iter().enumerate() {
+        list.extend(rigid_rows(data.coordinates).map(|(k, l, _)| Source::Rigid { body, k, l }));
     }
-    for row in &system.rows {
-        match row.form {
-            Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                let (x, y) = (at.feature_value(a), at.feature_value(b));
-                for k in 0..3 {
-                    let g = Vector3::ith(k, 1.0);
-                    let gradient = [(a, g, true), (b, -g, true)];
-                    let driven = at.driven_acceleration(system, b)[k] - at.driven_acceleration(system, a)[k];
-                    let rate = at.driven_rate(system, b)[k] - at.driven_rate(system, a)[k];
-                    list.push(Equation {
-                        value: x[k] - y[k],
-                        nu: rate,
-                        gamma: driven,
-                        gradient: lifted(system, at, &gradient),
-                    });
-                }
-            }
-            Form::Product { a, b, target } => {
-                let value = |d: Difference| d.of(|f| at.feature_value(f));
-                let rate = |d: Difference| d.of(|f| at.feature_rate(f));
-                let fixed =
-                    |d: Difference| [Some(d.plus), d.minus].into_iter().flatten().all(|f| f >= system.moving);
-                let mut gradient = Vec::with_capacity(4);
-                for (own, other) in [(a, b), (b, a)] {
-                    let g = value(other);
-                    gradient.push((own.plus, g, fixed(other)));
-                    gradient.extend(own.minus.map(|minus| (minus, -g, fixed(other))));
-                }
-                let [c, c_rate, c_acceleration] = at.target(target);
-                let driven = |d: Difference| d.of(|f| at.driven_acceleration(system, f));
-                let driven_rate = |d: Difference| d.of(|f| at.driven_rate(system, f));
-                let (x, y) = (value(a), value(b));
-                list.push(Equation {
-                    value: x.dot(&y) - c,
-                    nu: c_rate - driven_rate(a).dot(&y) - x.dot(&driven_rate(b)),
-                    gamma: c_acceleration
-                        - 2.0 * rate(a).dot(&rate(b))
-                        - driven(a).dot(&y)
-                        - x.dot(&driven(b)),
-                    gradient: lifted(system, at, &gradient),
-                });
-            }
-            Form::Relation { angles, slide, .. } => {
-                let (value, rate, curvature) = at.relation_terms(system, &row.form);
-                let mut gradient = Vec::with_capacity(6);
-                for (angle, factor) in angles.into_iter().flatten() {
-                    let features = system.angles[angle].features();
-                    let g = at.angles[angle].gradient;
-                    gradient.extend(features.into_iter().zip(g).map(|(f, g)| (f, g * factor, false)));
-                }
-                if let Some((a, b, factor)) = slide {
-                    for (own, other) in [(a, b), (b, a)] {
-                        let g = other.of(|f| at.feature_value(f)) * factor;
-                        gradient.push((own.plus, g, false));
-                        gradient.extend(own.minus.map(|minus| (minus, -g, false)));
-                    }
-                }
-                let gradient = lifted(system, at, &gradient);
-                // A relation does not depend on time, so that its whole rate is Φ_q q̇.
-                let along: f64 = gradient.iter().map(|(b, g, _)| g.dot(&at.bodies[*b].q_dot)).sum();
-                list.push(Equation { value, nu: along - rate, gamma: -curvature, gradient });
-            }
-        }
+    for (row, data) in system.rows.iter().enumerate() {
+        list.extend((0..data.form.equations()).map(|component| Source::Joint { row, component }));
     }
     list
 }
 
-/// Cᵀ g of each feature, summed by body.
-fn lifted(
+/// One equation; positions and velocities must be in place.
+pub(crate) fn equation(system: &System, at: &Elimination, source: Source) -> Equation {
+    match source {
+        Source::Rigid { body, k, l } => rigid_equation(at, body, k, l),
+        Source::Joint { row, component } => match system.rows[row].form {
+            Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
+                let g = Vector3::ith(component, 1.0);
+                let difference = |of: &dyn Fn(FeatureId) -> Vector3<f64>| (of(a) - of(b))[component];
+                Equation {
+                    value: difference(&|f| at.feature_value(f)),
+                    nu: -difference(&|f| at.driven_rate(system, f)),
+                    gamma: -difference(&|f| at.driven_acceleration(system, f)),
+                    parts: parts(system, at, &[(a, g, true), (b, -g, true)]),
+                }
+            }
+            Form::Product { a, b, target } => product_equation(system, at, a, b, target),
+            Form::Relation { .. } => relation_equation(system, at, &system.rows[row].form),
+        },
+    }
+}
+
+fn rigid_equation(at: &Elimination, body: usize, k: usize, l: usize) -> Equation {
+    let state = &at.bodies[body];
+    let unit = if k == l { 1.0 } else { 0.0 };
+    let mut gradient = Lift::default();
+    gradient.e[k] += state.q.e[l];
+    gradient.e[l] += state.q.e[k];
+    let touched = [0, 1, 2, 3].map(|block| block == k + 1 || block == l + 1);
+    Equation {
+        value: state.q.e[k].dot(&state.q.e[l]) - unit,
+        nu: 0.0,
+        gamma: -2.0 * state.q_dot.e[k].dot(&state.q_dot.e[l]),
+        parts: vec![Part { body, gradient, touched, constant: false }],
+    }
+}
+
+fn product_equation(
     system: &System,
     at: &Elimination,
-    parts: &[(FeatureId, Vector3<f64>, bool)],
-) -> Vec<(usize, Lift, bool)> {
-    let mut list: Vec<(usize, Lift, bool)> = Vec::with_capacity(2);
-    for &(feature, g, constant) in parts {
+    a: Difference,
+    b: Difference,
+    target: Target,
+) -> Equation {
+    let value = |d: Difference| d.of(|f| at.feature_value(f));
+    let rate = |d: Difference| d.of(|f| at.feature_rate(f));
+    let driven_rate = |d: Difference| d.of(|f| at.driven_rate(system, f));
+    let driven = |d: Difference| d.of(|f| at.driven_acceleration(system, f));
+    let fixed = |d: Difference| [Some(d.plus), d.minus].into_iter().flatten().all(|f| f >= system.changing);
+    let (x, y) = (value(a), value(b));
+    let mut gradient = Vec::with_capacity(4);
+    for (own, g, constant) in [(a, y, fixed(b)), (b, x, fixed(a))] {
+        gradient.push((own.plus, g, constant));
+        gradient.extend(own.minus.map(|minus| (minus, -g, constant)));
+    }
+    let [c, c_rate, c_acceleration] = at.target(target);
+    Equation {
+        value: x.dot(&y) - c,
+        nu: c_rate - driven_rate(a).dot(&y) - x.dot(&driven_rate(b)),
+        gamma: c_acceleration - 2.0 * rate(a).dot(&rate(b)) - driven(a).dot(&y) - x.dot(&driven(b)),
+        parts: parts(system, at, &gradient),
+    }
+}
+
+fn relation_equation(system: &System, at: &Elimination, form: &Form) -> Equation {
+    let (value, rate, curvature) = at.relation_terms(system, form);
+    let mut gradient = Vec::with_capacity(6);
+    if let Form::Relation { angles, slide, .. } = *form {
+        for (angle, factor) in angles.into_iter().flatten() {
+            let features = system.angles[angle].features();
+            let g = at.angles[angle].gradient;
+            gradient.extend(features.into_iter().zip(g).map(|(f, g)| (f, g * factor, false)));
+        }
+        if let Some((a, b, factor)) = slide {
+            for (own, other) in [(a, b), (b, a)] {
+                let g = other.of(|f| at.feature_value(f)) * factor;
+                gradient.push((own.plus, g, false));
+                gradient.extend(own.minus.map(|minus| (minus, -g, false)));
+            }
+        }
+    }
+    let parts = parts(system, at, &gradient);
+    // A relation does not depend on time itself; what its rate has beyond Φ_q q̇ is that of driven features.
+    let along: f64 = parts.iter().map(|p| p.gradient.dot(&at.bodies[p.body].q_dot)).sum();
+    Equation { value, nu: along - rate, gamma: -curvature, parts }
+}
+
+/// Cᵀ g of each feature, summed by body, bodies in their order.
+fn parts(system: &System, at: &Elimination, gradient: &[(FeatureId, Vector3<f64>, bool)]) -> Vec<Part> {
+    let mut list: Vec<Part> = Vec::with_capacity(2);
+    for &(feature, g, constant) in gradient {
         let local = at.feature_local(system, feature);
         let feature = &system.features[feature];
         let BodyRef::Moving(body) = feature.body else { continue };
-        let at = list.iter().position(|(b, ..)| *b == body).unwrap_or_else(|| {
-            list.push((body, Lift::default(), true));
+        let place = list.iter().position(|p| p.body == body).unwrap_or_else(|| {
+            list.push(Part { body, gradient: Lift::default(), touched: [false; 4], constant: true });
             list.len() - 1
         });
-        let (_, sum, all_constant) = &mut list[at];
+        let part = &mut list[place];
         if feature.point {
-            sum.r += g;
+            part.gradient.r += g;
+            part.touched[0] = true;
         }
         for k in 0..3 {
-            sum.e[k] += g * local[k];
+            part.gradient.e[k] += g * local[k];
+            part.touched[k + 1] |= local[k] != 0.0 || feature.curve.is_some();
         }
-        *all_constant &= constant && feature.curve.is_none();
+        part.constant &= constant && feature.curve.is_none();
     }
+    list.sort_by_key(|part| part.body);
     list
+}
+
+fn all(system: &System, at: &Elimination) -> impl Iterator<Item = Equation> {
+    sources(system).into_iter().map(move |source| equation(system, at, source))
 }
 
 /// Φ of all rows.
 pub fn constraints(system: &System, at: &Elimination) -> Vec<f64> {
-    equations(system, at).into_iter().map(|e| e.value).collect()
+    all(system, at).map(|e| e.value).collect()
 }
 
 /// ν of all rows, Φ_q q̇ = ν — eq. (4.1).
 pub fn nu(system: &System, at: &Elimination) -> Vec<f64> {
-    equations(system, at).into_iter().map(|e| e.nu).collect()
+    all(system, at).map(|e| e.nu).collect()
 }
 
 /// γ of all rows, Φ_q q̈ = γ — eq. (4.2).
 pub fn gamma(system: &System, at: &Elimination) -> Vec<f64> {
-    equations(system, at)
-        .into_iter()
-        .map(|equation| {
-            let reduced: f64 = equation
-                .gradient
-                .iter()
-                .filter(|(body, ..)| system.bodies[*body].coordinates == Coordinates::Reduced)
-                .map(|(body, gradient, _)| {
-                    let rate = &at.bodies[*body].q_dot;
-                    gradient.e[2].dot(&(2.0 * rate.e[0].cross(&rate.e[1])))
-                })
-                .sum();
-            equation.gamma - reduced
-        })
-        .collect()
-}
-
-/// Φ_q of all rows.
-pub fn jacobian(system: &System, at: &Elimination) -> Jacobian {
-    let mut entries = Vec::new();
-    for (row, equation) in equations(system, at).into_iter().enumerate() {
-        let mut gradient = equation.gradient;
-        gradient.sort_by_key(|(body, ..)| *body);
-        for (index, lifted, constant) in gradient {
-            let body = &system.bodies[index];
-            let reduced = body.coordinates == Coordinates::Reduced;
-            let own = lift::pull_back(body.coordinates, &at.bodies[index].q, &lifted);
-            let depends_on_w = reduced && lifted.e[2] != Vector3::zeros();
-            let mut numbers = [0.0; 12];
-            let size = lift::size(body.coordinates);
-            lift::store(body.coordinates, &own, &mut numbers[..size]);
-            for (k, &value) in numbers[..size].iter().enumerate() {
-                let constant = constant && !(depends_on_w && k >= 3);
-                if value != 0.0 {
-                    entries.push(Entry { row, column: body.first + k, value, constant });
-                }
-            }
+    // For a reduced body, −Φ_Q V̇ q̇ with V̇ q̇ = (0, 0, 0, 2 u̇ × v̇).
+    let reduced = |part: &Part| match system.bodies[part.body].coordinates {
+        Coordinates::Full => 0.0,
+        Coordinates::Reduced => {
+            let rate = &at.bodies[part.body].q_dot;
+            part.gradient.e[2].dot(&(2.0 * rate.e[0].cross(&rate.e[1])))
         }
-    }
-    Jacobian { rows: row_names(system), columns: column_names(system), entries }
+    };
+    all(system, at).map(|e| e.gamma - e.parts.iter().map(reduced).sum::<f64>()).collect()
 }

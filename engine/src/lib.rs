@@ -41,6 +41,8 @@ pub mod elimination;
 
 pub mod equations;
 
+pub mod jacobian;
+
 pub mod literal;
 
 pub mod rank;

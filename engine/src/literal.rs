@@ -12,6 +12,7 @@ pub use rigid::{RigidMultipliers, rigid_multipliers};
 
 use crate::elimination::Elimination;
 use crate::equations;
+use crate::jacobian::Jacobian;
 use crate::lift::{self, Lift};
 use crate::scene::Coordinates;
 use crate::system::{Body, System};
@@ -52,7 +53,7 @@ impl Literal {
         for_mass_entries(system, at, |row, column, value| mass[(row, column)] = value);
         let rows = system.rigid_rows + system.equations;
         let mut jacobian = DMatrix::zeros(rows, n);
-        for entry in equations::jacobian(system, at).entries {
+        for entry in Jacobian::new(system, at).entries {
             jacobian[(entry.row, entry.column)] = entry.value;
         }
         Self {

@@ -1,9 +1,9 @@
 //! A scene that runs: time, state, steps, and what can be asked of them.
 
 use crate::elimination::Counters;
-use crate::equations::{self, Jacobian};
 use crate::error::EngineError;
 use crate::integrate::{Dop853, Plant, Stop};
+use crate::jacobian::Jacobian;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::rank::{self, Rank};
@@ -83,6 +83,8 @@ pub struct Simulation {
     /// The state that is shown.
     shown: Vec<f64>,
     start_energy: f64,
+    /// Made when first asked for.
+    jacobian: Option<Jacobian>,
 }
 
 impl Simulation {
@@ -108,7 +110,7 @@ impl Simulation {
         let start_energy = mechanism.elimination.energy(&mechanism.system);
         let integrator = Dop853::new(&mut mechanism, 0.0, &start, tolerance);
         let shown = start.clone();
-        Ok(Self { mechanism, integrator, start, rank, notes, time: 0.0, shown, start_energy })
+        Ok(Self { mechanism, integrator, start, rank, notes, time: 0.0, shown, start_energy, jacobian: None })
     }
 
     /// The assembled system.
@@ -245,9 +247,12 @@ impl Simulation {
     }
 
     /// The Jacobian Φ_q at the shown state, rigid-body rows first.
-    pub fn jacobian(&mut self) -> Jacobian {
+    pub fn jacobian(&mut self) -> &Jacobian {
         self.mechanism.set_state(self.time, &self.shown);
-        equations::jacobian(&self.mechanism.system, &self.mechanism.elimination)
+        let Mechanism { system, elimination, .. } = &self.mechanism;
+        let jacobian = self.jacobian.get_or_insert_with(|| Jacobian::new(system, elimination));
+        jacobian.refresh(system, elimination);
+        jacobian
     }
 
     /// Accelerations q̈ at the shown state.

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use triad_engine::elimination::Elimination;
 use triad_engine::equations;
+use triad_engine::jacobian::Jacobian;
 use triad_engine::model::Model;
 use triad_engine::scene::Scene;
 use triad_engine::system::System;
@@ -92,7 +93,7 @@ fn rows(system: &System, at: &mut Elimination, t: f64, q: &DVector<f64>, q_dot: 
     at.set_time(system, t);
     at.place(system, q.as_slice());
     at.set_velocity(system, q_dot.as_slice());
-    let sparse = equations::jacobian(system, at);
+    let sparse = Jacobian::new(system, at);
     let mut jacobian = DMatrix::zeros(sparse.rows.len(), sparse.columns.len());
     for entry in &sparse.entries {
         jacobian[(entry.row, entry.column)] += entry.value;
@@ -165,5 +166,31 @@ fn accelerations_satisfy_the_literal_rows() {
         let here = rows(&system, &mut at, 0.4, &q, &v);
         let residual = &here.jacobian * DVector::from_vec(acceleration) - &here.gamma;
         assert!(residual.amax() < 1e-9, "{kinds:?}: {}", residual.amax());
+    }
+}
+
+/// The pattern and the constant numbers are written once; refreshing gives what writing anew gives.
+#[test]
+fn a_refreshed_jacobian_is_a_new_one() {
+    for kinds in [["full", "full", "full"], ["full", "reduced", "full"]] {
+        let system = System::new(Model::new(&scene(kinds)).unwrap());
+        let n = system.coordinates;
+        let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+        system.start(&mut q, &mut v);
+        let mut at = Elimination::new(&system);
+        at.place(&system, &q);
+        let first = Jacobian::new(&system, &at);
+        for (i, q) in q.iter_mut().enumerate() {
+            *q += 0.1 * (i as f64 * 1.3).sin();
+        }
+        at.place(&system, &q);
+        let mut refreshed = first.clone();
+        let rows = refreshed.refresh(&system, &at);
+        assert_eq!(refreshed, Jacobian::new(&system, &at));
+        assert!(rows < first.rows.len(), "some rows are constant");
+        for (before, after) in first.entries.iter().zip(&refreshed.entries) {
+            assert!(!before.constant || before.value == after.value);
+        }
+        assert_ne!(first, refreshed);
     }
 }

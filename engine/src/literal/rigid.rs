@@ -5,6 +5,7 @@
 use super::{for_mass_entries, force};
 use crate::elimination::Elimination;
 use crate::equations;
+use crate::jacobian::Jacobian;
 use crate::lift::{self, Lift};
 use crate::reaction::Multiplier;
 use crate::scene::Coordinates;
@@ -33,7 +34,7 @@ pub fn rigid_multipliers(system: &System, at: &Elimination) -> Vec<RigidMultipli
     for_mass_entries(system, at, |row, column, value| rest[row] -= value * acceleration[column]);
     let joint: Vec<f64> =
         system.rows.iter().enumerate().flat_map(|(index, row)| at.multipliers(index, row)).collect();
-    for entry in equations::jacobian(system, at).entries {
+    for entry in Jacobian::new(system, at).entries {
         if entry.row >= system.rigid_rows {
             rest[entry.column] -= entry.value * joint[entry.row - system.rigid_rows];
         }

@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
-use triad_engine::equations::Jacobian;
+use triad_engine::jacobian::Jacobian;
 use triad_engine::reaction::JointMultipliers;
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
-use triad_engine::equations::Jacobian;
+use triad_engine::jacobian::Jacobian;
 use triad_engine::reaction::JointMultipliers;
 use triad_engine::simulation::Simulation;
 
@@ -127,7 +127,7 @@ impl Worker {
                 let result = self.film.take(&mut self.simulation);
                 drop(reply.send(self.answer(result)));
             }
-            Command::Jacobian(reply) => drop(reply.send(Ok(self.simulation.jacobian()))),
+            Command::Jacobian(reply) => drop(reply.send(Ok(self.simulation.jacobian().clone()))),
             Command::Multipliers(reply) => drop(reply.send(Ok(self.simulation.multipliers()))),
             Command::Watched => {
                 let developed = self.film.develop();

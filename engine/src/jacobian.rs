@@ -1,0 +1,96 @@
+//! The sparse Jacobian Φ_q in the generalized coordinates — THEORY section 4.
+//!
+//! Its pattern and its constant numbers are written once; a new state only rewrites the rows that can change.
+
+use crate::elimination::Elimination;
+use crate::equations::{Source, column_names, equation, row_names, sources};
+use crate::lift;
+use crate::scene::Coordinates;
+use crate::system::System;
+use serde::Serialize;
+use std::ops::Range;
+
+/// One number of the Jacobian that can be other than zero.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Entry {
+    /// Row.
+    pub row: usize,
+    /// Column.
+    pub column: usize,
+    /// Value at this state.
+    pub value: f64,
+    /// Whether it is the same at every state.
+    pub constant: bool,
+}
+
+/// The sparse Jacobian Φ_q with the names of its rows and columns.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Jacobian {
+    /// Names of the rows, such as `link: uu` or `pin: CP.x`.
+    pub rows: Vec<String>,
+    /// Names of the columns, such as `link.ux`.
+    pub columns: Vec<String>,
+    /// Entries in the order of rows, then columns.
+    pub entries: Vec<Entry>,
+    /// The rows that can change, with their entries.
+    #[serde(skip)]
+    changing: Vec<(Source, Range<usize>)>,
+}
+
+impl Jacobian {
+    /// Writes the pattern and all numbers at a state; positions must be in place.
+    pub fn new(system: &System, at: &Elimination) -> Self {
+        let mut jacobian = Self {
+            rows: row_names(system),
+            columns: column_names(system),
+            entries: Vec::new(),
+            changing: Vec::new(),
+        };
+        for (row, source) in sources(system).into_iter().enumerate() {
+            let first = jacobian.entries.len();
+            visit(system, at, source, |column, value, constant| {
+                if value != 0.0 || !constant {
+                    jacobian.entries.push(Entry { row, column, value, constant });
+                }
+            });
+            if jacobian.entries[first..].iter().any(|entry| !entry.constant) {
+                jacobian.changing.push((source, first..jacobian.entries.len()));
+            }
+        }
+        jacobian
+    }
+
+    /// Rewrites the rows that can change; returns how many.
+    pub fn refresh(&mut self, system: &System, at: &Elimination) -> usize {
+        for (source, range) in &self.changing {
+            let mut entries = self.entries[range.clone()].iter_mut();
+            visit(system, at, *source, |_, value, constant| {
+                if (value != 0.0 || !constant)
+                    && let Some(entry) = entries.next()
+                {
+                    entry.value = value;
+                }
+            });
+        }
+        self.changing.len()
+    }
+}
+
+/// Calls `entry(column, value, constant)` for each number of an equation's row, structural zeros included.
+fn visit(system: &System, at: &Elimination, source: Source, mut entry: impl FnMut(usize, f64, bool)) {
+    for part in equation(system, at, source).parts {
+        let body = &system.bodies[part.body];
+        let own = lift::pull_back(body.coordinates, &at.bodies[part.body].q, &part.gradient);
+        // In a reduced body what acts on w = u × v acts on u and v, and changes with them.
+        let through_w = body.coordinates == Coordinates::Reduced && part.touched[3];
+        let size = lift::size(body.coordinates);
+        let mut numbers = [0.0; 12];
+        lift::store(body.coordinates, &own, &mut numbers[..size]);
+        for (k, &value) in numbers[..size].iter().enumerate() {
+            let turned = through_w && k >= 3;
+            if part.touched[k / 3] || turned {
+                entry(body.first + k, value, part.constant && !turned);
+            }
+        }
+    }
+}
