@@ -3,7 +3,7 @@ import { api, ApiError } from "../core/api";
 import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { setTitle, type Page } from "../core/router";
-import type { Lesson, Scene } from "../core/types";
+import type { Lesson, LessonSummary, Scene } from "../core/types";
 import { problemNotice, skeleton } from "../ui/notice";
 import { exerciseSection } from "../exercise/exercise";
 
@@ -35,6 +35,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       await setMaths(exercise);
       if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
       await afterPaint();
+      void showNeighbours(exercise, slug, leaving.signal);
       if (leaving.signal.aborted) return;
       await openBench(lesson);
     } catch (error) {
@@ -63,6 +64,16 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       for (const step of undo) step();
     },
   };
+}
+
+/** Where to go on: the lessons before and after this one. */
+async function showNeighbours(place: HTMLElement, slug: string, signal: AbortSignal): Promise<void> {
+  const lessons = await api.lessons(signal).catch(() => []);
+  const at = lessons.findIndex((lesson) => lesson.slug === slug);
+  if (signal.aborted || at < 0) return;
+  const link = (which: string, lesson: LessonSummary | undefined): HTMLElement | null => lesson
+    ? h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, h("span", null, which), h("b", null, lesson.title)) : null;
+  place.append(h("nav", { class: "neighbours", "aria-label": "Other lessons" }, link("Lesson before", lessons[at - 1]), link("Next lesson", lessons[at + 1])));
 }
 
 function sceneOf(lesson: Lesson, signal: AbortSignal): Promise<Scene | undefined> {

@@ -28,12 +28,10 @@ export function sketch(scene: Scene | undefined): Sketch {
 
   const build = (state: SessionState): Piece[] => {
     const made: Piece[] = [];
-    const reach: Vec3[] = [];
     state.bodies.forEach((frame, at) => {
       const stated = scene?.bodies?.find((body) => body.name === frame.name);
       const toBody = converter(frame, stated?.position, axesOf(stated?.orientation));
-      for (const shape of stated?.shape ?? []) made.push(...piecesOf(shape, at, toBody, reach));
-      reach.push(frame.position);
+      for (const shape of stated?.shape ?? []) made.push(...piecesOf(shape, at, toBody));
     });
     const grounds: Vec3[] = [];
     for (const joint of scene?.joints ?? []) {
@@ -44,7 +42,11 @@ export function sketch(scene: Scene | undefined): Sketch {
       if (onGround) grounds.push(...[fixed ?? joint.point].filter((point) => point !== undefined));
       else if (frame) made.push(...jointOn(frame, carrier, scene?.bodies?.find((body) => body.name === frame.name), joint));
     }
-    reach.push(...grounds);
+    // Everything that is drawn, where it stands now.
+    const reach = [...grounds, ...state.bodies.map((frame) => frame.position), ...made.flatMap((piece) => {
+      const frame = state.bodies[piece.body];
+      return frame ? piece.points.map((point) => add(frame.position, out([frame.u, frame.v, frame.w], point))) : [];
+    })];
     const span = fit(reach.map((p) => flat(view, p)), grounds.map((p) => flat(view, p)));
     project = (p) => {
       const [x, y] = flat(view, p);
@@ -82,9 +84,8 @@ function converter(frame: BodyFrame, origin: Vec3 = frame.position, stated: Axes
   return (p) => along(axes, sub(add(origin, out(stated, p)), frame.position));
 }
 
-function piecesOf(shape: Shape, body: number, toBody: (p: Vec3) => Vec3, reach: Vec3[]): Piece[] {
+function piecesOf(shape: Shape, body: number, toBody: (p: Vec3) => Vec3): Piece[] {
   if (shape.kind === "rod") {
-    reach.push(...([shape.from, shape.to].map(toBody)));
     const element = svg("line", { class: "sketch-rod" });
     element.style.setProperty("--r", String(shape.radius));
     return [{ body, points: [toBody(shape.from), toBody(shape.to)], element, place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }) }];

@@ -5,6 +5,7 @@ import type { Scene } from "../core/types";
 import { icon } from "../ui/icons";
 import type { Session } from "./session";
 import { sketch } from "./sketch";
+import { ViewerUnavailable } from "./unavailable";
 import type { ViewerHandle } from "./viewer";
 
 export interface Stage {
@@ -48,7 +49,7 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
     host.hidden = !on;
     drawing.root.toggleAttribute("inert", on);
     root.classList.toggle("has-viewer", on);
-    loading.hidden = !(starting || failed) || !wanted;
+    loading.hidden = !failed && !(starting && wanted);
     toggle.replaceChildren(icon("cube"), wanted ? "Sketch instead" : "3-D view");
   };
 
@@ -83,7 +84,9 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
       failed = true;
       bar.hidden = true;
       host.replaceChildren();
-      setText(said, `The 3-D view cannot run here; the sketch and the tables show the same run. (${error instanceof Error ? error.message : String(error)})`);
+      wanted = false;
+      setText(said, `${error instanceof ViewerUnavailable ? error.message : "The 3-D view could not be started."} The sketch and the tables show the same run.`);
+      said.title = error instanceof Error ? error.message : String(error);
       announce("The 3-D view could not be loaded. The sketch and the tables show the same run.");
     } finally {
       host.classList.remove("is-starting");
@@ -94,6 +97,7 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
 
   toggle.addEventListener("click", () => {
     wanted = !wanted;
+    failed = false;
     remember("picture", wanted ? null : "sketch");
     paint();
     void start();

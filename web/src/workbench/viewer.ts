@@ -1,6 +1,7 @@
 // The rerun viewer, fetched when it is wanted, kept alive between pages, fed by our own socket.
 import type { LogChannel, WebViewer } from "@rerun-io/web-viewer";
 import { theme } from "../core/prefs";
+import { requireWebGl } from "./unavailable";
 
 const TIMELINE = "time";
 const NANOSECONDS = 1e9;
@@ -21,6 +22,7 @@ export interface ViewerHooks {
 
 /** Starts the viewer inside `host`. Rejects with a sentence when this browser cannot run it. */
 export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise<ViewerHandle> {
+  requireWebGl();
   const { WebViewer } = await import("@rerun-io/web-viewer");
   const viewer = new WebViewer();
   const restore = watchDownload(hooks.progress);
