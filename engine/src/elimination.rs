@@ -731,8 +731,8 @@ impl Elimination {
         }
     }
 
-    /// Weight of each body and all loads.
-    fn set_forces(&mut self, system: &System) {
+    /// Weight of each body and all loads; time, positions and velocities must be in place.
+    pub fn set_forces(&mut self, system: &System) {
         let mut forces = std::mem::take(&mut self.forces);
         for (lift, body) in forces.lifts.iter_mut().zip(&system.bodies) {
             *lift = Lift { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] };

@@ -57,6 +57,8 @@ pub mod simulation;
 
 pub mod check;
 
+pub mod paper;
+
 pub mod catalogue;
 
 mod error;

@@ -6,12 +6,15 @@
 
 mod independent;
 mod rigid;
+mod sparse_lu;
 
 pub use independent::independent_rows;
 pub use rigid::{RigidMultipliers, rigid_multipliers};
+pub use sparse_lu::{Columns, SparseLu};
 
 use crate::elimination::Elimination;
 use crate::equations;
+use crate::jacobian::Jacobian;
 use crate::jacobian::Jacobian;
 use crate::lift::{self, Lift};
 use crate::scene::Coordinates;
@@ -53,7 +56,11 @@ impl Literal {
         for_mass_entries(system, at, |row, column, value| mass[(row, column)] = value);
         let rows = system.rigid_rows + system.equations;
         let mut jacobian = DMatrix::zeros(rows, n);
+<<<<<<< HEAD
         for entry in Jacobian::new(system, at).entries {
+=======
+        for entry in Jacobian::new(system, at).entries {
+>>>>>>> 8a72a88 (Run the paper's examples with the paper's settings: equal counts for the pendulum, the double four-bar and 39 bodies)
             jacobian[(entry.row, entry.column)] = entry.value;
         }
         Self {
@@ -148,7 +155,7 @@ fn reduced_mass(body: &Body, q: &Lift) -> [[Matrix3<f64>; 2]; 2] {
 pub fn force(system: &System, at: &Elimination) -> DVector<f64> {
     let mut out = DVector::zeros(system.coordinates);
     for (body, state) in system.bodies.iter().zip(&at.bodies) {
-        let mut lifted = applied(system, body);
+        let mut lifted = state.force;
         if body.coordinates == Coordinates::Reduced {
             lifted.e[2] -= state.q_dot.e[0].cross(&state.q_dot.e[1]) * (2.0 * body.ibar[2]);
         }
@@ -157,9 +164,4 @@ pub fn force(system: &System, at: &Elimination) -> DVector<f64> {
         lift::store(body.coordinates, &own, &mut out.as_mut_slice()[range]);
     }
     out
-}
-
-/// Applied force G of a body in its lifted coordinates.
-fn applied(system: &System, body: &Body) -> Lift {
-    Lift { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] }
 }

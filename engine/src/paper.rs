@@ -1,0 +1,180 @@
+//! The demonstrative examples of the paper, with the paper's own settings.
+//!
+//! Gonçalves, Roupa, Flores and Tavares da Silva, Mechanism and Machine Theory (2025) 105955, section 5: ode45 with its
+//! default options, Baumgarte's stabilization with 2α and β², the literal equations of motion with the redundant rows
+//! dropped once, at the start. Nothing here measures time: the caller does.
+
+mod cases;
+mod correlation;
+mod ode45;
+mod plant;
+
+pub use cases::{CASES, Case, Published};
+pub use correlation::{Correlation, correlation};
+pub use ode45::Counts;
+pub use plant::{LinearAlgebra, PaperPlant};
+
+use crate::error::EngineError;
+use crate::scene::{Coordinates, IntegratorKind, Scene, Settings, Stabilization};
+use crate::simulation::Simulation;
+use serde::Serialize;
+
+/// Interval at which two runs are compared, s.
+const EVERY: f64 = 0.01;
+/// Tolerance of the reference runs.
+const REFERENCE_TOLERANCE: f64 = 1e-11;
+
+/// Why an example of the paper did not come to its end.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PaperError {
+    /// The scene or the reference run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The matrix of the equations of motion became singular, or the step too small.
+    #[error("{case} ({coordinates}): the run ended at t = {time:.4} s, its equations of motion singular")]
+    Singular {
+        /// Name of the example.
+        case: &'static str,
+        /// `full` or `reduced`.
+        coordinates: &'static str,
+        /// Time reached, s.
+        time: f64,
+    },
+}
+
+impl PaperError {
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Engine(error) => error.code(),
+            Self::Singular { .. } => "paper-run-singular",
+        }
+    }
+
+    /// What to try.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Engine(error) => error.hint(),
+            Self::Singular { .. } => {
+                "The paper's settings break up at singular passages when α and β are small; keep those of the table."
+                    .to_owned()
+            }
+        }
+    }
+}
+
+/// A run with the paper's settings.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Run {
+    /// Steps, failed attempts and evaluations.
+    pub counts: Counts,
+    /// Integration variables: coordinates and velocities.
+    pub variables: usize,
+    /// Rows that were dropped at the start.
+    pub dropped: usize,
+    /// Largest change of energy, J.
+    pub energy_drift: f64,
+    /// Largest |Φ| along the run.
+    pub violation: f64,
+    /// The example's tracked coordinate, every 0.01 s.
+    #[serde(skip)]
+    pub tracked: Vec<f64>,
+}
+
+/// Runs an example with the given coordinates in every body.
+pub fn run(case: &Case, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<Run, PaperError> {
+    let mut plant = PaperPlant::new(case, coordinates, algebra)?;
+    let mut y = plant.start().to_vec();
+    let end = case.duration;
+    let (body, axis) = (case.tracked_body, case.tracked_axis);
+    let place = plant.coordinate(body, axis);
+    let n = y.len() / 2;
+    let mut tracked = Vec::new();
+    let mut last: Option<(f64, f64, f64)> = None;
+    let (mut violation, mut drift, mut opening, mut reached) = (0.0f64, 0.0f64, None, 0.0);
+    let mut observer = plant.clone();
+    let counts = ode45::integrate(
+        |y, rate| plant.rate(y, rate),
+        &mut y,
+        end,
+        |t, y| {
+            reached = t;
+            let (energy, open) = observer.observe(y);
+            violation = violation.max(open);
+            drift = drift.max((energy - *opening.get_or_insert(energy)).abs());
+            let now = (t, y[place], y[n + place]);
+            let old = last.replace(now).unwrap_or(now);
+            sample(old, now, &mut tracked);
+        },
+    );
+    match counts {
+        Some(counts) => Ok(Run {
+            counts,
+            variables: 2 * n,
+            dropped: plant.dropped(),
+            energy_drift: drift,
+            violation,
+            tracked,
+        }),
+        None => Err(PaperError::Singular { case: case.name, coordinates: word(coordinates), time: reached }),
+    }
+}
+
+/// Adds the samples between two steps, by cubic Hermite interpolation of positions and velocities.
+fn sample(old: (f64, f64, f64), now: (f64, f64, f64), out: &mut Vec<f64>) {
+    let h = now.0 - old.0;
+    loop {
+        let t = out.len() as f64 * EVERY;
+        if t > now.0 * (1.0 + 1e-12) {
+            return;
+        }
+        if h <= 0.0 {
+            out.push(now.1);
+            continue;
+        }
+        let s = ((t - old.0) / h).min(1.0);
+        let difference = now.1 - old.1;
+        let bend = (1.0 - s) * (h * old.2 - difference) - s * (h * now.2 - difference);
+        out.push(old.1 + s * difference + s * (1.0 - s) * bend);
+    }
+}
+
+/// The same coordinate from the engine's own solver, as the reference of an example.
+pub fn reference(case: &Case) -> Result<Vec<f64>, PaperError> {
+    let mut scene = scene(case, Coordinates::Full)?;
+    scene.simulation = Settings {
+        duration: case.duration,
+        every: EVERY,
+        integrator: IntegratorKind::Dop853,
+        tolerance: REFERENCE_TOLERANCE,
+        stabilization: Stabilization::Projection,
+    };
+    let mut simulation = Simulation::new(&scene)?;
+    let mut tracked = Vec::new();
+    loop {
+        let t = tracked.len() as f64 * EVERY;
+        if t > case.duration * (1.0 + 1e-12) {
+            return Ok(tracked);
+        }
+        simulation.advance_to(t.min(case.duration))?;
+        tracked.push(simulation.frame().bodies[case.tracked_body].position[case.tracked_axis]);
+    }
+}
+
+/// The scene of an example, all bodies with the given coordinates.
+pub fn scene(case: &Case, coordinates: Coordinates) -> Result<Scene, PaperError> {
+    let mut scene = (case.scene)().map_err(EngineError::from)?;
+    scene.coordinates = coordinates;
+    for body in &mut scene.bodies {
+        body.coordinates = None;
+    }
+    Ok(scene)
+}
+
+/// `full` or `reduced`.
+pub fn word(coordinates: Coordinates) -> &'static str {
+    match coordinates {
+        Coordinates::Full => "full",
+        Coordinates::Reduced => "reduced",
+    }
+}
