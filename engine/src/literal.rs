@@ -15,7 +15,6 @@ pub use sparse_lu::{Columns, SparseLu};
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::jacobian::Jacobian;
-use crate::jacobian::Jacobian;
 use crate::lift::{self, Lift};
 use crate::scene::Coordinates;
 use crate::system::{Body, System};
@@ -56,11 +55,7 @@ impl Literal {
         for_mass_entries(system, at, |row, column, value| mass[(row, column)] = value);
         let rows = system.rigid_rows + system.equations;
         let mut jacobian = DMatrix::zeros(rows, n);
-<<<<<<< HEAD
         for entry in Jacobian::new(system, at).entries {
-=======
-        for entry in Jacobian::new(system, at).entries {
->>>>>>> 8a72a88 (Run the paper's examples with the paper's settings: equal counts for the pendulum, the double four-bar and 39 bodies)
             jacobian[(entry.row, entry.column)] = entry.value;
         }
         Self {

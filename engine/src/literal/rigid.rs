@@ -6,7 +6,6 @@ use super::{for_mass_entries, force};
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::jacobian::Jacobian;
-use crate::jacobian::Jacobian;
 use crate::lift::{self, Lift};
 use crate::reaction::Multiplier;
 use crate::scene::Coordinates;
@@ -35,11 +34,7 @@ pub fn rigid_multipliers(system: &System, at: &Elimination) -> Vec<RigidMultipli
     for_mass_entries(system, at, |row, column, value| rest[row] -= value * acceleration[column]);
     let joint: Vec<f64> =
         system.rows.iter().enumerate().flat_map(|(index, row)| at.multipliers(index, row)).collect();
-<<<<<<< HEAD
     for entry in Jacobian::new(system, at).entries {
-=======
-    for entry in Jacobian::new(system, at).entries {
->>>>>>> 8a72a88 (Run the paper's examples with the paper's settings: equal counts for the pendulum, the double four-bar and 39 bodies)
         if entry.row >= system.rigid_rows {
             rest[entry.column] -= entry.value * joint[entry.row - system.rigid_rows];
         }
