@@ -31,15 +31,24 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
   let failed = false;
   let gone = false;
   let ticking = false;
+  let tickedAt = 0;
+  let shownAt = 0;
+  let frameCost = 0;
+  const waiting: Uint8Array[] = [];
 
   const draw = (): void => {
     const time = session.smoothTime;
     const state = session.past.between(time) ?? session.shown;
     if (!state) return;
     if (!viewer || !wanted) drawing.update(state);
+    if (ticking && performance.now() - shownAt < rest(frameCost)) return;
+    shownAt = performance.now();
+    for (const block of waiting.splice(0)) viewer?.send(block);
     viewer?.show(time);
   };
-  const tick = (): void => {
+  const tick = (now: number): void => {
+    if (ticking) frameCost = Math.max(now - tickedAt, 0.9 * frameCost);
+    tickedAt = now;
     ticking = !gone && session.latest?.playing === true && !session.reviewing;
     draw();
     if (ticking) requestAnimationFrame(tick);
@@ -110,11 +119,18 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
   seen.observe(root);
 
   const undo = [
-    session.on("opened", () => viewer?.begin()),
-    session.on("blocks", (block) => viewer?.send(block)),
+    session.on("opened", () => {
+      waiting.length = 0;
+      viewer?.begin();
+    }),
+    session.on("blocks", (block) => {
+      if (!viewer) return;
+      waiting.push(block);
+      if (!ticking) draw();
+    }),
     session.on("shown", () => {
       draw();
-      if (session.latest?.playing && !session.reviewing && !ticking && !reducedMotion()) tick();
+      if (session.latest?.playing && !session.reviewing && !ticking && !reducedMotion()) requestAnimationFrame(tick);
     }),
     // The viewer takes its theme when it starts: it is started again, from the browser's cache.
     onTheme(() => {
@@ -137,6 +153,14 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
       viewer?.close();
     },
   };
+}
+
+/**
+ * How long the viewer is left alone between two pictures, ms. Where a picture is slow to draw (no
+ * graphics card, a weak phone) the page's own controls must still answer.
+ */
+function rest(frameCost: number): number {
+  return frameCost > 50 ? Math.min(1500, 3 * frameCost) : 0;
 }
 
 /** The viewer writes special signs in paths with a backslash. */
