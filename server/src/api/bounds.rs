@@ -32,7 +32,7 @@ pub(super) async fn refuse_large_bodies(State(app): State<App>, request: Request
         // Whether the client sends all of it or gives up, the answer is the same.
         drop(tokio::time::timeout(PATIENCE, drain(request.into_body())).await);
     }
-    too_large().into_response()
+    too_large(Some(app.limits.request_bytes)).into_response()
 }
 
 async fn drain(mut body: Body) {

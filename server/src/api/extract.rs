@@ -90,7 +90,7 @@ fn invalid(pointer: &str, error: &serde_json::Error) -> Problem {
 
 fn unreadable_body(rejection: &BytesRejection) -> Problem {
     if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-        return too_large();
+        return too_large(None);
     }
     Problem::new(
         StatusCode::BAD_REQUEST,
@@ -101,11 +101,12 @@ fn unreadable_body(rejection: &BytesRejection) -> Problem {
 }
 
 /// The answer to a body that exceeds the bound.
-pub fn too_large() -> Problem {
+pub fn too_large(limit: Option<usize>) -> Problem {
+    let most = limit.map(|bytes| format!(": {bytes} bytes")).unwrap_or_default();
     Problem::new(
         StatusCode::PAYLOAD_TOO_LARGE,
         "request-too-large",
-        "the request's body is larger than this server takes",
+        format!("the request's body is larger than this server takes{most}"),
         "send a smaller scene, or run it on the command line: triad run SCENE",
     )
 }

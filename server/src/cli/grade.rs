@@ -51,7 +51,8 @@ fn print(verdict: &Verdict) {
 fn words(html: &str) -> String {
     let mut text = String::with_capacity(html.len());
     let mut inside_tag = false;
-    for letter in html.chars() {
+    // Paragraphs and items of a list end a word, other marks do not.
+    for letter in html.replace("</p>", " ").replace("</li>", " ").replace("<br>", " ").chars() {
         match letter {
             '<' => inside_tag = true,
             '>' => inside_tag = false,
@@ -72,6 +73,9 @@ fn words(html: &str) -> String {
 mod tests {
     #[test]
     fn markup_is_left_out_and_signs_are_kept() {
-        assert_eq!(super::words("<p>g &lt; 10, so\n <em>T</em> &amp; mg</p>"), "g < 10, so T & mg");
+        assert_eq!(
+            super::words("<p>g &lt; 10, so\n <em>T</em> &amp; mg.</p><p>No.</p>"),
+            "g < 10, so T & mg. No."
+        );
     }
 }

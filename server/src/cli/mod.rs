@@ -34,7 +34,7 @@ Exit codes:
 
 /// A teaching workbench for multibody dynamics.
 ///
-/// Without a command it serves the workbench at <http://127.0.0.1:8080>: lessons with live mechanisms and graded
+/// Without a command it serves the workbench at `http://127.0.0.1:8080`: lessons with live mechanisms and graded
 /// exercises.
 #[derive(Debug, Parser)]
 #[command(name = "triad", version, after_help = EXAMPLES, arg_required_else_help = false)]

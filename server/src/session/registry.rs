@@ -43,11 +43,10 @@ impl Registry {
             }
             sessions.coming += 1;
         }
-        let started = Session::start(scene, source, limits).map(Arc::new);
-        let mut sessions = self.lock();
-        sessions.coming -= 1;
-        let session = started?;
-        sessions.live.insert(session.state().id.clone(), Arc::clone(&session));
+        let place = Place(self);
+        let session = Arc::new(Session::start(scene, source, limits)?);
+        self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
+        drop(place);
         Ok(session)
     }
 
@@ -95,6 +94,15 @@ impl Registry {
     fn lock(&self) -> MutexGuard<'_, Sessions> {
         // Counts and map are changed together under one lock, each in a single statement.
         self.sessions.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A place held for a session that is being assembled; given back however that ends.
+struct Place<'a>(&'a Registry);
+
+impl Drop for Place<'_> {
+    fn drop(&mut self) {
+        self.0.lock().coming -= 1;
     }
 }
 

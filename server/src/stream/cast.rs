@@ -53,11 +53,20 @@ pub struct Cast {
     pub gravity: [f64; 3],
     /// Extent of the mechanism at the start, in metres.
     pub size: f64,
+    /// What the camera looks at: the middle of the points that are fixed to the ground, or of everything.
+    pub center: [f64; 3],
+    /// How far the mechanism reaches from there at the start, in metres.
+    pub reach: f64,
     /// Length of a reaction's arrow, in metres a newton; one for the whole scene.
     pub force_scale: f64,
 }
 
 impl Cast {
+    /// Whether y is up rather than z.
+    pub fn y_is_up(&self) -> bool {
+        self.gravity[1].abs() > self.gravity[2].abs()
+    }
+
     /// The cast of a checked scene, its joints' rows and its Jacobian's pattern.
     pub fn new(scene: &Scene, model: &Model, joints: Vec<Tie>, pattern: Pattern) -> Self {
         let bodies: Vec<Actor> = scene
@@ -74,7 +83,7 @@ impl Cast {
                 joint_points: joint_points(model, index),
             })
             .collect();
-        let size = extent(model, &bodies);
+        let Extent { size, center, reach } = Extent::of(model, &bodies);
         let weight: f64 = model.bodies.iter().map(|body| body.mass).sum::<f64>() * model.gravity.norm();
         let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
         Self {
@@ -84,6 +93,8 @@ impl Cast {
             pattern,
             gravity: model.gravity.into(),
             size,
+            center,
+            reach,
             // The weight of everything is drawn half as long as the mechanism.
             force_scale: 0.5 * size / if weight > 0.0 { weight } else { 1.0 },
         }
@@ -102,12 +113,46 @@ fn joint_points(model: &Model, body: usize) -> Vec<[f64; 3]> {
     points
 }
 
-/// Half the diagonal of the box that holds the bodies, their joints and their shapes at the start.
-fn extent(model: &Model, bodies: &[Actor]) -> f64 {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
+/// How large a mechanism is at its start, and where.
+struct Extent {
+    /// Half the diagonal of the box that holds it.
+    size: f64,
+    center: [f64; 3],
+    reach: f64,
+}
+
+impl Extent {
+    fn of(model: &Model, bodies: &[Actor]) -> Self {
+        let points = points(model, bodies);
+        let middle = |points: &[[f64; 3]]| -> [f64; 3] {
+            std::array::from_fn(|k| {
+                let (low, high) = points
+                    .iter()
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (p[k].min(l), p[k].max(h)));
+                0.5 * (low + high)
+            })
+        };
+        let farthest = |from: [f64; 3]| {
+            let distance = |p: &[f64; 3]| (0..3).map(|k| (p[k] - from[k]).powi(2)).sum::<f64>().sqrt();
+            let farthest = points.iter().map(distance).fold(0.0, f64::max);
+            if farthest.is_finite() && farthest > 1e-9 { farthest } else { 1.0 }
+        };
+        let fixed: Vec<[f64; 3]> = model
+            .joints
+            .iter()
+            .flat_map(|joint| joint.bodies.iter().zip(&joint.points))
+            .filter(|(body, _)| **body == BodyRef::Ground)
+            .map(|(_, point)| (*point).into())
+            .collect();
+        let center = middle(if fixed.is_empty() { &points } else { &fixed });
+        Self { size: farthest(middle(&points)), center, reach: farthest(center) }
+    }
+}
+
+/// Ends of shapes, joints and centres of mass in the world, at the start.
+fn points(model: &Model, bodies: &[Actor]) -> Vec<[f64; 3]> {
+    let mut points = Vec::new();
     for (body, actor) in model.bodies.iter().zip(bodies) {
-        let in_principal = |p: &[f64; 3]| body.point_to_principal(&(*p).into());
         let ends = actor.shapes.iter().flat_map(|shape| match shape {
             Shape::Rod { from, to, .. } => vec![*from, *to],
             Shape::Sphere { center, radius } => {
@@ -118,19 +163,12 @@ fn extent(model: &Model, bodies: &[Actor]) -> f64 {
                 vec![corner(-1.0), corner(1.0)]
             }
         });
-        let mut local: Vec<_> = ends.map(|point| in_principal(&point)).collect();
-        for point in &actor.joint_points {
-            local.push((*point).into());
-        }
-        local.push([0.0; 3].into());
-        for point in local {
-            let world = body.position + body.directors * point;
-            for k in 0..3 {
-                low[k] = low[k].min(world[k]);
-                high[k] = high[k].max(world[k]);
-            }
-        }
+        let drawn = ends.map(|point| body.point_to_principal(&point.into()));
+        let joints = actor.joint_points.iter().map(|point| (*point).into());
+        points.push(body.position.into());
+        points.extend(
+            drawn.chain(joints).map(|local| <[f64; 3]>::from(body.position + body.directors * local)),
+        );
     }
-    let diagonal = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
-    if diagonal.is_finite() && diagonal > 1e-9 { 0.5 * diagonal } else { 1.0 }
+    points
 }

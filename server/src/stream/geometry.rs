@@ -27,11 +27,8 @@ pub(super) fn path(parts: &[&str]) -> EntityPath {
 
 /// Logs all that does not change.
 pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingStreamResult<()> {
-    let up = if cast.gravity[1].abs() > cast.gravity[2].abs() {
-        ViewCoordinates::RIGHT_HAND_Y_UP()
-    } else {
-        ViewCoordinates::RIGHT_HAND_Z_UP()
-    };
+    let up =
+        if cast.y_is_up() { ViewCoordinates::RIGHT_HAND_Y_UP() } else { ViewCoordinates::RIGHT_HAND_Z_UP() };
     recording.log_static("world", &up)?;
     recording.log_static("world/ground", &axes(0.35 * cast.size, ["x", "y", "z"]))?;
     for (index, body) in cast.bodies.iter().enumerate() {
@@ -62,12 +59,13 @@ fn axes(length: f64, labels: [&str; 3]) -> Arrows3D {
     Arrows3D::from_vectors(vectors.map(single))
         .with_colors(AXES.map(color))
         .with_labels(labels)
+        .with_show_labels(false)
         .with_radii([narrow(0.012 * length)])
 }
 
 fn log_body(recording: &RecordingStream, body: &Actor, rgb: [u8; 3], size: f64) -> RecordingStreamResult<()> {
     let at = |part: &str| path(&["world", "bodies", &body.name, part]);
-    recording.log_static(at("axes"), &axes(0.2 * size, ["u", "v", "w"]).with_show_labels(false))?;
+    recording.log_static(at("axes"), &axes(0.2 * size, ["u", "v", "w"]))?;
     if !body.joint_points.is_empty() {
         let pins = Points3D::new(body.joint_points.iter().map(|&point| single(point)));
         recording

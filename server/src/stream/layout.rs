@@ -1,16 +1,58 @@
 //! How the viewer lays a recording out: the mechanism large, its plots beside it, the panels folded away.
 
-use rerun::blueprint::components::{LoopMode, PanelState, PlayState};
+use re_sdk_types::blueprint::archetypes::EyeControls3D;
+use re_sdk_types::blueprint::components::{LoopMode, PanelState, PlayState};
 use rerun::blueprint::{
     Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial2DView, Spatial3DView,
     TimePanel, TimeSeriesView, Vertical,
 };
+use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg, StoreKind};
+use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
-use super::TIMELINE;
+use super::cast::Cast;
+use super::geometry::single;
+use super::{APPLICATION, TIMELINE};
 
-/// The layout of a recording.
-pub(super) fn blueprint() -> Blueprint {
-    let mechanism = Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]);
+/// Sends the layout, and makes the viewer use it.
+pub(super) fn send(recording: &RecordingStream, cast: &Cast) -> RecordingStreamResult<()> {
+    let mechanism = ContainerLike::from(
+        Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]),
+    );
+    let camera = match &mechanism {
+        ContainerLike::View(view) => format!("{}/EyeControls3D", view.blueprint_path()),
+        _ => return Ok(()),
+    };
+    // The library writes a layout only into a recording, and has no word for the camera: it is written into one
+    // in memory, and the camera is added under the same name.
+    let (_scratch, written) =
+        RecordingStreamBuilder::new(APPLICATION).with_blueprint(blueprint(mechanism)).memory()?;
+    let is_layout = |message: &LogMsg| message.store_id().kind() == StoreKind::Blueprint;
+    let activates = |message: &LogMsg| matches!(message, LogMsg::BlueprintActivationCommand(_));
+    let mut messages: Vec<LogMsg> =
+        written.take().into_iter().filter(|message| is_layout(message) && !activates(message)).collect();
+    let Some(id) = messages.first().map(|message| message.store_id().clone()) else { return Ok(()) };
+    let (extra, written) = RecordingStreamBuilder::from_store_id(&id).send_properties(false).memory()?;
+    extra.set_time_sequence("blueprint", 0);
+    extra.log(camera, &eye(cast))?;
+    messages.extend(written.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
+    let activation = BlueprintActivationCommand { blueprint_id: id, make_active: true, make_default: true };
+    recording.send_blueprint(messages, activation);
+    Ok(())
+}
+
+/// A camera that sees the whole mechanism: nearly from the front where it hangs in a vertical x-y plane, from
+/// above a corner otherwise.
+fn eye(cast: &Cast) -> EyeControls3D {
+    let direction = if cast.y_is_up() { [0.35, 0.3, 2.5] } else { [1.5, -1.9, 1.1] };
+    let position: [f64; 3] = std::array::from_fn(|k| cast.center[k] + 0.9 * cast.reach * direction[k]);
+    let up = if cast.y_is_up() { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    EyeControls3D::new()
+        .with_position(single(position))
+        .with_look_target(single(cast.center))
+        .with_eye_up(single(up))
+}
+
+fn blueprint(mechanism: ContainerLike) -> Blueprint {
     let plot = |name: &str, origin: &str| {
         let contents = format!("{origin}/**");
         ContainerLike::from(TimeSeriesView::new(name).with_origin(origin).with_contents([contents]))
@@ -22,8 +64,7 @@ pub(super) fn blueprint() -> Blueprint {
         plot("Multipliers of the joints", "/plots/multipliers"),
         jacobian.into(),
     ]);
-    let columns: [ContainerLike; 2] = [mechanism.into(), plots.into()];
-    Blueprint::new(Horizontal::new(columns).with_column_shares([2.0, 1.0]))
+    Blueprint::new(Horizontal::new([mechanism, plots.into()]).with_column_shares([2.0, 1.0]))
         .with_auto_views(false)
         .with_auto_layout(false)
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))

@@ -62,6 +62,7 @@ impl Recorder {
     }
 
     fn start(recording: RecordingStream, sink: Sink, cast: Cast) -> Result<Self, RecordError> {
+        layout::send(&recording, &cast)?;
         geometry::log_static(&recording, &cast)?;
         Ok(Self { recording, sink, cast, encoded: 0 })
     }
@@ -159,10 +160,7 @@ impl Drop for Recorder {
 }
 
 fn builder(id: &str, cast: &Cast) -> RecordingStreamBuilder {
-    RecordingStreamBuilder::new(APPLICATION)
-        .recording_id(id)
-        .recording_name(cast.title.clone())
-        .with_blueprint(layout::blueprint())
+    RecordingStreamBuilder::new(APPLICATION).recording_id(id).recording_name(cast.title.clone())
 }
 
 fn times(samples: &[Sample]) -> TimeColumn {
