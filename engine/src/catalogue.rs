@@ -4,7 +4,7 @@ mod chain;
 mod four_bar;
 
 use crate::model::nearest_name;
-use crate::scene::Scene;
+use crate::scene::{Inertia, Scene};
 
 /// A built-in scene, or a family of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +35,23 @@ pub const ENTRIES: &[Entry] = &[
     },
     Entry { name: "free-body", summary: "A torque-free body with three different moments of inertia (C01)" },
     Entry { name: "free-body-flip", summary: "The same body turning about its middle axis: it flips (C01)" },
+    Entry { name: "free-fall", summary: "A body thrown and tumbling (C03)" },
+    Entry {
+        name: "bricard",
+        summary: "Six revolute joints in a loop that moves although its rows leave no freedom (A04)",
+    },
+    Entry {
+        name: "spatial-slider-crank",
+        summary: "Revolute, spherical, universal and prismatic joint in a spatial loop (IFToMM library)",
+    },
+    Entry {
+        name: "spatial-slider-crank:slender",
+        summary: "The same with a slender rod, as later authors read the printed data",
+    },
+    Entry {
+        name: "spatial-slider-crank:mbdyn",
+        summary: "The same with a slender rod and the crank balanced on its axis",
+    },
 ];
 
 /// Scenes that are plain data.
@@ -43,6 +60,9 @@ const FIXED: &[(&str, &str)] = &[
     ("spatial-double-pendulum", include_str!("catalogue/spatial-double-pendulum.json")),
     ("free-body", include_str!("catalogue/free-body.json")),
     ("free-body-flip", include_str!("catalogue/free-body-flip.json")),
+    ("free-fall", include_str!("catalogue/free-fall.json")),
+    ("bricard", include_str!("catalogue/bricard.json")),
+    ("spatial-slider-crank", include_str!("catalogue/spatial-slider-crank.json")),
 ];
 
 /// Why there is no such built-in scene.
@@ -106,8 +126,24 @@ pub fn scene(name: &str) -> Result<Scene, CatalogueError> {
     if family == "spatial-chain" {
         return ranged("spatial-chain", number, 1, crate::scene::MAX_BODIES).map(chain::scene);
     }
+    if let ("spatial-slider-crank", "file" | "slender" | "mbdyn") = (family, number) {
+        return scene("spatial-slider-crank").map(|base| slider_crank_variant(base, number));
+    }
     let names = ENTRIES.iter().map(|e| e.name);
     Err(CatalogueError::Unknown { name: name.to_owned(), nearest: nearest_name(name, names) })
+}
+
+/// The readings of the slider-crank's printed data: `file` is the scene as it stands.
+fn slider_crank_variant(mut scene: Scene, variant: &str) -> Scene {
+    scene.name = format!("{}-{variant}", scene.name);
+    for body in &mut scene.bodies {
+        match (body.name.as_str(), variant) {
+            ("rod", "slender" | "mbdyn") => body.inertia = Some(Inertia::Principal([4e-4, 4e-3, 4e-3])),
+            ("crank", "mbdyn") => body.center_of_mass = [0.0; 3],
+            _ => {}
+        }
+    }
+    scene
 }
 
 fn ranged(family: &'static str, number: &str, low: usize, high: usize) -> Result<usize, CatalogueError> {
