@@ -110,7 +110,10 @@ function choice(question: Question, base: string, draft: string[] | undefined): 
   const radios = (question.options ?? []).map((option) => {
     const radio = h("input", { type: "radio", name: base, value: option.id, id: `${base}-${option.id}` });
     radio.checked = draft?.[0] === option.id;
-    return { radio, label: h("label", { class: "option", for: radio.id }, radio, authored(h("span"), option.html)) };
+    const text = authored(h("span"), option.html);
+    // An option that is a formula alone is named by its LaTeX, which every screen reader can say.
+    if (onlyMaths(text)) radio.setAttribute("aria-label", text.textContent?.trim() ?? option.id);
+    return { radio, label: h("label", { class: "option", for: radio.id }, radio, text) };
   });
   const chosen = (): string => radios.find((entry) => entry.radio.checked)?.radio.value ?? "";
   return {
@@ -118,6 +121,12 @@ function choice(question: Question, base: string, draft: string[] | undefined): 
     answer: () => ({ choice: chosen() }),
     draft: () => [chosen()],
   };
+}
+
+function onlyMaths(text: HTMLElement): boolean {
+  const copy = text.cloneNode(true) as HTMLElement;
+  for (const formula of copy.querySelectorAll(".math")) formula.remove();
+  return !/\p{L}/u.test(copy.textContent ?? "");
 }
 
 function hints(slug: string, question: Question): HTMLElement {
