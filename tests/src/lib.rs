@@ -1,1 +1,17 @@
-//! End-to-end tests of Triad.
+//! What the end-to-end tests share. The tests themselves are in `tests/tests/`, one file a subject.
+//!
+//! Nothing here is part of the product; a helper that cannot go on panics with the reason.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::missing_panics_doc)]
+
+pub mod probe;
+pub mod program;
+pub mod random;
+pub mod reference;
+
+use std::path::PathBuf;
+
+/// The repository.
+pub fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_path_buf()
+}
