@@ -1,7 +1,7 @@
 //! Applied forces in lifted coordinates — THEORY section 6.
 //!
 //! A force f at a point adds Cᵀ f; a moment τ adds ½ τ × e_k to each director, so that its power is τ · ω whatever
-//! its direction — eq. (6.5).
+//! its direction — eq. (6.8).
 
 use crate::elimination::Elimination;
 use crate::lift::Lift;

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use triad_engine::Scene;
 use triad_engine::equations;
 use triad_engine::integrate::Plant;
+use triad_engine::jacobian::Jacobian;
 use triad_engine::lift;
 use triad_engine::mechanism::Mechanism;
 use triad_engine::model::Model;
@@ -57,20 +58,20 @@ impl Probe {
 
     /// Φ at y.
     pub fn phi(&mut self, y: &[f64]) -> DVector<f64> {
-        self.mechanism.set_state(y);
+        self.mechanism.set_state(0.0, y);
         equations::constraints(&self.mechanism.system, &self.mechanism.elimination).into()
     }
 
     /// γ at y.
     pub fn gamma(&mut self, y: &[f64]) -> DVector<f64> {
-        self.mechanism.set_state(y);
+        self.mechanism.set_state(0.0, y);
         equations::gamma(&self.mechanism.system, &self.mechanism.elimination).into()
     }
 
     /// Φ_q at y, as a full matrix.
     pub fn jacobian(&mut self, y: &[f64]) -> DMatrix<f64> {
-        self.mechanism.set_state(y);
-        let sparse = equations::jacobian(&self.mechanism.system, &self.mechanism.elimination);
+        self.mechanism.set_state(0.0, y);
+        let sparse = Jacobian::new(&self.mechanism.system, &self.mechanism.elimination);
         let mut dense = DMatrix::zeros(sparse.rows.len(), sparse.columns.len());
         for entry in sparse.entries {
             dense[(entry.row, entry.column)] += entry.value;
@@ -87,11 +88,11 @@ impl Probe {
 
     /// Energy at y, J.
     pub fn energy(&mut self, y: &[f64]) -> f64 {
-        self.mechanism.set_state(y);
+        self.mechanism.set_state(0.0, y);
         self.mechanism.elimination.energy(&self.mechanism.system)
     }
 
-    /// Accelerations q̈ at y by the augmented system, written down as eqs. (6.5) and (6.6) say and solved densely with
+    /// Accelerations q̈ at y by the augmented system, written down as eqs. (6.3), (6.5) and (6.6) say and solved densely with
     /// least squares: shares nothing with the engine's elimination. Also the condition number of that system.
     pub fn augmented(&mut self, y: &[f64]) -> (DVector<f64>, f64) {
         let (phi_q, gamma) = (self.jacobian(y), self.gamma(y));

@@ -109,7 +109,7 @@ proptest! {
     }
 
     /// Free mechanisms: the momentum changes by the weight, the angular momentum by its moment, whatever the joints
-    /// and coordinates. This sees the sign of the velocity term of eq. (6.6), which the energy does not.
+    /// and coordinates. This sees the sign of the velocity term of eq. (6.5), which the energy does not.
     #[test]
     fn momentum_and_angular_momentum_are_balanced(scene in scenes()) {
         let scene = scene.scene(Choice { free: true, ..Choice::default() });
@@ -128,7 +128,7 @@ proptest! {
         let h = 1e-3;
         let mut momenta = |k: f64| {
             let y = probe.along(&rate, k * h);
-            probe.mechanism.set_state(&y);
+            probe.mechanism.set_state(0.0, &y);
             let (mut p, mut l) = (nalgebra::Vector3::zeros(), nalgebra::Vector3::zeros());
             for (state, body) in probe.mechanism.elimination.bodies.iter().zip(&probe.mechanism.system.bodies) {
                 p += state.q_dot.r * body.mass;
