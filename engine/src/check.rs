@@ -44,7 +44,7 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
     let mut redundant = Vec::new();
     for group in &system.groups {
         let mut rows = Vec::new();
-        for row in &system.rows[group.forms.clone()] {
+        for row in system.rows[group.forms.clone()].iter().filter(|row| !row.implied) {
             let dependent = (row.solver..row.solver + row.form.independent())
                 .filter(|solver| rank.dependent.contains(solver))
                 .count()
@@ -61,14 +61,14 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
         }
     }
     let rows = system.rigid_rows + system.equations;
-    let rank = system.rigid_rows + rank.rank;
+    let degrees_of_freedom = 6 * system.bodies.len() - rank.rank;
     Ok(CheckReport {
         name: scene.name.clone(),
         bodies: system.bodies.len(),
         coordinates: system.coordinates,
         rows,
-        rank,
-        degrees_of_freedom: system.coordinates - rank,
+        rank: system.coordinates - degrees_of_freedom,
+        degrees_of_freedom,
         redundant,
         notes: simulation.notes().to_vec(),
     })

@@ -6,7 +6,7 @@
 //! directors, orthonormal or not, and for full and reduced bodies alike.
 
 use crate::angle::AngleState;
-use crate::lift::{self, Lift};
+use crate::lift::Lift;
 use crate::load::Forces;
 use crate::model::BodyRef;
 use crate::motion::Jet;
@@ -226,7 +226,7 @@ impl Elimination {
     /// Takes over the positions q.
     pub fn place(&mut self, system: &System, q: &[f64]) {
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
-            state.q = lift::position(body.coordinates, &q[body.first..]);
+            state.q = body.layout.position(q);
         }
         for (state, feature) in self.features[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {
@@ -257,7 +257,7 @@ impl Elimination {
     /// Takes over the velocities q̇; positions must be in place.
     pub fn set_velocity(&mut self, system: &System, q_dot: &[f64]) {
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
-            state.q_dot = lift::velocity(body.coordinates, &state.q, &q_dot[body.first..]);
+            state.q_dot = body.layout.velocity(&state.q, q_dot);
         }
         for (state, feature) in self.features[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {
@@ -727,7 +727,7 @@ impl Elimination {
         self.solve(system);
         self.counters.evaluations += 1;
         for (index, body) in system.bodies.iter().enumerate() {
-            lift::store(body.coordinates, &self.lifted_solution(index), &mut out[body.first..]);
+            body.layout.store(&self.lifted_solution(index), out);
         }
     }
 
@@ -778,13 +778,10 @@ impl Elimination {
         let mut largest: f64 = 0.0;
         for (index, body) in system.bodies.iter().enumerate() {
             let solution = self.lifted_solution(index);
-            let mut step = [0.0; 12];
-            let size = lift::size(body.coordinates);
-            lift::store(body.coordinates, &solution, &mut step[..size]);
-            for (x, dx) in target[body.first..].iter_mut().zip(&step[..size]) {
-                *x += dx;
+            body.layout.own_numbers(&solution, |column, dx| {
+                target[column] += dx;
                 largest = largest.max(dx.abs());
-            }
+            });
         }
         largest
     }

@@ -3,7 +3,7 @@
 //! Not used by the solver, which works in twist form; both speak of the same row forms, and tests hold them together.
 
 use crate::elimination::Elimination;
-use crate::lift::{self, Lift};
+use crate::lift::Lift;
 use crate::model::BodyRef;
 use crate::reaction::equation_labels;
 use crate::row::{Difference, FeatureId, Form, Target};
@@ -11,20 +11,13 @@ use crate::scene::Coordinates;
 use crate::system::System;
 use nalgebra::Vector3;
 
-/// Directors (k, l) of the six rigid-body rows, in their order, and the rows' labels.
-const RIGID: [(usize, usize, &str); 6] =
-    [(0, 0, "uu"), (1, 1, "vv"), (2, 2, "ww"), (0, 1, "uv"), (0, 2, "uw"), (1, 2, "vw")];
-
-/// Rigid-body rows of a body: six, or those of u and v.
-fn rigid_rows(coordinates: Coordinates) -> impl Iterator<Item = (usize, usize, &'static str)> {
-    RIGID.into_iter().filter(move |&(k, l, _)| coordinates == Coordinates::Full || (k < 2 && l < 2))
-}
-
 /// Names of the generalized coordinates.
 pub fn column_names(system: &System) -> Vec<String> {
     let mut names = Vec::with_capacity(system.coordinates);
     for (body, model) in system.bodies.iter().zip(&system.model.bodies) {
-        for vector in ["r", "u", "v", "w"].iter().take(lift::size(body.coordinates) / 3) {
+        let directors = ["u", "v", "w"].into_iter().zip(body.layout.directors);
+        let own = directors.filter(|(_, director)| director.is_own()).map(|(name, _)| name);
+        for vector in std::iter::once("r").chain(own) {
             names.extend(["x", "y", "z"].iter().map(|axis| format!("{}.{vector}{axis}", model.name)));
         }
     }
@@ -35,10 +28,10 @@ pub fn column_names(system: &System) -> Vec<String> {
 pub fn row_names(system: &System) -> Vec<String> {
     let mut names = Vec::with_capacity(system.rigid_rows + system.equations);
     for (body, model) in system.bodies.iter().zip(&system.model.bodies) {
-        names.extend(rigid_rows(body.coordinates).map(|(_, _, label)| format!("{}: {label}", model.name)));
+        names.extend(body.layout.rigid_rows().map(|(_, _, label)| format!("{}: {label}", model.name)));
     }
     for group in &system.groups {
-        for row in &system.rows[group.forms.clone()] {
+        for row in system.rows[group.forms.clone()].iter().filter(|row| !row.implied) {
             let labels = equation_labels(row.label, row.form.equations());
             names.extend(labels.into_iter().map(|label| format!("{}: {label}", group.name)));
         }
@@ -85,9 +78,9 @@ pub(crate) struct Equation {
 pub(crate) fn sources(system: &System) -> Vec<Source> {
     let mut list = Vec::with_capacity(system.rigid_rows + system.equations);
     for (body, data) in system.bodies.iter().enumerate() {
-        list.extend(rigid_rows(data.coordinates).map(|(k, l, _)| Source::Rigid { body, k, l }));
+        list.extend(data.layout.rigid_rows().map(|(k, l, _)| Source::Rigid { body, k, l }));
     }
-    for (row, data) in system.rows.iter().enumerate() {
+    for (row, data) in system.rows.iter().enumerate().filter(|(_, data)| !data.implied) {
         list.extend((0..data.form.equations()).map(|component| Source::Joint { row, component }));
     }
     list

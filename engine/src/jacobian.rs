@@ -4,8 +4,7 @@
 
 use crate::elimination::Elimination;
 use crate::equations::{Source, column_names, equation, row_names, sources};
-use crate::lift;
-use crate::scene::Coordinates;
+use crate::lift::Director;
 use crate::system::System;
 use serde::Serialize;
 use std::ops::Range;
@@ -78,19 +77,30 @@ impl Jacobian {
 
 /// Calls `entry(column, value, constant)` for each number of an equation's row, structural zeros included.
 fn visit(system: &System, at: &Elimination, source: Source, mut entry: impl FnMut(usize, f64, bool)) {
+    // A director that two bodies share gets what both put on it: columns are collected before they are told.
+    let mut numbers: Vec<(usize, f64, bool)> = Vec::with_capacity(24);
     for part in equation(system, at, source).parts {
-        let body = &system.bodies[part.body];
-        let own = lift::pull_back(body.coordinates, &at.bodies[part.body].q, &part.gradient);
+        let layout = &system.bodies[part.body].layout;
         // In a reduced body what acts on w = u × v acts on u and v, and changes with them.
-        let through_w = body.coordinates == Coordinates::Reduced && part.touched[3];
-        let size = lift::size(body.coordinates);
-        let mut numbers = [0.0; 12];
-        lift::store(body.coordinates, &own, &mut numbers[..size]);
-        for (k, &value) in numbers[..size].iter().enumerate() {
-            let turned = through_w && k >= 3;
-            if part.touched[k / 3] || turned {
-                entry(body.first + k, value, part.constant && !turned);
-            }
+        let through_w = part.touched[3] && layout.directors[2] == Director::Product;
+        let mut place = 0;
+        let mut touched = part.touched;
+        if through_w {
+            touched = [touched[0], true, true, false];
         }
+        let blocks = std::iter::once(true).chain(layout.directors.iter().map(|d| d.column().is_some()));
+        let blocks: Vec<usize> = blocks.enumerate().filter(|(_, has)| *has).map(|(block, _)| block).collect();
+        layout.pull_back(&at.bodies[part.body].q, &part.gradient, |column, value| {
+            let block = blocks[place / 3];
+            place += 1;
+            if touched[block] {
+                numbers.push((column, value, part.constant && !(through_w && block > 0)));
+            }
+        });
+    }
+    numbers.sort_by_key(|(column, ..)| *column);
+    for same in numbers.chunk_by(|a, b| a.0 == b.0) {
+        let value = same.iter().map(|(_, value, _)| value).sum();
+        entry(same[0].0, value, same.iter().all(|(.., constant)| *constant));
     }
 }

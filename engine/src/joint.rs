@@ -3,6 +3,7 @@
 use crate::model::{Model, ModelJoint};
 use crate::row::{Difference, FeatureId, Form, Target};
 use crate::scene::{AxisRows, JointKind};
+use crate::system::SHARED;
 use crate::writer::{LabelledForm, Writer, WrittenGroup};
 
 /// Labels of perpendicularity rows (CAR) and of rows that keep a point on a line.
@@ -19,6 +20,10 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
                 AxisRows::Cv => {
                     let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
                     forms.push(("CV", Form::CommonVector { a, b }));
+                }
+                AxisRows::Shared => {
+                    let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
+                    forms.push((SHARED, Form::CommonVector { a, b }));
                 }
                 AxisRows::TwoCar => forms.extend(common_axis(joint, writer)),
             }

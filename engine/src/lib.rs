@@ -21,6 +21,8 @@ pub mod model;
 
 pub mod lift;
 
+pub mod sharing;
+
 pub mod angle;
 
 pub mod row;

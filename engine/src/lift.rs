@@ -1,8 +1,8 @@
-//! Coordinates of a body, full or reduced, and the map between them — THEORY section 3.
+//! Coordinates of a body, full, reduced or shared with a neighbour, and the map between them — THEORY section 3.
 //!
 //! Constraints, loads and inertia are written in the *lifted* coordinates Q = (r, u, v, w) of a body. A full body has
 //! q = Q; a reduced body has q = (r, u, v), and w = u × v. Then Q̇ = V q̇ and Q̈ = V q̈ + V̇ q̇, where V is never built:
-//! each product with it is two cross products.
+//! each product with it is two cross products. Two bodies that share a director at a joint have its coordinates once.
 
 use crate::scene::Coordinates;
 use nalgebra::Vector3;
@@ -34,61 +34,145 @@ impl Lift {
     }
 }
 
-/// Number of generalized coordinates of a body.
-pub const fn size(coordinates: Coordinates) -> usize {
-    match coordinates {
-        Coordinates::Full => 12,
-        Coordinates::Reduced => 9,
+/// Where a director of a body comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Director {
+    /// Its own coordinates, from this column of q on.
+    Own(usize),
+    /// A director of another body, or its opposite: their joint shares it.
+    Shared {
+        /// First column of that director.
+        column: usize,
+        /// 1 or −1.
+        sign: f64,
+    },
+    /// A vector of the ground.
+    Fixed(Vector3<f64>),
+    /// The third director of a reduced body, u × v.
+    Product,
+}
+
+impl Director {
+    /// First column of its coordinates and their sign, if it has any.
+    pub fn column(self) -> Option<(usize, f64)> {
+        match self {
+            Self::Own(column) => Some((column, 1.0)),
+            Self::Shared { column, sign } => Some((column, sign)),
+            Self::Fixed(_) | Self::Product => None,
+        }
+    }
+
+    /// Whether it is described by coordinates of its body.
+    pub fn is_own(self) -> bool {
+        matches!(self, Self::Own(_))
     }
 }
 
-/// Number of rigid-body rows of a body.
-pub const fn rigid_rows(coordinates: Coordinates) -> usize {
-    match coordinates {
-        Coordinates::Full => 6,
-        Coordinates::Reduced => 3,
+/// How the lifted coordinates of a body follow from q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// First column of its own coordinates: those of r.
+    pub first: usize,
+    /// Its directors u, v, w.
+    pub directors: [Director; 3],
+}
+
+/// Directors (k, l) of the six rigid-body rows, in their order, and the labels of the rows.
+pub const RIGID_ROWS: [(usize, usize, &str); 6] =
+    [(0, 0, "uu"), (1, 1, "vv"), (2, 2, "ww"), (0, 1, "uv"), (0, 2, "uw"), (1, 2, "vw")];
+
+impl Layout {
+    /// A body with its own directors; the third of a reduced body is a product.
+    pub fn own(coordinates: Coordinates, first: usize) -> Self {
+        let third = match coordinates {
+            Coordinates::Full => Director::Own(first + 9),
+            Coordinates::Reduced => Director::Product,
+        };
+        Self { first, directors: [Director::Own(first + 3), Director::Own(first + 6), third] }
+    }
+
+    /// Number of its own generalized coordinates.
+    pub fn size(&self) -> usize {
+        3 + 3 * self.directors.iter().filter(|d| d.is_own()).count()
+    }
+
+    /// Its rigid-body rows: each pair of directors of which at least one is its own and none a product, and the unit
+    /// length of its own.
+    pub fn rigid_rows(&self) -> impl Iterator<Item = (usize, usize, &'static str)> {
+        let directors = self.directors;
+        RIGID_ROWS.into_iter().filter(move |&(k, l, _)| {
+            let pair = [directors[k], directors[l]];
+            pair.iter().any(|d| d.is_own()) && !pair.contains(&Director::Product)
+        })
+    }
+
+    /// Q of all generalized coordinates q.
+    pub fn position(&self, q: &[f64]) -> Lift {
+        let read = |d: Director| match d {
+            Director::Own(column) => vector(q, column),
+            Director::Shared { column, sign } => vector(q, column) * sign,
+            Director::Fixed(value) => value,
+            Director::Product => Vector3::zeros(),
+        };
+        let mut e = self.directors.map(read);
+        if self.directors[2] == Director::Product {
+            e[2] = e[0].cross(&e[1]);
+        }
+        Lift { r: vector(q, self.first), e }
+    }
+
+    /// Q̇ = V q̇ — eq. (3.2).
+    pub fn velocity(&self, at: &Lift, q_dot: &[f64]) -> Lift {
+        let read = |d: Director| match d.column() {
+            Some((column, sign)) => vector(q_dot, column) * sign,
+            None => Vector3::zeros(),
+        };
+        let mut e = self.directors.map(read);
+        if self.directors[2] == Director::Product {
+            e[2] = e[0].cross(&at.e[1]) + at.e[0].cross(&e[1]);
+        }
+        Lift { r: vector(q_dot, self.first), e }
+    }
+
+    /// Calls `put(column, value)` for each of the body's own coordinates in a lifted vector.
+    pub fn own_numbers(&self, lifted: &Lift, mut put: impl FnMut(usize, f64)) {
+        for axis in 0..3 {
+            put(self.first + axis, lifted.r[axis]);
+        }
+        for (director, e) in self.directors.iter().zip(&lifted.e) {
+            if let Director::Own(column) = *director {
+                for axis in 0..3 {
+                    put(column + axis, e[axis]);
+                }
+            }
+        }
+    }
+
+    /// Writes the body's own coordinates of a lifted vector into q.
+    pub fn store(&self, lifted: &Lift, q: &mut [f64]) {
+        self.own_numbers(lifted, |column, value| q[column] = value);
+    }
+
+    /// Calls `put(column, value)` for each number of Vᵀ p, p a generalized force of the lifted coordinates — eq. (3.4).
+    pub fn pull_back(&self, at: &Lift, p: &Lift, mut put: impl FnMut(usize, f64)) {
+        let mut e = p.e;
+        if self.directors[2] == Director::Product {
+            e[0] += at.e[1].cross(&p.e[2]);
+            e[1] -= at.e[0].cross(&p.e[2]);
+        }
+        for axis in 0..3 {
+            put(self.first + axis, p.r[axis]);
+        }
+        for (director, e) in self.directors.iter().zip(&e) {
+            if let Some((column, sign)) = director.column() {
+                for axis in 0..3 {
+                    put(column + axis, e[axis] * sign);
+                }
+            }
+        }
     }
 }
 
 fn vector(q: &[f64], at: usize) -> Vector3<f64> {
     Vector3::new(q[at], q[at + 1], q[at + 2])
-}
-
-/// Q of generalized coordinates q.
-pub fn position(coordinates: Coordinates, q: &[f64]) -> Lift {
-    let (r, u, v) = (vector(q, 0), vector(q, 3), vector(q, 6));
-    let w = match coordinates {
-        Coordinates::Full => vector(q, 9),
-        Coordinates::Reduced => u.cross(&v),
-    };
-    Lift { r, e: [u, v, w] }
-}
-
-/// Q̇ = V q̇ — eq. (3.2).
-pub fn velocity(coordinates: Coordinates, q: &Lift, q_dot: &[f64]) -> Lift {
-    let (r, u, v) = (vector(q_dot, 0), vector(q_dot, 3), vector(q_dot, 6));
-    let w = match coordinates {
-        Coordinates::Full => vector(q_dot, 9),
-        Coordinates::Reduced => u.cross(&q.e[1]) + q.e[0].cross(&v),
-    };
-    Lift { r, e: [u, v, w] }
-}
-
-/// Writes the generalized part of a lifted vector: all of it, or (r, u, v).
-pub fn store(coordinates: Coordinates, lifted: &Lift, out: &mut [f64]) {
-    out[..3].copy_from_slice(lifted.r.as_slice());
-    for k in 0..size(coordinates) / 3 - 1 {
-        out[3 + 3 * k..6 + 3 * k].copy_from_slice(lifted.e[k].as_slice());
-    }
-}
-
-/// Vᵀ p: a generalized force of the lifted coordinates, in the body's own — eq. (3.4).
-pub fn pull_back(coordinates: Coordinates, q: &Lift, p: &Lift) -> Lift {
-    match coordinates {
-        Coordinates::Full => *p,
-        Coordinates::Reduced => Lift {
-            r: p.r,
-            e: [p.e[0] + q.e[1].cross(&p.e[2]), p.e[1] - q.e[0].cross(&p.e[2]), Vector3::zeros()],
-        },
-    }
 }

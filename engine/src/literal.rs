@@ -15,7 +15,7 @@ pub use sparse_lu::{Columns, SparseLu};
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::jacobian::Jacobian;
-use crate::lift::{self, Lift};
+use crate::lift::Lift;
 use crate::scene::Coordinates;
 use crate::system::{Body, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -52,7 +52,7 @@ impl Literal {
     pub fn new(system: &System, at: &Elimination) -> Self {
         let n = system.coordinates;
         let mut mass = DMatrix::zeros(n, n);
-        for_mass_entries(system, at, |row, column, value| mass[(row, column)] = value);
+        for_mass_entries(system, at, |row, column, value| mass[(row, column)] += value);
         let rows = system.rigid_rows + system.equations;
         let mut jacobian = DMatrix::zeros(rows, n);
         for entry in Jacobian::new(system, at).entries {
@@ -109,23 +109,27 @@ pub fn least_norm(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64
     svd.solve(b, small).ok()
 }
 
-/// Calls `put` with each entry of M(q) that is not a structural zero — eq. (6.3).
+/// Calls `put` with each part of an entry of M(q) that is not a structural zero — eq. (6.3). Bodies that share a
+/// director add to the same entries.
 pub fn for_mass_entries(system: &System, at: &Elimination, mut put: impl FnMut(usize, usize, f64)) {
     for (body, state) in system.bodies.iter().zip(&at.bodies) {
+        let first = body.layout.first;
         for axis in 0..3 {
-            put(body.first + axis, body.first + axis, body.mass);
+            put(first + axis, first + axis, body.mass);
         }
         match body.coordinates {
             Coordinates::Full => {
-                for k in 0..9 {
-                    put(body.first + 3 + k, body.first + 3 + k, body.ibar[k / 3]);
+                for (k, director) in body.layout.directors.iter().enumerate() {
+                    for (axis, (column, _)) in (0..3).zip(std::iter::repeat(director.column()).flatten()) {
+                        put(column + axis, column + axis, body.ibar[k]);
+                    }
                 }
             }
             Coordinates::Reduced => {
                 for (k, row) in reduced_mass(body, &state.q).iter().enumerate() {
                     for (l, block) in row.iter().enumerate() {
                         for (i, j) in (0..9).map(|at| (at / 3, at % 3)) {
-                            put(body.first + 3 + 3 * k + i, body.first + 3 + 3 * l + j, block[(i, j)]);
+                            put(first + 3 + 3 * k + i, first + 3 + 3 * l + j, block[(i, j)]);
                         }
                     }
                 }
@@ -154,9 +158,7 @@ pub fn force(system: &System, at: &Elimination) -> DVector<f64> {
         if body.coordinates == Coordinates::Reduced {
             lifted.e[2] -= state.q_dot.e[0].cross(&state.q_dot.e[1]) * (2.0 * body.ibar[2]);
         }
-        let own = lift::pull_back(body.coordinates, &state.q, &lifted);
-        let range = body.first..body.first + lift::size(body.coordinates);
-        lift::store(body.coordinates, &own, &mut out.as_mut_slice()[range]);
+        body.layout.pull_back(&state.q, &lifted, |column, value| out[column] += value);
     }
     out
 }

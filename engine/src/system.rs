@@ -1,13 +1,15 @@
 //! The assembled system: everything that never changes during a run.
 
 use crate::angle::Angle;
+use crate::lift::{Layout, Lift};
 use crate::load::Load;
 use crate::model::{BodyRef, Model};
 use crate::motion::VectorCurve;
 use crate::row::{Feature, Form, TargetCurve};
 use crate::scene::Coordinates;
+use crate::sharing;
 use crate::writer::{Writer, WrittenGroup};
-use crate::{driver, joint, lift};
+use crate::{driver, joint};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -25,8 +27,8 @@ pub struct Body {
     pub lent: f64,
     /// Which coordinates describe it.
     pub coordinates: Coordinates,
-    /// Its first coordinate in q.
-    pub first: usize,
+    /// How its lifted coordinates follow from q.
+    pub layout: Layout,
 }
 
 /// The rows of one joint or driver.
@@ -70,6 +72,9 @@ pub struct Row {
     pub form: Form,
     /// Its name within its joint.
     pub label: &'static str,
+    /// Whether shared coordinates satisfy it by themselves: then it is not written, and the solver keeps it only for
+    /// its multiplier.
+    pub implied: bool,
     /// First equation, within all equations of joints.
     pub equation: usize,
     /// First solver row.
@@ -79,6 +84,9 @@ pub struct Row {
     /// For each feature of the form in the order of [`Form::features`], the incidence of its body.
     pub incidence: [usize; 6],
 }
+
+/// Label of the row that a shared director makes needless.
+pub const SHARED: &str = "CV (shared)";
 
 /// Marks a feature of the ground, which meets no moving body.
 pub const NO_INCIDENCE: usize = usize::MAX;
@@ -183,7 +191,8 @@ impl System {
     }
 
     fn add_bodies(&mut self) {
-        for body in &self.model.bodies {
+        let layouts = sharing::layouts(&self.model);
+        for (index, body) in self.model.bodies.iter().enumerate() {
             let j = body.principal;
             let half = 0.5 * j.sum();
             let ibar = j.map(|i| (half - i).max(0.0));
@@ -196,10 +205,10 @@ impl System {
                 ibar,
                 lent,
                 coordinates: body.coordinates,
-                first: self.coordinates,
+                layout: layouts[index],
             });
-            self.coordinates += lift::size(body.coordinates);
-            self.rigid_rows += lift::rigid_rows(body.coordinates);
+            self.coordinates += layouts[index].size();
+            self.rigid_rows += layouts[index].rigid_rows().count();
         }
     }
 
@@ -233,15 +242,17 @@ impl System {
                     incidence[k] = found.unwrap_or(NO_INCIDENCE);
                 }
             }
+            let implied = label == SHARED;
             self.rows.push(Row {
                 form,
                 label,
+                implied,
                 equation: self.equations,
                 solver: self.solver_rows + local,
                 local,
                 incidence,
             });
-            self.equations += form.equations();
+            self.equations += if implied { 0 } else { form.equations() };
             local += form.independent();
         }
         self.groups.push(Group {
@@ -265,12 +276,10 @@ impl System {
     /// Writes the start of the model as (q, q̇), each of [`System::coordinates`] numbers.
     pub fn start(&self, q: &mut [f64], q_dot: &mut [f64]) {
         for (body, model) in self.bodies.iter().zip(&self.model.bodies) {
-            let range = body.first..body.first + lift::size(body.coordinates);
             let e = [0, 1, 2].map(|k| model.directors.column(k).into_owned());
-            let position = lift::Lift { r: model.position, e };
-            let velocity = lift::Lift { r: model.velocity, e: e.map(|e| model.angular_velocity.cross(&e)) };
-            lift::store(body.coordinates, &position, &mut q[range.clone()]);
-            lift::store(body.coordinates, &velocity, &mut q_dot[range]);
+            body.layout.store(&Lift { r: model.position, e }, q);
+            let e_dot = e.map(|e| model.angular_velocity.cross(&e));
+            body.layout.store(&Lift { r: model.velocity, e: e_dot }, q_dot);
         }
     }
 }

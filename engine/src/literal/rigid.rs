@@ -6,7 +6,7 @@ use super::{for_mass_entries, force};
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::jacobian::Jacobian;
-use crate::lift::{self, Lift};
+use crate::lift::Lift;
 use crate::reaction::Multiplier;
 use crate::scene::Coordinates;
 use crate::system::System;
@@ -28,8 +28,7 @@ pub fn rigid_multipliers(system: &System, at: &Elimination) -> Vec<RigidMultipli
     let mut rest = force(system, at);
     let mut acceleration = vec![0.0; system.coordinates];
     for (index, body) in system.bodies.iter().enumerate() {
-        let own = &mut acceleration[body.first..body.first + lift::size(body.coordinates)];
-        lift::store(body.coordinates, &at.lifted_solution(index), own);
+        body.layout.store(&at.lifted_solution(index), &mut acceleration);
     }
     for_mass_entries(system, at, |row, column, value| rest[row] -= value * acceleration[column]);
     let joint: Vec<f64> =
@@ -47,7 +46,7 @@ pub fn rigid_multipliers(system: &System, at: &Elimination) -> Vec<RigidMultipli
         .zip(&at.bodies)
         .zip(&system.model.bodies)
         .map(|((body, state), model)| {
-            let p = lift::position(body.coordinates, &rest.as_slice()[body.first..]);
+            let p = body.layout.position(rest.as_slice());
             let rows = of_body(body.coordinates, &state.q, &p)
                 .into_iter()
                 .zip(next.by_ref())

@@ -3,7 +3,8 @@
 use super::reader::Reader;
 use super::{BodyRef, ModelError};
 use crate::row::across;
-use crate::scene::{AxisRows, Joint, JointKind};
+use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
+use crate::sharing::director_along;
 use nalgebra::Vector3;
 
 /// A checked joint. Ground points and vectors are in the world frame, others in the principal frame of the body.
@@ -73,6 +74,9 @@ impl ModelJoint {
             }
             model.pitch = pitch / std::f64::consts::TAU;
         }
+        if model.rows == AxisRows::Shared {
+            check_shared(&model, reader)?;
+        }
         if axes[0] != Vector3::zeros() {
             model.cross = cross_vectors(reader, bodies, axes);
         }
@@ -109,6 +113,24 @@ fn refuse_strangers(joint: &Joint, reader: &Reader) -> Result<(), ModelError> {
         Some((key, _, reason)) => Err(reader.wrong(key, *reason)),
         None => Ok(()),
     }
+}
+
+/// A director can only be shared where the axis is one, and has coordinates.
+fn check_shared(joint: &ModelJoint, reader: &Reader) -> Result<(), ModelError> {
+    for (side, body) in joint.bodies.into_iter().enumerate() {
+        let BodyRef::Moving(index) = body else { continue };
+        let body = &reader.bodies[index];
+        if body.coordinates == Coordinates::Reduced {
+            let reason =
+                format!("body \"{}\" is reduced; sharing a director needs full coordinates", body.name);
+            return Err(reader.wrong("rows", reason));
+        }
+        if director_along(&joint.axes[side]).is_none() {
+            let reason = format!("its axis is not along a principal axis of body \"{}\"", body.name);
+            return Err(reader.wrong("rows", reason));
+        }
+    }
+    Ok(())
 }
 
 fn gear(joint: &Joint, reader: &Reader) -> Result<ModelJoint, ModelError> {

@@ -46,6 +46,10 @@ pub enum AxisRows {
     /// One common vector (CV): three rows, of which one is dependent, as the formulation first writes it.
     #[serde(rename = "cp-cv")]
     Cv,
+    /// The axis is a director of both bodies (or of one, and fixed in the ground), whose coordinates they share: no
+    /// row at all. Needs full coordinates and an axis along a principal axis of each body.
+    #[serde(rename = "shared")]
+    Shared,
 }
 
 /// A joint between two bodies, or between a body and the ground.
