@@ -87,7 +87,7 @@ impl PaperPlant {
 
     /// Place in q of a component of a body's centre of mass.
     pub(super) fn coordinate(&self, body: usize, axis: usize) -> usize {
-        self.system.bodies[body].first + axis
+        self.system.bodies[body].layout.first + axis
     }
 
     /// Energy and largest |Φ| at a state.
