@@ -142,6 +142,19 @@ export class Session {
     this.emit("shown");
   }
 
+  /** Runs up to a time ahead, or looks back at an earlier one. */
+  async goTo(time: number): Promise<void> {
+    const state = this.latest;
+    if (!state) return;
+    if (time <= state.time) {
+      this.seek(time);
+      return;
+    }
+    if (state.playing) await this.pause();
+    const from = this.latest?.time ?? state.time;
+    if (time > from) await this.step({ seconds: Math.min(time, state.duration) - from });
+  }
+
   /** One recorded moment back. */
   back(): void {
     const before = this.past.before(this.time);

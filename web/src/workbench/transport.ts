@@ -30,7 +30,19 @@ export function transport(session: Session, plannedDuration: number | undefined,
   const live = h("button", { type: "button", class: "button small live", hidden: true, title: "Looking back: go to the newest time", onclick: () => session.seek(Infinity) }, icon("live"), "To newest");
   const slider = h("input", { type: "range", class: "timeline", min: "0", max: String(plannedDuration ?? 10), step: "0.001", value: "0", "aria-label": "Time" });
   slider.addEventListener("input", () => session.seek(Number(slider.value)));
-  const clock = h("output", { class: "clock", "aria-live": "off" }, "0.000");
+  const clock = h("input", {
+    class: "clock", type: "text", inputmode: "decimal", autocomplete: "off", value: "0.000",
+    "aria-label": "Run to a time, in seconds", title: "Type a time and press Enter: the run goes there",
+  });
+  clock.addEventListener("focus", () => clock.select());
+  clock.addEventListener("blur", () => paint());
+  clock.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") clock.blur();
+    if (event.key !== "Enter") return;
+    const typed = clock.value.trim().replace(",", ".");
+    clock.blur();
+    if (typed !== "" && Number.isFinite(Number(typed))) void session.goTo(Number(typed));
+  });
   const until = h("span", { class: "clock-until" }, plannedDuration ? `of ${seconds(plannedDuration, 0)}` : "");
   const mode = h("span", { class: "clock-mode" });
 
@@ -44,7 +56,7 @@ export function transport(session: Session, plannedDuration: number | undefined,
     slider.style.setProperty("--done", `${state.duration > 0 ? (100 * time) / state.duration : 0}%`);
     slider.style.setProperty("--computed", `${state.duration > 0 ? (100 * state.time) / state.duration : 0}%`);
     slider.setAttribute("aria-valuetext", `${seconds(time)} of ${seconds(state.duration, 0)}, computed up to ${seconds(state.time)}`);
-    setText(clock, fixedPlain(time, 3));
+    if (document.activeElement !== clock) clock.value = fixedPlain(time, 3);
     setText(until, `of ${Number(state.duration.toFixed(3))} s`);
     setText(mode, state.error ? "stopped" : state.finished ? "complete" : state.playing ? "running" : "paused");
     live.hidden = !session.reviewing;
