@@ -14,7 +14,7 @@ use triad_engine::system::System;
 fn nanoseconds(mut work: impl FnMut()) -> (f64, f64) {
     let once = Instant::now();
     work();
-    let repeats = (200_000 / once.elapsed().as_nanos().max(1) + 1) as u32;
+    let repeats = u32::try_from(200_000 / once.elapsed().as_nanos().max(1) + 1).unwrap_or(1);
     let mut times: Vec<f64> = (0..101)
         .map(|_| {
             let start = Instant::now();

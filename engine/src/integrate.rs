@@ -2,8 +2,14 @@
 
 mod dop853;
 mod dop853_coefficients;
+mod dopri5;
+mod method;
+mod taylor;
 
 pub use dop853::Dop853;
+pub use dopri5::Dopri5;
+pub use method::{Integrator, choose};
+pub use taylor::Taylor;
 
 /// What an integrator moves.
 pub trait Plant {
@@ -48,4 +54,15 @@ pub fn weighted_norm(x: impl Iterator<Item = f64>, y: &[f64], y_new: &[f64], tol
         .map(|(x, (a, b))| (x / (tolerance * (1.0 + a.abs().max(b.abs())))).powi(2))
         .sum();
     (sum / y.len().max(1) as f64).sqrt()
+}
+
+/// out ← y + h Σ a_j k_j.
+fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[(usize, f64)], k: &[Vec<f64>]) {
+    out.copy_from_slice(y);
+    for &(j, a) in weights {
+        let factor = h * a;
+        for (out, k) in out.iter_mut().zip(&k[j]) {
+            *out += factor * k;
+        }
+    }
 }

@@ -47,6 +47,8 @@ pub mod jacobian;
 
 pub mod literal;
 
+pub mod series;
+
 pub mod rank;
 
 pub mod reaction;

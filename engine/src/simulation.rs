@@ -2,13 +2,13 @@
 
 use crate::elimination::Counters;
 use crate::error::EngineError;
-use crate::integrate::{Dop853, Plant, Stop};
+use crate::integrate::{self, Integrator, Plant, Stop};
 use crate::jacobian::Jacobian;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::rank::{self, Rank};
 use crate::reaction::{self, JointMultipliers};
-use crate::scene::Scene;
+use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -40,7 +40,7 @@ pub struct Frame {
 }
 
 /// What a run has cost and how far it can be trusted.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Time, s.
     pub time: f64,
@@ -66,6 +66,10 @@ pub struct Summary {
     pub solves: u64,
     /// Projections onto the constraints.
     pub projections: u64,
+    /// The integrator at work.
+    pub integrator: IntegratorKind,
+    /// Why it is this one.
+    pub reason: String,
     /// Whether the end of the run is reached.
     pub finished: bool,
 }
@@ -74,7 +78,9 @@ pub struct Summary {
 #[derive(Clone, Debug)]
 pub struct Simulation {
     mechanism: Mechanism,
-    integrator: Dop853,
+    integrator: Integrator,
+    kind: IntegratorKind,
+    reason: String,
     start: Vec<f64>,
     rank: Rank,
     notes: Vec<String>,
@@ -95,7 +101,6 @@ impl Simulation {
 
     /// Assembles and starts a checked model.
     pub fn from_model(model: Model) -> Result<Self, EngineError> {
-        let tolerance = model.settings.tolerance;
         let mut notes = model.notes.clone();
         let mut mechanism = Mechanism::new(System::new(model));
         let n = mechanism.system.coordinates;
@@ -108,9 +113,22 @@ impl Simulation {
         mechanism.elimination.counters = Counters::default();
         mechanism.set_state(0.0, &start);
         let start_energy = mechanism.elimination.energy(&mechanism.system);
-        let integrator = Dop853::new(&mut mechanism, 0.0, &start, tolerance);
+        let (kind, reason) = integrate::choose(&mechanism);
+        let integrator = Integrator::start(kind, &mut mechanism, &start);
         let shown = start.clone();
-        Ok(Self { mechanism, integrator, start, rank, notes, time: 0.0, shown, start_energy, jacobian: None })
+        Ok(Self {
+            mechanism,
+            integrator,
+            kind,
+            reason,
+            start,
+            rank,
+            notes,
+            time: 0.0,
+            shown,
+            start_energy,
+            jacobian: None,
+        })
     }
 
     /// The assembled system.
@@ -163,8 +181,7 @@ impl Simulation {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
         self.mechanism.elimination.forget_turns();
-        let tolerance = self.model().settings.tolerance;
-        self.integrator = Dop853::new(&mut self.mechanism, 0.0, &self.start, tolerance);
+        self.integrator = Integrator::start(self.kind, &mut self.mechanism, &self.start);
         self.time = 0.0;
         self.shown.copy_from_slice(&self.start);
     }
@@ -227,8 +244,8 @@ impl Simulation {
         let elimination = &self.mechanism.elimination;
         let energy = elimination.energy(&self.mechanism.system);
         let (position_violation, velocity_violation) = elimination.violation(&self.mechanism.system);
-        let counters = elimination.counters;
-        let steps = self.integrator.steps;
+        let (counters, projections) = self.integrator.work(&self.mechanism);
+        let steps = self.integrator.steps();
         Summary {
             time: self.time,
             energy,
@@ -241,7 +258,9 @@ impl Simulation {
             evaluations: counters.evaluations,
             factorizations: counters.factorizations,
             solves: counters.solves,
-            projections: self.mechanism.projections,
+            projections,
+            integrator: self.kind,
+            reason: self.reason.clone(),
             finished: self.finished(),
         }
     }

@@ -2,7 +2,7 @@
 //! (Dormand and Prince; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, section II.5).
 
 use super::dop853_coefficients::{A, C, D, E3, E5, EXTENDED, STAGES};
-use super::{Plant, Steps, Stop, weighted_norm};
+use super::{Plant, Steps, Stop, combine, weighted_norm};
 
 /// Safety factor of the step control, and the least and greatest change of the step.
 const SAFETY: f64 = 0.9;
@@ -186,17 +186,6 @@ impl Dop853 {
             }
         }
         self.dense_ready = true;
-    }
-}
-
-/// out ← y + h Σ a_j k_j.
-fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[(usize, f64)], k: &[Vec<f64>]) {
-    out.copy_from_slice(y);
-    for &(j, a) in weights {
-        let factor = h * a;
-        for (out, k) in out.iter_mut().zip(&k[j]) {
-            *out += factor * k;
-        }
     }
 }
 

@@ -35,9 +35,16 @@ impl Default for Settings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum IntegratorKind {
-    /// Explicit Runge-Kutta of order 8 by Dormand and Prince, with dense output of order 7.
+    /// The best one for the scene and the tolerance; the summary of a run says which one and why.
     #[default]
+    Auto,
+    /// Taylor series of the constrained motion, of an order that suits the tolerance; the polynomials are the output
+    /// between steps.
+    Taylor,
+    /// Explicit Runge-Kutta of order 8 by Dormand and Prince, with dense output of order 7.
     Dop853,
+    /// Explicit Runge-Kutta of order 5 by Dormand and Prince, with dense output of order 4.
+    Dopri5,
 }
 
 /// What keeps the constraints satisfied during a run.

@@ -1,0 +1,130 @@
+//! The integrator of a run: which one, why, and one face for all of them.
+
+use super::{Dop853, Dopri5, Steps, Stop, Taylor};
+use crate::elimination::Counters;
+use crate::mechanism::Mechanism;
+use crate::scene::{IntegratorKind, Stabilization};
+use crate::series;
+
+/// An integrator at work.
+#[derive(Clone, Debug)]
+pub enum Integrator {
+    /// Explicit Runge-Kutta of order 8.
+    Dop853(Box<Dop853>),
+    /// Explicit Runge-Kutta of order 5.
+    Dopri5(Box<Dopri5>),
+    /// Taylor series.
+    Taylor(Box<Taylor>),
+}
+
+/// The integrator that a scene asks for, or the best one for it, and the reason.
+pub fn choose(mechanism: &Mechanism) -> (IntegratorKind, String) {
+    let settings = &mechanism.system.model.settings;
+    let obstacle = if settings.stabilization == Stabilization::Projection {
+        series::unsupported(&mechanism.system)
+            .map(|what| format!("the series do not know {what} of this scene"))
+    } else {
+        Some("Baumgarte's stabilization belongs to Runge-Kutta methods".to_owned())
+    };
+    match (settings.integrator, obstacle) {
+        (IntegratorKind::Auto, None) => (
+            IntegratorKind::Taylor,
+            "every row and load of the scene has a recurrence, so that one factorization serves a whole step"
+                .to_owned(),
+        ),
+        (IntegratorKind::Auto, Some(obstacle)) if settings.tolerance > 1e-5 => {
+            (IntegratorKind::Dopri5, format!("{obstacle}, and the tolerance is loose"))
+        }
+        (IntegratorKind::Auto, Some(obstacle)) => (IntegratorKind::Dop853, obstacle),
+        (IntegratorKind::Taylor, Some(obstacle)) => {
+            (IntegratorKind::Dop853, format!("taylor was asked for, but {obstacle}"))
+        }
+        (asked, _) => (asked, "the scene asks for it".to_owned()),
+    }
+}
+
+impl Integrator {
+    /// Starts an integrator of the given kind (not `Auto`) at t = 0.
+    pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, y: &[f64]) -> Self {
+        let tolerance = mechanism.system.model.settings.tolerance;
+        match kind {
+            IntegratorKind::Taylor | IntegratorKind::Auto => {
+                let redundant = mechanism.elimination.is_redundant();
+                Self::Taylor(Box::new(Taylor::new(&mechanism.system, redundant, 0.0, y, tolerance)))
+            }
+            IntegratorKind::Dop853 => Self::Dop853(Box::new(Dop853::new(mechanism, 0.0, y, tolerance))),
+            IntegratorKind::Dopri5 => Self::Dopri5(Box::new(Dopri5::new(mechanism, 0.0, y, tolerance))),
+        }
+    }
+
+    /// End of the last step.
+    pub fn time(&self) -> f64 {
+        match self {
+            Self::Dop853(i) => i.time(),
+            Self::Dopri5(i) => i.time(),
+            Self::Taylor(i) => i.time(),
+        }
+    }
+
+    /// State at the end of the last step.
+    pub fn state(&self) -> &[f64] {
+        match self {
+            Self::Dop853(i) => i.state(),
+            Self::Dopri5(i) => i.state(),
+            Self::Taylor(i) => i.state(),
+        }
+    }
+
+    /// Size of the last accepted step, s.
+    pub fn last_step(&self) -> f64 {
+        match self {
+            Self::Dop853(i) => i.last_step(),
+            Self::Dopri5(i) => i.last_step(),
+            Self::Taylor(i) => i.last_step(),
+        }
+    }
+
+    /// Steps so far.
+    pub fn steps(&self) -> Steps {
+        match self {
+            Self::Dop853(i) => i.steps,
+            Self::Dopri5(i) => i.steps,
+            Self::Taylor(i) => i.steps,
+        }
+    }
+
+    /// Work done and projections made, including those that the mechanism counts.
+    pub fn work(&self, mechanism: &Mechanism) -> (Counters, u64) {
+        let counted = mechanism.elimination.counters;
+        match self {
+            Self::Dop853(_) | Self::Dopri5(_) => (counted, mechanism.projections),
+            Self::Taylor(i) => {
+                let own = i.counters();
+                let sum = Counters {
+                    evaluations: counted.evaluations + own.evaluations,
+                    factorizations: counted.factorizations + own.factorizations,
+                    solves: counted.solves + own.solves,
+                };
+                (sum, mechanism.projections + i.projections)
+            }
+        }
+    }
+
+    /// Takes one accepted step, not beyond `end`.
+    pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
+        match self {
+            Self::Dop853(i) => i.step(mechanism, end),
+            Self::Dopri5(i) => i.step(mechanism, end),
+            Self::Taylor(i) => i.step(&mechanism.system, end),
+        }
+    }
+
+    /// Writes y(t) within the last step.
+    pub fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        match self {
+            Self::Dop853(i) => i.interpolate(mechanism, t, y),
+            Self::Dopri5(i) => i.interpolate(t, y),
+            Self::Taylor(i) => i.interpolate(&mechanism.system, t, y),
+        }
+    }
+}

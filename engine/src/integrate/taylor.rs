@@ -1,0 +1,145 @@
+//! Taylor series on the constrained equations — THEORY section 11.
+//!
+//! Each step expands the motion about its start ([`Series`]), takes the longest step that some pair of successive
+//! terms allows, and projects the end onto the constraints. The polynomial is the dense output.
+
+use super::{Steps, Stop};
+use crate::elimination::Counters;
+use crate::series::{Plan, Series};
+use crate::system::System;
+
+/// Highest order.
+pub const MAX_ORDER: usize = 30;
+/// The series, bundled as suits the number of bodies.
+#[derive(Clone, Debug)]
+enum Engine {
+    /// One body.
+    Narrow(Box<Series<1>>),
+    /// Several.
+    Wide(Box<Series<4>>),
+}
+
+/// Runs `$call` with `$series` bound to the series.
+macro_rules! with {
+    ($engine:expr, $series:ident => $call:expr) => {
+        match $engine {
+            Engine::Narrow($series) => $call,
+            Engine::Wide($series) => $call,
+        }
+    };
+}
+
+/// The integrator and its last step.
+#[derive(Clone, Debug)]
+pub struct Taylor {
+    tolerance: f64,
+    order: usize,
+    length: f64,
+    engine: Engine,
+    /// End of the last step and the state there.
+    t: f64,
+    y: Vec<f64>,
+    /// The last step: its start, size and the terms that it used.
+    t_old: f64,
+    h_old: f64,
+    order_old: usize,
+    /// Steps so far.
+    pub steps: Steps,
+    /// Projections so far.
+    pub projections: u64,
+}
+
+impl Taylor {
+    /// Starts at (t, y), which must be consistent, with relative and absolute tolerance `tolerance`.
+    pub fn new(system: &System, redundant: bool, t: f64, y: &[f64], tolerance: f64) -> Self {
+        let order = order_for(tolerance);
+        let mut engine = if system.bodies.len() == 1 {
+            Engine::Narrow(Box::new(Series::new(system, order, redundant)))
+        } else {
+            Engine::Wide(Box::new(Series::new(system, order, redundant)))
+        };
+        with!(&mut engine, s => {
+            s.place(system, y);
+            s.linearize();
+        });
+        Self {
+            tolerance,
+            order,
+            length: system.length,
+            engine,
+            t,
+            y: y.to_vec(),
+            t_old: t,
+            h_old: 0.0,
+            order_old: order,
+            steps: Steps::default(),
+            projections: 0,
+        }
+    }
+
+    /// End of the last step.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// State at the end of the last step.
+    pub fn state(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// Size of the last step, s.
+    pub fn last_step(&self) -> f64 {
+        self.h_old
+    }
+
+    /// Order of the last step.
+    pub fn last_order(&self) -> usize {
+        self.order_old
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        with!(&self.engine, s => s.counters)
+    }
+
+    /// Takes one step, not beyond `end`.
+    pub fn step(&mut self, system: &System, end: f64) -> Result<(), Stop> {
+        let left = end - self.t;
+        let plan = Plan { order: self.order, tolerance: self.tolerance, length: self.length, left };
+        let taken = with!(&mut self.engine, s => {
+            let taken = s.step(plan);
+            s.store(system, &mut self.y);
+            taken
+        });
+        if !taken.finite || taken.h.is_nan() {
+            return Err(Stop::NotFinite { time: self.t });
+        }
+        if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && left > taken.h {
+            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
+        }
+        self.t_old = self.t;
+        self.h_old = taken.h;
+        self.order_old = taken.order;
+        self.t = if taken.h == left { end } else { self.t + taken.h };
+        self.steps.accepted += 1;
+        self.projections += 1;
+        Ok(())
+    }
+
+    /// Writes y(t) within the last step.
+    pub fn interpolate(&self, system: &System, t: f64, y: &mut [f64]) {
+        if t >= self.t || self.h_old == 0.0 {
+            y.copy_from_slice(&self.y);
+            return;
+        }
+        let tau = (t - self.t_old).clamp(0.0, self.h_old);
+        with!(&self.engine, s => s.interpolate(system, tau, self.order_old, y));
+    }
+}
+
+/// Order for a tolerance: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13.
+fn order_for(tolerance: f64) -> usize {
+    let powers = std::iter::successors(Some(tolerance), |t| Some(10.0 * t));
+    let digits = powers.take(MAX_ORDER).take_while(|&t| t < 0.3).count();
+    (5 + digits).clamp(6, MAX_ORDER)
+}

@@ -1,0 +1,487 @@
+//! Power series of the constrained motion — THEORY section 11.
+//!
+//! With Q(t) = Σ Q_k τᵏ and λ(t) = Σ λ_k τᵏ, the unknowns κ Q_(n+2), κ = (n+1)(n+2), and λ_n of every order n solve the
+//! same augmented system at the point of expansion: one factorization serves all orders, and what changes from order
+//! to order are convolutions of directors, row factors and multipliers. The rigid-body rows are eliminated as in
+//! [`crate::elimination`]: body by body the moments Σ e_k × p_k, p_k = P_k − Ī_k ë_k, must vanish, so that no
+//! multiplier of a rigid-body row is ever formed. Order 0 is an evaluation of the accelerations.
+//!
+//! Bodies lie side by side in bundles of L, so that the convolutions run on vector instructions.
+
+mod bundle;
+mod lanes;
+mod rows;
+mod schur;
+mod step;
+
+pub use step::{Plan, Taken};
+
+use crate::elimination::Counters;
+use crate::lift;
+use crate::model::BodyRef;
+use crate::row::{Form, Target};
+use crate::scene::Coordinates;
+use crate::system::System;
+use bundle::{Bundle, Slot, gram, moment, symmetric};
+use lanes::{Lane, Lifted, Triple, largest, zero};
+use rows::{Place, Rows};
+use schur::Schur;
+
+/// Regularization of S where rows are redundant, relative to its diagonal; refinement takes its effect out again.
+const REGULARIZATION: f64 = 1e-11;
+/// A relative pivot below this calls for the regularization.
+const NEAR_SINGULAR: f64 = 1e-9;
+/// Refinement steps where the factor is that of a regularized or lent system.
+const REFINEMENTS: usize = 3;
+
+/// What a scene has that the recurrences do not know, or nothing.
+pub fn unsupported(system: &System) -> Option<&'static str> {
+    let row = |form: &Form| match form {
+        Form::Coincidence { .. }
+        | Form::CommonVector { .. }
+        | Form::Product { target: Target::Constant(_), .. } => None,
+        Form::Product { .. } => Some("a driver"),
+        Form::Relation { .. } => Some("a gear or screw"),
+    };
+    if !system.curves.is_empty() {
+        return Some("a prescribed point or vector");
+    }
+    if !system.loads.is_empty() {
+        return Some("a load");
+    }
+    system.rows.iter().find_map(|r| row(&r.form))
+}
+
+/// The series of all bodies and multipliers, and the state that they are expanded about.
+#[derive(Clone, Debug)]
+pub struct Series<const L: usize> {
+    /// Coefficients kept for each body: order plus one.
+    stride: usize,
+    bundles: Vec<Bundle<L>>,
+    slots: Vec<Slot<L>>,
+    /// Position and velocity at the point of expansion, bundle by bundle.
+    state: Vec<[Lifted<L>; 2]>,
+    /// Coefficients of Q and of the directors' forces p, `stride` for each bundle.
+    q: Vec<Lifted<L>>,
+    p: Vec<[Triple<L>; 3]>,
+    /// C⁻¹ s̃ of all features.
+    mobility: Vec<[Triple<L>; 3]>,
+    /// Values of features (or their rates, or second derivatives) and generalized forces on them. Those of the ground
+    /// stand behind those of bodies.
+    values: Vec<Triple<L>>,
+    forces: Vec<Triple<L>>,
+    ground: Vec<Triple<L>>,
+    rows: Rows<L>,
+    schur: Schur,
+    /// Coefficients of λ, order by order.
+    lambda: Vec<f64>,
+    correction: Vec<f64>,
+    redundant: bool,
+    regularized: bool,
+    lends: bool,
+    /// Smallest relative pivot at the point of expansion.
+    pub smallest_pivot: f64,
+    /// Work done so far.
+    pub counters: Counters,
+}
+
+impl<const L: usize> Series<L> {
+    /// Allocates for a system, which must be supported, and coefficients up to order `order`.
+    pub fn new(system: &System, order: usize, redundant: bool) -> Self {
+        let (bundles, mut slots, mut place) = bundles::<L>(system);
+        let moving = slots.len();
+        let mut ground = Vec::new();
+        for (feature, place) in system.features.iter().zip(&mut place) {
+            if feature.body == BodyRef::Ground {
+                *place = Place { slot: moving + ground.len(), lane: 0 };
+                ground.push([0, 1, 2].map(|c| [feature.local[c]; L]));
+            }
+        }
+        let nowhere = Place { slot: moving + ground.len(), lane: 0 };
+        ground.push([[0.0; L]; 3]);
+        let stride = order + 1;
+        let all = moving + ground.len();
+        slots.shrink_to_fit();
+        let mut rows = Rows::new(system, &place, nowhere, stride);
+        rows.set_constants(|solver| {
+            system.rows.iter().find(|r| r.solver == solver).map_or(0.0, |r| match r.form {
+                Form::Product { target: Target::Constant(c), .. } => c,
+                _ => 0.0,
+            })
+        });
+        Self {
+            stride,
+            state: vec![[at_rest(), zero()]; bundles.len()],
+            q: vec![zero(); bundles.len() * stride],
+            p: vec![[[[0.0; L]; 3]; 3]; bundles.len() * stride],
+            mobility: vec![[[[0.0; L]; 3]; 3]; moving],
+            bundles,
+            slots,
+            values: vec![[[0.0; L]; 3]; all],
+            forces: vec![[[0.0; L]; 3]; all],
+            ground,
+            rows,
+            schur: Schur::new(system, &place, L),
+            lambda: vec![0.0; system.solver_rows * stride],
+            correction: vec![0.0; system.solver_rows],
+            redundant,
+            regularized: false,
+            lends: system.lends_inertia(),
+            smallest_pivot: f64::INFINITY,
+            counters: Counters::default(),
+        }
+    }
+
+    /// Takes over y = (q, q̇) as the point of expansion.
+    pub fn place(&mut self, system: &System, y: &[f64]) {
+        let (q, q_dot) = y.split_at(system.coordinates);
+        for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
+            for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
+                let position = lift::position(body.coordinates, &q[body.first..]);
+                let velocity = lift::velocity(body.coordinates, &position, &q_dot[body.first..]);
+                for (state, lift) in state.iter_mut().zip([position, velocity]) {
+                    for (k, vector) in [lift.r, lift.e[0], lift.e[1], lift.e[2]].into_iter().enumerate() {
+                        for c in 0..3 {
+                            state[k][c][lane] = vector[c];
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Writes the point of expansion as y = (q, q̇).
+    pub fn store(&self, system: &System, y: &mut [f64]) {
+        let (q, q_dot) = y.split_at_mut(system.coordinates);
+        for (bundle, state) in self.bundles.iter().zip(&self.state) {
+            for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
+                let range = body.first..body.first + lift::size(body.coordinates);
+                for (state, out) in state.iter().zip([&mut q[range.clone()], &mut q_dot[range]]) {
+                    for (out, x) in out.iter_mut().zip(state.as_flattened()) {
+                        *out = x[lane];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Builds and factors S at the point of expansion.
+    #[inline(always)]
+    fn linearize_here(&mut self) {
+        self.values_of(|state, _| state[0]);
+        self.set_ground(true);
+        self.rows.turn_common_vectors(&self.values);
+        self.rows.store_factors(0, &self.values);
+        for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+            bundle.linearize(&state[0]);
+            for slot in bundle.slots.clone() {
+                self.mobility[slot] = bundle.half_mobility(&self.slots[slot], &state[0]);
+            }
+        }
+        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
+        let mut pivots = self.schur.build(&self.rows, &self.mobility, epsilon);
+        self.regularized = self.redundant;
+        self.counters.factorizations += 1;
+        if !self.redundant && pivots.smallest < NEAR_SINGULAR {
+            pivots = self.schur.build(&self.rows, &self.mobility, REGULARIZATION);
+            self.regularized = true;
+            self.counters.factorizations += 1;
+        }
+        self.smallest_pivot = pivots.smallest;
+    }
+
+    #[inline(always)]
+    fn values_of(&mut self, lifted: impl Fn(&[Lifted<L>; 2], &Bundle<L>) -> Lifted<L>) {
+        for (bundle, state) in self.bundles.iter().zip(&self.state) {
+            let x = lifted(state, bundle);
+            for slot in bundle.slots.clone() {
+                self.values[slot] = self.slots[slot].of(&x);
+            }
+        }
+    }
+
+    /// Values of the ground's features: themselves, or zero as all their derivatives.
+    #[inline(always)]
+    fn set_ground(&mut self, themselves: bool) {
+        let first = self.values.len() - self.ground.len();
+        for (value, ground) in self.values[first..].iter_mut().zip(&self.ground) {
+            *value = if themselves { *ground } else { [[0.0; L]; 3] };
+        }
+    }
+
+    /// Expands the motion about the state up to Q_order and λ_(order−2), with the factor at hand.
+    #[inline(always)]
+    pub fn expand(&mut self, order: usize) {
+        for (b, state) in self.state.iter().enumerate() {
+            self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
+        }
+        if self.rows.curved() {
+            self.values_of(|state, _| state[1]);
+            self.set_ground(false);
+            self.rows.store_factors(1, &self.values);
+        }
+        self.rows.clear_extra();
+        for n in 0..=order.min(self.stride - 1).saturating_sub(2) {
+            self.solve_order(n);
+        }
+        self.counters.evaluations += 1;
+    }
+
+    /// Q_(n+2) and λ_n from all coefficients before them.
+    #[inline(always)]
+    fn solve_order(&mut self, n: usize) {
+        let kappa = ((n + 1) * (n + 2)) as f64;
+        let curved = self.rows.curved();
+        if curved {
+            self.rows.set_convolutions(n, kappa);
+            self.forces.fill([[0.0; L]; 3]);
+            self.rows.add_known_forces(n, &mut self.forces);
+        }
+        for (b, bundle) in self.bundles.iter_mut().enumerate() {
+            let range = b * self.stride..(b + 1) * self.stride;
+            let (q, p) = (&self.q[range.clone()], &self.p[range]);
+            bundle.force = zero();
+            if n == 0 {
+                bundle.force[0] = bundle.weight;
+            }
+            if curved {
+                for slot in bundle.slots.clone() {
+                    self.slots[slot].pull_back(&self.forces[slot], &mut bundle.force);
+                }
+            }
+            let mut gamma = gram(q, n + 2);
+            for x in gamma.as_flattened_mut() {
+                *x *= kappa;
+            }
+            bundle.begin(&q[0], &gamma, moment(q, p, n));
+        }
+        self.solve(n);
+        for (b, bundle) in self.bundles.iter().enumerate() {
+            let at = b * self.stride + n;
+            let next = self.q[at + 2].as_flattened_mut().as_flattened_mut();
+            for (q, a) in next.iter_mut().zip(bundle.solution.as_flattened().as_flattened()) {
+                *q = a / kappa;
+            }
+            self.p[at] = bundle.director_forces();
+        }
+        if curved {
+            let rows = self.correction.len();
+            self.rows.store_multipliers(n, &self.lambda[n * rows..(n + 1) * rows]);
+            for (b, bundle) in self.bundles.iter().enumerate() {
+                for slot in bundle.slots.clone() {
+                    self.values[slot] = self.slots[slot].of(&self.q[b * self.stride + n + 2]);
+                }
+            }
+            self.rows.store_factors(n + 2, &self.values);
+        }
+    }
+
+    /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
+    #[inline(always)]
+    fn solve(&mut self, n: usize) {
+        let rows = self.correction.len();
+        let passes = if self.regularized || self.lends { 1 + REFINEMENTS } else { 1 };
+        self.set_ground(false);
+        for pass in 0..passes {
+            if pass > 0 && self.lends {
+                for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+                    bundle.return_lent(&state[0]);
+                }
+            }
+            self.values_of(|_, bundle| bundle.solution);
+            self.rows.residual(&self.values, &mut self.correction);
+            self.schur.factor.solve(&mut self.correction);
+            self.counters.solves += 1;
+            let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
+            for (lambda, correction) in lambda.iter_mut().zip(&self.correction) {
+                *lambda = if pass == 0 { *correction } else { *lambda + correction };
+            }
+            self.forces.fill([[0.0; L]; 3]);
+            self.rows.add_forces(&self.correction, &mut self.forces);
+            for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+                let mut force = zero();
+                for slot in bundle.slots.clone() {
+                    self.slots[slot].pull_back(&self.forces[slot], &mut force);
+                }
+                bundle.apply(&state[0], &force);
+            }
+        }
+    }
+
+    /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the factor at hand. Returns its size.
+    #[inline(always)]
+    pub fn correct_positions(&mut self) -> f64 {
+        self.values_of(|state, _| state[0]);
+        self.set_ground(true);
+        self.rows.store_factors(0, &self.values);
+        self.rows.set_violation(&self.values);
+        self.correct(0, |state| {
+            let mut gamma = symmetric(&state[0], &state[0]);
+            for (k, entry) in gamma.iter_mut().enumerate() {
+                for x in entry {
+                    *x = if k < 3 { 1.0 - 0.5 * *x } else { -0.5 * *x };
+                }
+            }
+            gamma
+        })
+    }
+
+    /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the factor at hand.
+    #[inline(always)]
+    pub fn correct_velocities(&mut self) -> f64 {
+        self.values_of(|state, _| state[0]);
+        self.set_ground(true);
+        self.rows.store_factors(0, &self.values);
+        self.values_of(|state, _| state[1]);
+        self.set_ground(false);
+        self.rows.set_rate_violation(&self.values);
+        self.correct(1, |state| symmetric(&state[0], &state[1]).map(|entry| entry.map(|x| -x)))
+    }
+
+    #[inline(always)]
+    fn correct(&mut self, which: usize, gamma: impl Fn(&[Lifted<L>; 2]) -> [Lane<L>; 6]) -> f64 {
+        for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+            bundle.force = zero();
+            bundle.begin(&state[0], &gamma(state), [[0.0; L]; 3]);
+        }
+        // The multipliers of a correction mean nothing; the highest order has room for them.
+        self.solve(self.stride - 1);
+        let mut moved: f64 = 0.0;
+        for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
+            let step = bundle.solution.as_flattened();
+            moved = moved.max(largest(step));
+            let target = state[which].as_flattened_mut().as_flattened_mut();
+            for (x, dx) in target.iter_mut().zip(step.as_flattened()) {
+                *x += dx;
+            }
+        }
+        moved
+    }
+
+    /// Writes the accelerations q̈ of order 0.
+    pub fn store_accelerations(&self, system: &System, out: &mut [f64]) {
+        for bundle in &self.bundles {
+            for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
+                let range = body.first..body.first + lift::size(body.coordinates);
+                for (out, x) in out[range].iter_mut().zip(bundle.solution.as_flattened()) {
+                    *out = x[lane];
+                }
+            }
+        }
+    }
+
+    /// Largest |Q_k| over all bodies.
+    #[inline(always)]
+    pub fn size_of(&self, k: usize) -> f64 {
+        (0..self.bundles.len())
+            .map(|b| largest(self.q[b * self.stride + k].as_flattened()))
+            .fold(0.0, f64::max)
+    }
+
+    /// Moves the point of expansion to the series' value after h, with terms up to order `order`.
+    #[inline(always)]
+    pub fn advance(&mut self, h: f64, order: usize) {
+        for (b, state) in self.state.iter_mut().enumerate() {
+            *state = horner(&self.q[b * self.stride..=b * self.stride + order], h);
+        }
+    }
+
+    /// Whether the state is made of finite numbers.
+    #[inline(always)]
+    pub fn is_finite(&self) -> bool {
+        let numbers = self.state.as_flattened().as_flattened().as_flattened().as_flattened();
+        // Zero times infinity or NaN is NaN.
+        numbers.iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
+    }
+
+    /// Writes (q, q̇) a time τ after the point that the series were last expanded about.
+    pub fn interpolate(&self, system: &System, tau: f64, order: usize, y: &mut [f64]) {
+        let (q, q_dot) = y.split_at_mut(system.coordinates);
+        for (b, bundle) in self.bundles.iter().enumerate() {
+            let state = horner(&self.q[b * self.stride..=b * self.stride + order], tau);
+            for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
+                let range = body.first..body.first + lift::size(body.coordinates);
+                for (state, out) in state.iter().zip([&mut q[range.clone()], &mut q_dot[range]]) {
+                    for (out, x) in out.iter_mut().zip(state.as_flattened()) {
+                        *out = x[lane];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Multipliers of the solver rows as coefficients of order n.
+    pub fn multipliers(&self, n: usize) -> &[f64] {
+        let rows = self.correction.len();
+        &self.lambda[n * rows..(n + 1) * rows]
+    }
+}
+
+/// Orthonormal directors for lanes without a body.
+fn at_rest<const L: usize>() -> Lifted<L> {
+    let mut q = zero();
+    for k in 0..3 {
+        q[1 + k][k] = [1.0; L];
+    }
+    q
+}
+
+/// Value and derivative of a polynomial at τ.
+#[inline(always)]
+fn horner<const L: usize>(coefficients: &[Lifted<L>], tau: f64) -> [Lifted<L>; 2] {
+    let mut state = [zero(); 2];
+    let [value, rate] = &mut state;
+    let (value, rate) = (value.as_flattened_mut(), rate.as_flattened_mut());
+    for coefficient in coefficients.iter().rev() {
+        for ((value, rate), c) in value.iter_mut().zip(rate.iter_mut()).zip(coefficient.as_flattened()) {
+            for l in 0..L {
+                rate[l] = rate[l] * tau + value[l];
+                value[l] = value[l] * tau + c[l];
+            }
+        }
+    }
+    state
+}
+
+/// Bodies in bundles, their features in slots, and where each feature stands.
+fn bundles<const L: usize>(system: &System) -> (Vec<Bundle<L>>, Vec<Slot<L>>, Vec<Place>) {
+    let mut place = vec![Place { slot: 0, lane: 0 }; system.features.len()];
+    let mut of_body: Vec<Vec<usize>> = vec![Vec::new(); system.bodies.len()];
+    for (index, feature) in system.features.iter().enumerate() {
+        if let BodyRef::Moving(body) = feature.body {
+            of_body[body].push(index);
+        }
+    }
+    let mut bundles = Vec::new();
+    let mut slots: Vec<Slot<L>> = Vec::new();
+    for (first, features) in of_body.chunks(L).enumerate().map(|(b, features)| (b * L, features)) {
+        let count = features.iter().map(Vec::len).max().unwrap_or(0);
+        let begin = slots.len();
+        slots.resize(begin + count, Slot { local: [[0.0; L]; 3], point: [0.0; L] });
+        let mut bundle = Bundle::new(first..first + features.len(), begin..begin + count);
+        for (lane, features) in features.iter().enumerate() {
+            let body = &system.bodies[first + lane];
+            bundle.inverse_mass[lane] = 1.0 / body.mass;
+            bundle.lent[lane] = body.lent;
+            for c in 0..3 {
+                bundle.ibar[c][lane] = body.ibar[c];
+                bundle.weight[c][lane] = body.mass * system.model.gravity[c];
+            }
+            for (k, &feature) in features.iter().enumerate() {
+                place[feature] = Place { slot: begin + k, lane };
+                let slot = &mut slots[begin + k];
+                slot.point[lane] = if system.features[feature].point { 1.0 } else { 0.0 };
+                for c in 0..3 {
+                    slot.local[c][lane] = system.features[feature].local[c];
+                }
+            }
+        }
+        bundles.push(bundle);
+    }
+    (bundles, slots, place)
+}
+
+/// Whether every body is described by all twelve coordinates.
+pub fn all_full(system: &System) -> bool {
+    system.bodies.iter().all(|b| b.coordinates == Coordinates::Full)
+}

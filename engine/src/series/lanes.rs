@@ -1,0 +1,87 @@
+//! Arithmetic on vectors of L bodies at once: component by component, one lane for each body.
+//!
+//! Plain loops of constant length, which the compiler turns into vector instructions.
+
+/// One number for each lane.
+pub type Lane<const L: usize> = [f64; L];
+/// A vector of three components for each lane.
+pub type Triple<const L: usize> = [Lane<L>; 3];
+/// Lifted coordinates (r, u, v, w), or anything that lives on them.
+pub type Lifted<const L: usize> = [Triple<L>; 4];
+
+/// Zero of a lifted vector.
+pub const fn zero<const L: usize>() -> Lifted<L> {
+    [[[0.0; L]; 3]; 4]
+}
+
+/// sum += a · b.
+#[inline(always)]
+pub fn add_dot<const L: usize>(sum: &mut Lane<L>, a: &Triple<L>, b: &Triple<L>) {
+    for c in 0..3 {
+        for l in 0..L {
+            sum[l] += a[c][l] * b[c][l];
+        }
+    }
+}
+
+/// a · b.
+#[inline(always)]
+pub fn dot<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Lane<L> {
+    let mut sum = [0.0; L];
+    add_dot(&mut sum, a, b);
+    sum
+}
+
+/// sum += a × b.
+#[inline(always)]
+pub fn add_cross<const L: usize>(sum: &mut Triple<L>, a: &Triple<L>, b: &Triple<L>) {
+    for (c, (i, j)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
+        for l in 0..L {
+            sum[c][l] += a[i][l] * b[j][l] - a[j][l] * b[i][l];
+        }
+    }
+}
+
+/// a × b.
+#[inline(always)]
+pub fn cross<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Triple<L> {
+    let mut sum = [[0.0; L]; 3];
+    add_cross(&mut sum, a, b);
+    sum
+}
+
+/// sum += factor · a, lane by lane.
+#[inline(always)]
+pub fn add_scaled<const L: usize>(sum: &mut Triple<L>, factor: &Lane<L>, a: &Triple<L>) {
+    for c in 0..3 {
+        for l in 0..L {
+            sum[c][l] += factor[l] * a[c][l];
+        }
+    }
+}
+
+/// factor · a, lane by lane.
+#[inline(always)]
+pub fn scaled<const L: usize>(factor: &Lane<L>, a: &Triple<L>) -> Triple<L> {
+    let mut product = [[0.0; L]; 3];
+    add_scaled(&mut product, factor, a);
+    product
+}
+
+/// M a for a matrix given by its rows.
+#[inline(always)]
+pub fn multiply<const L: usize>(rows: &[Triple<L>; 3], a: &Triple<L>) -> Triple<L> {
+    [dot(&rows[0], a), dot(&rows[1], a), dot(&rows[2], a)]
+}
+
+/// Largest |x| over all components of the first `lanes` lanes.
+#[inline(always)]
+pub fn largest<const L: usize>(x: &[Lane<L>]) -> f64 {
+    let mut largest = [0.0f64; L];
+    for component in x {
+        for l in 0..L {
+            largest[l] = largest[l].max(component[l].abs());
+        }
+    }
+    largest.into_iter().fold(0.0, f64::max)
+}
