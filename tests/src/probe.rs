@@ -5,7 +5,6 @@ use triad_engine::Scene;
 use triad_engine::equations;
 use triad_engine::integrate::Plant;
 use triad_engine::jacobian::Jacobian;
-use triad_engine::lift;
 use triad_engine::mechanism::Mechanism;
 use triad_engine::model::Model;
 use triad_engine::rank;
@@ -126,16 +125,16 @@ impl Probe {
         let mut mass = DMatrix::zeros(n, n);
         let mut force = DVector::zeros(n);
         for body in &system.bodies {
-            let size = lift::size(body.coordinates);
+            let size = body.layout.size();
             let at = |k: usize| nalgebra::Vector3::from_column_slice(&y[k..k + 3]);
             let mut v = DMatrix::zeros(12, size);
             v.view_mut((0, 0), (size, size)).fill_with_identity();
             let mut v_dot_q_dot = DVector::zeros(12);
             if body.coordinates == Coordinates::Reduced {
-                let (u, w) = (at(body.first + 3), at(body.first + 6));
+                let (u, w) = (at(body.layout.first + 3), at(body.layout.first + 6));
                 v.view_mut((9, 3), (3, 3)).copy_from(&-w.cross_matrix());
                 v.view_mut((9, 6), (3, 3)).copy_from(&u.cross_matrix());
-                let (u_dot, v_dot) = (at(n + body.first + 3), at(n + body.first + 6));
+                let (u_dot, v_dot) = (at(n + body.layout.first + 3), at(n + body.layout.first + 6));
                 v_dot_q_dot.rows_mut(9, 3).copy_from(&(2.0 * u_dot.cross(&v_dot)));
             }
             let i = body.principal;
@@ -148,7 +147,7 @@ impl Probe {
             let full = DMatrix::from_fn(12, 12, |a, b| if a == b { diagonal[a / 3] } else { 0.0 });
             let mut applied = DVector::zeros(12);
             applied.rows_mut(0, 3).copy_from(&(system.model.gravity * body.mass));
-            let first = body.first;
+            let first = body.layout.first;
             mass.view_mut((first, first), (size, size)).copy_from(&(v.transpose() * &full * &v));
             force.rows_mut(first, size).copy_from(&(v.transpose() * (applied - full * v_dot_q_dot)));
         }
