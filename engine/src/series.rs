@@ -17,13 +17,13 @@ mod step;
 pub use step::{Plan, Taken};
 
 use crate::elimination::Counters;
-use crate::lift;
+use crate::lift::Lift;
 use crate::model::BodyRef;
 use crate::row::{Form, Target};
-use crate::scene::Coordinates;
 use crate::system::System;
 use bundle::{Bundle, Slot, gram, moment, symmetric};
 use lanes::{Lane, Lifted, Triple, largest, zero};
+use nalgebra::Vector3;
 use rows::{Place, Rows};
 use schur::Schur;
 
@@ -137,8 +137,8 @@ impl<const L: usize> Series<L> {
         let (q, q_dot) = y.split_at(system.coordinates);
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
-                let position = lift::position(body.coordinates, &q[body.first..]);
-                let velocity = lift::velocity(body.coordinates, &position, &q_dot[body.first..]);
+                let position = body.layout.position(q);
+                let velocity = body.layout.velocity(&position, q_dot);
                 for (state, lift) in state.iter_mut().zip([position, velocity]) {
                     for (k, vector) in [lift.r, lift.e[0], lift.e[1], lift.e[2]].into_iter().enumerate() {
                         for c in 0..3 {
@@ -155,12 +155,8 @@ impl<const L: usize> Series<L> {
         let (q, q_dot) = y.split_at_mut(system.coordinates);
         for (bundle, state) in self.bundles.iter().zip(&self.state) {
             for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
-                let range = body.first..body.first + lift::size(body.coordinates);
-                for (state, out) in state.iter().zip([&mut q[range.clone()], &mut q_dot[range]]) {
-                    for (out, x) in out.iter_mut().zip(state.as_flattened()) {
-                        *out = x[lane];
-                    }
-                }
+                body.layout.store(&of_lane(&state[0], lane), q);
+                body.layout.store(&of_lane(&state[1], lane), q_dot);
             }
         }
     }
@@ -362,10 +358,7 @@ impl<const L: usize> Series<L> {
     pub fn store_accelerations(&self, system: &System, out: &mut [f64]) {
         for bundle in &self.bundles {
             for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
-                let range = body.first..body.first + lift::size(body.coordinates);
-                for (out, x) in out[range].iter_mut().zip(bundle.solution.as_flattened()) {
-                    *out = x[lane];
-                }
+                body.layout.store(&of_lane(&bundle.solution, lane), out);
             }
         }
     }
@@ -400,12 +393,8 @@ impl<const L: usize> Series<L> {
         for (b, bundle) in self.bundles.iter().enumerate() {
             let state = horner(&self.q[b * self.stride..=b * self.stride + order], tau);
             for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {
-                let range = body.first..body.first + lift::size(body.coordinates);
-                for (state, out) in state.iter().zip([&mut q[range.clone()], &mut q_dot[range]]) {
-                    for (out, x) in out.iter_mut().zip(state.as_flattened()) {
-                        *out = x[lane];
-                    }
-                }
+                body.layout.store(&of_lane(&state[0], lane), q);
+                body.layout.store(&of_lane(&state[1], lane), q_dot);
             }
         }
     }
@@ -415,6 +404,12 @@ impl<const L: usize> Series<L> {
         let rows = self.correction.len();
         &self.lambda[n * rows..(n + 1) * rows]
     }
+}
+
+/// The lifted vector of one body.
+fn of_lane<const L: usize>(x: &Lifted<L>, lane: usize) -> Lift {
+    let [r, u, v, w] = x.map(|v| Vector3::new(v[0][lane], v[1][lane], v[2][lane]));
+    Lift { r, e: [u, v, w] }
 }
 
 /// Orthonormal directors for lanes without a body.
@@ -479,9 +474,4 @@ fn bundles<const L: usize>(system: &System) -> (Vec<Bundle<L>>, Vec<Slot<L>>, Ve
         bundles.push(bundle);
     }
     (bundles, slots, place)
-}
-
-/// Whether every body is described by all twelve coordinates.
-pub fn all_full(system: &System) -> bool {
-    system.bodies.iter().all(|b| b.coordinates == Coordinates::Full)
 }

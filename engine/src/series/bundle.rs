@@ -1,12 +1,7 @@
 //! L bodies side by side: the part of the equations of motion that concerns each body alone — THEORY sections 7, 11.
 
-use super::lanes::{
-    Lane, Lifted, Triple, add_cross, add_dot, add_scaled, cross, dot, multiply, scaled, zero,
-};
+use super::lanes::{Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, multiply, scaled, zero};
 use std::ops::Range;
-
-/// Pairs (k, l) of the six rigid-body rows.
-const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// A feature of each of L bodies (or of none: all zero).
 #[derive(Clone, Copy, Debug)]
@@ -256,39 +251,46 @@ impl<const L: usize> Bundle<L> {
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]
 pub fn gram<const L: usize>(q: &[Lifted<L>], n: usize) -> [Lane<L>; 6] {
-    let mut sum = [[0.0; L]; 6];
-    for i in 1..n.div_ceil(2) {
-        let (a, b) = (&q[i], &q[n - i]);
-        for (sum, (k, l)) in sum.iter_mut().zip(PAIRS) {
-            add_dot(sum, &a[1 + k], &b[1 + l]);
-            if k != l {
-                add_dot(sum, &a[1 + l], &b[1 + k]);
+    let mut sums = [[0.0; L]; 6];
+    let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
+    for (a, b) in heads.zip(tails).take((n - 1) / 2) {
+        add_symmetric(&mut sums, a, b);
+    }
+    if n.is_multiple_of(2) {
+        let middle = &q[n / 2];
+        let mut square = [[0.0; L]; 6];
+        add_symmetric(&mut square, middle, middle);
+        for k in 0..6 {
+            for l in 0..L {
+                sums[k][l] += 0.5 * square[k][l];
             }
         }
     }
-    for (at, (sum, (k, l))) in sum.iter_mut().zip(PAIRS).enumerate() {
-        if at < 3 {
-            for x in sum.iter_mut() {
-                *x *= 2.0;
-            }
-        }
-        if n.is_multiple_of(2) {
-            let a = &q[n / 2];
-            add_dot(sum, &a[1 + k], &a[1 + l]);
-        }
-        for x in sum.iter_mut() {
-            *x = -*x;
+    sums.map(|sum| sum.map(|x| -x))
+}
+
+/// Adds e_k · f_l + e_l · f_k for the six rigid-body rows uu, vv, ww, uv, uw, vw.
+#[inline(always)]
+fn add_symmetric<const L: usize>(sums: &mut [Lane<L>; 6], e: &Lifted<L>, f: &Lifted<L>) {
+    for c in 0..3 {
+        for l in 0..L {
+            let [u, v, w] = [e[1][c][l], e[2][c][l], e[3][c][l]];
+            let [x, y, z] = [f[1][c][l], f[2][c][l], f[3][c][l]];
+            sums[0][l] += 2.0 * (u * x);
+            sums[1][l] += 2.0 * (v * y);
+            sums[2][l] += 2.0 * (w * z);
+            sums[3][l] += u * y + v * x;
+            sums[4][l] += u * z + w * x;
+            sums[5][l] += v * z + w * y;
         }
     }
-    sum
 }
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
 #[inline(always)]
 pub fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
     let mut sum = [[0.0; L]; 3];
-    for i in 1..=n {
-        let (e, p) = (&q[i], &p[n - i]);
+    for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
         for k in 0..3 {
             add_cross(&mut sum, &e[1 + k], &p[k]);
         }
@@ -296,13 +298,10 @@ pub fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -
     sum
 }
 
-/// Entries e_k · f_l + e_l · f_k (half of it on the diagonal, times 2) for the six rigid-body rows.
+/// Entries e_k · f_l + e_l · f_k for the six rigid-body rows.
 #[inline(always)]
 pub fn symmetric<const L: usize>(e: &Lifted<L>, f: &Lifted<L>) -> [Lane<L>; 6] {
-    let mut sum = [[0.0; L]; 6];
-    for (sum, (k, l)) in sum.iter_mut().zip(PAIRS) {
-        add_dot(sum, &e[1 + k], &f[1 + l]);
-        add_dot(sum, &e[1 + l], &f[1 + k]);
-    }
-    sum
+    let mut sums = [[0.0; L]; 6];
+    add_symmetric(&mut sums, e, f);
+    sums
 }
