@@ -2,6 +2,7 @@
 
 mod answers;
 mod measured;
+mod variants;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -71,6 +72,7 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Problem> {
     answers::starter_fails(&mut found);
     answers::reference_passes(&mut found);
     answers::wrong_answers_fail(&mut found);
+    variants::all_fit(&mut found);
     found.problems
 }
 

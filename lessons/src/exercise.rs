@@ -9,6 +9,7 @@ use crate::files::{ExerciseFile, MeasuredFile, ProvenanceKind, QuestionFile, Que
 use crate::submission::Entry;
 use crate::tolerance::{Rule, Shape};
 use crate::units::Unit;
+use crate::variant::Parameters;
 
 /// The questions of a lesson, with their answers. Never leaves the server.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,6 +153,7 @@ pub struct QuestionError {
 pub(crate) fn build(
     file: ExerciseFile,
     mut references: BTreeMap<String, ReferenceFile>,
+    parameters: &Parameters,
 ) -> Result<Exercise, QuestionError> {
     let mut questions: Vec<Question> = Vec::new();
     for question in file.questions {
@@ -179,9 +181,9 @@ pub(crate) fn build(
             return Err(fail("it has no reference".to_owned(), &remedy));
         };
         let body = match question.kind {
-            QuestionKind::Number => quantity(&question, &reference, Shape::Number),
-            QuestionKind::Vector => quantity(&question, &reference, Shape::Vector),
-            QuestionKind::Matrix => quantity(&question, &reference, Shape::Matrix),
+            QuestionKind::Number => quantity(&question, &reference, Shape::Number, parameters),
+            QuestionKind::Vector => quantity(&question, &reference, Shape::Vector, parameters),
+            QuestionKind::Matrix => quantity(&question, &reference, Shape::Matrix, parameters),
             QuestionKind::Choice => choice(&question, &reference),
             QuestionKind::Formula => formula(&question, &reference),
         }
@@ -189,10 +191,10 @@ pub(crate) fn build(
         questions.push(Question {
             id,
             kind: question.kind,
-            prompt: question.prompt,
+            prompt: parameters.fill(&question.prompt),
             points: question.points,
-            hints: question.hints,
-            right: question.right,
+            hints: question.hints.iter().map(|h| parameters.fill(h)).collect(),
+            right: parameters.fill(&question.right),
             body,
             provenance: reference.provenance,
             source: reference.source,
@@ -219,7 +221,12 @@ fn refuse(present: bool, key: &str, kind: &str) -> Result<(), Trouble> {
     if present { Err(trouble(format!("{key} does not belong to a {kind}"), "remove it")) } else { Ok(()) }
 }
 
-fn quantity(question: &QuestionFile, reference: &ReferenceFile, shape: Shape) -> Result<Body, Trouble> {
+fn quantity(
+    question: &QuestionFile,
+    reference: &ReferenceFile,
+    shape: Shape,
+    parameters: &Parameters,
+) -> Result<Body, Trouble> {
     refuse(!question.options.is_empty(), "an option", "number, vector or matrix")?;
     refuse(!question.symbols.is_empty(), "symbols", "number, vector or matrix")?;
     let unit_text =
@@ -242,19 +249,19 @@ fn quantity(question: &QuestionFile, reference: &ReferenceFile, shape: Shape) ->
     if shape != Shape::Number && question.frame.is_none() {
         return Err(trouble("it has no frame", "add frame = \"the ground frame (x, y, z)\""));
     }
-    let (values, size) = numbers(&reference.value, shape)?;
+    let (values, size) = numbers(&reference.value, shape, parameters)?;
     let misconceptions = question
         .misconceptions
         .iter()
         .map(|m| {
-            let (value, own) = numbers(&m.value, shape)?;
+            let (value, own) = numbers(&m.value, shape, parameters)?;
             if own != size {
                 return Err(trouble(
                     format!("misconception {} has another size", m.id),
                     "give it the reference's",
                 ));
             }
-            Ok(Misconception { id: m.id.clone(), value, feedback: m.feedback.clone() })
+            Ok(Misconception { id: m.id.clone(), value, feedback: parameters.fill(&m.feedback) })
         })
         .collect::<Result<_, _>>()?;
     Ok(Body::Quantity(Quantity {
@@ -270,14 +277,14 @@ fn quantity(question: &QuestionFile, reference: &ReferenceFile, shape: Shape) ->
     }))
 }
 
-/// Numbers of an author: written out or as an expression without symbols.
-fn numbers(entry: &Entry, shape: Shape) -> Result<(Vec<f64>, [usize; 2]), Trouble> {
+/// Numbers of an author: written out or as an expression in the parameters.
+fn numbers(entry: &Entry, shape: Shape, parameters: &Parameters) -> Result<(Vec<f64>, [usize; 2]), Trouble> {
     let one = |entry: &Entry| -> Result<f64, Trouble> {
         let value = match entry {
             Entry::Number(x) => *x,
-            Entry::Text(text) => Expression::parse(text, &[])
-                .map_err(|e| trouble(format!("the value \u{201c}{text}\u{201d}: {e}"), "correct it"))?
-                .eval(&[]),
+            Entry::Text(text) => parameters
+                .eval(text)
+                .map_err(|e| trouble(format!("the value \u{201c}{text}\u{201d}: {e}"), "correct it"))?,
             Entry::List(_) => return Err(trouble("a value is nested too deeply", "write one list per row")),
         };
         if value.is_finite() {

@@ -67,9 +67,39 @@ pub enum StepKind {
 pub struct ExerciseFile {
     /// Share of the points that passes the lesson, above 0 and up to 1.
     pub pass_mark: f64,
+    /// Numbers that are drawn for each student. Texts show one as `{{name}}`, values use it as a symbol.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, ParameterFile>,
+    /// Where the drawn numbers enter the scenario.
+    #[serde(default)]
+    pub scene: Vec<PatchFile>,
     /// The questions, in order.
     #[serde(rename = "question")]
     pub questions: Vec<QuestionFile>,
+}
+
+/// A number that is drawn for each student from `from`, `from + step`, … up to `to`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterFile {
+    /// Smallest value.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+    /// Distance between values.
+    pub step: f64,
+    /// The value where no student is known, and in the text of the lesson.
+    pub default: f64,
+}
+
+/// A place of the scenario that takes a drawn number.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PatchFile {
+    /// JSON pointer of a number in scene.json, such as `/bodies/0/mass`.
+    pub pointer: String,
+    /// Expression in the parameters.
+    pub value: String,
 }
 
 /// Kind of a question.

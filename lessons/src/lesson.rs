@@ -12,6 +12,7 @@ use crate::exercise::{self, Body, Exercise, Question, QuestionError};
 use crate::files::{ExerciseFile, LessonFile, QuestionKind, ReferenceFile, StepFile, StepKind, WrongFile};
 use crate::markdown::{self, Rendered};
 use crate::tolerance::Shape;
+use crate::variant::Parameters;
 
 /// The files of one folder: path below it, content.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -81,8 +82,18 @@ pub struct Lesson {
     pub wrong: BTreeMap<String, WrongFile>,
     /// Fingerprint of every file of the lesson.
     pub hash: String,
+    /// The numbers drawn for a student, by name; the defaults where no student is known.
+    pub parameters: Parameters,
+    pub(crate) source: Source,
     pub(crate) files: Files,
     pub(crate) figures: BTreeMap<String, String>,
+}
+
+/// What the questions are built from, kept to build them again with other numbers.
+#[derive(Debug, Clone)]
+pub(crate) struct Source {
+    pub(crate) exercise: ExerciseFile,
+    pub(crate) references: BTreeMap<String, ReferenceFile>,
 }
 
 impl Lesson {
@@ -108,10 +119,14 @@ impl Lesson {
             line: e.line(),
             problem: e.to_string(),
         })?;
-        let questions: ExerciseFile = reader.toml("exercise.toml", "it holds the questions")?;
-        let references: BTreeMap<String, ReferenceFile> =
-            reader.toml("reference/answers.toml", "it holds the right answers and their sources")?;
-        let exercise = exercise::build(questions, references).map_err(|error| {
+        let source = Source {
+            exercise: reader.toml("exercise.toml", "it holds the questions")?,
+            references: reader
+                .toml("reference/answers.toml", "it holds the right answers and their sources")?,
+        };
+        let parameters = Parameters::defaults(&source.exercise.parameters);
+        let (questions, references) = (source.exercise.clone(), source.references.clone());
+        let exercise = exercise::build(questions, references, &parameters).map_err(|error| {
             let content = reader.text("exercise.toml", "").unwrap_or_default();
             let line = line_of(content, &error.question);
             LessonError::Question { file: path("exercise.toml"), line, error }
@@ -122,7 +137,21 @@ impl Lesson {
         }
         let (slug, hash) = (slug.to_owned(), fingerprint(&files));
         let folder = folder.to_owned();
-        Ok(Self { slug, number, folder, about, text, scene, exercise, wrong, hash, files, figures })
+        Ok(Self {
+            slug,
+            number,
+            folder,
+            about,
+            text,
+            scene,
+            exercise,
+            wrong,
+            hash,
+            parameters,
+            source,
+            files,
+            figures,
+        })
     }
 
     /// A question by its id.
@@ -154,7 +183,7 @@ impl Lesson {
             prerequisites: self.about.prerequisites.clone(),
             html: self.text.html.clone(),
             scene: self.scene.clone(),
-            steps: self.about.steps.iter().map(StepView::new).collect(),
+            steps: self.about.steps.iter().map(|step| StepView::new(step, &self.parameters)).collect(),
             exercise: ExerciseView {
                 pass_mark: self.exercise.pass_mark,
                 questions: self.exercise.questions.iter().map(QuestionView::new).collect(),
@@ -257,8 +286,8 @@ pub struct OptionView {
 }
 
 impl StepView {
-    fn new(step: &StepFile) -> Self {
-        Self { kind: step.kind, html: markdown::render_short(&step.text) }
+    fn new(step: &StepFile, parameters: &Parameters) -> Self {
+        Self { kind: step.kind, html: markdown::render_short(&parameters.fill(&step.text)) }
     }
 }
 

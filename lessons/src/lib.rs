@@ -6,7 +6,7 @@
 //! server: pages are built from [`Lesson::public_view`] only.
 //!
 //! Reading order: [`files`] (what an author writes), [`course`] and [`lesson`] (reading it), [`exercise`]
-//! (questions ready to grade), [`tolerance`], [`units`], [`number`], [`expression`] (the parts of an answer),
+//! (questions ready to grade), [`variant`] (the same questions with other numbers), [`tolerance`], [`units`], [`number`], [`expression`] (the parts of an answer),
 //! [`submission`], [`grade`], [`verdict`], and [`check`] (proving a course).
 
 pub mod check;
@@ -19,9 +19,11 @@ mod grade;
 pub mod lesson;
 pub mod markdown;
 pub mod number;
+mod random;
 pub mod submission;
 pub mod tolerance;
 pub mod units;
+pub mod variant;
 pub mod verdict;
 
 #[cfg(test)]
@@ -32,4 +34,5 @@ pub use course::{Course, CourseError};
 pub use grade::{GradeError, grade};
 pub use lesson::{Lesson, LessonError, LessonSummary, LessonView};
 pub use submission::{Submission, SubmissionError};
+pub use variant::{Parameters, VariantError};
 pub use verdict::{Mark, QuestionVerdict, Verdict};

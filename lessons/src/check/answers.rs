@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Found;
-use crate::exercise::{Body, Question};
+use crate::exercise::{Body, Quantity, Question};
 use crate::grade::grade;
 use crate::lesson::Lesson;
 use crate::markdown::render_short;
@@ -32,18 +32,7 @@ pub(super) fn starter_fails(found: &mut Found) {
 pub fn reference_submission(lesson: &Lesson) -> Submission {
     let answer = |question: &Question| match &question.body {
         Body::Quantity(q) => {
-            let number = |x: &f64| Entry::Text(format!("{x:.15e}"));
-            let value = match q.size {
-                [1, 1] if q.shape == Shape::Number => number(&q.reference[0]),
-                [_, 1] if q.shape == Shape::Vector => Entry::List(q.reference.iter().map(number).collect()),
-                [_, columns] => Entry::List(
-                    q.reference
-                        .chunks(columns)
-                        .map(|row| Entry::List(row.iter().map(number).collect()))
-                        .collect(),
-                ),
-            };
-            Answer { value: Some(value), unit: Some(q.unit.text().to_owned()), choice: None }
+            Answer { value: Some(entry(q, &q.reference)), unit: Some(q.unit.text().to_owned()), choice: None }
         }
         Body::Choice { right, .. } => Answer { choice: Some(right.clone()), ..Answer::default() },
         Body::Formula(f) => {
@@ -52,6 +41,17 @@ pub fn reference_submission(lesson: &Lesson) -> Submission {
     };
     let answers = lesson.exercise.questions.iter().map(|q| (q.id.clone(), answer(q))).collect();
     Submission { student: None, answers }
+}
+
+/// Values of a question's size as a student would send them, with all their digits.
+pub(super) fn entry(question: &Quantity, values: &[f64]) -> Entry {
+    let number = |x: &f64| Entry::Text(format!("{x:.15e}"));
+    let list = |values: &[f64]| Entry::List(values.iter().map(number).collect());
+    match question.shape {
+        Shape::Number => number(values.first().unwrap_or(&f64::NAN)),
+        Shape::Vector => list(values),
+        Shape::Matrix => Entry::List(values.chunks(question.size[1].max(1)).map(list).collect()),
+    }
 }
 
 /// The references must pass.

@@ -4,6 +4,7 @@ use super::Outcome;
 use crate::exercise::FormulaBody;
 use crate::expression::Expression;
 use crate::markdown::render_short;
+use crate::random::Random;
 use crate::submission::{Answer, Entry};
 
 /// Points at which formulas are compared.
@@ -45,16 +46,10 @@ pub(super) fn judge(question: &FormulaBody, seed: &str, note: &str, answer: &Ans
 
 /// Whether `a` equals `factor` times `b` at all points where `b` is defined.
 pub(crate) fn same(a: &Expression, b: &Expression, ranges: &[[f64; 2]], seed: &str, factor: f64) -> bool {
-    let mut state = seed
-        .bytes()
-        .fold(0x9e37_79b9_7f4a_7c15_u64, |h, byte| (h ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut random = Random::new(seed);
     let mut defined = 0;
     for _ in 0..POINTS {
-        let point: Vec<f64> = ranges.iter().map(|[low, high]| low + (high - low) * random()).collect();
+        let point: Vec<f64> = ranges.iter().map(|[low, high]| low + (high - low) * random.unit()).collect();
         let (x, y) = (a.eval(&point), factor * b.eval(&point));
         if !y.is_finite() {
             continue;
