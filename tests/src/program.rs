@@ -1,1 +1,164 @@
-//! The program.
+//! The `triad` program from outside: its command line, and a running server.
+
+use crate::root;
+use serde_json::Value;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+/// The program, built in the profile of this test.
+///
+/// Cargo builds a test's own package only, so the program of another package has to be asked for; after
+/// `cargo test --workspace` everything that it needs is already there.
+pub fn triad() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let here = std::env::current_exe().unwrap();
+        let profile = here.parent().and_then(Path::parent).expect("tests run from target/<profile>/deps");
+        let mut build = Command::new(env!("CARGO"));
+        build.current_dir(root()).args(["build", "--package", "triad", "--bin", "triad", "--target-dir"]);
+        build.arg(profile.parent().unwrap());
+        if !cfg!(debug_assertions) {
+            build.arg("--release");
+        }
+        let output = build.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        profile.join("triad")
+    })
+}
+
+/// Runs the program to its end.
+pub fn run(arguments: &[&str]) -> Output {
+    Command::new(triad()).args(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+/// Runs the program with `--json`; returns its exit code and what it printed.
+pub fn run_json(arguments: &[&str]) -> (i32, Value) {
+    let output = Command::new(triad()).arg("--json").args(arguments).stdin(Stdio::null()).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    let json = serde_json::from_str(&text).unwrap_or_else(|error| {
+        panic!("triad --json {arguments:?}: {error}\n{text}\n{}", String::from_utf8_lossy(&output.stderr))
+    });
+    (output.status.code().unwrap(), json)
+}
+
+/// A server on a free port, with its gradebook in a folder of the test's.
+pub struct Server {
+    child: Child,
+    /// Where it listens, such as `127.0.0.1:41234`.
+    pub address: String,
+}
+
+impl Server {
+    /// Starts a server and waits until it says where it is.
+    pub fn start(folder: &Path) -> Self {
+        let mut child = Command::new(triad())
+            .args(["serve", "--port", "0", "--database"])
+            .arg(folder.join("grades.db"))
+            .current_dir(folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::inherit())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(child.stdout.take().unwrap());
+        let mut line = String::new();
+        lines.read_line(&mut line).unwrap();
+        let at = line.split("http://").nth(1).and_then(|rest| rest.split_whitespace().next());
+        let address = at.unwrap_or_else(|| panic!("the server said {line:?}")).to_owned();
+        // Whatever else it says must not fill the pipe.
+        std::thread::spawn(move || std::io::copy(&mut lines, &mut std::io::sink()));
+        Self { child, address }
+    }
+
+    /// Asks it to stop, as a system would, and waits.
+    pub fn stop(mut self) {
+        let id = self.child.id().to_string();
+        assert!(Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
+        let began = Instant::now();
+        while self.child.try_wait().unwrap().is_none() {
+            assert!(
+                began.elapsed() < Duration::from_secs(10),
+                "the server does not stop when it is asked to"
+            );
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Gets a path.
+    pub fn get(&self, path: &str) -> Reply {
+        self.ask("GET", path, None)
+    }
+
+    /// Posts JSON.
+    pub fn post(&self, path: &str, body: &Value) -> Reply {
+        self.ask("POST", path, Some(body.to_string().as_bytes()))
+    }
+
+    /// One request on a connection of its own. HTTP/1.0, so that the answer ends with the connection.
+    pub fn ask(&self, method: &str, path: &str, body: Option<&[u8]>) -> Reply {
+        let mut stream = TcpStream::connect(&self.address).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
+        let host = &self.address;
+        let mut head = format!("{method} {path} HTTP/1.0\r\nHost: {host}\r\nAccept: */*\r\n");
+        if let Some(body) = body {
+            head += &format!("Content-Type: application/json\r\nContent-Length: {}\r\n", body.len());
+        }
+        stream.write_all(format!("{head}\r\n").as_bytes()).unwrap();
+        // A server that refuses a body need not read it to its end.
+        let _ = stream.write_all(body.unwrap_or_default());
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        Reply::parse(&answer)
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// An answer of the server.
+#[derive(Debug)]
+pub struct Reply {
+    /// Status code.
+    pub status: u16,
+    /// Header lines, in lower case.
+    pub head: String,
+    /// Body.
+    pub body: Vec<u8>,
+}
+
+impl Reply {
+    fn parse(answer: &[u8]) -> Self {
+        let end = answer.windows(4).position(|w| w == b"\r\n\r\n").expect("an answer with a head");
+        let head = String::from_utf8_lossy(&answer[..end]).to_lowercase();
+        let status = head.split_whitespace().nth(1).and_then(|s| s.parse().ok()).expect("a status");
+        Self { status, head, body: answer[end + 4..].to_vec() }
+    }
+
+    /// The body as text.
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(&self.body).into_owned()
+    }
+
+    /// The body as JSON.
+    pub fn json(&self) -> Value {
+        serde_json::from_slice(&self.body).unwrap_or_else(|e| panic!("{}: {e}\n{}", self.status, self.text()))
+    }
+}
+
+/// What a refusal must have: a code, a hint, and (where `pointer` is not empty) the place.
+pub fn assert_problem(problem: &Value, code: &str, pointer: &str) {
+    assert_eq!(problem["code"], code, "{problem:#}");
+    assert!(problem["hint"].as_str().is_some_and(|hint| hint.len() > 10), "no remedy: {problem:#}");
+    assert!(problem["detail"].as_str().is_some_and(|detail| detail.len() > 10), "no reason: {problem:#}");
+    if !pointer.is_empty() {
+        assert_eq!(problem["errors"][0]["pointer"], format!("#{pointer}"), "{problem:#}");
+    }
+}

@@ -1,0 +1,207 @@
+//! The whole program as a class would use it: over HTTP against the running server, and on the command line.
+
+use serde_json::{Value, json};
+use triad_tests::program::{Server, run, run_json};
+use triad_tests::reference::distance;
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+/// The answers that pass lesson 2: values of the closed form, written as a student would.
+fn right_answers(student: &str) -> Value {
+    json!({"student": student, "answers": {
+        "independent-rows": {"value": "11"},
+        "tension-bottom": {"value": "29.43", "unit": "N"},
+        "period": {"value": "2.368", "unit": "s"},
+        "force-on-ground": {"value": ["-14.21", "-10.90", "0"], "unit": "N"},
+        "sign-of-lambda": {"choice": "b"}
+    }})
+}
+
+#[test]
+fn a_lesson_is_read_run_and_answered_and_the_result_survives_a_restart() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    assert!(server.get("/").text().contains("<html"));
+    let lesson = server.get("/api/v1/lessons/simple-pendulum").json();
+    assert_eq!(lesson["number"], 2);
+
+    // The scenario, to the time that the exercise asks about.
+    let created = server.post("/api/v1/sessions", &json!({"lesson": "simple-pendulum"}));
+    assert_eq!(created.status, 201, "{}", created.text());
+    let id = created.json()["id"].as_str().unwrap().to_owned();
+    assert!(created.head.contains(&format!("location: /api/v1/sessions/{id}")), "{}", created.head);
+    let session = format!("/api/v1/sessions/{id}");
+    let state = server.post(&format!("{session}/step"), &json!({"steps": 1})).json();
+    assert_eq!(state["steps"], 1, "{state}");
+    assert!(state["time"].as_f64().unwrap() > 0.0);
+    let rest = 2.0 - state["time"].as_f64().unwrap();
+    let state = server.post(&format!("{session}/step"), &json!({"seconds": rest})).json();
+    assert!((state["time"].as_f64().unwrap() - 2.0).abs() < 1e-12);
+    assert!(state["energy_drift"].as_f64().unwrap().abs() < 1e-7);
+    assert_eq!((numbers(&state["q"]).len(), numbers(&state["q_dot"]).len()), (12, 12));
+    // Benchmark A01 at 2 s.
+    let bob = numbers(&state["bodies"][0]["position"]);
+    let error = distance(&bob, &[-0.793_566_195_343_321_7, -0.608_483_930_443_791_5, 0.0]);
+    assert!(error < 1e-7, "{error:e} m");
+
+    let jacobian = server.get(&format!("{session}/jacobian")).json();
+    let (rows, columns) = (jacobian["rows"].as_array().unwrap(), jacobian["columns"].as_array().unwrap());
+    assert_eq!((rows.len(), columns.len()), (12, 12));
+    assert!(rows.contains(&json!("bob: uu")) && columns.contains(&json!("bob.rx")), "{jacobian}");
+    let multipliers = server.get(&format!("{session}/multipliers")).to_joints();
+    let force = numbers(&multipliers[0]["force"]);
+    assert!(distance(&force, &[14.210_931_130_057_3, 10.896_536_772_893, 0.0]) < 1e-5, "{force:?}");
+
+    let played = server.post(&format!("{session}/play"), &json!({"speed": 4})).json();
+    assert_eq!(played["playing"], true);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let paused = server.post(&format!("{session}/pause"), &json!({})).json();
+    assert!(paused["time"].as_f64().unwrap() > 2.1, "{}", paused["time"]);
+    let reset = server.post(&format!("{session}/reset"), &json!({})).json();
+    assert_eq!(reset["time"], 0.0);
+
+    // Wrong, then right.
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let mut wrong = right_answers("ada");
+    wrong["answers"]["tension-bottom"]["value"] = "9.81".into();
+    let verdict = server.post(path, &wrong).json();
+    let tension = verdict["questions"].as_array().unwrap().iter().find(|q| q["id"] == "tension-bottom");
+    assert_eq!(tension.unwrap()["verdict"], "wrong");
+    assert!(tension.unwrap()["message_html"].as_str().unwrap().contains("weight"), "{tension:?}");
+    let verdict = server.post(path, &right_answers("ada")).json();
+    assert_eq!((&verdict["passed"], &verdict["earned"]), (&json!(true), &verdict["possible"]), "{verdict:#}");
+
+    assert_eq!(server.ask("DELETE", &session, None).status, 204);
+    assert_eq!(server.get(&session).status, 404);
+
+    server.stop();
+    let server = Server::start(folder.path());
+    let kept = server.get("/api/v1/submissions?student=ada").json();
+    assert_eq!(kept.as_array().unwrap().len(), 2);
+    assert_eq!((&kept[0]["id"], &kept[0]["passed"]), (&verdict["id"], &json!(true)), "newest first");
+    assert_eq!(kept[1]["passed"], verdict_of_wrong(&kept), "{kept:#}");
+}
+
+/// The wrong submission lost the points of one question, and still has those of the others.
+fn verdict_of_wrong(kept: &Value) -> Value {
+    assert!(kept[1]["earned"].as_f64() < kept[0]["earned"].as_f64());
+    kept[1]["passed"].clone()
+}
+
+trait Joints {
+    fn to_joints(&self) -> Vec<Value>;
+}
+
+impl Joints for triad_tests::program::Reply {
+    /// The list of joints, whether it stands alone or under a key.
+    fn to_joints(&self) -> Vec<Value> {
+        let json = self.json();
+        json.as_array().or_else(|| json["joints"].as_array()).unwrap_or_else(|| panic!("{json}")).clone()
+    }
+}
+
+#[test]
+fn grading_on_the_command_line_gives_the_verdict_of_the_server() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let file = folder.path().join("answers.json");
+    let mut answers = right_answers("ada");
+    for (period, exit) in [("2.368", 0), ("9.9", 0)] {
+        answers["answers"]["period"]["value"] = period.into();
+        std::fs::write(&file, answers.to_string()).unwrap();
+        let (code, here) = run_json(&["grade", "simple-pendulum", file.to_str().unwrap()]);
+        let there = server.post("/api/v1/lessons/simple-pendulum/submissions", &answers).json();
+        for key in ["questions", "earned", "possible", "passed", "provenance"] {
+            assert_eq!(here[key], there[key], "{key}");
+        }
+        assert_eq!(code, exit, "{here:#}");
+    }
+}
+
+#[test]
+fn the_api_describes_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let document = server.get("/api/openapi.json").json();
+    for path in [
+        "/api/v1/lessons",
+        "/api/v1/lessons/{slug}",
+        "/api/v1/lessons/{slug}/submissions",
+        "/api/v1/submissions",
+        "/api/v1/scenes",
+        "/api/v1/check",
+        "/api/v1/sessions",
+        "/api/v1/sessions/{id}/step",
+        "/api/v1/sessions/{id}/jacobian",
+        "/api/v1/sessions/{id}/multipliers",
+        "/api/v1/health",
+    ] {
+        assert!(document["paths"][path].is_object(), "{path} is not described");
+    }
+    let schema = server.get("/api/v1/schema/scene").json();
+    let printed: Value = serde_json::from_slice(&run(&["schema"]).stdout).unwrap();
+    assert_eq!(schema, printed);
+    assert_eq!(schema["additionalProperties"], false);
+}
+
+#[test]
+fn a_run_writes_a_table_and_a_recording_and_says_how_far_it_can_be_trusted() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (csv, rrd) = (at("run.csv"), at("run.rrd"));
+    let arguments =
+        ["run", "simple-pendulum", "--until", "2", "--every", "0.1", "--out", &csv, "--rrd", &rrd];
+    let (exit, report) = run_json(&arguments);
+    assert_eq!(exit, 0);
+    assert!(report["summary"]["energy_drift"].as_f64().unwrap().abs() < 1e-7, "{report}");
+    assert_eq!(report["summary"]["finished"], true);
+    let table = std::fs::read_to_string(&csv).unwrap();
+    let lines: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(lines.len(), 1 + 21, "a heading and 21 times");
+    assert!(lines[0].contains("bob"), "{}", lines[0]);
+    assert!(lines[21].starts_with('2'), "{}", lines[21]);
+    assert!(std::fs::read(&rrd).unwrap().starts_with(b"RRF2"));
+}
+
+#[test]
+fn check_counts_rows_and_names_the_redundant_ones() {
+    let (exit, report) = run_json(&["check", "simple-pendulum"]);
+    assert_eq!(exit, 0);
+    let count = |key: &str| report[key].as_u64().unwrap();
+    assert_eq!(
+        [count("coordinates"), count("rows"), count("rank"), count("degrees_of_freedom")],
+        [12, 12, 11, 1]
+    );
+    assert_eq!(report["redundant"], json!([{"joint": "pin", "rows": ["CV"]}]));
+    // 6·5 − 1 = 29 independent joint rows of 7·6: each CV repeats one, and 3 N = 6 more are repeated by the loops.
+    let (_, report) = run_json(&["check", "n-four-bar:2"]);
+    let count = |key: &str| report[key].as_u64().unwrap();
+    assert_eq!(
+        [count("coordinates"), count("rows"), count("rank"), count("degrees_of_freedom")],
+        [60, 72, 59, 1]
+    );
+    for (scene, freedom) in [("free-body", 6), ("spatial-double-pendulum", 6), ("n-four-bar:40", 1)] {
+        assert_eq!(run_json(&["check", scene]).1["degrees_of_freedom"], freedom, "{scene}");
+    }
+}
+
+#[test]
+fn the_course_proves_itself() {
+    let output = run(&["lesson", "check"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
+fn help_teaches_with_examples() {
+    for (arguments, example) in [
+        (&["--help"][..], "triad run simple-pendulum"),
+        (&["run", "--help"], "--until 5"),
+        (&["grade", "--help"], "answers.json"),
+    ] {
+        let output = run(arguments);
+        assert!(output.status.success());
+        assert!(String::from_utf8_lossy(&output.stdout).contains(example), "{arguments:?}");
+    }
+}
