@@ -53,10 +53,15 @@ pub struct Server {
 }
 
 impl Server {
-    /// Starts a server and waits until it says where it is.
+    /// Starts a server on a free port and waits until it says where it is.
     pub fn start(folder: &Path) -> Self {
+        Self::start_at(folder, "0")
+    }
+
+    /// The same, on a given port.
+    pub fn start_at(folder: &Path, port: &str) -> Self {
         let mut child = Command::new(triad())
-            .args(["serve", "--port", "0", "--database"])
+            .args(["serve", "--port", port, "--database"])
             .arg(folder.join("grades.db"))
             .current_dir(folder)
             .stdin(Stdio::null())

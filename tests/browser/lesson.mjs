@@ -1,0 +1,174 @@
+// Lesson 2 as a student does it, in a real browser. Started by tests/tests/browser.rs:
+//   node lesson.mjs first|later http://127.0.0.1:PORT PROFILE_FOLDER PICTURE_FOLDER
+// "first": opens the lesson, steps, plays, sees the viewer draw, answers wrongly, then rightly.
+// "later": comes back after a restart of the server and finds both results.
+import assert from "node:assert/strict";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const [visit, address, profile, pictures] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+const PATIENCE = 90_000;
+
+const context = await chromium.launchPersistentContext(profile, {
+  executablePath: "/usr/bin/chromium",
+  headless: true,
+  viewport: { width: 1280, height: 900 },
+  args: [
+    "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic",
+  ],
+});
+const page = context.pages()[0] ?? await context.newPage();
+page.setDefaultTimeout(PATIENCE);
+const complaints = [];
+page.on("pageerror", (error) => complaints.push(String(error)));
+page.on("console", (line) => {
+  if (line.type() === "error" && !/WebGL|GPU|wgpu|swiftshader|favicon/i.test(line.text())) complaints.push(line.text());
+});
+
+let number = 0;
+const picture = async (name, target = page) => {
+  number += 1;
+  const path = join(pictures, `${visit}-${number}-${name}.png`);
+  await target.screenshot({ path });
+  console.log(`picture ${path}`);
+};
+const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
+
+/** Waits until `read` gives something that `good` accepts. */
+async function until(what, read, good) {
+  const end = performance.now() + PATIENCE;
+  let last;
+  while (performance.now() < end) {
+    last = await read();
+    if (good(last)) return last;
+    await page.waitForTimeout(200);
+  }
+  await picture("failed");
+  throw new Error(`${what}: still ${JSON.stringify(last)} after ${PATIENCE / 1000} s`);
+}
+
+/** How many different colours a screenshot of the viewer has: a blank or broken picture has a handful. */
+async function colours(target) {
+  const png = (await target.screenshot()).toString("base64");
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const pen = canvas.getContext("2d");
+    pen.drawImage(image, 0, 0);
+    const seen = new Set(new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer));
+    return seen.size;
+  }, png);
+}
+
+const clock = async () => Number(await page.getByLabel("Run to a time, in seconds").inputValue());
+const control = (name) => page.getByRole("group", { name: "Run of the simulation" }).getByRole("button", { name, exact: true });
+const fill = (id, value) => page.locator(`#q-${id}`).fill(value);
+const check = async () => {
+  const answered = page.waitForResponse((reply) => reply.url().includes("/submissions") && reply.request().method() === "POST");
+  await page.getByRole("button", { name: "Check my answers" }).click();
+  return (await answered).json();
+};
+const mark = (id) => page.locator(`#q-${id}`).getAttribute("class");
+
+async function first() {
+  await page.goto(`${address}/`);
+  await page.getByRole("link", { name: /pendulum/i }).first().waitFor();
+  await picture("course");
+  await page.getByRole("link", { name: /pendulum/i }).first().click();
+  await page.getByRole("heading", { name: /pendulum/i, level: 1 }).waitFor();
+  say("the text of the lesson can be read");
+  assert.match(page.url(), /\/lessons\/simple-pendulum/);
+  assert(await page.locator(".katex").count() > 5, "the formulas are set");
+
+  await until("the clock starts", clock, (time) => time === 0);
+  await control("One integrator step").click();
+  const stepped = await until("a step moves the clock", clock, (time) => time > 0);
+  await control("Step by time").click();
+  await until("a step by time moves the clock by 0.1 s", clock, (time) => time >= stepped + 0.09);
+  say("stepped");
+
+  const viewer = page.locator("[data-viewer]");
+  await viewer.locator("canvas").waitFor();
+  const blank = 40;
+  const drawn = await until("the viewer draws", () => colours(viewer), (count) => count > blank);
+  say(`the viewer shows ${drawn} colours`);
+  await picture("viewer");
+
+  await control("Play").click();
+  const playing = await clock();
+  await until("playing moves the clock", clock, (time) => time > playing + 0.5);
+  await picture("playing");
+  await control("Pause").click();
+  await control("Play").waitFor();
+  say("played and paused");
+  const before = await viewer.screenshot();
+  await control("Reset to the start").click();
+  await until("reset", clock, (time) => time === 0);
+  await until("the viewer follows the clock", async () => (await viewer.screenshot()).equals(before), (same) => !same);
+
+  await page.getByRole("tab", { name: "Jacobian" }).click();
+  await page.getByText("12 columns").waitFor();
+  await picture("jacobian");
+
+  // A wrong answer that the lesson knows, and one that is no number.
+  await page.getByLabel("Your name").fill("Ada Lovelace");
+  await fill("independent-rows-value", "11");
+  await fill("tension-bottom-value", "a lot");
+  let verdict = await check();
+  assert.equal(verdict.gradable, false, "text is no attempt");
+  assert.match(await mark("tension-bottom"), /is-invalid/);
+  await fill("tension-bottom-value", "9.81");
+  await fill("tension-bottom-unit", "N");
+  await fill("period-value", "2.368");
+  await fill("period-unit", "s");
+  for (const [axis, value] of [["x", "-14.21"], ["y", "-10.90"], ["z", "0"]]) await fill(`force-on-ground-${axis}`, value);
+  await fill("force-on-ground-unit", "N");
+  await page.locator("#q-sign-of-lambda-b").check();
+  verdict = await check();
+  assert(verdict.earned < verdict.possible, "a wrong answer costs points");
+  assert.match(await mark("tension-bottom"), /is-wrong/);
+  assert.match(await page.locator("#q-tension-bottom").innerText(), /rests/, "the feedback names the mistake");
+  await page.locator("#q-tension-bottom").scrollIntoViewIfNeeded();
+  await picture("wrong");
+  await fill("tension-bottom-value", "29.43");
+  verdict = await check();
+  assert.equal(verdict.passed, true);
+  assert.equal(verdict.earned, verdict.possible);
+  assert.match(await mark("tension-bottom"), /is-right/);
+  await page.getByRole("heading", { name: "Your submissions (2)" }).waitFor();
+  await page.locator(".history").scrollIntoViewIfNeeded();
+  await picture("right");
+  say("answered wrongly, then rightly");
+}
+
+async function later() {
+  await page.goto(`${address}/lessons/simple-pendulum`);
+  await page.getByRole("heading", { name: "Your submissions (2)" }).waitFor();
+  const newest = page.locator(".history-entry").first();
+  assert.match(await newest.innerText(), /12 of 12/);
+  await newest.click();
+  await newest.getByText("Question 1").waitFor();
+  await newest.scrollIntoViewIfNeeded();
+  await picture("found-again");
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.evaluate(() => scrollTo(0, 0));
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  await picture("phone");
+  assert(width <= 390, `the page is ${width} px wide on a screen of 390 px`);
+  say("the results are there after the restart");
+}
+
+try {
+  await (visit === "first" ? first() : later());
+  assert.deepEqual(complaints, [], "errors in the browser's console");
+} catch (error) {
+  await picture("failed").catch(() => {});
+  throw error;
+} finally {
+  await context.close();
+}
