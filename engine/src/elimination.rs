@@ -799,6 +799,17 @@ impl Elimination {
         }
     }
 
+    /// The rows A_b of an incidence, six numbers each: translation, then rotation.
+    pub fn rows_on(&self, system: &System, incidence: usize) -> &[f64] {
+        let incidence = &system.incidences[incidence];
+        &self.a[incidence.offset..incidence.offset + 6 * incidence.rows]
+    }
+
+    /// Multipliers of the solver rows.
+    pub fn solver_multipliers(&self) -> &[f64] {
+        &self.lambda
+    }
+
     /// Force and moment about the centre of mass, −A_bᵀ λ, of a joint on a body.
     pub fn wrench_on(&self, system: &System, incidence: usize) -> [Vector3<f64>; 2] {
         let incidence = &system.incidences[incidence];

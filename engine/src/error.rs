@@ -3,6 +3,7 @@
 use crate::catalogue::CatalogueError;
 use crate::model::ModelError;
 use crate::scene::SceneError;
+use crate::uniqueness::UniquenessError;
 
 /// Any failure of the engine: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,6 +17,9 @@ pub enum EngineError {
     /// The scene cannot be.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Which reactions are unique cannot be told.
+    #[error(transparent)]
+    Uniqueness(#[from] UniquenessError),
     /// No position near the given one satisfies the joints.
     #[error(
         "the mechanism cannot be assembled near its start: joint \"{joint}\" stays open by {violation:.3e} (moved by \
@@ -66,6 +70,7 @@ impl EngineError {
             Self::Scene(SceneError::TooMany { .. }) => "scene-too-large",
             Self::Catalogue(error) => error.code(),
             Self::Model(error) => error.code(),
+            Self::Uniqueness(error) => error.code(),
             Self::Assembly { .. } => "assembly-failed",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
@@ -95,6 +100,7 @@ impl EngineError {
             }
             Self::Catalogue(error) => error.hint(),
             Self::Model(error) => error.hint(),
+            Self::Uniqueness(error) => error.hint(),
             Self::Assembly { .. } => {
                 "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
                     .to_owned()

@@ -51,6 +51,8 @@ pub mod series;
 
 pub mod rank;
 
+pub mod uniqueness;
+
 pub mod reaction;
 
 pub mod integrate;

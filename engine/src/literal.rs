@@ -8,7 +8,7 @@ mod independent;
 mod rigid;
 mod sparse_lu;
 
-pub use independent::independent_rows;
+pub use independent::{independent_rows, left_null_space};
 pub use rigid::{RigidMultipliers, rigid_multipliers};
 pub use sparse_lu::{Columns, SparseLu};
 
@@ -73,10 +73,10 @@ impl Literal {
     /// least norm that give the same constraint forces. `None` if a body without inertia is left free to turn.
     pub fn solve(&self) -> Option<Solution> {
         let kept = independent_rows(&self.jacobian, DEPENDENT);
-        let acceleration = self.solve_with(&kept)?.acceleration;
-        let constraint_force = &self.force - &self.mass * &acceleration;
-        let multipliers = least_norm(&self.jacobian.transpose(), &constraint_force)?;
-        Some(Solution { acceleration, multipliers })
+        let Solution { acceleration, multipliers } = self.solve_with(&kept)?;
+        let null = left_null_space(&self.jacobian, DEPENDENT);
+        let idle = &null * null.tr_mul(&multipliers);
+        Some(Solution { acceleration, multipliers: multipliers - idle })
     }
 
     /// Solves the augmented system with the given rows alone; other rows get no multiplier.
@@ -100,13 +100,6 @@ impl Literal {
         let acceleration = solution.rows(0, n).into_owned();
         acceleration.iter().all(|a| a.is_finite()).then_some(Solution { acceleration, multipliers })
     }
-}
-
-/// The solution of least norm of `matrix` x = b, in the sense of least squares.
-pub fn least_norm(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
-    let svd = matrix.clone().try_svd(true, true, f64::EPSILON, 10_000)?;
-    let small = DEPENDENT * svd.singular_values.max();
-    svd.solve(b, small).ok()
 }
 
 /// Calls `put` with each part of an entry of M(q) that is not a structural zero — eq. (6.3). Bodies that share a

@@ -4,6 +4,8 @@
 //! a force and a moment, whatever rows the joint is made of. Multipliers of rigid-body rows are internal to the
 //! coordinates and never shown as reactions.
 
+pub mod report;
+
 use crate::elimination::Elimination;
 use crate::model::BodyRef;
 use crate::system::System;

@@ -7,6 +7,7 @@ use crate::jacobian::Jacobian;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::rank::{self, Rank};
+use crate::reaction::report::{Convention, ReactionReport, report};
 use crate::reaction::{self, JointMultipliers};
 use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
@@ -288,6 +289,13 @@ impl Simulation {
     pub fn multipliers(&mut self) -> Vec<JointMultipliers> {
         self.accelerations();
         reaction::multipliers(&self.mechanism.system, &self.mechanism.elimination)
+    }
+
+    /// Reactions of joints and drivers at the shown state, with what is unique about them.
+    pub fn reactions(&mut self, convention: Convention) -> Result<ReactionReport, EngineError> {
+        self.accelerations();
+        let Mechanism { system, elimination, .. } = &self.mechanism;
+        Ok(report(system, elimination, self.time, convention)?)
     }
 
     /// What is asked out of curiosity must not change the counters of the run.

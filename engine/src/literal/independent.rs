@@ -56,6 +56,33 @@ fn largest(left: &[usize], norms: &[f64]) -> Option<(usize, f64)> {
     best
 }
 
+/// Orthonormal columns n with nᵀ `matrix` = 0: one for each row that depends on others.
+///
+/// Each dependent row is written with the independent ones, by QR factorization of these; the coefficients are a null
+/// vector. (An iterative singular value decomposition is no help where many singular values coincide.)
+pub fn left_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
+    let kept = independent_rows(matrix, tolerance);
+    let rest: Vec<usize> = (0..matrix.nrows()).filter(|row| kept.binary_search(row).is_err()).collect();
+    let mut null = DMatrix::zeros(matrix.nrows(), rest.len());
+    for (k, &row) in rest.iter().enumerate() {
+        null[(row, k)] = 1.0;
+    }
+    if rest.is_empty() || kept.is_empty() {
+        return null;
+    }
+    let qr = matrix.select_rows(&kept).transpose().qr();
+    let mut coefficients = qr.q().tr_mul(&matrix.select_rows(&rest).transpose());
+    // R is regular: its rows were chosen independent.
+    if qr.r().solve_upper_triangular_mut(&mut coefficients) {
+        for (i, &row) in kept.iter().enumerate() {
+            for k in 0..rest.len() {
+                null[(row, k)] = -coefficients[(i, k)];
+            }
+        }
+    }
+    null.qr().q()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,5 +93,9 @@ mod tests {
             DMatrix::from_row_slice(4, 3, &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 1e-3]);
         assert_eq!(independent_rows(&matrix, 1e-9), [1, 2, 3]);
         assert_eq!(independent_rows(&matrix, 1e-2), [1, 2]);
+        let null = left_null_space(&matrix, 1e-9);
+        assert_eq!(null.shape(), (4, 1));
+        assert!(matrix.tr_mul(&null).amax() < 1e-15);
+        assert!((null.norm() - 1.0).abs() < 1e-15);
     }
 }
