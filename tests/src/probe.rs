@@ -31,6 +31,7 @@ impl Probe {
     }
 
     /// Moves the state onto the constraints and finds redundant rows, as a run does before it starts.
+    #[must_use]
     pub fn assembled(mut self) -> Self {
         self.mechanism.assemble(&mut self.y).unwrap();
         let n = self.n();

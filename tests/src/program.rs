@@ -106,12 +106,11 @@ impl Server {
     /// One request on a connection of its own. HTTP/1.0, so that the answer ends with the connection.
     pub fn ask(&self, method: &str, path: &str, body: Option<&[u8]>) -> Reply {
         let mut stream = TcpStream::connect(&self.address).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
-        let host = &self.address;
-        let mut head = format!("{method} {path} HTTP/1.0\r\nHost: {host}\r\nAccept: */*\r\n");
-        if let Some(body) = body {
-            head += &format!("Content-Type: application/json\r\nContent-Length: {}\r\n", body.len());
-        }
+        stream.set_read_timeout(Some(Duration::from_mins(2))).unwrap();
+        let about = body.map_or(String::new(), |body| {
+            format!("Content-Type: application/json\r\nContent-Length: {}\r\n", body.len())
+        });
+        let head = format!("{method} {path} HTTP/1.0\r\nHost: {}\r\nAccept: */*\r\n{about}", self.address);
         stream.write_all(format!("{head}\r\n").as_bytes()).unwrap();
         // A server that refuses a body need not read it to its end.
         let _ = stream.write_all(body.unwrap_or_default());

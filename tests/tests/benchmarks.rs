@@ -2,6 +2,8 @@
 //!
 //! `cargo test --release -p triad-tests --test benchmarks -- --nocapture` prints the table of README.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+
 use nalgebra::Vector3;
 use std::time::Instant;
 use triad_engine::catalogue;

@@ -1,6 +1,8 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
 //! result after a restart of the server. What it saw is kept in `tests/output/`.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+
 use std::path::Path;
 use std::process::Command;
 use triad_tests::program::Server;

@@ -1,5 +1,7 @@
 //! The whole program as a class would use it: over HTTP against the running server, and on the command line.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+
 use serde_json::{Value, json};
 use triad_tests::program::{Server, run, run_json};
 use triad_tests::reference::distance;
