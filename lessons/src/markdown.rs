@@ -79,7 +79,15 @@ pub fn render(text: &str, figures: &BTreeMap<String, String>) -> Rendered {
             other => events.push(other),
         }
     }
+    let dollar = events.iter().any(|e| matches!(e, Event::Text(t) if t.contains('$')));
     pulldown_cmark::html::push_html(&mut out.html, events.into_iter());
+    if dollar {
+        let line = text.lines().position(|l| l.contains('$')).map_or(1, |index| index + 1);
+        out.problems.push((
+            line,
+            "a $ is left in the text: formulas are $…$ or $$…$$, without spaces inside".to_owned(),
+        ));
+    }
     out.html = out.html.replace("<p></p>\n", "").replace("<p></p>", "");
     out
 }
@@ -177,6 +185,12 @@ mod tests {
     fn a_formula_inside_a_paragraph_splits_it() {
         let out = render("Before\n$$x$$\nafter.", &BTreeMap::new());
         assert_eq!(out.html, "<p>Before</p>\n<div class=\"math display\">x</div>\n<p>after.</p>\n");
+    }
+
+    #[test]
+    fn a_formula_that_is_not_closed_is_seen() {
+        assert_eq!(render("one $x^2 and no end", &BTreeMap::new()).problems.len(), 1);
+        assert!(render("one $x^2$ and an end", &BTreeMap::new()).problems.is_empty());
     }
 
     #[test]
