@@ -194,6 +194,11 @@ impl Elimination {
         }
     }
 
+    /// The time on which drivers and loads depend, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// Counts whole turns of angles from the current positions on.
     pub fn keep_turns(&mut self) {
         for angle in &mut self.angles {

@@ -59,6 +59,8 @@ pub mod integrate;
 
 pub mod mechanism;
 
+pub mod balance;
+
 pub mod simulation;
 
 pub mod check;

@@ -152,6 +152,47 @@ impl Load {
         }
     }
 
+    /// Whether it is a spring alone.
+    pub fn is_conservative(&self) -> bool {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => false,
+            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+                element.damping == 0.0 && element.drive.is_none() && element.friction.is_none()
+            }
+        }
+    }
+
+    /// Power of all that is not its spring, W; positions and velocities must be in place.
+    pub fn power(&self, at: &Elimination) -> f64 {
+        let t = at.time();
+        match self {
+            Self::Force { body, local, force, frame } => {
+                let q_dot = &at.bodies[*body].q_dot;
+                in_world(at, *body, *frame, force.at(t)[0]).dot(&(q_dot.r + q_dot.arm(local)))
+            }
+            Self::Moment { body, moment, frame } => {
+                let state = &at.bodies[*body];
+                let moment = in_world(at, *body, *frame, moment.at(t)[0]);
+                (0..3).map(|k| 0.5 * moment.cross(&state.q.e[k]).dot(&state.q_dot.e[k])).sum()
+            }
+            Self::Spring { from, to, element } => {
+                let between = at.feature_value(*to) - at.feature_value(*from);
+                let rate = at.feature_rate(*to) - at.feature_rate(*from);
+                let speed = between.try_normalize(f64::MIN_POSITIVE).map_or(0.0, |d| d.dot(&rate));
+                element.without_spring(speed, t) * speed
+            }
+            Self::Torsion { angle, element, .. } => {
+                let speed = at.angles[*angle].rate;
+                element.without_spring(speed, t) * speed
+            }
+            Self::Slider { axis, between, element } => {
+                let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
+                let speed = at.feature_value(*axis).dot(&rate) + at.feature_rate(*axis).dot(&d);
+                element.without_spring(speed, t) * speed
+            }
+        }
+    }
+
     /// Potential energy of its spring, J.
     pub fn potential(&self, at: &Elimination) -> f64 {
         let (element, value) = match self {
@@ -171,7 +212,12 @@ impl Load {
 impl Element {
     /// Force or moment in the direction of growing x.
     fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
-        let mut value = -self.stiffness * (x - self.free) - self.damping * rate;
+        self.without_spring(rate, t) - self.stiffness * (x - self.free)
+    }
+
+    /// The same without the spring.
+    fn without_spring(&self, rate: f64, t: f64) -> f64 {
+        let mut value = -self.damping * rate;
         if let Some(drive) = &self.drive {
             value += drive.at(t)[0];
         }

@@ -1,5 +1,6 @@
 //! A scene that runs: time, state, steps, and what can be asked of them.
 
+use crate::balance;
 use crate::elimination::Counters;
 use crate::error::EngineError;
 use crate::integrate::{self, Integrator, Plant, Stop};
@@ -47,7 +48,9 @@ pub struct Summary {
     pub time: f64,
     /// Kinetic plus potential energy, J.
     pub energy: f64,
-    /// Energy less that of the start, J.
+    /// Work of drivers and of loads without potential since the start, J.
+    pub work: f64,
+    /// Energy less that of the start and the work since, J: zero but for errors.
     pub energy_drift: f64,
     /// Largest |Φ|.
     pub position_violation: f64,
@@ -90,6 +93,11 @@ pub struct Simulation {
     /// The state that is shown.
     shown: Vec<f64>,
     start_energy: f64,
+    /// Whether drivers or loads without potential act.
+    exchanges_energy: bool,
+    /// Their work up to the start of the last step, J.
+    work: f64,
+    scratch: Vec<f64>,
     /// Made when first asked for.
     jacobian: Option<Jacobian>,
 }
@@ -117,6 +125,8 @@ impl Simulation {
         let (kind, reason) = integrate::choose(&mechanism);
         let integrator = Integrator::start(kind, &mut mechanism, &start);
         let shown = start.clone();
+        let exchanges_energy = balance::exchanges_energy(&mechanism.system);
+        let scratch = vec![0.0; if exchanges_energy { 4 * n } else { 0 }];
         Ok(Self {
             mechanism,
             integrator,
@@ -128,6 +138,9 @@ impl Simulation {
             time: 0.0,
             shown,
             start_energy,
+            exchanges_energy,
+            work: 0.0,
+            scratch,
             jacobian: None,
         })
     }
@@ -184,6 +197,7 @@ impl Simulation {
         self.mechanism.elimination.forget_turns();
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, &self.start);
         self.time = 0.0;
+        self.work = 0.0;
         self.shown.copy_from_slice(&self.start);
     }
 
@@ -212,11 +226,28 @@ impl Simulation {
     }
 
     fn integrate_one(&mut self) -> Result<(), EngineError> {
+        self.work += self.work_of_last_step(self.integrator.time());
         let end = self.duration();
         self.integrator.step(&mut self.mechanism, end).map_err(|stop| match stop {
             Stop::StepTooSmall { time, step } => EngineError::StepTooSmall { time, step },
             Stop::NotFinite { time } => EngineError::Diverged { time },
         })
+    }
+
+    /// Work of drivers and of loads without potential from the start of the last step to time t, J.
+    fn work_of_last_step(&mut self, t: f64) -> f64 {
+        let start = self.integrator.time() - self.integrator.last_step();
+        if !self.exchanges_energy || t <= start {
+            return 0.0;
+        }
+        let counters = self.mechanism.elimination.counters;
+        let Self { mechanism, integrator, scratch, .. } = self;
+        let (state, rate) = scratch.split_at_mut(integrator.state().len());
+        let work = balance::work(mechanism, (start, t), state, rate, |mechanism, t, state| {
+            integrator.interpolate(mechanism, t, state);
+        });
+        self.mechanism.elimination.counters = counters;
+        work
     }
 
     /// Bodies at the shown state.
@@ -241,6 +272,7 @@ impl Simulation {
 
     /// Cost and trust at the shown state.
     pub fn summary(&mut self) -> Summary {
+        let work = self.work + self.work_of_last_step(self.time);
         self.mechanism.set_state(self.time, &self.shown);
         let elimination = &self.mechanism.elimination;
         let energy = elimination.energy(&self.mechanism.system);
@@ -250,7 +282,8 @@ impl Simulation {
         Summary {
             time: self.time,
             energy,
-            energy_drift: energy - self.start_energy,
+            work,
+            energy_drift: energy - self.start_energy - work,
             position_violation,
             velocity_violation,
             steps: steps.accepted,

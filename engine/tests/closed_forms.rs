@@ -254,3 +254,62 @@ fn conservative_loads_keep_the_energy() {
         assert!(summary.position_violation < 1e-9);
     }
 }
+
+/// Whatever drivers, dampers, motors and friction do, energy less their work stays what it was.
+#[test]
+fn work_accounts_for_the_energy_of_every_load_and_driver() {
+    let wave = serde_json::json!({ "kind": "harmonic", "mean": 0.3, "amplitude": 2, "frequency": 3 });
+    let constant = |value: f64| serde_json::json!({ "kind": "constant", "value": value });
+    let vector =
+        serde_json::json!({ "kind": "components", "x": constant(0.4), "y": wave, "z": constant(-0.7) });
+    let chain = |loads: serde_json::Value, drivers: serde_json::Value| {
+        serde_json::json!({
+            "gravity": [0.5, 0, -9.81],
+            "bodies": [
+                body("a", &serde_json::json!({ "center_of_mass": [0.2, 0.1, -0.3] })),
+                body("b", &serde_json::json!({ "position": [1, 0, 0], "center_of_mass": [0.3, -0.2, 0.1] })),
+            ],
+            "joints": [
+                { "name": "pin", "type": "revolute", "body_i": "ground", "body_j": "a", "point": [0, 0, 0], "axis": [0, 1, 1] },
+                { "name": "tube", "type": "cylindrical", "body_i": "a", "body_j": "b", "point": [1, 0, 0], "axis": [1, 0.2, 0] },
+                { "name": "rail", "type": "point-in-plane", "body_i": "ground", "body_j": "b", "point": [1, 0, 0], "axis": [1, 1, 4] },
+            ],
+            "loads": loads, "drivers": drivers,
+        })
+    };
+    let none = serde_json::json!([]);
+    let hold = serde_json::json!({ "type": "slider", "name": "hold", "joint": "tube", "stiffness": 60 });
+    let friction = serde_json::json!({ "viscous": 0.3, "coulomb": 0.5, "smoothing": 0.2 });
+    let cases = [
+        serde_json::json!({ "type": "force", "name": "l", "body": "b", "point": [0.1, 0.2, 0.3], "force": vector }),
+        serde_json::json!({ "type": "force", "name": "l", "body": "b", "point": [0.1, 0.2, 0.3], "force": vector, "frame": "body" }),
+        serde_json::json!({ "type": "moment", "name": "l", "body": "b", "moment": vector }),
+        serde_json::json!({ "type": "moment", "name": "l", "body": "a", "moment": vector, "frame": "body" }),
+        serde_json::json!({ "type": "spring", "name": "l", "body_i": "a", "point_i": [0, 0.5, 0], "body_j": "b",
+            "point_j": [0.2, 0, 0.6], "stiffness": 40, "damping": 3, "force": wave }),
+        serde_json::json!({ "type": "torsion", "name": "l", "joint": "pin", "stiffness": 5, "damping": 0.5, "torque": wave,
+            "friction": friction }),
+        serde_json::json!({ "type": "slider", "name": "l", "joint": "tube", "damping": 0.5, "force": wave,
+            "friction": friction }),
+    ];
+    let mut scenes: Vec<serde_json::Value> =
+        cases.into_iter().map(|load| chain(serde_json::json!([hold, load]), none.clone())).collect();
+    for driver in [
+        serde_json::json!({ "type": "angle", "name": "d", "joint": "pin", "motion": { "kind": "smooth-step", "from": 0, "to": 0.5,
+            "start": 0, "end": 1 } }),
+        serde_json::json!({ "type": "slide", "name": "d", "joint": "tube",
+            "motion": { "kind": "harmonic", "amplitude": 0.2, "frequency": 3 } }),
+    ] {
+        scenes.push(chain(serde_json::json!([hold]), serde_json::json!([driver])));
+    }
+    for scene in scenes {
+        for coordinates in ["full", "reduced"] {
+            let mut run = simulation(scene.clone(), coordinates);
+            run.advance_to(0.8).unwrap();
+            let summary = run.summary();
+            assert!(summary.work.abs() > 1e-3, "it does work: {scene}");
+            let scale = 1.0 + summary.energy.abs() + summary.work.abs();
+            assert!(summary.energy_drift.abs() < 1e-8 * scale, "{}: {scene}", summary.energy_drift);
+        }
+    }
+}
