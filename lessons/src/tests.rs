@@ -1,5 +1,7 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
+mod kinds;
+
 use std::collections::BTreeMap;
 
 use crate::lesson::Files;
