@@ -28,11 +28,17 @@ use rows::{Place, Rows};
 use schur::Schur;
 
 /// Regularization of S where rows are redundant, relative to its diagonal; refinement takes its effect out again.
-const REGULARIZATION: f64 = 1e-11;
+///
+/// Rounding in the dependent rows grows with its inverse and from order to order: with 1e-11 a run through singular
+/// positions goes wrong at tolerances below 1e-10.
+const REGULARIZATION: f64 = 1e-9;
 /// A relative pivot below this calls for the regularization.
 const NEAR_SINGULAR: f64 = 1e-9;
-/// Refinement steps where the factor is that of a regularized or lent system.
-const REFINEMENTS: usize = 3;
+/// Refinement steps where the factor is that of a regularized system, and where inertia was lent.
+const REFINEMENTS: usize = 2;
+const REFINEMENTS_LENT: usize = 3;
+/// The least tolerance that redundant rows admit: below it, their rounding would be taken for motion.
+pub const LEAST_TOLERANCE_REDUNDANT: f64 = 1e-11;
 
 /// What a scene has that the recurrences do not know, or nothing.
 pub fn unsupported(system: &System) -> Option<&'static str> {
@@ -276,9 +282,13 @@ impl<const L: usize> Series<L> {
     #[inline(always)]
     fn solve(&mut self, n: usize) {
         let rows = self.correction.len();
-        let passes = if self.regularized || self.lends { 1 + REFINEMENTS } else { 1 };
+        let refinements = match (self.lends, self.regularized) {
+            (true, _) => REFINEMENTS_LENT,
+            (false, true) => REFINEMENTS,
+            (false, false) => 0,
+        };
         self.set_ground(false);
-        for pass in 0..passes {
+        for pass in 0..=refinements {
             if pass > 0 && self.lends {
                 for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
                     bundle.return_lent(&state[0]);

@@ -5,7 +5,7 @@
 
 use super::{Steps, Stop};
 use crate::elimination::Counters;
-use crate::series::{Plan, Series};
+use crate::series::{LEAST_TOLERANCE_REDUNDANT, Plan, Series};
 use crate::system::System;
 
 /// Highest order.
@@ -52,6 +52,7 @@ pub struct Taylor {
 impl Taylor {
     /// Starts at (t, y), which must be consistent, with relative and absolute tolerance `tolerance`.
     pub fn new(system: &System, redundant: bool, t: f64, y: &[f64], tolerance: f64) -> Self {
+        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
         let order = order_for(tolerance);
         let mut engine = if system.bodies.len() == 1 {
             Engine::Narrow(Box::new(Series::new(system, order, redundant)))
