@@ -65,6 +65,8 @@ pub mod simulation;
 
 pub mod check;
 
+pub mod analysis;
+
 pub mod paper;
 
 pub mod catalogue;

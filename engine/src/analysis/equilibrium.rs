@@ -1,0 +1,101 @@
+//! Static equilibrium: where nothing accelerates.
+
+use super::{AnalysisError, Stage};
+use crate::reaction::report::{Convention, ReactionReport, report};
+use crate::scene::Scene;
+use crate::simulation::BodyFrame;
+use nalgebra::SymmetricEigen;
+use serde::Serialize;
+
+/// Most steps of the search.
+const STEPS: usize = 300;
+/// Generalized force relative to the largest force on a body below which it is none.
+const BALANCED: f64 = 1e-10;
+/// Largest step, relative to the length of the mechanism.
+const LARGEST: f64 = 0.2;
+
+/// A position of rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Equilibrium {
+    /// Steps of the search.
+    pub iterations: usize,
+    /// Generalized force that is left, N.
+    pub residual: f64,
+    /// Smallest stiffness along a small motion, N/m: a position with a negative one is left at a touch. Motions are
+    /// measured by the displacements of all bodies and by their rotations times the mechanism's length, squared and
+    /// added.
+    pub least_stiffness: f64,
+    /// Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness.
+    pub stable: Option<bool>,
+    /// The bodies, at rest.
+    pub bodies: Vec<BodyFrame>,
+    /// Reactions at rest.
+    pub reactions: ReactionReport,
+}
+
+/// Finds a position of rest near the start, drivers and loads held at their start.
+///
+/// Newton's method in the small motions of the mechanism, its stiffness made positive in every direction so that the
+/// search runs downhill: it comes to a stable position, unless it starts at an unstable one.
+pub fn equilibrium(scene: &Scene) -> Result<Equilibrium, AnalysisError> {
+    let mut stage = Stage::new(scene)?;
+    find(&mut stage)
+}
+
+/// Moves a stage to equilibrium.
+pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
+    stage.rest();
+    let length = stage.mechanism.system.length;
+    for iterations in 0..STEPS {
+        let basis = stage.tangent();
+        stage.rest();
+        let force = stage.forces();
+        let along = basis.tr_mul(&force);
+        let residual = along.amax();
+        stage.accelerate();
+        let multipliers = stage.mechanism.elimination.solver_multipliers().to_vec();
+        let stiffness = stage.stiffness(&basis, &multipliers);
+        let eigen = SymmetricEigen::new((&stiffness + stiffness.transpose()) * 0.5);
+        let stiffest = eigen.eigenvalues.amax();
+        if residual <= BALANCED * force.amax().max(f64::MIN_POSITIVE) {
+            stage.rest();
+            stage.accelerate();
+            let least = eigen.eigenvalues.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+            let clear = least.abs() > 1e-7 * stiffest;
+            let mechanism = &stage.mechanism;
+            let reactions =
+                report(&mechanism.system, &mechanism.elimination, stage.time, Convention::default());
+            return Ok(Equilibrium {
+                iterations,
+                residual,
+                least_stiffness: if least.is_finite() { least } else { 0.0 },
+                stable: if basis.ncols() == 0 { Some(true) } else { clear.then_some(least > 0.0) },
+                bodies: stage.frames(),
+                reactions: reactions.map_err(crate::EngineError::from)?,
+            });
+        }
+        let floor = (1e-9 * stiffest).max(f64::MIN_POSITIVE);
+        let mut step = eigen.eigenvectors.tr_mul(&along);
+        for (x, stiffness) in step.iter_mut().zip(eigen.eigenvalues.iter()) {
+            *x /= stiffness.abs().max(floor);
+        }
+        let step = eigen.eigenvectors * step;
+        let size = step.norm();
+        let scale = if size > LARGEST * length { LARGEST * length / size } else { 1.0 };
+        let there = stage.moved(&(basis * step), scale);
+        let open = stage.hold(there);
+        if open.is_nan() || open > 1e-6 {
+            break;
+        }
+    }
+    let basis = stage.tangent();
+    stage.rest();
+    let force = stage.forces();
+    let along = basis.tr_mul(&force);
+    let left = &basis * &along;
+    Err(AnalysisError::NoEquilibrium {
+        iterations: STEPS,
+        residual: along.amax(),
+        body: stage.foremost(&left),
+    })
+}

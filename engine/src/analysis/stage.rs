@@ -1,0 +1,228 @@
+//! A mechanism held at one position, with its small motions.
+
+use super::{AnalysisError, MAX_BODIES};
+use crate::lift::Lift;
+use crate::literal::left_null_space;
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::scene::Scene;
+use crate::simulation::BodyFrame;
+use crate::system::System;
+use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
+
+/// A row of unit length of which less than this is across the others depends on them.
+const DEPENDENT: f64 = 1e-9;
+
+/// A mechanism held at one position.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its coordinates.
+    pub q: Vec<f64>,
+    /// Its velocities.
+    pub q_dot: Vec<f64>,
+    /// The time at which drivers and loads are taken, s.
+    pub time: f64,
+    /// What was corrected on the way to a consistent start.
+    pub notes: Vec<String>,
+}
+
+impl Stage {
+    /// Assembles a scene at its start.
+    pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
+        let model = Model::new(scene).map_err(crate::EngineError::from)?;
+        if model.bodies.len() > MAX_BODIES {
+            return Err(AnalysisError::TooLarge { bodies: model.bodies.len() });
+        }
+        let mut notes = model.notes.clone();
+        let mut mechanism = Mechanism::new(System::new(model));
+        let n = mechanism.system.coordinates;
+        let mut start = vec![0.0; 2 * n];
+        let (q, q_dot) = start.split_at_mut(n);
+        mechanism.system.start(q, q_dot);
+        notes.extend(mechanism.assemble(&mut start)?);
+        mechanism.elimination.set_redundant(true);
+        let q_dot = start.split_off(n);
+        Ok(Self { mechanism, q: start, q_dot, time: 0.0, notes })
+    }
+
+    /// Takes over the held position at rest.
+    pub fn rest(&mut self) {
+        self.q_dot.fill(0.0);
+        let y = [self.q.as_slice(), self.q_dot.as_slice()].concat();
+        self.mechanism.set_state(self.time, &y);
+    }
+
+    /// Evaluates accelerations and multipliers at the held state.
+    pub fn accelerate(&mut self) -> Vec<f64> {
+        let mut out = vec![0.0; self.q.len()];
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.set_time(system, self.time);
+        elimination.accelerate(system, &self.q, &self.q_dot, (0.0, 0.0), &mut out);
+        out
+    }
+
+    /// An orthonormal basis of small motions, lengths of arc measured with the mechanism's length: columns of
+    /// (v, ω) body by body.
+    pub fn tangent(&mut self) -> DMatrix<f64> {
+        let length = self.mechanism.system.length;
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.place(system, &self.q);
+        elimination.linearize(system);
+        // Aᵀ with columns of unit length; A ξ = 0 does not mind.
+        let mut a = DMatrix::zeros(6 * system.bodies.len(), system.solver_rows);
+        for (index, incidence) in system.incidences.iter().enumerate() {
+            let first = system.groups[incidence.group].solver.start;
+            for (k, row) in elimination.rows_on(system, index).chunks_exact(6).enumerate() {
+                for c in 0..6 {
+                    let scale = if c < 3 { 1.0 } else { 1.0 / length };
+                    a[(6 * incidence.body + c, first + k)] = row[c] * scale;
+                }
+            }
+        }
+        for mut column in a.column_iter_mut() {
+            let norm = column.norm();
+            if norm > 0.0 {
+                column /= norm;
+            }
+        }
+        let mut basis = left_null_space(&a, DEPENDENT);
+        for (row, mut values) in basis.row_iter_mut().enumerate() {
+            if row % 6 >= 3 {
+                values /= length;
+            }
+        }
+        basis
+    }
+
+    /// Resultant force and moment about the centre of mass of all loads, body by body, at the state in place.
+    pub fn forces(&mut self) -> DVector<f64> {
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.set_forces(system);
+        let mut out = DVector::zeros(6 * system.bodies.len());
+        for (index, state) in elimination.bodies.iter().enumerate() {
+            let moment: Vector3<f64> = (0..3).map(|k| state.q.e[k].cross(&state.force.e[k])).sum();
+            out.fixed_rows_mut::<3>(6 * index).copy_from(&state.force.r);
+            out.fixed_rows_mut::<3>(6 * index + 3).copy_from(&moment);
+        }
+        out
+    }
+
+    /// Aᵀ λ − F: what is left to accelerate the bodies, for given multipliers, at the position in place.
+    pub fn imbalance(&mut self, multipliers: &[f64]) -> DVector<f64> {
+        let mut out = -self.forces();
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.linearize(system);
+        for (index, incidence) in system.incidences.iter().enumerate() {
+            let first = system.groups[incidence.group].solver.start;
+            for (row, lambda) in elimination.rows_on(system, index).chunks_exact(6).zip(&multipliers[first..])
+            {
+                for c in 0..6 {
+                    out[6 * incidence.body + c] += row[c] * lambda;
+                }
+            }
+        }
+        out
+    }
+
+    /// The held position moved by `size` along a twist of each body; bodies stay rigid, joints may open a little.
+    pub fn moved(&self, twist: &DVector<f64>, size: f64) -> Vec<f64> {
+        let mut q = self.q.clone();
+        for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
+            let at = body.layout.position(&self.q);
+            let part = |k: usize| Vector3::new(twist[k], twist[k + 1], twist[k + 2]) * size;
+            let turn = Rotation3::from_scaled_axis(part(6 * index + 3));
+            let there = Lift { r: at.r + part(6 * index), e: at.e.map(|e| turn * e) };
+            body.layout.store(&there, &mut q);
+        }
+        q
+    }
+
+    /// Generalized velocities of a twist of each body at the held position.
+    pub fn velocity(&self, twist: &DVector<f64>) -> Vec<f64> {
+        let mut q_dot = vec![0.0; self.q.len()];
+        for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
+            let at = body.layout.position(&self.q);
+            let part = |k: usize| Vector3::new(twist[k], twist[k + 1], twist[k + 2]);
+            let omega = part(6 * index + 3);
+            let rate = Lift { r: part(6 * index), e: at.e.map(|e| omega.cross(&e)) };
+            body.layout.store(&rate, &mut q_dot);
+        }
+        q_dot
+    }
+
+    /// Puts positions in place, at rest.
+    pub fn place(&mut self, q: &[f64]) {
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.set_time(system, self.time);
+        elimination.place(system, q);
+        elimination.set_velocity(system, &vec![0.0; q.len()]);
+    }
+
+    /// Takes over a position after closing the joints. Returns the violation that is left.
+    pub fn hold(&mut self, mut q: Vec<f64>) -> f64 {
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.set_time(system, self.time);
+        elimination.place(system, &q);
+        for _ in 0..40 {
+            elimination.linearize(system);
+            let step = elimination.correct_positions(system, &mut q);
+            elimination.place(system, &q);
+            if step.is_nan() || step <= 1e-13 * system.length {
+                break;
+            }
+        }
+        elimination.keep_turns();
+        self.q = q;
+        let still = vec![0.0; self.q.len()];
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.set_velocity(system, &still);
+        elimination.violation(system).0
+    }
+
+    /// −∂(generalized force)/∂(motion) along a basis, with multipliers held: the stiffness matrix at rest.
+    pub fn stiffness(&mut self, basis: &DMatrix<f64>, multipliers: &[f64]) -> DMatrix<f64> {
+        let step = 1e-5 * self.mechanism.system.length;
+        let mut out = DMatrix::zeros(basis.ncols(), basis.ncols());
+        for k in 0..basis.ncols() {
+            let direction = basis.column(k).into_owned();
+            let [ahead, behind] = [step, -step].map(|size| {
+                let q = self.moved(&direction, size);
+                self.place(&q);
+                self.imbalance(multipliers)
+            });
+            out.set_column(k, &(basis.tr_mul(&(ahead - behind)) / (2.0 * step)));
+        }
+        let q = self.q.clone();
+        self.place(&q);
+        out
+    }
+
+    /// Bodies at the held position.
+    pub fn frames(&self) -> Vec<BodyFrame> {
+        let bodies = self.mechanism.system.bodies.iter().map(|body| {
+            let at = body.layout.position(&self.q);
+            let rate = body.layout.velocity(&at, &self.q_dot);
+            let omega: Vector3<f64> = (0..3).map(|k| at.e[k].cross(&rate.e[k])).sum::<Vector3<f64>>() * 0.5;
+            BodyFrame {
+                position: at.r.into(),
+                u: at.e[0].into(),
+                v: at.e[1].into(),
+                w: at.e[2].into(),
+                velocity: rate.r.into(),
+                angular_velocity: omega.into(),
+            }
+        });
+        bodies.collect()
+    }
+
+    /// Name of the body on which the largest part of a vector of twists or wrenches lies.
+    pub fn foremost(&self, vector: &DVector<f64>) -> String {
+        let size = |body: usize| vector.rows(6 * body, 6).amax();
+        let bodies = &self.mechanism.system.model.bodies;
+        (0..bodies.len())
+            .max_by(|a, b| size(*a).total_cmp(&size(*b)))
+            .map_or_else(String::new, |body| bodies[body].name.clone())
+    }
+}
