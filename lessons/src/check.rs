@@ -113,6 +113,11 @@ fn about(course: &Course, found: &mut Found) {
             "say what the student can do afterwards",
         );
     }
+    let plain = about.objectives.iter().chain([&about.title, &about.summary]);
+    if let Some(text) = plain.into_iter().find(|t| t.contains('$')) {
+        let what = format!("\u{201c}{text}\u{201d} has a formula");
+        found.add("lesson.toml", 0, what, "title, summary and objectives are shown as plain text");
+    }
     for slug in &about.prerequisites {
         if !course.lessons().iter().any(|l| l.slug == *slug && l.number < lesson.number) {
             found.add(

@@ -18,7 +18,7 @@ export interface Option {
 
 export interface Question {
   id: string;
-  kind: "number" | "vector" | "choice";
+  kind: "number" | "vector" | "choice" | "formula";
   prompt_html: string;
   /** The unit that the answer is read in. */
   unit?: string | null;
@@ -42,6 +42,8 @@ export interface Lesson {
   prerequisites: string[];
   html: string;
   scene: Scene | string;
+  /** What to do with the mechanism, in order. */
+  steps?: { kind: "predict" | "run" | "check" | "explain"; html: string }[];
   exercise: { questions: Question[]; pass_mark?: number };
 }
 

@@ -80,7 +80,11 @@ function givenUnit(question: Question): HTMLElement | null {
 }
 
 function number1(question: Question, base: string, described: string, draft: string[] | undefined): Inputs {
-  const value = textInput(`${base}-value`, "Value", described, draft?.[0] ?? "");
+  const value = textInput(`${base}-value`, question.kind === "formula" ? "Formula" : "Value", described, draft?.[0] ?? "");
+  if (question.kind === "formula") {
+    value.inputMode = "text";
+    value.maxLength = 400;
+  }
   const unit = unitInput(question, base, described, draft?.[1]);
   return {
     root: h("div", { class: "answer" }, value, unit ?? givenUnit(question)),

@@ -110,7 +110,16 @@ function showText(place: HTMLElement, lesson: Lesson): void {
         ? h("div", { class: "objectives" }, h("h2", null, "After this lesson you can"),
           h("ul", null, ...lesson.objectives.map((goal) => h("li", null, goal))))
         : null),
-    prose);
+    prose,
+    ...steps(lesson));
+}
+
+/** Predict, run, check, explain. */
+function steps(lesson: Lesson): HTMLElement[] {
+  if (!lesson.steps?.length) return [];
+  const items = lesson.steps.map((step) =>
+    authored(h("li", null), `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`));
+  return [h("section", { class: "prose steps" }, h("h2", null, "Work with the mechanism"), h("ol", null, ...items))];
 }
 
 function joined(slugs: string[]): (HTMLElement | string)[] {
