@@ -7,27 +7,49 @@ use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
-/// The program, built in the profile of this test.
+/// The program, in the profile of this test.
 ///
-/// Cargo builds a test's own package only, so the program of another package has to be asked for; after
-/// `cargo test --workspace` everything that it needs is already there.
+/// `cargo test --workspace` has built it; after `cargo test -p triad-tests` alone it may be missing or older than its
+/// sources, and is built here. `TRIAD_PROGRAM` names another one to be tested instead.
 pub fn triad() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
+        if let Some(program) = std::env::var_os("TRIAD_PROGRAM") {
+            return program.into();
+        }
         let here = std::env::current_exe().unwrap();
         let profile = here.parent().and_then(Path::parent).expect("tests run from target/<profile>/deps");
-        let mut build = Command::new(env!("CARGO"));
-        build.current_dir(root()).args(["build", "--package", "triad", "--bin", "triad", "--target-dir"]);
-        build.arg(profile.parent().unwrap());
-        if !cfg!(debug_assertions) {
-            build.arg("--release");
+        let program = profile.join("triad");
+        let sources =
+            ["engine/src", "lessons/src", "lessons/course", "server/src", "server/build.rs", "web/src"];
+        let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max();
+        if newest(&program) < changed {
+            build(profile);
         }
-        let output = build.output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        profile.join("triad")
+        program
     })
+}
+
+/// Time of the last change of a file, or of any file below a folder.
+fn newest(path: &Path) -> Option<SystemTime> {
+    let about = path.metadata().ok()?;
+    if about.is_file() {
+        return about.modified().ok();
+    }
+    path.read_dir().ok()?.filter_map(|entry| newest(&entry.ok()?.path())).max()
+}
+
+fn build(profile: &Path) {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.current_dir(root()).args(["build", "--package", "triad", "--bin", "triad", "--target-dir"]);
+    cargo.arg(profile.parent().unwrap());
+    if !cfg!(debug_assertions) {
+        cargo.arg("--release");
+    }
+    let output = cargo.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// Runs the program to its end.
