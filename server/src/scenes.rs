@@ -4,11 +4,35 @@ use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
 use triad_engine::EngineError;
+use triad_engine::analysis::AnalysisError;
 use triad_engine::catalogue;
+use triad_engine::paper::PaperError;
 use triad_engine::scene::{self, Scene};
 
 use crate::limits::Limits;
 use crate::problem::{Problem, suggest};
+
+impl From<AnalysisError> for Problem {
+    fn from(error: AnalysisError) -> Self {
+        match error {
+            AnalysisError::Engine(error) => error.into(),
+            other => {
+                Self::new(StatusCode::UNPROCESSABLE_ENTITY, other.code(), other.to_string(), other.hint())
+            }
+        }
+    }
+}
+
+impl From<PaperError> for Problem {
+    fn from(error: PaperError) -> Self {
+        match error {
+            PaperError::Engine(error) => error.into(),
+            other => {
+                Self::new(StatusCode::UNPROCESSABLE_ENTITY, other.code(), other.to_string(), other.hint())
+            }
+        }
+    }
+}
 
 impl From<EngineError> for Problem {
     fn from(error: EngineError) -> Self {

@@ -1,0 +1,261 @@
+//! `triad reactions`, `equilibrium`, `modes`, `kinematics` and `assemble`.
+
+use clap::{Args, ValueEnum};
+use triad_engine::analysis;
+use triad_engine::reaction::report::{About, Convention, ExpressedIn, Reaction, ReactionReport, Side};
+use triad_engine::simulation::{BodyFrame, Simulation};
+
+use super::Outcome;
+use super::terminal::{print_json, print_line};
+use crate::problem::Problem;
+use crate::scenes;
+
+/// How reactions are wanted.
+#[derive(Debug, Clone, Args)]
+pub(super) struct Words {
+    /// The body that the reaction acts on.
+    #[arg(long, value_enum, default_value_t = OnWord::J)]
+    on: OnWord,
+    /// The point about which moments are taken.
+    #[arg(long, value_enum, default_value_t = AboutWord::JointPoint)]
+    about: AboutWord,
+    /// The frame of the components.
+    #[arg(long = "in", value_enum, default_value_t = FrameWord::World)]
+    frame: FrameWord,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum OnWord {
+    /// Body i of each joint.
+    I,
+    /// Body j of each joint.
+    J,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum AboutWord {
+    /// The joint's point on that body.
+    JointPoint,
+    /// The body's centre of mass.
+    CenterOfMass,
+    /// The world's origin.
+    Origin,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum FrameWord {
+    /// The world's axes.
+    World,
+    /// x along the joint's axis.
+    Joint,
+    /// The frame of the body that the reaction acts on.
+    Body,
+}
+
+impl Words {
+    fn convention(&self) -> Convention {
+        Convention {
+            on: match self.on {
+                OnWord::I => Side::I,
+                OnWord::J => Side::J,
+            },
+            about: match self.about {
+                AboutWord::JointPoint => About::JointPoint,
+                AboutWord::CenterOfMass => About::CenterOfMass,
+                AboutWord::Origin => About::WorldPoint([0.0; 3]),
+            },
+            expressed_in: match self.frame {
+                FrameWord::World => ExpressedIn::World,
+                FrameWord::Joint => ExpressedIn::Joint,
+                FrameWord::Body => ExpressedIn::Body,
+            },
+        }
+    }
+}
+
+/// Reactions of a scene at a time.
+pub(super) fn reactions(spec: &str, at: f64, words: &Words, json: bool) -> Result<Outcome, Problem> {
+    let scene = scenes::named_or_in_file(spec)?;
+    let mut simulation = Simulation::new(&scene)?;
+    simulation.advance_to(at)?;
+    let report = simulation.reactions(words.convention())?;
+    if json {
+        print_json(&report);
+    } else {
+        print_line(&format!("{}: reactions at t = {} s", scene.name, report.time));
+        print_reactions(&report);
+    }
+    Ok(Outcome::Done)
+}
+
+fn print_reactions(report: &ReactionReport) {
+    for reaction in &report.reactions {
+        print_reaction(reaction);
+    }
+    if report.redundancies.is_empty() {
+        print_line("  every reaction is unique");
+    } else {
+        print_line(&format!(
+            "  ~ marks what the equations of motion leave open (tolerance {:.0e}); the smallest such values are shown",
+            report.tolerance
+        ));
+    }
+    for redundancy in &report.redundancies {
+        print_line(&format!(
+            "  {} redundant rows are shared by {}",
+            redundancy.rows,
+            redundancy.joints.join(", ")
+        ));
+        for remedy in &redundancy.remedies {
+            let kind = serde_json::to_value(remedy.becomes).unwrap_or_default();
+            print_line(&format!(
+                "    remedy: make \"{}\" a {} joint, which gives up {}",
+                remedy.joint,
+                kind.as_str().unwrap_or("weaker"),
+                remedy.gives_up
+            ));
+        }
+    }
+}
+
+fn print_reaction(reaction: &Reaction) {
+    let line = |what: &str, unit: &str, components: &[triad_engine::reaction::report::Component; 3]| {
+        let numbers: Vec<String> = components
+            .iter()
+            .map(|c| format!("{}{:>14.6}", if c.unique { ' ' } else { '~' }, c.value + 0.0))
+            .collect();
+        print_line(&format!("    {what:<8}{} {unit}", numbers.concat()));
+    };
+    print_line(&format!(
+        "  {}{}: on \"{}\" by \"{}\", about {}, in {}",
+        if reaction.driver { "driver " } else { "" },
+        reaction.joint,
+        reaction.on,
+        reaction.by,
+        reaction.about,
+        reaction.expressed_in
+    ));
+    line("force", "N", &reaction.force);
+    line("moment", "N m", &reaction.moment);
+}
+
+fn triple(v: [f64; 3]) -> String {
+    format!("({:.6}, {:.6}, {:.6})", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0)
+}
+
+fn print_bodies(scene: &triad_engine::Scene, frames: &[BodyFrame]) {
+    for (body, frame) in scene.bodies.iter().zip(frames) {
+        print_line(&format!(
+            "  {}: centre of mass {} m, u {}",
+            body.name,
+            triple(frame.position),
+            triple(frame.u)
+        ));
+    }
+}
+
+/// Static equilibrium near the start.
+pub(super) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Problem> {
+    let scene = scenes::named_or_in_file(spec)?;
+    let found = analysis::equilibrium(&scene)?;
+    if json {
+        print_json(&found);
+        return Ok(Outcome::Done);
+    }
+    let verdict = match found.stable {
+        Some(true) => "stable",
+        Some(false) => "unstable: the least touch leaves it",
+        None => "undecided: some motion meets no stiffness",
+    };
+    print_line(&format!("{}: equilibrium after {} steps, {verdict}", scene.name, found.iterations));
+    print_bodies(&scene, &found.bodies);
+    print_reactions(&found.reactions);
+    Ok(Outcome::Done)
+}
+
+/// Eigenfrequencies and mode shapes.
+pub(super) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Outcome, Problem> {
+    let scene = scenes::named_or_in_file(spec)?;
+    let about = if at_start { analysis::About::Start } else { analysis::About::Equilibrium };
+    let found = analysis::modes(&scene, about)?;
+    if json {
+        print_json(&found);
+        return Ok(Outcome::Done);
+    }
+    print_line(&format!("{}: {} degrees of freedom", scene.name, found.freedoms));
+    for (index, mode) in found.modes.iter().enumerate() {
+        print_line(&format!(
+            "  mode {}: {:<10} {:>12.6} Hz, growth {:>12.6} 1/s, damping ratio {:.6}",
+            index + 1,
+            mode.kind,
+            mode.frequency,
+            mode.growth + 0.0,
+            mode.damping_ratio + 0.0
+        ));
+        for (body, motion) in scene.bodies.iter().zip(&mode.shape) {
+            print_line(&format!(
+                "    {}: moves {} m, turns {} rad",
+                body.name,
+                triple(motion.translation),
+                triple(motion.rotation)
+            ));
+        }
+    }
+    for note in &found.notes {
+        print_line(&format!("  note: {note}"));
+    }
+    Ok(Outcome::Done)
+}
+
+/// Kinematic analysis and inverse dynamics of a driven scene.
+pub(super) fn kinematics(spec: &str, words: &Words, json: bool) -> Result<Outcome, Problem> {
+    let scene = scenes::named_or_in_file(spec)?;
+    let found = analysis::kinematics(&scene, words.convention())?;
+    if json {
+        print_json(&found);
+        return Ok(Outcome::Done);
+    }
+    print_line(&format!(
+        "{}: {} positions, {} Newton-Raphson steps",
+        scene.name,
+        found.states.len(),
+        found.iterations
+    ));
+    for state in &found.states {
+        print_line(&format!("t = {:.6} s", state.time));
+        print_bodies(&scene, &state.bodies);
+        for driver in state.reactions.reactions.iter().filter(|r| r.driver) {
+            print_reaction(driver);
+        }
+    }
+    Ok(Outcome::Done)
+}
+
+/// Assembly from a rough start.
+pub(super) fn assemble(spec: &str, keep: &[String], json: bool) -> Result<Outcome, Problem> {
+    let scene = scenes::named_or_in_file(spec)?;
+    let found = analysis::assemble(&scene, keep)?;
+    if json {
+        print_json(&found);
+        return Ok(Outcome::Done);
+    }
+    print_line(&format!(
+        "{}: closed after {} steps; open by {:.3e} at the start, {:.3e} now",
+        scene.name, found.iterations, found.opening, found.left
+    ));
+    for body in &found.bodies {
+        let q = body.quaternion;
+        print_line(&format!(
+            "  {}: position {} m, quaternion ({:.6}, {:.6}, {:.6}, {:.6}); moved {:.3e} m, turned {:.3e} rad",
+            body.body,
+            triple(body.position),
+            q[0],
+            q[1],
+            q[2],
+            q[3],
+            body.moved,
+            body.turned
+        ));
+    }
+    Ok(Outcome::Done)
+}
