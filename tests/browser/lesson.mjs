@@ -65,7 +65,7 @@ async function colours(target) {
   }, png);
 }
 
-const clock = async () => Number(await page.getByLabel("Run to a time, in seconds").inputValue());
+const clock = () => page.locator(".clock").evaluate((element) => Number(element.value ?? Number.parseFloat(element.textContent)));
 const control = (name) => page.getByRole("group", { name: "Run of the simulation" }).getByRole("button", { name, exact: true });
 const fill = (id, value) => page.locator(`#q-${id}`).fill(value);
 const check = async () => {
