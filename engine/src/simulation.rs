@@ -213,16 +213,28 @@ impl Simulation {
 
     /// Goes on to time t, at most the end of the run.
     pub fn advance_to(&mut self, t: f64) -> Result<(), EngineError> {
+        self.advance_towards(t, u64::MAX).map(|_| ())
+    }
+
+    /// Goes on towards time t by at most so many integrator steps, and tells whether it got there. If not, the state
+    /// that is shown stays as it is, and the next call goes on from where this one ended: a caller who must be able
+    /// to stop asks in pieces, with the same result.
+    pub fn advance_towards(&mut self, t: f64, most_steps: u64) -> Result<bool, EngineError> {
         let t = t.min(self.duration());
         if t.is_nan() || t < self.time {
             return Err(EngineError::TimeOutside { time: t, from: self.time, to: self.duration() });
         }
+        let mut left = most_steps;
         while self.integrator.time() < t {
+            if left == 0 {
+                return Ok(false);
+            }
+            left -= 1;
             self.integrate_one()?;
         }
         self.integrator.interpolate(&mut self.mechanism, t, &mut self.shown);
         self.time = t;
-        Ok(())
+        Ok(true)
     }
 
     fn integrate_one(&mut self) -> Result<(), EngineError> {

@@ -18,6 +18,9 @@ use crate::problem::Problem;
 /// How often a playing session goes on: about thirty times a second.
 pub(super) const BEAT: Duration = Duration::from_millis(33);
 
+/// Integrator steps between two looks at the clock and at what callers want.
+const PIECE: u64 = 32;
+
 /// What a caller may ask for; the answer comes back through the sender.
 #[derive(Debug)]
 pub(super) enum Command {
@@ -178,8 +181,9 @@ impl Worker {
         while self.simulation.time() < target && !self.signals.interrupt.load(Ordering::Relaxed) {
             // The next of the scene's output times; the slack keeps rounding from making one twice.
             let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
-            self.simulation.advance_to(next.min(target))?;
-            self.film.take(&mut self.simulation)?;
+            if self.simulation.advance_towards(next.min(target), PIECE)? {
+                self.film.take(&mut self.simulation)?;
+            }
             self.in_time(deadline)?;
         }
         Ok(())

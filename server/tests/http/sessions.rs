@@ -123,6 +123,35 @@ async fn a_bound_on_time_or_on_the_recording_is_told_and_survived() {
     assert!(reset.json()["error"].is_null());
 }
 
+#[tokio::test]
+async fn a_run_that_hardly_moves_can_be_stopped_and_closed() {
+    let server = triad::app(state(Limits { command_time: Duration::from_millis(200), ..Limits::default() }));
+    let overrides = json!({"stabilization": {"kind": "baumgarte", "alpha": 1e6, "beta": 1e6}, "every": 5.0});
+    let path = start(&server, json!({"builtin": "simple-pendulum", "overrides": overrides})).await;
+    let asked = std::time::Instant::now();
+    let step = post(&server, &format!("{path}/step"), json!({"seconds": 10})).await;
+    step.problem(503, "time-budget-exceeded");
+    post(&server, &format!("{path}/play"), "").await;
+    let paused = post(&server, &format!("{path}/pause"), "").await.json();
+    assert_eq!(paused["playing"], false);
+    let delete = Request::delete(&path).body(Body::empty()).expect("a request");
+    assert_eq!(send(&server, delete).await.status, 204);
+    assert!(asked.elapsed() < Duration::from_secs(5), "{:?}", asked.elapsed());
+}
+
+#[tokio::test]
+async fn a_run_that_diverges_says_so_and_its_last_good_state_stays() {
+    let server = server();
+    let mut scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    scene["gravity"] = json!([0.0, -1e308, 0.0]);
+    let path = start(&server, json!({"scene": scene})).await;
+    post(&server, &format!("{path}/step"), json!({"seconds": 1})).await.problem(422, "diverged");
+    let state = get(&server, &path).await.json();
+    assert_eq!((&state["error"]["code"], &state["q"][0]), (&json!("diverged"), &json!(-1.0)));
+    post(&server, &format!("{path}/step"), "").await.problem(409, "session-stopped");
+    assert_eq!(get(&server, &format!("{path}/jacobian")).await.status, 200);
+}
+
 fn state_with_short_film() -> triad::app::App {
     state(Limits { recording_bytes: 10_000, ..Limits::default() })
 }
