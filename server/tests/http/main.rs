@@ -1,5 +1,8 @@
 //! The HTTP interface, called in process.
 
+// The exemption of the lints for tests does not reach the helpers beside them.
+#![allow(clippy::expect_used, clippy::panic)]
+
 mod bad_input;
 mod document;
 mod lessons;
