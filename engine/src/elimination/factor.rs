@@ -1,0 +1,169 @@
+//! The twist Jacobian A, S = A D⁻¹ Aᵀ and its factor at the positions that are in place — eq. (7.4).
+
+use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
+use crate::lift::Lift;
+use crate::row::{Form, across};
+use crate::system::{NO_INCIDENCE, Row, System};
+use nalgebra::{Matrix3, Vector3};
+
+impl Elimination {
+    /// Builds A, S and its factor at the current positions.
+    pub fn linearize(&mut self, system: &System) {
+        self.fill_blocks(system);
+        for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
+            state.inverse = inverse_inertia(&state.q, &body.ibar, body.lent);
+        }
+        self.scale_blocks(system);
+        self.regularized = self.redundant;
+        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
+        self.assemble(system);
+        let mut pivots = self.factor.factor(epsilon, 0.0, |_, _| {});
+        self.counters.factorizations += 1;
+        if !self.redundant && pivots.smallest < NEAR_SINGULAR {
+            self.regularized = true;
+            self.assemble(system);
+            pivots = self.factor.factor(REGULARIZATION, 0.0, |_, _| {});
+            self.counters.factorizations += 1;
+        }
+        self.smallest_pivot = pivots.smallest;
+    }
+
+    /// Relative pivots of S at the current positions, with dependent rows dropped: (solver row, pivot).
+    pub fn pivots(&mut self, system: &System, skip: f64) -> Vec<(usize, f64)> {
+        self.linearize(system);
+        self.assemble(system);
+        let mut pivots = Vec::with_capacity(system.solver_rows);
+        self.factor.factor(0.0, skip, |row, pivot| pivots.push((row, pivot)));
+        pivots
+    }
+
+    fn fill_blocks(&mut self, system: &System) {
+        self.a.fill(0.0);
+        for (index, row) in system.rows.iter().enumerate() {
+            match row.form {
+                Form::Coincidence { a, b } => {
+                    for k in 0..3 {
+                        let g = Vector3::ith(k, 1.0);
+                        self.add_gradient(system, row, k, 0, a, &g);
+                        self.add_gradient(system, row, k, 1, b, &-g);
+                    }
+                }
+                Form::CommonVector { a, b } => {
+                    self.transverse[index] = across(&self.features[a].value.normalize());
+                    for k in 0..2 {
+                        let t = self.transverse[index][k];
+                        self.add_gradient(system, row, k, 0, a, &t);
+                        self.add_gradient(system, row, k, 1, b, &-t);
+                    }
+                }
+                Form::Product { a, b, .. } => {
+                    let (x, y) = (self.difference(a, |f| f.value), self.difference(b, |f| f.value));
+                    let mut place = 0;
+                    for (difference, g) in [(a, y), (b, x)] {
+                        self.add_gradient(system, row, 0, place, difference.plus, &g);
+                        place += 1;
+                        if let Some(minus) = difference.minus {
+                            self.add_gradient(system, row, 0, place, minus, &-g);
+                            place += 1;
+                        }
+                    }
+                }
+                Form::Relation { angles, slide, .. } => {
+                    let mut place = 0;
+                    for (angle, factor) in angles.into_iter().flatten() {
+                        let gradient = self.angles[angle].gradient;
+                        for (feature, g) in system.angles[angle].features().into_iter().zip(gradient) {
+                            self.add_gradient(system, row, 0, place, feature, &(g * factor));
+                            place += 1;
+                        }
+                    }
+                    if let Some((a, b, factor)) = slide {
+                        let (x, y) = (self.difference(a, |f| f.value), self.difference(b, |f| f.value));
+                        for (difference, g) in [(a, y * factor), (b, x * factor)] {
+                            self.add_gradient(system, row, 0, place, difference.plus, &g);
+                            place += 1;
+                            if let Some(minus) = difference.minus {
+                                self.add_gradient(system, row, 0, place, minus, &-g);
+                                place += 1;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the row gᵀ C of one feature, in twist form (g, arm × g) — eq. (7.4).
+    fn add_gradient(
+        &mut self,
+        system: &System,
+        row: &Row,
+        k: usize,
+        place: usize,
+        feature: usize,
+        g: &Vector3<f64>,
+    ) {
+        let incidence = row.incidence[place];
+        if incidence == NO_INCIDENCE {
+            return;
+        }
+        let at = system.incidences[incidence].offset + 6 * (row.local + k);
+        let moment = self.features[feature].arm.cross(g);
+        let block = &mut self.a[at..at + 6];
+        if system.features[feature].point {
+            for c in 0..3 {
+                block[c] += g[c];
+            }
+        }
+        for c in 0..3 {
+            block[3 + c] += moment[c];
+        }
+    }
+
+    fn scale_blocks(&mut self, system: &System) {
+        for incidence in &system.incidences {
+            let inverse = &self.bodies[incidence.body].inverse;
+            let inverse_mass = 1.0 / system.bodies[incidence.body].mass;
+            let range = incidence.offset..incidence.offset + 6 * incidence.rows;
+            for (a, b) in self.a[range.clone()].chunks_exact(6).zip(self.b[range].chunks_exact_mut(6)) {
+                let moment = inverse * Vector3::new(a[3], a[4], a[5]);
+                for c in 0..3 {
+                    b[c] = a[c] * inverse_mass;
+                    b[3 + c] = moment[c];
+                }
+            }
+        }
+    }
+
+    fn assemble(&mut self, system: &System) {
+        self.factor.clear();
+        let values = self.factor.values_mut();
+        for contribution in &self.contributions {
+            let (left, right) =
+                (&system.incidences[contribution.left], &system.incidences[contribution.right]);
+            let a = &self.a[left.offset..left.offset + 6 * left.rows];
+            let b = &self.b[right.offset..right.offset + 6 * right.rows];
+            let target = &mut values[contribution.slot.offset..];
+            for (a, out) in a.chunks_exact(6).zip(target.chunks_exact_mut(right.rows)) {
+                for (b, out) in b.chunks_exact(6).zip(out) {
+                    *out += a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+                }
+            }
+        }
+    }
+}
+
+/// Inverse of I_g = Σ Ī_k (|e_k|² I − e_k e_kᵀ), with `lent` added to its diagonal.
+fn inverse_inertia(q: &Lift, ibar: &Vector3<f64>, lent: f64) -> Matrix3<f64> {
+    let mut inertia = Matrix3::from_diagonal_element(lent);
+    for k in 0..3 {
+        let e = q.e[k];
+        let trace = ibar[k] * e.norm_squared();
+        inertia += Matrix3::from_diagonal_element(trace) - e * e.transpose() * ibar[k];
+    }
+    let [a, b, c] = [0, 1, 2].map(|k| inertia.column(k).into_owned());
+    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
+    let scale = 1.0 / a.dot(&bc);
+    // Rows of the inverse of a matrix with columns a, b, c; it is symmetric.
+    Matrix3::from_columns(&[bc * scale, ca * scale, ab * scale])
+}
