@@ -116,7 +116,7 @@ async function first() {
   await picture("jacobian");
 
   // A wrong answer that the lesson knows, and one that is no number.
-  await page.getByLabel("Your name").fill("Ada Lovelace");
+  await page.locator("#student").fill("Ada Lovelace");
   await fill("independent-rows-value", "11");
   await fill("tension-bottom-value", "a lot");
   let verdict = await check();
