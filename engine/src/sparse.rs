@@ -21,12 +21,12 @@ pub struct Slot {
 }
 
 /// Largest block: no joint or driver has more rows.
-pub const MAX_BLOCK: usize = 12;
+pub const MAX_BLOCK: usize = 9;
 
 /// Runs `$call` with the constant `$n` equal to a block's size.
 macro_rules! by_size {
     ($size:expr, $n:ident => $call:expr) => {
-        by_size!(@ $size, $n => $call; 1 2 3 4 5 6 7 8 9 10 11 12)
+        by_size!(@ $size, $n => $call; 1 2 3 4 5 6 7 8 9)
     };
     (@ $size:expr, $n:ident => $call:expr; $($value:literal)*) => {
         match $size {
@@ -206,7 +206,6 @@ impl BlockCholesky {
     ///
     /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops
     /// its row. `visit` sees each relative pivot with its scalar row.
-    #[inline(always)]
     pub fn factor(&mut self, epsilon: f64, skip: f64, mut visit: impl FnMut(usize, f64)) -> Pivots {
         let mut pivots = Pivots { smallest: f64::INFINITY, row: 0 };
         let mut note = |row: usize, relative: f64| {
@@ -231,7 +230,6 @@ impl BlockCholesky {
         pivots
     }
 
-    #[inline(always)]
     fn factor_column<const N: usize>(&mut self, place: usize, skip: f64, note: &mut impl FnMut(usize, f64)) {
         let column = &self.columns[place];
         let at = column.diagonal..column.diagonal + N * N;
@@ -260,7 +258,6 @@ impl BlockCholesky {
     }
 
     /// Replaces b by the solution of S x = b.
-    #[inline(always)]
     pub fn solve(&self, x: &mut [f64]) {
         for column in &self.columns {
             by_size!(column.size, N => self.forward::<N>(column, x));
@@ -270,7 +267,6 @@ impl BlockCholesky {
         }
     }
 
-    #[inline(always)]
     fn forward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
         let Some(&y) = x[column.start..].first_chunk::<N>() else { return };
         for below in &self.below[column.below.clone()] {
@@ -279,7 +275,6 @@ impl BlockCholesky {
         }
     }
 
-    #[inline(always)]
     fn backward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
         let inverse = self.factors[column.diagonal..].as_chunks::<N>().0;
         let (Some(inverse), Some(y)) = (inverse.first_chunk::<N>(), x[column.start..].first_chunk::<N>())

@@ -82,7 +82,6 @@ impl Schur {
     }
 
     /// Builds S from C⁻¹ s̃ of all features and factors it.
-    #[inline(always)]
     pub fn build<const L: usize>(
         &mut self,
         rows: &Rows<L>,

@@ -1,6 +1,7 @@
 //! The command line: everything that the page does can be done here too.
 
 mod analyses;
+mod bench;
 mod check;
 mod csv;
 mod grade;
@@ -138,6 +139,16 @@ enum Command {
     /// The lessons of the course.
     #[command(subcommand)]
     Lesson(Lesson),
+    /// Measure run time against error of the built-in scenes, for all integrators.
+    #[command(after_help = "Examples:\n  triad bench --quick\n  triad bench --out results     (then open results/bench.html)")]
+    Bench {
+        /// Fewer scenes, tolerances and repeats: less than a minute.
+        #[arg(long)]
+        quick: bool,
+        /// The folder for bench.csv and bench.html; made if it is not there.
+        #[arg(long, default_value = ".", value_name = "DIR")]
+        out: PathBuf,
+    },
     /// Print the JSON Schema of scenes, for editors.
     #[command(after_help = "Example:\n  triad schema > scene.schema.json")]
     Schema,
@@ -255,6 +266,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
+        Command::Bench { quick, out } => bench::bench(quick, &out, json),
         Command::Schema => {
             terminal::print_json(&triad_engine::scene::schema());
             Ok(Outcome::Done)
