@@ -140,7 +140,9 @@ enum Command {
     #[command(subcommand)]
     Lesson(Lesson),
     /// Measure run time against error of the built-in scenes, for all integrators.
-    #[command(after_help = "Examples:\n  triad bench --quick\n  triad bench --out results     (then open results/bench.html)")]
+    #[command(
+        after_help = "Examples:\n  triad bench --quick\n  triad bench --out results     (then open results/bench.html)"
+    )]
     Bench {
         /// Fewer scenes, tolerances and repeats: less than a minute.
         #[arg(long)]
