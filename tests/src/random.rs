@@ -126,7 +126,7 @@ impl RandomScene {
         }
         let scene = json!({
             "name": "random", "gravity": self.gravity, "bodies": bodies, "joints": joints,
-            "simulation": { "duration": 1.0, "tolerance": 1e-11 }
+            "simulation": { "duration": 1.0, "tolerance": 1e-11, "integrator": "dop853" }
         });
         Scene::from_json(&scene.to_string()).unwrap()
     }
