@@ -8,6 +8,7 @@ use triad_engine::catalogue;
 use triad_engine::integrate::Plant;
 use triad_engine::mechanism::Mechanism;
 use triad_engine::model::Model;
+use triad_engine::series::Series;
 use triad_engine::system::System;
 
 /// Median and least of the time of `work`, in nanoseconds.
@@ -51,6 +52,12 @@ fn main() -> Result<(), triad_engine::EngineError> {
             mechanism.rate(0.0, black_box(&y), &mut rate);
         });
         report(&format!("{name}: place and velocity"), bodies, || mechanism.set_state(0.0, black_box(&y)));
+        let mut series = Series::<4>::new(&mechanism.system, 2, mechanism.elimination.is_redundant());
+        report(&format!("{name}: evaluation, in bundles"), bodies, || {
+            series.place(&mechanism.system, black_box(&y));
+            series.evaluate();
+            series.store_accelerations(&mechanism.system, &mut rate[n..]);
+        });
         let (system, elimination) = (&mechanism.system, &mut mechanism.elimination);
         report(&format!("{name}: linearize and factor"), bodies, || elimination.linearize(system));
         report(&format!("{name}: projection of positions"), bodies, || {

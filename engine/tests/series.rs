@@ -4,6 +4,7 @@
 
 use triad_engine::catalogue;
 use triad_engine::scene::{Coordinates, IntegratorKind, Scene};
+use triad_engine::series::Series;
 use triad_engine::simulation::Simulation;
 
 fn scene(name: &str, tolerance: f64) -> Scene {
@@ -106,4 +107,24 @@ fn automatic_choice_says_why() {
     let summary = Simulation::new(&scene).unwrap().summary();
     assert_eq!(summary.integrator, IntegratorKind::Dop853);
     assert!(summary.reason.contains("Baumgarte"));
+}
+
+/// Order 0 of the series is an evaluation: equal to the elimination body by body, which is written independently.
+#[test]
+fn order_zero_is_an_evaluation_of_the_accelerations() {
+    for name in ["spatial-double-pendulum", "spatial-chain:7", "free-body", "n-four-bar:1"] {
+        let mut simulation = Simulation::new(&scene(name, 1e-9)).unwrap();
+        simulation.step().unwrap();
+        let expected = simulation.accelerations();
+        let y = [simulation.q(), simulation.q_dot()].concat();
+        let redundant = !simulation.rank().dependent.is_empty();
+        let mut series = Series::<4>::new(simulation.system(), 2, redundant);
+        series.place(simulation.system(), &y);
+        series.evaluate();
+        let mut found = vec![0.0; expected.len()];
+        series.store_accelerations(simulation.system(), &mut found);
+        for (a, b) in expected.iter().zip(&found) {
+            assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "{name}: {a} and {b}");
+        }
+    }
 }

@@ -56,7 +56,25 @@ impl<const L: usize> WithSimd for Linearize<'_, L> {
     }
 }
 
+/// An evaluation of the accelerations, likewise.
+struct Evaluate<'a, const L: usize>(&'a mut Series<L>);
+
+impl<const L: usize> WithSimd for Evaluate<'_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.linearize_here();
+        self.0.expand(2);
+    }
+}
+
 impl<const L: usize> Series<L> {
+    /// Accelerations and multipliers at the state: builds and factors S, then order 0.
+    pub fn evaluate(&mut self) {
+        Arch::new().dispatch(Evaluate(self));
+    }
+
     /// Builds and factors S at the point of expansion.
     pub fn linearize(&mut self) {
         Arch::new().dispatch(Linearize(self));
