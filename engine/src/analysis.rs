@@ -55,7 +55,7 @@ pub enum AnalysisError {
         body: String,
     },
     /// Kinematic analysis of a scene that is free to move.
-    #[error("the drivers leave {freedoms} degrees of freedom: the motion is not a matter of geometry alone")]
+    #[error("the drivers leave freedoms of motion ({freedoms}): it is not a matter of geometry alone")]
     Free {
         /// Degrees of freedom that are left.
         freedoms: usize,

