@@ -68,6 +68,9 @@ impl EngineError {
             Self::Scene(SceneError::TooLong { .. }) => "scene-too-long",
             Self::Scene(SceneError::Syntax { .. }) => "scene-syntax",
             Self::Scene(SceneError::TooMany { .. }) => "scene-too-large",
+            Self::Scene(SceneError::NoNumber { .. }) => "no-such-number",
+            Self::Scene(SceneError::UnknownParameter { .. }) => "unknown-parameter",
+            Self::Scene(SceneError::OutsideParameter { .. }) => "outside-parameter",
             Self::Catalogue(error) => error.code(),
             Self::Model(error) => error.code(),
             Self::Uniqueness(error) => error.code(),
@@ -83,6 +86,7 @@ impl EngineError {
         match self {
             Self::Scene(SceneError::Syntax { pointer, .. }) => Some(pointer.clone()),
             Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
+            Self::Scene(SceneError::NoNumber { pointer, .. }) => Some(pointer.clone()),
             Self::Model(error) => Some(error.pointer()),
             Self::Assembly { index, .. } => Some(format!("/joints/{index}")),
             _ => None,
@@ -97,6 +101,18 @@ impl EngineError {
             }
             Self::Scene(SceneError::Syntax { .. }) => {
                 "Compare the place with the JSON Schema of a scene (`triad schema`).".to_owned()
+            }
+            Self::Scene(SceneError::NoNumber { .. }) => {
+                "Name a place that holds a number, by keys and places in lists from 0, like /bodies/0/mass.".to_owned()
+            }
+            Self::Scene(SceneError::UnknownParameter { known, .. }) if known.is_empty() => {
+                "This scene offers no parameters; change a number by its JSON pointer instead.".to_owned()
+            }
+            Self::Scene(SceneError::UnknownParameter { known, .. }) => {
+                format!("Its parameters are {}.", known.join(", "))
+            }
+            Self::Scene(SceneError::OutsideParameter { low, high, .. }) => {
+                format!("Choose a value from {low} to {high}, or change the number by its JSON pointer.")
             }
             Self::Catalogue(error) => error.hint(),
             Self::Model(error) => error.hint(),

@@ -40,12 +40,17 @@ impl Mechanism {
 
     /// Moves a start onto the constraints. Returns what was corrected, in words.
     pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, EngineError> {
+        self.elimination.forget_turns();
+        self.assemble_at(0.0, y)
+    }
+
+    /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.
+    pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, EngineError> {
         let n = self.system.coordinates;
         let length = self.system.length;
         let mut notes = Vec::new();
         let given = y.to_vec();
-        self.elimination.forget_turns();
-        self.set_state(0.0, y);
+        self.set_state(t, y);
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
         let (opening, _) = self.elimination.violation(&self.system);
@@ -64,7 +69,7 @@ impl Mechanism {
             && left <= 1e-9 * length.max(1.0)
             && moved <= FARTHEST * length.max(1.0);
         if !solved {
-            return Err(self.assembly_error(&given, moved));
+            return Err(self.assembly_error(t, &given, moved));
         }
         if opening > 1e-9 * length {
             notes.push(format!(
@@ -88,9 +93,9 @@ impl Mechanism {
         Ok(notes)
     }
 
-    fn assembly_error(&mut self, given: &[f64], moved: f64) -> EngineError {
+    fn assembly_error(&mut self, t: f64, given: &[f64], moved: f64) -> EngineError {
         // The joint that is open at the given start says more than the one left open by the failed attempt.
-        self.set_state(0.0, given);
+        self.set_state(t, given);
         let (index, violation) = self.elimination.worst_group(&self.system);
         let joint = self.system.groups.get(index).map_or_else(String::new, |g| g.name.clone());
         EngineError::Assembly { joint, index, violation, moved }

@@ -9,6 +9,7 @@ mod driver;
 mod error;
 mod joint;
 mod load;
+mod parameter;
 mod reader;
 
 pub use body::ModelBody;
@@ -91,6 +92,7 @@ impl Model {
             unique_name(&mut load_names, "loads", index, written.name())?;
             loads.push(ModelLoad::new(written, &reader("loads", index, written.name()))?);
         }
+        parameter::check(scene)?;
         Ok(Self {
             name: scene.name.clone(),
             gravity: Vector3::from(scene.gravity),

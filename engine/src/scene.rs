@@ -9,6 +9,7 @@ mod error;
 mod joint;
 mod load;
 mod motion;
+mod parameter;
 mod settings;
 
 pub use body::{Body, Coordinates, Inertia, Orientation, Shape};
@@ -17,6 +18,7 @@ pub use error::SceneError;
 pub use joint::{AxisRows, Joint, JointKind};
 pub use load::{Friction, Load, LoadFrame};
 pub use motion::{Motion, VectorMotion};
+pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places, WrittenScene};
 pub use settings::{IntegratorKind, Settings, Stabilization};
 
 use error::{plain_error, syntax_error};
@@ -68,6 +70,9 @@ pub struct Scene {
     /// How to run the scene.
     #[serde(default, skip_serializing_if = "is_default")]
     pub simulation: Settings,
+    /// Numbers of the scene that may be changed while it runs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parameters: Vec<Parameter>,
 }
 
 fn standard_gravity() -> Triple {
@@ -102,6 +107,7 @@ impl Scene {
             ("joints", self.joints.len(), MAX_JOINTS),
             ("drivers", self.drivers.len(), MAX_JOINTS),
             ("loads", self.loads.len(), MAX_JOINTS),
+            ("parameters", self.parameters.len(), MAX_PARAMETERS),
         ];
         match lists.into_iter().find(|(_, count, limit)| count > limit) {
             Some((what, count, limit)) => Err(SceneError::TooMany { what, count, limit }),

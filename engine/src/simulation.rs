@@ -6,7 +6,7 @@ use crate::error::EngineError;
 use crate::integrate::{self, Integrator, Plant, Stop};
 use crate::jacobian::Jacobian;
 use crate::mechanism::Mechanism;
-use crate::model::Model;
+use crate::model::{Model, ModelBody};
 use crate::rank::{self, Rank};
 use crate::reaction::report::{Convention, ReactionReport, report};
 use crate::reaction::{self, JointMultipliers};
@@ -123,7 +123,7 @@ impl Simulation {
         mechanism.set_state(0.0, &start);
         let start_energy = mechanism.elimination.energy(&mechanism.system);
         let (kind, reason) = integrate::choose(&mechanism);
-        let integrator = Integrator::start(kind, &mut mechanism, &start);
+        let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
         let exchanges_energy = balance::exchanges_energy(&mechanism.system);
         let scratch = vec![0.0; if exchanges_energy { 4 * n } else { 0 }];
@@ -190,15 +190,46 @@ impl Simulation {
         self.time >= self.duration()
     }
 
-    /// Back to the start; counters begin anew.
-    pub fn reset(&mut self) {
+    /// Goes on from where another run of the same scene stands, whose numbers may differ: bodies keep their places
+    /// and velocities as far as the constraints allow. Counters and energies are counted from here. Returns what was
+    /// corrected, in words.
+    pub fn continue_from(&mut self, other: &mut Self) -> Result<Vec<String>, EngineError> {
+        let time = other.time.min(self.duration());
+        let frames = other.frame().bodies;
+        let n = self.system().coordinates;
+        let mut y = vec![0.0; 2 * n];
+        let (q, q_dot) = y.split_at_mut(n);
+        let system = &mut self.mechanism.system;
+        let places = system.model.bodies.iter().zip(&other.model().bodies).zip(&frames);
+        let moved: Vec<ModelBody> = places.map(|((body, old), frame)| body.placed_as(old, frame)).collect();
+        let given = std::mem::replace(&mut system.model.bodies, moved);
+        system.start(q, q_dot);
+        system.model.bodies = given;
+        self.mechanism.elimination.take_turns(&other.mechanism.elimination);
+        let notes = self.mechanism.assemble_at(time, &mut y)?;
+        self.mechanism.elimination.keep_turns();
+        self.begin(time, &y);
+        Ok(notes)
+    }
+
+    /// Starts to integrate at a consistent state.
+    fn begin(&mut self, time: f64, y: &[f64]) {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
-        self.mechanism.elimination.forget_turns();
-        self.integrator = Integrator::start(self.kind, &mut self.mechanism, &self.start);
-        self.time = 0.0;
         self.work = 0.0;
-        self.shown.copy_from_slice(&self.start);
+        self.mechanism.set_state(time, y);
+        self.start_energy = self.mechanism.elimination.energy(&self.mechanism.system);
+        self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
+        self.time = time;
+        self.shown.copy_from_slice(y);
+    }
+
+    /// Back to the start; counters begin anew.
+    pub fn reset(&mut self) {
+        self.mechanism.elimination.forget_turns();
+        let start = std::mem::take(&mut self.start);
+        self.begin(0.0, &start);
+        self.start = start;
     }
 
     /// Goes on by one step of the integrator (or to the end of the step that the shown state lies in).
@@ -328,6 +359,12 @@ impl Simulation {
             mechanism.rate(time, shown, &mut rate);
             rate.split_off(mechanism.system.coordinates)
         })
+    }
+
+    /// Accelerations of the centres of mass at the shown state, in the world, m/s².
+    pub fn mass_accelerations(&mut self) -> Vec<[f64; 3]> {
+        let q_ddot = self.accelerations();
+        self.system().bodies.iter().map(|body| body.layout.position(&q_ddot).r.into()).collect()
     }
 
     /// Multipliers λ and reactions of each joint at the shown state.

@@ -85,6 +85,13 @@ impl Elimination {
         }
     }
 
+    /// Counts whole turns of angles as another evaluation of the same rows does.
+    pub fn take_turns(&mut self, from: &Self) {
+        for (angle, other) in self.angles.iter_mut().zip(&from.angles) {
+            angle.reference = other.value;
+        }
+    }
+
     /// The feature that is the axis of an angle.
     pub fn angle_axis(&self, angle: usize) -> FeatureId {
         self.angle_axes[angle]

@@ -44,16 +44,16 @@ pub fn choose(mechanism: &Mechanism) -> (IntegratorKind, String) {
 }
 
 impl Integrator {
-    /// Starts an integrator of the given kind (not `Auto`) at t = 0.
-    pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, y: &[f64]) -> Self {
+    /// Starts an integrator of the given kind (not `Auto`) at (t, y).
+    pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
         let tolerance = mechanism.system.model.settings.tolerance;
         match kind {
             IntegratorKind::Taylor | IntegratorKind::Auto => {
                 let redundant = mechanism.elimination.is_redundant();
-                Self::Taylor(Box::new(Taylor::new(&mechanism.system, redundant, 0.0, y, tolerance)))
+                Self::Taylor(Box::new(Taylor::new(&mechanism.system, redundant, t, y, tolerance)))
             }
-            IntegratorKind::Dop853 => Self::Dop853(Box::new(Dop853::new(mechanism, 0.0, y, tolerance))),
-            IntegratorKind::Dopri5 => Self::Dopri5(Box::new(Dopri5::new(mechanism, 0.0, y, tolerance))),
+            IntegratorKind::Dop853 => Self::Dop853(Box::new(Dop853::new(mechanism, t, y, tolerance))),
+            IntegratorKind::Dopri5 => Self::Dopri5(Box::new(Dopri5::new(mechanism, t, y, tolerance))),
         }
     }
 

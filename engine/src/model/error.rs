@@ -133,6 +133,16 @@ pub enum ModelError {
         /// What is missing or too much.
         reason: String,
     },
+    /// A parameter that cannot be.
+    #[error("parameter \"{name}\": {reason}")]
+    Parameter {
+        /// The parameter.
+        name: String,
+        /// Where.
+        pointer: String,
+        /// What is wrong with it.
+        reason: String,
+    },
 }
 
 impl ModelError {
@@ -150,6 +160,7 @@ impl ModelError {
             Self::Inertia { .. } => "inertia-not-physical",
             Self::Asymmetric { .. } => "inertia-not-symmetric",
             Self::Orientation { .. } => "orientation-invalid",
+            Self::Parameter { .. } => "parameter-invalid",
             Self::Geometry { pointer, .. } if pointer.starts_with("/joints") => "joint-geometry",
             Self::Geometry { pointer, .. } if pointer.starts_with("/drivers") => "driver-invalid",
             Self::Geometry { .. } => "load-invalid",
@@ -171,6 +182,7 @@ impl ModelError {
             | Self::Inertia { pointer, .. }
             | Self::Asymmetric { pointer, .. }
             | Self::Orientation { pointer, .. }
+            | Self::Parameter { pointer, .. }
             | Self::Geometry { pointer, .. } => pointer.clone(),
         }
     }
@@ -204,6 +216,11 @@ impl ModelError {
             Self::Orientation { .. } => {
                 "Give either u and v (perpendicular unit vectors), or a unit quaternion [w, x, y, z], or an axis and \
                  an angle in radians."
+                    .to_owned()
+            }
+            Self::Parameter { .. } => {
+                "A parameter names numbers of this scene by JSON pointers from 0, like /bodies/0/mass, and a range \
+                 that holds the number written there."
                     .to_owned()
             }
             Self::Geometry { pointer, .. } if !pointer.starts_with("/joints") => {

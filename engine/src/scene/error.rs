@@ -35,6 +35,34 @@ pub enum SceneError {
         /// How many there may be.
         limit: usize,
     },
+    /// A place that should hold a number holds none.
+    #[error("{pointer}: {found}")]
+    NoNumber {
+        /// Where, as a JSON pointer.
+        pointer: String,
+        /// What is there instead.
+        found: String,
+    },
+    /// The scene has no parameter of that name.
+    #[error("the scene has no parameter \"{name}\"")]
+    UnknownParameter {
+        /// The name.
+        name: String,
+        /// The names that it has.
+        known: Vec<String>,
+    },
+    /// A value outside the range of its parameter.
+    #[error("parameter \"{name}\": {value} is not between {low} and {high}")]
+    OutsideParameter {
+        /// The parameter.
+        name: String,
+        /// The value.
+        value: f64,
+        /// Its least value.
+        low: f64,
+        /// Its greatest value.
+        high: f64,
+    },
 }
 
 /// The error of a reader that knows the path of keys.

@@ -1,9 +1,11 @@
 //! The HTTP interface under `/api/v1`, and the one router of the server.
 
 mod bounds;
+mod changes;
 mod extract;
 mod health;
 mod lessons;
+mod reactions;
 mod scenes;
 mod sessions;
 mod stream;
@@ -55,6 +57,8 @@ fn described() -> (Router<App>, Document) {
                 .merge(submissions::routes())
                 .merge(scenes::routes())
                 .merge(sessions::routes())
+                .merge(changes::routes())
+                .merge(reactions::routes())
                 .merge(stream::routes())
                 .merge(health::routes()),
         )

@@ -14,7 +14,7 @@ use utoipa_axum::routes;
 use super::extract::{At, Json};
 use crate::app::App;
 use crate::problem::{Problem, ProblemDocument};
-use crate::session::{SessionState, Source};
+use crate::session::{Change, SessionState, Source};
 use crate::{blocking, scenes};
 
 /// Integrator steps that one request may take.
@@ -49,6 +49,9 @@ struct NewSession {
     /// Settings that replace those of the scene.
     #[serde(default)]
     overrides: Overrides,
+    /// Changes that are made before the start; undoing them leads back to the scene as it is written.
+    #[serde(default)]
+    change: Change,
 }
 
 /// Settings that replace those of the scene.
@@ -90,7 +93,7 @@ async fn create(
         let (mut scene, source) = choose(&app, wanted.lesson, wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
         let written_here = matches!(source, Source::Scene(_));
-        let started = app.sessions.start(&scene, source, &app.limits);
+        let started = app.sessions.start(scene, &wanted.change, source, &app.limits);
         started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })
     })
     .await?;

@@ -104,6 +104,21 @@ impl Film {
         Ok(())
     }
 
+    /// Follows a simulation that goes on with other numbers: the recording goes on too, unless what it shows looks
+    /// different from now on. The scale of forces stays.
+    pub(crate) fn follow(&mut self, mut cast: Cast) {
+        cast.force_scale = self.cast.force_scale;
+        if cast.bodies != self.cast.bodies || cast.joints != self.cast.joints {
+            self.restart_with(cast);
+        }
+    }
+
+    /// Starts another recording of a changed scene.
+    pub(crate) fn restart_with(&mut self, cast: Cast) {
+        self.cast = cast;
+        self.restart();
+    }
+
     /// Starts another recording from nothing.
     pub(crate) fn restart(&mut self) {
         self.take += 1;

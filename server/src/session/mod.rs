@@ -1,10 +1,12 @@
 //! Live simulations: each in a thread of its own, all of them in one bounded registry.
 
+mod change;
 mod film;
 mod registry;
 mod state;
 mod worker;
 
+pub use change::{Change, ParameterView, Pull, SceneView, Then};
 pub(crate) use film::{cast, sample};
 pub use registry::{Registry, bounded};
 pub use state::{BodyState, Links, SessionState, Source};
@@ -18,6 +20,7 @@ use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
 use triad_engine::jacobian::Jacobian;
 use triad_engine::reaction::JointMultipliers;
+use triad_engine::reaction::report::{Convention, ReactionReport};
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
@@ -42,11 +45,13 @@ pub struct Session {
 
 impl Session {
     /// Assembles a scene and starts its thread. Blocks until the scene is assembled.
-    pub fn start(scene: &Scene, source: Source, limits: &Limits) -> Result<Self, Problem> {
-        let mut simulation = Simulation::new(scene)?;
+    pub fn start(original: Scene, change: &Change, source: Source, limits: &Limits) -> Result<Self, Problem> {
+        let scene = if change.is_empty() { original.clone() } else { change.of(&original)?.0 };
+        let mut simulation = Simulation::new(&scene)?;
         let id = uuid::Uuid::new_v4().simple().to_string();
         let hub = Arc::new(Hub::default());
-        let mut film = Film::new(&id, cast(scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
+        let mut film =
+            Film::new(&id, cast(&scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
         film.take(&mut simulation)?;
         let signals = Arc::new(Signals::default());
         let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
@@ -60,6 +65,8 @@ impl Session {
             frames_encoded: 0,
             watchers: 0,
             force_scale: film.force_scale(),
+            changes: 0,
+            pull: None,
             error: None,
         };
         let (sender, state) = watch::channel(Arc::new(SessionState::of(&mut simulation, &extra)));
@@ -67,6 +74,10 @@ impl Session {
             id,
             source,
             title,
+            original,
+            scene,
+            changes: 0,
+            pull: None,
             simulation,
             film,
             signals: Arc::clone(&signals),
@@ -122,6 +133,21 @@ impl Session {
         self.ask(Command::Reset).await
     }
 
+    /// Changes numbers of the scene; the run starts over or goes on.
+    pub async fn change(&self, change: Change) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Change(change, reply)).await
+    }
+
+    /// Pulls a body by the hand, or lets it go.
+    pub async fn pull(&self, pull: Option<Pull>) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Pull(pull, reply)).await
+    }
+
+    /// The scene as it is now.
+    pub async fn scene(&self) -> Result<SceneView, Problem> {
+        self.ask(Command::Scene).await
+    }
+
     /// The Jacobian at the current time.
     pub async fn jacobian(&self) -> Result<Jacobian, Problem> {
         self.ask(Command::Jacobian).await
@@ -130,6 +156,11 @@ impl Session {
     /// The multipliers at the current time, joint by joint.
     pub async fn multipliers(&self) -> Result<Vec<JointMultipliers>, Problem> {
         self.ask(Command::Multipliers).await
+    }
+
+    /// The reactions at the current time, told in the given way.
+    pub async fn reactions(&self, convention: Convention) -> Result<ReactionReport, Problem> {
+        self.ask(|reply| Command::Reactions(convention, reply)).await
     }
 
     /// Watches the recording from its beginning.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use axum::http::StatusCode;
 use triad_engine::scene::Scene;
 
-use super::{Session, Source};
+use super::{Change, Session, Source};
 use crate::limits::Limits;
 use crate::problem::Problem;
 
@@ -25,8 +25,14 @@ struct Sessions {
 
 impl Registry {
     /// Starts a session. Blocks until its scene is assembled.
-    pub fn start(&self, scene: &Scene, source: Source, limits: &Limits) -> Result<Arc<Session>, Problem> {
-        bounded(scene, limits)?;
+    pub fn start(
+        &self,
+        scene: Scene,
+        change: &Change,
+        source: Source,
+        limits: &Limits,
+    ) -> Result<Arc<Session>, Problem> {
+        bounded(&scene, limits)?;
         self.expire(limits);
         {
             let mut sessions = self.lock();
@@ -44,7 +50,7 @@ impl Registry {
             sessions.coming += 1;
         }
         let place = Place(self);
-        let session = Arc::new(Session::start(scene, source, limits)?);
+        let session = Arc::new(Session::start(scene, change, source, limits)?);
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)

@@ -4,6 +4,7 @@ use serde::Serialize;
 use triad_engine::simulation::Simulation;
 use utoipa::ToSchema;
 
+use super::change::Pull;
 use crate::problem::{Problem, ProblemDocument};
 
 /// Where a session's scene came from.
@@ -41,7 +42,35 @@ pub struct BodyState {
     /// Angular velocity in the world, rad/s.
     #[schema(value_type = Vec<f64>)]
     pub angular_velocity: [f64; 3],
+    /// Acceleration of the centre of mass in the world, m/s².
+    #[schema(value_type = Vec<f64>)]
+    pub acceleration: [f64; 3],
+    /// Mass, kg.
+    pub mass: f64,
 }
+
+/// What a joint or driver does to a body, in the world.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct JointForce {
+    /// The joint or driver.
+    pub joint: String,
+    /// The body that it acts on: body j, or body i if j is the ground.
+    pub on: String,
+    /// The body at the other side, which feels both reversed.
+    pub by: String,
+    /// The joint's point, m.
+    #[schema(value_type = Vec<f64>)]
+    pub at: [f64; 3],
+    /// Force, N.
+    #[schema(value_type = Vec<f64>)]
+    pub force: [f64; 3],
+    /// Moment about the joint's point, N m.
+    #[schema(value_type = Vec<f64>)]
+    pub moment: [f64; 3],
+}
+
+/// Scenes of more joints tell their forces only where they are asked for.
+const MOST_FORCES: usize = 64;
 
 /// Where to go from here.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -55,6 +84,8 @@ pub struct Links {
     pub jacobian: String,
     /// Its multipliers.
     pub multipliers: String,
+    /// Its scene as it is now.
+    pub scene: String,
 }
 
 impl Links {
@@ -65,6 +96,7 @@ impl Links {
             stream: format!("{this}/stream"),
             jacobian: format!("{this}/jacobian"),
             multipliers: format!("{this}/multipliers"),
+            scene: format!("{this}/scene"),
             this,
         }
     }
@@ -119,6 +151,10 @@ pub struct SessionState {
     pub watchers: usize,
     /// Length of a reaction's arrow in the viewer, m/N.
     pub force_scale: f64,
+    /// How often the scene was changed since the session began.
+    pub changes: u64,
+    /// The hand's spring, while a body is pulled.
+    pub pull: Option<Pull>,
     /// What the engine found or corrected in the scene.
     pub notes: Vec<String>,
     /// Why the simulation stopped before its end; the last good state is kept.
@@ -126,6 +162,11 @@ pub struct SessionState {
     pub error: Option<ProblemDocument>,
     /// The bodies, in the scene's order.
     pub bodies: Vec<BodyState>,
+    /// Forces in joints and drivers; empty for scenes of more than 64 of them.
+    pub forces: Vec<JointForce>,
+    /// Acceleration of gravity, m/s².
+    #[schema(value_type = Vec<f64>)]
+    pub gravity: [f64; 3],
     /// Where to go from here.
     pub links: Links,
 }
@@ -142,6 +183,8 @@ pub(super) struct Extra {
     pub frames_encoded: u64,
     pub watchers: usize,
     pub force_scale: f64,
+    pub changes: u64,
+    pub pull: Option<Pull>,
     pub error: Option<Problem>,
 }
 
@@ -150,15 +193,21 @@ impl SessionState {
     pub(super) fn of(simulation: &mut Simulation, extra: &Extra) -> Self {
         let summary = simulation.summary();
         let frame = simulation.frame();
-        let bodies = simulation.model().bodies.iter().zip(&frame.bodies).map(|(body, pose)| BodyState {
-            name: body.name.clone(),
-            position: pose.position,
-            u: pose.u,
-            v: pose.v,
-            w: pose.w,
-            velocity: pose.velocity,
-            angular_velocity: pose.angular_velocity,
-        });
+        let accelerations = simulation.mass_accelerations();
+        let forces = forces(simulation);
+        let poses = frame.bodies.iter().zip(&accelerations);
+        let bodies =
+            simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| BodyState {
+                name: body.name.clone(),
+                position: pose.position,
+                u: pose.u,
+                v: pose.v,
+                w: pose.w,
+                velocity: pose.velocity,
+                angular_velocity: pose.angular_velocity,
+                acceleration,
+                mass: body.mass,
+            });
         Self {
             id: extra.id.clone(),
             source: extra.source.clone(),
@@ -183,10 +232,30 @@ impl SessionState {
             frames_encoded: extra.frames_encoded,
             watchers: extra.watchers,
             force_scale: extra.force_scale,
+            changes: extra.changes,
+            pull: extra.pull.clone(),
             notes: simulation.notes().to_vec(),
             error: extra.error.as_ref().map(Problem::document),
             bodies: bodies.collect(),
+            forces,
+            gravity: simulation.model().gravity.into(),
             links: Links::new(&extra.id),
         }
     }
+}
+
+fn forces(simulation: &mut Simulation) -> Vec<JointForce> {
+    if simulation.system().groups.len() > MOST_FORCES {
+        return Vec::new();
+    }
+    let told = simulation.multipliers().into_iter();
+    told.map(|joint| JointForce {
+        joint: joint.joint,
+        on: joint.on,
+        by: joint.by,
+        at: joint.about,
+        force: joint.force,
+        moment: joint.moment,
+    })
+    .collect()
 }

@@ -9,9 +9,12 @@ use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
 use triad_engine::jacobian::Jacobian;
 use triad_engine::reaction::JointMultipliers;
+use triad_engine::reaction::report::{Convention, ReactionReport};
+use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
-use super::film::Film;
+use super::change::{Change, Pull, SceneView, Then};
+use super::film::{Film, cast};
 use super::state::{Extra, SessionState, Source};
 use crate::problem::Problem;
 
@@ -34,10 +37,18 @@ pub(super) enum Command {
     Pause(Reply<Arc<SessionState>>),
     /// Go back to the start.
     Reset(Reply<Arc<SessionState>>),
+    /// Change numbers of the scene.
+    Change(Change, Reply<Arc<SessionState>>),
+    /// Pull a body by the hand, or let it go.
+    Pull(Option<Pull>, Reply<Arc<SessionState>>),
+    /// Tell the scene.
+    Scene(Reply<SceneView>),
     /// Tell the Jacobian.
     Jacobian(Reply<Jacobian>),
     /// Tell the multipliers.
     Multipliers(Reply<Vec<JointMultipliers>>),
+    /// Tell the reactions in a stated way.
+    Reactions(Convention, Reply<ReactionReport>),
     /// Somebody has come to watch.
     Watched,
 }
@@ -59,6 +70,12 @@ pub(super) struct Worker {
     pub id: String,
     pub source: Source,
     pub title: String,
+    /// The scene as its author wrote it.
+    pub original: Scene,
+    /// The scene that runs, without the hand's spring.
+    pub scene: Scene,
+    pub changes: u64,
+    pub pull: Option<Pull>,
     pub simulation: Simulation,
     pub film: Film,
     pub signals: Arc<Signals>,
@@ -130,8 +147,20 @@ impl Worker {
                 let result = self.film.take(&mut self.simulation);
                 drop(reply.send(self.answer(result)));
             }
+            Command::Change(change, reply) => {
+                let result = self.change(&change);
+                drop(reply.send(self.answer_to_change(result)));
+            }
+            Command::Pull(pull, reply) => {
+                let result = self.pull(pull);
+                drop(reply.send(self.answer_to_change(result)));
+            }
+            Command::Scene(reply) => drop(reply.send(Ok(SceneView::new(&self.scene, &self.original)))),
             Command::Jacobian(reply) => drop(reply.send(Ok(self.simulation.jacobian().clone()))),
             Command::Multipliers(reply) => drop(reply.send(Ok(self.simulation.multipliers()))),
+            Command::Reactions(convention, reply) => {
+                drop(reply.send(self.simulation.reactions(convention).map_err(Problem::from)));
+            }
             Command::Watched => {
                 let developed = self.film.develop();
                 self.note(developed);
@@ -140,9 +169,73 @@ impl Worker {
         }
     }
 
+    /// Runs the scene with other numbers. If they are refused, the run goes on with the old ones.
+    fn change(&mut self, change: &Change) -> Result<(), Problem> {
+        let (scene, then) = change.of(&self.scene)?;
+        if then == Then::Restart {
+            self.pull = None;
+        }
+        let mut next = self.assembled(&scene, self.pull.as_ref())?;
+        let cast = cast(&scene, &mut next);
+        match then {
+            Then::Restart => self.error = None,
+            Then::Continue => self.hand_over(&mut next)?,
+        }
+        self.simulation = next;
+        self.scene = scene;
+        self.changes += 1;
+        match then {
+            Then::Restart => self.film.restart_with(cast),
+            Then::Continue => self.film.follow(cast),
+        }
+        self.run_on();
+        self.film.take(&mut self.simulation)
+    }
+
+    fn pull(&mut self, pull: Option<Pull>) -> Result<(), Problem> {
+        let mut next = self.assembled(&self.scene, pull.as_ref())?;
+        self.hand_over(&mut next)?;
+        self.simulation = next;
+        self.pull = pull;
+        self.run_on();
+        Ok(())
+    }
+
+    fn assembled(&self, scene: &Scene, pull: Option<&Pull>) -> Result<Simulation, Problem> {
+        Ok(match pull {
+            None => Simulation::new(scene)?,
+            Some(pull) => Simulation::new(&pull.added_to(scene, self.simulation.model())?)?,
+        })
+    }
+
+    /// Lets another simulation go on from the state of the current one.
+    fn hand_over(&mut self, next: &mut Simulation) -> Result<(), Problem> {
+        self.ready_to_change()?;
+        next.continue_from(&mut self.simulation).map(drop).map_err(|error| {
+            let problem = Problem::from(error);
+            Problem::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "cannot-continue",
+                format!("the run cannot go on with these numbers: {problem}"),
+                "start it over with them: add \"then\": \"restart\"",
+            )
+        })
+    }
+
+    /// Simulated time goes on from the present, if it was running.
+    fn run_on(&mut self) {
+        if self.play.is_some() {
+            self.play = Some(Play { since: Instant::now(), from: self.simulation.time() });
+        }
+    }
+
     /// Refuses to go on from a state that the engine could not leave.
     fn ready(&mut self) -> Result<(), Problem> {
         self.play = None;
+        self.ready_to_change()
+    }
+
+    fn ready_to_change(&self) -> Result<(), Problem> {
         match &self.error {
             None => Ok(()),
             Some(error) => Err(Problem::new(
@@ -258,6 +351,14 @@ impl Worker {
         result.map(|()| Arc::clone(&self.state.borrow()))
     }
 
+    /// A change that is refused stops nothing: the run goes on as it was.
+    fn answer_to_change(&mut self, result: Result<(), Problem>) -> Result<Arc<SessionState>, Problem> {
+        match result {
+            Err(problem) if problem.code() != "recording-full" => Err(problem),
+            other => self.answer(other),
+        }
+    }
+
     fn publish(&mut self) {
         let (frames, frames_encoded) = self.film.counts();
         let extra = Extra {
@@ -270,6 +371,8 @@ impl Worker {
             frames_encoded,
             watchers: self.film.watchers(),
             force_scale: self.film.force_scale(),
+            changes: self.changes,
+            pull: self.pull.clone(),
             error: self.error.clone(),
         };
         self.state.send_replace(Arc::new(SessionState::of(&mut self.simulation, &extra)));

@@ -4,7 +4,7 @@ use triad_engine::model::{BodyRef, Model};
 use triad_engine::scene::{Scene, Shape};
 
 /// A body as it is drawn.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Actor {
     /// Name.
     pub name: String,
@@ -19,7 +19,7 @@ pub struct Actor {
 }
 
 /// A joint as it is drawn.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tie {
     /// Name.
     pub name: String,

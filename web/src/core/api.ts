@@ -1,7 +1,8 @@
 // The one door to the server. Every failure becomes an ApiError that carries a Problem.
+import type { Numbers, SceneView, Then } from "./numbers";
 import type {
   Answer, CheckReport, Jacobian, JointMultipliers, Lesson, LessonSummary, Problem, Scene,
-  SceneSummary, SessionState, Verdict,
+  Pull, Reactions, SceneSummary, SessionState, Verdict,
 } from "./types";
 
 const BASE = "/api/v1";
@@ -89,7 +90,14 @@ export const api = {
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
-  createSession: (source: SessionSource) => call<SessionState>("POST", "/sessions", source),
+  createSession: (source: SessionSource, change?: Numbers) => call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
+  sceneOf: (session: string) => call<SceneView>("GET", `/sessions/${id(session)}/scene`),
+  change: (session: string, numbers: Numbers, then?: Then) =>
+    call<SessionState>("POST", `/sessions/${id(session)}/parameters`, then ? { ...numbers, then } : numbers),
+  pull: (session: string, pull: Pull) => call<SessionState>("PUT", `/sessions/${id(session)}/pull`, pull),
+  release: (session: string) => call<SessionState>("DELETE", `/sessions/${id(session)}/pull`),
+  reactions: (session: string, asked: { on: string; about: string; in: string }) =>
+    call<Reactions>("GET", `/sessions/${id(session)}/reactions?${new URLSearchParams(asked)}`),
   session: (session: string) => call<SessionState>("GET", `/sessions/${id(session)}`),
   step: (session: string, by: { steps: number } | { seconds: number }) =>
     call<SessionState>("POST", `/sessions/${id(session)}/step`, by),

@@ -123,6 +123,12 @@ export interface SessionState {
   evaluations: number;
   factorizations: number;
   finished: boolean;
+  /** How often the scene was changed since the session began. */
+  changes: number;
+  /** Length of a reaction's arrow in the viewer, m/N. */
+  force_scale: number;
+  /** The hand's spring, while a body is pulled. */
+  pull?: Pull | null;
   error?: Problem | null;
   /** What the engine found or corrected in the scene. */
   notes?: string[];
@@ -148,6 +154,43 @@ export interface JointMultipliers {
   /** The body at the other side of the joint. */
   by: string;
   expressed_in: string;
+}
+
+/** A spring from a point of a body to a place in the world. */
+export interface Pull {
+  body: string;
+  /** From the centre of mass along the principal axes, m. */
+  point: Vec3;
+  to: Vec3;
+  stiffness?: number | null;
+}
+
+/** One component of a force or moment. */
+export interface Component {
+  value: number;
+  /** Whether the equations of motion determine it. */
+  unique: boolean;
+}
+
+export interface Reaction {
+  joint: string;
+  driver: boolean;
+  on: string;
+  by: string;
+  /** The point that the moment is taken about, in words. */
+  about: string;
+  about_at: Vec3;
+  expressed_in: string;
+  /** Axes of the components, in the world. */
+  axes: [Vec3, Vec3, Vec3];
+  force: [Component, Component, Component];
+  moment: [Component, Component, Component];
+}
+
+export interface Reactions {
+  time: number;
+  reactions: Reaction[];
+  redundancies: { rows: number; joints: string[]; remedies: { joint: string; becomes: string; gives_up: string }[] }[];
 }
 
 export interface CheckReport {

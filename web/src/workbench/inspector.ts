@@ -5,6 +5,7 @@ import { tabs } from "../ui/tabs";
 import { bodiesTab } from "./bodies-tab";
 import { jacobianTab } from "./jacobian-tab";
 import { multipliersTab } from "./multipliers-tab";
+import { parametersTab } from "./parameters-tab";
 import { plotsTab } from "./plots-tab";
 import type { Session } from "./session";
 import { stateTab } from "./state-tab";
@@ -17,6 +18,7 @@ export interface InspectorTab {
 
 export function inspector(session: Session): { root: HTMLElement } {
   const made: Record<string, InspectorTab> = {
+    parameters: parametersTab(session),
     state: stateTab(session),
     jacobian: jacobianTab(session),
     multipliers: multipliersTab(session),
@@ -25,6 +27,7 @@ export function inspector(session: Session): { root: HTMLElement } {
   };
   const panel = (key: string): HTMLElement => h("div", null, made[key]?.root);
   const bar = tabs("Inspector", [
+    { key: "parameters", label: "Parameters", panel: panel("parameters") },
     { key: "state", label: "State", panel: panel("state") },
     { key: "jacobian", label: "Jacobian", panel: panel("jacobian") },
     { key: "multipliers", label: "Multipliers", panel: panel("multipliers") },

@@ -2,7 +2,8 @@
 import { api, ApiError, type SessionSource } from "../core/api";
 import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
-import type { SessionState } from "../core/types";
+import { between, isNone, none, tidy, type Numbers, type SceneView, type Then } from "../core/numbers";
+import type { Pull, SessionState } from "../core/types";
 import { banner } from "../ui/notice";
 import { History } from "./history";
 
@@ -19,6 +20,8 @@ type Events = {
   selected: () => void;
   /** A new connection, or a run from the start: a recording follows from its beginning. */
   opened: () => void;
+  /** The scene's numbers are known, or were changed. */
+  scene: () => void;
   problem: (error: unknown) => void;
 };
 
@@ -29,6 +32,13 @@ export class Session {
   speed = 1;
   /** Name of the selected joint. */
   joint: string | null = null;
+  /** The scene as it runs, its parameters, and the author's. */
+  view: SceneView | undefined;
+  /** What differs from the author's scene. */
+  numbers: Numbers;
+  private before: Numbers[] = [];
+  private seenChanges = -1;
+  private waiters: (() => void)[] = [];
   private cursor: number | null = null;
   private cameAt = 0;
   private socket: WebSocket | undefined;
@@ -39,10 +49,11 @@ export class Session {
   /** The page says that the connection is lost. */
   private missed = false;
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
-    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(),
+    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(),
   };
 
-  constructor(private readonly source: SessionSource) {
+  constructor(readonly source: SessionSource, start?: Numbers) {
+    this.numbers = start ?? none();
     addEventListener("pagehide", this.drop);
   }
 
@@ -80,11 +91,91 @@ export class Session {
 
   async start(): Promise<void> {
     try {
-      this.take(await api.createSession(this.source));
+      this.take(await this.create());
       this.connect();
     } catch (error) {
       this.report(error);
     }
+  }
+
+  private create(): Promise<SessionState> {
+    return api.createSession(this.source, isNone(this.numbers) ? undefined : this.numbers);
+  }
+
+  get canUndo(): boolean {
+    return this.before.length > 0;
+  }
+
+  /** Runs the scene with these deviations from what its author wrote. Throws what the server refuses. */
+  async change(to: Numbers, then?: Then): Promise<void> {
+    const from = this.numbers;
+    if (await this.put(to, then)) this.before.push(from);
+    await this.readScene();
+  }
+
+  async undo(): Promise<void> {
+    const to = this.before.pop();
+    if (!to) return;
+    await this.put(to);
+    await this.readScene();
+  }
+
+  private async put(to: Numbers, then?: Then): Promise<boolean> {
+    const view = this.view;
+    const id = this.latest?.id;
+    if (!view || !id) return false;
+    let sent = none();
+    await this.alone(async () => {
+      sent = between(this.numbers, to, view);
+      if (isNone(sent)) return;
+      this.cursor = null;
+      this.take(await api.change(id, sent, then));
+      this.numbers = tidy(to, view);
+    });
+    return !isNone(sent);
+  }
+
+  /** Pulls a body, or lets it go. */
+  async pull(pull: Pull | null): Promise<void> {
+    const id = this.latest?.id;
+    if (!id) return;
+    await this.alone(async () => {
+      this.cursor = null;
+      this.take(pull ? await api.pull(id, pull) : await api.release(id));
+    });
+  }
+
+  /** Waits for its turn instead of being dropped, as a request by a key may be. */
+  private async alone(request: () => Promise<void>): Promise<void> {
+    while (this.busy) await new Promise<void>((done) => this.waiters.push(done));
+    this.busy = true;
+    try {
+      await request();
+    } finally {
+      this.free();
+    }
+  }
+
+  private free(): void {
+    this.busy = false;
+    for (const done of this.waiters.splice(0)) done();
+  }
+
+  private async readScene(): Promise<void> {
+    const state = this.latest;
+    if (!state || state.changes === this.seenChanges) return;
+    this.seenChanges = state.changes;
+    try {
+      this.view = await api.sceneOf(state.id);
+      this.tellScene();
+    } catch {
+      // The run goes on without its panel of numbers; the next change asks again.
+      this.seenChanges = -1;
+    }
+  }
+
+  private tellScene(): void {
+    for (const listener of this.listeners.scene) listener();
   }
 
   close(): void {
@@ -184,7 +275,7 @@ export class Session {
       if (error instanceof ApiError && error.gone) await this.recreate();
       else this.report(error);
     } finally {
-      this.busy = false;
+      this.free();
     }
   }
 
@@ -197,6 +288,7 @@ export class Session {
     }
     this.latest = state;
     this.past.add(state);
+    if (state.changes !== this.seenChanges && !this.busy) void this.readScene();
     this.emit("shown");
     if (state.error && !before?.error) this.report(state.error);
     if (state.finished && before && !before.finished) this.tell();
@@ -266,7 +358,7 @@ export class Session {
     this.missed = false;
     try {
       this.latest = undefined;
-      this.take(await api.createSession(this.source));
+      this.take(await this.create());
       this.connect();
       announce("The simulation had expired on the server and was started anew, at time 0.");
       banner("The simulation had expired on the server. A fresh one stands at time 0.", { label: "Fine", run: () => banner(null) });

@@ -18,11 +18,14 @@ const HEIGHT = 500;
 export interface Sketch {
   root: SVGSVGElement;
   update: (state: SessionState) => void;
+  /** Draws a changed scene from its start. */
+  rebuild: (scene: Scene) => void;
 }
 
-export function sketch(scene: Scene | undefined): Sketch {
+export function sketch(given: Scene | undefined): Sketch {
+  let scene = given;
   const root = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "sketch", role: "img", "aria-label": "Line drawing of the mechanism" });
-  const view = viewAxes(scene?.gravity);
+  const view = viewAxes(given?.gravity);
   let pieces: Piece[] | undefined;
   let project: (p: Vec3) => [number, number] = () => [WIDTH / 2, HEIGHT / 2];
 
@@ -66,6 +69,10 @@ export function sketch(scene: Scene | undefined): Sketch {
 
   return {
     root,
+    rebuild: (changed) => {
+      scene = changed;
+      pieces = undefined;
+    },
     update: (state) => {
       pieces ??= build(state);
       for (const piece of pieces) {

@@ -132,6 +132,14 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
       draw();
       if (session.latest?.playing && !session.reviewing && !ticking && !reducedMotion()) requestAnimationFrame(tick);
     }),
+    // Only at its start does a scene say where the parts of its bodies are.
+    session.on("scene", () => {
+      const first = session.past.all[0];
+      if (!session.view || first?.time !== 0) return;
+      drawing.rebuild(session.view.scene as Scene);
+      drawing.update(first);
+      draw();
+    }),
     // The viewer takes its theme when it starts: it is started again, from the browser's cache.
     onTheme(() => {
       if (!viewer) return;

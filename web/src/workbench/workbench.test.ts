@@ -42,7 +42,7 @@ describe("axesOf", () => {
 
 const state = (time: number, x: number): SessionState => ({
   id: "a", time, duration: 10, playing: false, speed: 1, q: [], q_dot: [], energy: 0, energy_drift: 0, position_violation: 0,
-  velocity_violation: 0, steps: 0, rejected: 0, evaluations: 0, factorizations: 0, finished: false, bodies: [{ ...body, position: [x, 0, 0] as Vec3 }],
+  velocity_violation: 0, steps: 0, rejected: 0, evaluations: 0, factorizations: 0, finished: false, changes: 0, force_scale: 0.1, bodies: [{ ...body, position: [x, 0, 0] as Vec3 }],
 });
 
 describe("History", () => {

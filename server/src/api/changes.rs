@@ -1,0 +1,71 @@
+//! What may be done to a live session's scene: look at it, change its numbers, pull a body by the hand.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::{At, Json};
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::session::{Change, Pull, SceneView, SessionState};
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new().routes(routes!(scene)).routes(routes!(change)).routes(routes!(pull, release))
+}
+
+/// A session's scene as it is now, its parameters, and the scene before any change.
+#[utoipa::path(get, path = "/sessions/{id}/scene", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "Scene and parameters", body = SceneView),
+    (status = 404, description = "No such session", body = ProblemDocument)))]
+async fn scene(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<SceneView>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.scene().await?))
+}
+
+/// Change parameters or other numbers of a session's scene; the run starts over or goes on.
+#[utoipa::path(post, path = "/sessions/{id}/parameters", tag = "sessions", params(("id" = String, Path)),
+    request_body = Change, responses(
+    (status = 200, description = "The state with the new numbers", body = SessionState),
+    (status = 409, description = "The simulation has stopped and cannot go on", body = ProblemDocument),
+    (status = 422, description = "The numbers were refused; the run is as it was", body = ProblemDocument)))]
+async fn change(
+    State(app): State<App>,
+    At(id): At<String>,
+    Json(change): Json<Change>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    let session = app.sessions.get(&id)?;
+    if change.is_empty() {
+        return Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "nothing-to-change",
+            "the request names neither values nor places",
+            r#"for example {"values": {"mass": 2}} or {"places": {"/bodies/0/mass": 2}}"#,
+        ));
+    }
+    Ok(axum::Json(session.change(change).await?))
+}
+
+/// Pull a body by a spring from the hand to one of its points; the run goes on.
+#[utoipa::path(put, path = "/sessions/{id}/pull", tag = "sessions", params(("id" = String, Path)),
+    request_body = Pull, responses(
+    (status = 200, description = "The state with the hand's spring", body = SessionState),
+    (status = 422, description = "The body cannot be pulled so", body = ProblemDocument)))]
+async fn pull(
+    State(app): State<App>,
+    At(id): At<String>,
+    Json(pull): Json<Pull>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.pull(Some(pull)).await?))
+}
+
+/// Let the pulled body go; the run goes on.
+#[utoipa::path(delete, path = "/sessions/{id}/pull", tag = "sessions", params(("id" = String, Path)), responses(
+    (status = 200, description = "The state without the hand's spring", body = SessionState)))]
+async fn release(
+    State(app): State<App>,
+    At(id): At<String>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.pull(None).await?))
+}

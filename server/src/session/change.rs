@@ -1,0 +1,188 @@
+//! What may be done to a live session's scene: its numbers changed, a body pulled by the hand.
+
+use std::collections::BTreeMap;
+
+use axum::http::StatusCode;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use triad_engine::model::Model;
+use triad_engine::scene::{Load, OnChange, Scene, WrittenScene};
+use utoipa::ToSchema;
+
+use crate::problem::Problem;
+
+/// Other values for numbers of the scene.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Change {
+    /// Values of the parameters that the scene's author offers, by name.
+    #[schema(example = json!({"mass": 2.5}))]
+    pub values: BTreeMap<String, f64>,
+    /// Values of any other numbers, by JSON pointers into the scene; also `/coordinates`, `/simulation/integrator`
+    /// and `/simulation/stabilization`.
+    #[schema(value_type = Object, example = json!({"/simulation/tolerance": 1e-6}))]
+    pub places: BTreeMap<String, Value>,
+    /// What happens to the run: as the parameters say if it is not given, and a restart for other numbers.
+    pub then: Option<Then>,
+}
+
+/// What happens to a run whose scene is changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Then {
+    /// It starts over.
+    Restart,
+    /// It goes on from where it stands.
+    Continue,
+}
+
+impl From<OnChange> for Then {
+    fn from(on_change: OnChange) -> Self {
+        match on_change {
+            OnChange::Restart => Self::Restart,
+            OnChange::Continue => Self::Continue,
+        }
+    }
+}
+
+impl Change {
+    /// Whether it changes nothing.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty() && self.places.is_empty()
+    }
+
+    /// The changed scene, and what happens to its run.
+    pub fn of(&self, scene: &Scene) -> Result<(Scene, Then), Problem> {
+        let values = self.values.iter().map(|(name, value)| (name.as_str(), *value));
+        let places = self.places.iter().map(|(pointer, value)| (pointer.as_str(), value));
+        let changed = scene.changed(values, places)?;
+        let offered = |name: &String| scene.parameter(name).map(|p| Then::from(p.on_change));
+        let goes_on = self.places.is_empty()
+            && self.values.keys().all(|name| offered(name).is_ok_and(|then| then == Then::Continue));
+        Ok((changed, self.then.unwrap_or(if goes_on { Then::Continue } else { Then::Restart })))
+    }
+}
+
+/// A number that may be changed, as it is now.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct ParameterView {
+    /// Name in requests.
+    pub name: String,
+    /// Name for people.
+    pub label: String,
+    /// Where its number stands in the scene.
+    pub pointers: Vec<String>,
+    /// Its value.
+    pub value: f64,
+    /// Its value in the scene as the author wrote it.
+    pub initial: f64,
+    /// Least value.
+    pub low: f64,
+    /// Greatest value.
+    pub high: f64,
+    /// Between two values of a slider.
+    pub step: Option<f64>,
+    /// Unit, for people.
+    pub unit: Option<String>,
+    /// What happens to the run when it changes.
+    pub on_change: Then,
+}
+
+/// A session's scene as it is now.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+pub struct SceneView {
+    /// The parameters that its author offers.
+    pub parameters: Vec<ParameterView>,
+    /// The scene with everything written out that may be changed.
+    #[schema(value_type = Object)]
+    pub scene: Value,
+    /// The same, before any change.
+    #[schema(value_type = Object)]
+    pub original: Value,
+}
+
+impl SceneView {
+    /// The view of a scene that was `original`.
+    pub fn new(scene: &Scene, original: &Scene) -> Self {
+        let (now, before) = (WrittenScene::new(scene), WrittenScene::new(original));
+        let parameters = scene.parameters.iter().filter_map(|p| {
+            Some(ParameterView {
+                name: p.name.clone(),
+                label: p.label.clone(),
+                pointers: p.places().iter().map(|place| place.pointer().to_owned()).collect(),
+                value: now.value_of(p).ok()?,
+                initial: before.value_of(p).ok()?,
+                low: p.low,
+                high: p.high,
+                step: p.step,
+                unit: p.unit.clone(),
+                on_change: p.on_change.into(),
+            })
+        });
+        Self { parameters: parameters.collect(), scene: now.into_value(), original: before.into_value() }
+    }
+}
+
+/// A spring from a point of a body to a place in the world.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Pull {
+    /// The body.
+    pub body: String,
+    /// The point, from the centre of mass along the body's principal axes, m.
+    #[serde(default)]
+    #[schema(value_type = Vec<f64>)]
+    pub point: [f64; 3],
+    /// Where it is pulled to, in the world, m.
+    #[schema(value_type = Vec<f64>)]
+    pub to: [f64; 3],
+    /// Stiffness, N/m; one that suits the body's mass if it is not given.
+    #[serde(default)]
+    pub stiffness: Option<f64>,
+}
+
+/// The spring of the hand brings a body alone to rest in about this time, s.
+const HAND_PERIOD: f64 = 0.6;
+
+impl Pull {
+    /// The scene with the hand's spring in it.
+    pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Problem> {
+        let wrong = |pointer: &str, detail: String, hint: String| {
+            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "cannot-pull", detail.clone(), hint)
+                .at(pointer, detail)
+        };
+        let Some(body) = model.bodies.iter().find(|body| body.name == self.body) else {
+            let names = model.bodies.iter().map(|body| body.name.as_str());
+            let detail = format!("there is no body \"{}\"", self.body);
+            return Err(wrong("/body", detail, crate::problem::suggest(&self.body, names)));
+        };
+        let total: f64 = model.bodies.iter().map(|body| body.mass).sum();
+        let rate = std::f64::consts::TAU / HAND_PERIOD;
+        let stiffness = self.stiffness.unwrap_or(total * rate * rate);
+        let plain =
+            self.point.iter().chain(&self.to).chain([&stiffness]).all(|x| x.is_finite() && x.abs() < 1e9);
+        if !plain || stiffness < 0.0 {
+            let detail =
+                "point, to and stiffness must be ordinary numbers, the stiffness not negative".to_owned();
+            return Err(wrong("/stiffness", detail, "leave the stiffness out for one that suits".into()));
+        }
+        let point = body.point_from_principal(self.point);
+        let mut name = "hand".to_owned();
+        while scene.loads.iter().any(|load| load.name() == name) {
+            name.push('\'');
+        }
+        let mut pulled = scene.clone();
+        pulled.loads.push(Load::Spring {
+            name,
+            body_i: triad_engine::scene::GROUND.to_owned(),
+            point_i: self.to,
+            body_j: self.body.clone(),
+            point_j: point,
+            stiffness,
+            free_length: Some(0.0),
+            damping: 0.6 * (stiffness * total).sqrt(),
+            force: None,
+        });
+        Ok(pulled)
+    }
+}
