@@ -1,5 +1,6 @@
 //! The HTTP interface under `/api/v1`, and the one router of the server.
 
+mod analyses;
 mod bounds;
 mod changes;
 mod extract;
@@ -43,6 +44,7 @@ pub(crate) use lessons::unknown as unknown_lesson;
         (name = "submissions", description = "What was handed in, and what it earned"),
         (name = "scenes", description = "Built-in scenes, and what a scene amounts to"),
         (name = "sessions", description = "Live simulations"),
+        (name = "analyses", description = "What a scene can be asked besides running it"),
         (name = "server", description = "The server itself")
     )
 )]
@@ -58,6 +60,7 @@ fn described() -> (Router<App>, Document) {
                 .merge(scenes::routes())
                 .merge(sessions::routes())
                 .merge(changes::routes())
+                .merge(analyses::routes())
                 .merge(reactions::routes())
                 .merge(stream::routes())
                 .merge(health::routes()),

@@ -104,6 +104,19 @@ export interface BodyFrame {
   w: Vec3;
   velocity: Vec3;
   angular_velocity: Vec3;
+  /** Of the centre of mass, m/s². */
+  acceleration: Vec3;
+  mass: number;
+}
+
+/** What a joint or driver does to a body, in the world; the other body feels both reversed. */
+export interface JointForce {
+  joint: string;
+  on: string;
+  by: string;
+  at: Vec3;
+  force: Vec3;
+  moment: Vec3;
 }
 
 export interface SessionState {
@@ -133,6 +146,9 @@ export interface SessionState {
   /** What the engine found or corrected in the scene. */
   notes?: string[];
   bodies: BodyFrame[];
+  /** Empty for scenes of many joints. */
+  forces: JointForce[];
+  gravity: Vec3;
 }
 
 export interface Jacobian {

@@ -8,14 +8,14 @@ export interface Fetched {
   refresh: () => void;
 }
 
-export function fetched<T>(session: Session, ask: (id: string) => Promise<T>, show: (value: T, of: SessionState) => void, failed: (error: unknown) => void): Fetched {
+export function fetched<T>(session: Session, ask: (id: string) => Promise<T>, show: (value: T, of: SessionState) => void, failed: (error: unknown) => void, asked: () => string = () => ""): Fetched {
   let busy = false;
   let seen = "";
 
   const refresh = (): void => {
     const state = session.latest;
     if (!state || busy) return;
-    const key = `${state.id}@${state.time}`;
+    const key = `${state.id}@${state.time}@${state.changes}${asked()}`;
     if (key === seen) return;
     busy = true;
     ask(state.id)
@@ -36,7 +36,7 @@ export function fetched<T>(session: Session, ask: (id: string) => Promise<T>, sh
   };
   const refreshIfMoved = (key: string): void => {
     const state = session.latest;
-    if (state && !state.playing && `${state.id}@${state.time}` !== key) refresh();
+    if (state && !state.playing && `${state.id}@${state.time}@${state.changes}${asked()}` !== key) refresh();
   };
   return { refresh };
 }

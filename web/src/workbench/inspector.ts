@@ -30,7 +30,7 @@ export function inspector(session: Session): { root: HTMLElement } {
     { key: "parameters", label: "Parameters", panel: panel("parameters") },
     { key: "state", label: "State", panel: panel("state") },
     { key: "jacobian", label: "Jacobian", panel: panel("jacobian") },
-    { key: "multipliers", label: "Multipliers", panel: panel("multipliers") },
+    { key: "multipliers", label: "Reactions", panel: panel("multipliers") },
     { key: "bodies", label: "Bodies", panel: panel("bodies") },
     { key: "plots", label: "Plots", panel: panel("plots") },
   ], recall("tab:inspector"), (key) => {

@@ -1,55 +1,121 @@
-// Multipliers joint by joint, and the force and moment that they stand for, said completely:
-// on which body, about which point, in which frame.
+// Reactions joint by joint, said completely: on which body, about which point, in which frame, unique or not;
+// the multipliers that they are made of; and one body cut free with every force on it.
 import { api } from "../core/api";
-import { h } from "../core/dom";
+import { h, setText } from "../core/dom";
 import { num, seconds } from "../core/format";
-import type { BodyFrame, JointMultipliers, SessionState, Vec3 } from "../core/types";
+import { bind } from "../core/keys";
+import type { Component, JointForce, JointMultipliers, Reaction, Reactions, SessionState, Vec3 } from "../core/types";
 import { empty, problemNotice } from "../ui/notice";
 import { fetched } from "./fetched";
+import { freeBody, momentAbout, type Drawn } from "./force-model";
 import type { InspectorTab } from "./inspector";
-import type { Session } from "./session";
+import type { Session, Told } from "./session";
 import { norm } from "./vec";
-import { wrench, type About, type Frame, type Side } from "./wrench";
+import { wrench } from "./wrench";
+
+interface Answer {
+  multipliers: JointMultipliers[];
+  reactions: Reactions;
+}
 
 export function multipliersTab(session: Session): InspectorTab {
   const list = h("div", { class: "joints" });
-  let seenSelection: string | null = null;
+  const shared = h("div", { class: "stack" });
+  const cutFree = h("div", { class: "stack", hidden: true });
   const when = h("p", { class: "when" });
-  let joints: JointMultipliers[] = [];
+  let seenSelection: string | null = null;
+  let answer: Answer | undefined;
   let of: SessionState | undefined;
 
-  const side = choice("Acting on", [["j", "second body"], ["i", "first body"]], "j");
-  const about = choice("Moment about", [["joint", "the joint"], ["centre", "centre of mass"]], "joint");
-  const frame = choice("Components in", [["world", "world frame"], ["body", "body axes"]], "world");
+  const on = choice("Acting on", [["j", "second body"], ["i", "first body"]], (value) => session.tellAs({ on: value as Told["on"] }));
+  const about = choice("Moment about", [["joint", "the joint"], ["center", "centre of mass"]], (value) => session.tellAs({ about: value as Told["about"] }));
+  const frame = choice("Components in", [["world", "world frame"], ["joint", "joint’s axes"], ["body", "body axes"]], (value) => session.tellAs({ in: value as Told["in"] }));
+  const drawn = choice("Arrows in the sketch", [], (value) => session.draw(value.startsWith("body:") ? { what: "body", body: value.slice(5) } : { what: value as "none" | "joint" | "all" }));
+  const fit = h("button", { type: "button", class: "button quiet small", title: "Takes the length of the arrows from the recording so far", onclick: () => session.fitScale() }, "Fit the arrows");
+
+  const offer = (): void => {
+    const bodies = session.latest?.bodies.map((body) => body.name) ?? [];
+    drawn.offer([["joint", "selected joint"], ["all", "all joints"], ["none", "none"], ...bodies.map((name): [string, string] => [`body:${name}`, `${name} cut free`])]);
+    drawn.set(session.drawn.what === "body" ? `body:${session.drawn.body}` : session.drawn.what);
+    on.set(session.told.on);
+    about.set(session.told.about);
+    frame.set(session.told.in);
+  };
+
   const paint = (): void => {
-    when.textContent = of ? `At ${seconds(of.time)}${session.reviewing ? ", the newest time: multipliers are not kept for earlier times" : ""}.` : "";
+    offer();
+    const state = session.shown;
+    if (!state) return;
     seenSelection = session.joint;
     const keep = heldFocus(list);
-    list.replaceChildren(...(joints.length === 0
+    const cards = shownReactions(session, answer, of, state);
+    const earlier = session.reviewing && session.told.in === "joint" ? " The joint’s axes are known for the newest time only: these are components in the world frame." : "";
+    setText(when, `At ${seconds(session.reviewing ? state.time : (of?.time ?? state.time))}.${earlier}`);
+    list.replaceChildren(...(cards.length === 0
       ? [empty("No joints", "This scene has no joint, hence no multiplier that is a joint force.")]
-      : joints.map((joint) => card(joint, of?.bodies ?? [], side.value() as Side, about.value() as About, frame.value() as Frame, {
-        on: session.joint === joint.joint,
-        toggle: () => session.select(session.joint === joint.joint ? null : joint.joint),
-      }))));
+      : cards.map((entry) => card(entry, session.joint === entry.joint, () => session.select(session.joint === entry.joint ? null : entry.joint)))));
     keep();
+    paintShared(shared, answer?.reactions);
+    paintFreeBody(cutFree, state, session.drawn);
   };
-  for (const control of [side, about, frame]) control.root.addEventListener("change", paint);
 
-  const source = fetched(session, api.multipliers, (value, state) => {
-    joints = value;
+  const source = fetched(session, async (id): Promise<Answer> => {
+    const { on: side, about: point, in: axes } = session.told;
+    const [multipliers, reactions] = await Promise.all([api.multipliers(id), api.reactions(id, { on: side, about: point, in: axes })]);
+    return { multipliers, reactions };
+  }, (value, state) => {
+    answer = value;
     of = state;
     paint();
-  }, (error) => list.replaceChildren(problemNotice(error)));
+  }, (error) => list.replaceChildren(problemNotice(error)), () => `${session.told.on}${session.told.about}${session.told.in}@${session.latest?.changes ?? 0}`);
+  session.on("told", () => {
+    paint();
+    source.refresh();
+  });
+  bind([{ keys: ["f", "F"], shown: "F", says: "Forces: selected joint, all joints, none", run: () => session.draw(next(session.drawn)) }]);
 
   return {
-    root: h("div", { class: "stack" }, h("div", { class: "switches" }, side.root, about.root, frame.root), list, when),
+    root: h("div", { class: "stack" },
+      h("div", { class: "switches" }, on.root, about.root, frame.root, drawn.root, fit), shared, cutFree, list, when),
     refresh: () => {
-      if (seenSelection !== session.joint) {
+      if (seenSelection !== session.joint || session.reviewing) {
         paint();
-        list.querySelector(".joint.is-selected")?.scrollIntoView({ block: "nearest" });
+        if (session.joint !== null && !session.latest?.playing) list.querySelector(".joint.is-selected")?.scrollIntoView({ block: "nearest" });
       }
+      paintFreeBody(cutFree, session.shown, session.drawn);
       source.refresh();
     },
+  };
+}
+
+const next = (drawn: Drawn): Drawn => ({ what: drawn.what === "joint" ? "all" : drawn.what === "all" ? "none" : "joint" });
+
+interface Shown extends Reaction {
+  rows: { label: string; value: number }[];
+}
+
+/** At the newest time the server's own words; for an earlier time the forces that were recorded with its state. */
+function shownReactions(session: Session, answer: Answer | undefined, of: SessionState | undefined, state: SessionState): Shown[] {
+  if (!answer) return [];
+  const rows = (joint: string): Shown["rows"] => answer.multipliers.find((entry) => entry.joint === joint)?.rows ?? [];
+  if (!session.reviewing || of?.id !== state.id) return answer.reactions.reactions.map((entry) => ({ ...entry, rows: rows(entry.joint) }));
+  return state.forces.map((entry) => ({ ...recorded(entry, state, session.told, answer.reactions), rows: [] }));
+}
+
+function recorded(entry: JointForce, state: SessionState, told: Told, known: Reactions): Reaction {
+  const first = state.bodies.find((body) => body.name === (told.on === "j" ? entry.on : entry.by));
+  const { force, moment } = wrench({ ...entry, rows: [], force_on_j: entry.force, moment_on_j: entry.moment, expressed_in: "world" }, first,
+    told.on, told.about === "center" ? "centre" : "joint", told.in === "body" ? "body" : "world");
+  const before = known.reactions.find((reaction) => reaction.joint === entry.joint);
+  const told3 = (value: Vec3, of: Component[] | undefined): [Component, Component, Component] =>
+    value.map((part, k) => ({ value: part, unique: of?.[k]?.unique ?? true })) as [Component, Component, Component];
+  const own = told.in === "body" && first;
+  return {
+    joint: entry.joint, driver: before?.driver ?? false,
+    on: told.on === "j" ? entry.on : entry.by, by: told.on === "j" ? entry.by : entry.on,
+    about: told.about === "center" ? "the centre of mass" : "the joint", about_at: told.about === "center" && first ? first.position : entry.at,
+    expressed_in: own ? `the frame of ${first.name}` : "the world", axes: own ? [first.u, first.v, first.w] : [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    force: told3(force, before?.force), moment: told3(moment, before?.moment),
   };
 }
 
@@ -62,29 +128,86 @@ function heldFocus(list: HTMLElement): () => void {
   return () => list.children[at]?.querySelector<HTMLElement>(what)?.focus({ preventScroll: true });
 }
 
-function choice(label: string, options: [string, string][], start: string): { root: HTMLElement; value: () => string } {
-  const select = h("select", { class: "field compact" }, ...options.map(([value, text]) => h("option", { value, selected: value === start }, text)));
-  return { root: h("label", { class: "switch" }, h("span", null, label), select), value: () => select.value };
+interface Choice {
+  root: HTMLElement;
+  offer: (options: [string, string][]) => void;
+  set: (value: string) => void;
 }
 
-function card(joint: JointMultipliers, bodies: BodyFrame[], side: Side, about: About, frame: Frame, selection: { on: boolean; toggle: () => void }): HTMLElement {
-  const on = side === "j" ? joint.on : joint.by;
-  const body = bodies.find((entry) => entry.name === on);
-  const { force, moment } = wrench(joint, body, side, about, frame);
-  const point = about === "centre" && body ? body.position : joint.at;
-  const axes = frame === "body" && body ? ["u", "v", "w"] : ["x", "y", "z"];
-  const row = (label: string, symbol: string, value: Vec3, unit: string): HTMLElement => h("tr", null,
-    h("th", { scope: "row" }, label),
-    ...value.map((part, k) => h("td", { class: "number" }, h("span", { class: "component-name" }, `${symbol}${axes[k]} `), num(part, 6))),
-    h("td", { class: "number strong" }, `${num(norm(value), 6)} `, h("span", { class: "unit" }, unit)));
+function choice(label: string, options: [string, string][], changed: (value: string) => void): Choice {
+  const select = h("select", { class: "field compact" });
+  let offered = "";
+  const offer: Choice["offer"] = (list) => {
+    const key = list.map(([value]) => value).join("|");
+    if (key === offered) return;
+    offered = key;
+    select.replaceChildren(...list.map(([value, text]) => h("option", { value }, text)));
+  };
+  offer(options);
+  select.addEventListener("change", () => changed(select.value));
+  return {
+    root: h("label", { class: "switch" }, h("span", null, label), select), offer,
+    set: (value) => {
+      if (select.value !== value) select.value = value;
+    },
+  };
+}
 
-  return h("article", { class: selection.on ? "joint is-selected" : "joint" },
-    h("h3", null, h("button", { type: "button", class: "joint-select", "aria-pressed": String(selection.on), title: "Mark its rows in the Jacobian", onclick: selection.toggle }, joint.joint)),
-    h("p", { class: "said" }, `On ${on}; moment about ${about === "centre" && body ? `the centre of mass of ${on}` : "the joint"} at (${point.map((part) => num(part, 4)).join(", ")}) m; components in ${frame === "body" && body ? `the axes of ${on}` : "the world frame"}.`),
-    h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${joint.joint}` },
+function paintShared(place: HTMLElement, known: Reactions | undefined): void {
+  const sets = known?.redundancies ?? [];
+  const key = JSON.stringify(sets);
+  if (place.dataset.of === key) return;
+  place.dataset.of = key;
+  place.hidden = sets.length === 0;
+  place.replaceChildren(...sets.map((set) => h("section", { class: "notice is-note shared" },
+    h("div", { class: "notice-body" },
+      h("p", { class: "notice-title" }, `${set.joints.join(" and ")} share ${set.rows === 1 ? "one row" : `${set.rows} rows`} too many: components marked ≈ are not unique.`),
+      h("p", null, "The motion is the same however these joints share the load. What is shown is the smallest set of multipliers that gives it."),
+      set.remedies.length > 0
+        ? h("p", null, h("strong", null, "To make them unique: "), set.remedies.map((remedy) => `let ${remedy.joint} be ${remedy.becomes}, which gives up ${remedy.gives_up}`).join("; "), ".")
+        : null))));
+}
+
+function paintFreeBody(place: HTMLElement, state: SessionState | undefined, drawn: Drawn): void {
+  place.hidden = drawn.what !== "body";
+  if (drawn.what !== "body" || !state) return;
+  const body = state.bodies.find((entry) => entry.name === drawn.body);
+  if (!body) return;
+  const { arrows, sum, inertia } = freeBody(state, drawn.body);
+  const line = (label: string, force: Vec3, moment: Vec3 | null, strong = false): HTMLElement => h("tr", { class: strong ? "strong" : "" },
+    h("th", { scope: "row" }, label), ...[...force, ...(moment ?? [])].map((part) => h("td", { class: "number" }, num(part, 5))), moment ? null : h("td", { colspan: "3" }));
+  place.replaceChildren(h("h3", null, `${drawn.body}, cut free`),
+    h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Forces on ${drawn.body}` },
+      h("table", { class: "data" },
+        h("caption", null, "Forces in newtons and moments about the centre of mass in newton metres, world frame"),
+        h("thead", null, h("tr", null, h("th", { scope: "col" }, "Force"), ...["Fx", "Fy", "Fz", "Mx", "My", "Mz"].map((name) => h("th", { scope: "col", class: "number" }, name)))),
+        h("tbody", null,
+          ...arrows.map((arrow) => line(arrow.label, arrow.force, arrow.kind === "load" ? null : momentAbout(arrow, body.position))),
+          line("sum", sum, null, true), line("mass × acceleration", inertia, null, true)))));
+}
+
+function card(entry: Shown, selected: boolean, toggle: () => void): HTMLElement {
+  const axes = entry.expressed_in.includes("world") ? ["x", "y", "z"] : entry.expressed_in.includes("joint") ? ["1", "2", "3"] : ["u", "v", "w"];
+  const row = (label: string, symbol: string, parts: Component[], unit: string): HTMLElement => h("tr", null,
+    h("th", { scope: "row" }, label),
+    ...parts.map((part, k) => h("td", { class: part.unique ? "number" : "number is-shared", title: part.unique ? "" : "Not unique" },
+      h("span", { class: "component-name" }, `${symbol}${axes[k]} `), part.unique ? "" : "≈ ", num(tidy(part.value, parts), 6), part.unique ? null : h("span", { class: "visually-hidden" }, " not unique"))),
+    h("td", { class: "number strong" }, `${num(norm(parts.map((part) => part.value) as Vec3), 6)} `, h("span", { class: "unit" }, unit)));
+
+  return h("article", { class: selected ? "joint is-selected" : "joint" },
+    h("h3", null, h("button", { type: "button", class: "joint-select", "aria-pressed": String(selected), title: "Draw its force, mark its rows in the Jacobian", onclick: toggle }, entry.joint), entry.driver ? h("span", { class: "help" }, " driver") : null),
+    h("p", { class: "said" }, `On ${entry.on}, from ${entry.by}; moment about ${entry.about} at (${entry.about_at.map((part) => num(part, 4)).join(", ")}) m; components in ${entry.expressed_in}.`),
+    h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${entry.joint}` },
       h("table", { class: "data" },
         h("thead", { class: "visually-hidden" }, h("tr", null, h("th", { scope: "col" }, "Quantity"), ...axes.map((axis) => h("th", { scope: "col" }, axis)), h("th", { scope: "col" }, "Size"))),
-        h("tbody", null, row("Force", "F", force, "N"), row("Moment", "M", moment, "N m")))),
-    h("ul", { class: "lambdas", "aria-label": `Multipliers of ${joint.joint}` },
-      ...joint.rows.map((entry) => h("li", null, h("span", null, entry.label), h("b", null, `λ = ${num(entry.value, 6)}`)))));
+        h("tbody", null, row("Force", "F", entry.force, "N"), row("Moment", "M", entry.moment, "N m")))),
+    entry.rows.length > 0
+      ? h("ul", { class: "lambdas", "aria-label": `Multipliers of ${entry.joint}` }, ...entry.rows.map((one) => h("li", null, h("span", null, one.label), h("b", null, `λ = ${num(one.value, 6)}`))))
+      : null);
+}
+
+/** Rounding beside the other components is no force. */
+function tidy(value: number, beside: Component[]): number {
+  const largest = Math.max(...beside.map((part) => Math.abs(part.value)));
+  return Math.abs(value) < 1e-14 * largest ? 0 : value;
 }

@@ -5,6 +5,7 @@ import { num, seconds } from "../core/format";
 import { between, isNone, none, tidy, type Numbers, type SceneView, type Then } from "../core/numbers";
 import type { Pull, SessionState } from "../core/types";
 import { banner } from "../ui/notice";
+import type { Drawn } from "./force-model";
 import { History } from "./history";
 
 /** Between two states of a running session, s. */
@@ -22,8 +23,18 @@ type Events = {
   opened: () => void;
   /** The scene's numbers are known, or were changed. */
   scene: () => void;
+  /** Forces are told or drawn in another way. */
+  told: () => void;
+  /** The scale of the forces is to be taken from the recording anew. */
+  fit: () => void;
   problem: (error: unknown) => void;
 };
+
+export interface Told {
+  on: "i" | "j";
+  about: "joint" | "center";
+  in: "world" | "joint" | "body";
+}
 
 export class Session {
   /** The newest state that the server reported. */
@@ -32,6 +43,10 @@ export class Session {
   speed = 1;
   /** Name of the selected joint. */
   joint: string | null = null;
+  /** How reactions are told: on which body, about which point, in which frame. */
+  told: Told = { on: "j", about: "joint", in: "world" };
+  /** Which forces are drawn. */
+  drawn: Drawn = { what: "joint" };
   /** The scene as it runs, its parameters, and the author's. */
   view: SceneView | undefined;
   /** What differs from the author's scene. */
@@ -49,7 +64,7 @@ export class Session {
   /** The page says that the connection is lost. */
   private missed = false;
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
-    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(),
+    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(), told: new Set(), fit: new Set(),
   };
 
   constructor(readonly source: SessionSource, start?: Numbers) {
@@ -257,6 +272,22 @@ export class Session {
     if (this.joint === joint) return;
     this.joint = joint;
     for (const listener of this.listeners.selected) listener();
+  }
+
+  /** Tells reactions in another way, in every view. */
+  tellAs(change: Partial<Told>): void {
+    this.told = { ...this.told, ...change };
+    for (const listener of this.listeners.told) listener();
+  }
+
+  draw(drawn: Drawn): void {
+    this.drawn = drawn;
+    for (const listener of this.listeners.told) listener();
+  }
+
+  fitScale(): void {
+    for (const listener of this.listeners.fit) listener();
+    for (const listener of this.listeners.told) listener();
   }
 
   /** Opens the stream anew: the server sends the recording from its beginning. */

@@ -22,12 +22,20 @@ export interface Sketch {
   rebuild: (scene: Scene) => void;
 }
 
-export function sketch(given: Scene | undefined): Sketch {
+export interface Over {
+  root: SVGGElement;
+  update: (state: SessionState, project: (p: Vec3) => [number, number], perMetre: number) => void;
+}
+
+export function sketch(given: Scene | undefined, over: Over[], joint: (name: string) => void): Sketch {
   let scene = given;
   const root = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "sketch", role: "img", "aria-label": "Line drawing of the mechanism" });
   const view = viewAxes(given?.gravity);
   let pieces: Piece[] | undefined;
+  let perMetre = 1;
   let project: (p: Vec3) => [number, number] = () => [WIDTH / 2, HEIGHT / 2];
+
+  const clickable = (element: SVGElement, name: string): void => element.addEventListener("click", () => joint(name));
 
   const build = (state: SessionState): Piece[] => {
     const made: Piece[] = [];
@@ -36,21 +44,28 @@ export function sketch(given: Scene | undefined): Sketch {
       const toBody = converter(frame, stated?.position, axesOf(stated?.orientation));
       for (const shape of stated?.shape ?? []) made.push(...piecesOf(shape, at, toBody));
     });
-    const grounds: Vec3[] = [];
-    for (const joint of scene?.joints ?? []) {
-      const fixed = joint.body_i === GROUND ? joint.point_i : joint.body_j === GROUND ? joint.point_j : undefined;
-      const onGround = joint.body_i === GROUND || joint.body_j === GROUND;
-      const carrier = state.bodies.findIndex((body) => body.name === joint.body_j);
+    const fixedJoints: { point: Vec3; name: string }[] = [];
+    for (const entry of scene?.joints ?? []) {
+      const fixed = entry.body_i === GROUND ? entry.point_i : entry.body_j === GROUND ? entry.point_j : undefined;
+      const onGround = entry.body_i === GROUND || entry.body_j === GROUND;
+      const carrier = state.bodies.findIndex((body) => body.name === entry.body_j);
       const frame = state.bodies[carrier];
-      if (onGround) grounds.push(...[fixed ?? joint.point].filter((point) => point !== undefined));
-      else if (frame) made.push(...jointOn(frame, carrier, scene?.bodies?.find((body) => body.name === frame.name), joint));
+      const point = fixed ?? entry.point;
+      if (onGround && point) fixedJoints.push({ point, name: entry.name });
+      else if (!onGround && frame) {
+        const pieces = jointOn(frame, carrier, scene?.bodies?.find((body) => body.name === frame.name), entry);
+        for (const piece of pieces) clickable(piece.element, entry.name);
+        made.push(...pieces);
+      }
     }
+    const grounds = fixedJoints.map((entry) => entry.point);
     // Everything that is drawn, where it stands now.
     const reach = [...grounds, ...state.bodies.map((frame) => frame.position), ...made.flatMap((piece) => {
       const frame = state.bodies[piece.body];
       return frame ? piece.points.map((point) => add(frame.position, out([frame.u, frame.v, frame.w], point))) : [];
     })];
     const span = fit(reach.map((p) => flat(view, p)), grounds.map((p) => flat(view, p)));
+    perMetre = span.scale;
     project = (p) => {
       const [x, y] = flat(view, p);
       return [WIDTH / 2 + (x - span.x) * span.scale, HEIGHT / 2 - (y - span.y) * span.scale];
@@ -60,10 +75,13 @@ export function sketch(given: Scene | undefined): Sketch {
     state.bodies.forEach((_, at) => made.push(...triad(at, axisLength)));
     root.replaceChildren(
       ...made.map((piece) => piece.element),
-      ...grounds.map((point) => {
+      ...fixedJoints.map(({ point, name }) => {
         const [cx, cy] = project(point);
-        return svg("circle", { cx, cy, r: 5, class: "sketch-joint" });
-      }));
+        const dot = svg("circle", { cx, cy, r: 5, class: "sketch-joint" });
+        clickable(dot, name);
+        return dot;
+      }),
+      ...over.map((layer) => layer.root));
     return made;
   };
 
@@ -81,6 +99,7 @@ export function sketch(given: Scene | undefined): Sketch {
         const axes: Axes = [frame.u, frame.v, frame.w];
         piece.place(piece.points.map((point) => project(add(frame.position, out(axes, point)))));
       }
+      for (const layer of over) layer.update(state, project, perMetre);
     },
   };
 }

@@ -4,6 +4,7 @@ import { onTheme, recall, reducedMotion, remember } from "../core/prefs";
 import type { Scene } from "../core/types";
 import { icon } from "../ui/icons";
 import type { Session } from "./session";
+import { forceLayer } from "./force-layer";
 import { sketch } from "./sketch";
 import { ViewerUnavailable } from "./unavailable";
 import type { ViewerHandle } from "./viewer";
@@ -16,7 +17,7 @@ export interface Stage {
 }
 
 export function stage(session: Session, scene: Scene | undefined): Stage {
-  const drawing = sketch(scene);
+  const drawing = sketch(scene, [forceLayer(session)], (joint) => session.select(session.joint === joint ? null : joint));
   const host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
   const said = h("span");
@@ -132,6 +133,8 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
       draw();
       if (session.latest?.playing && !session.reviewing && !ticking && !reducedMotion()) requestAnimationFrame(tick);
     }),
+    session.on("told", draw),
+    session.on("selected", draw),
     // Only at its start does a scene say where the parts of its bodies are.
     session.on("scene", () => {
       const first = session.past.all[0];

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { BodyFrame, JointMultipliers, SessionState, Vec3 } from "../core/types";
+import { arrows, ForceScale, freeBody, momentAbout, roundDown } from "./force-model";
 import { History } from "./history";
 import { cellAt, groups, layout } from "./matrix";
 import { axesOf, cross, norm, sub } from "./vec";
@@ -7,6 +8,7 @@ import { wrench } from "./wrench";
 
 const body: BodyFrame = {
   name: "bob", position: [1, 0, 0], u: [0, 1, 0], v: [-1, 0, 0], w: [0, 0, 1], velocity: [0, 0, 0], angular_velocity: [0, 0, 0],
+  acceleration: [0, 0, 0], mass: 1,
 };
 const joint: JointMultipliers = {
   joint: "pin", rows: [], force_on_j: [0, 10, 0], moment_on_j: [0, 0, 1], at: [0, 0, 0], on: "bob", by: "ground", expressed_in: "world",
@@ -42,7 +44,7 @@ describe("axesOf", () => {
 
 const state = (time: number, x: number): SessionState => ({
   id: "a", time, duration: 10, playing: false, speed: 1, q: [], q_dot: [], energy: 0, energy_drift: 0, position_violation: 0,
-  velocity_violation: 0, steps: 0, rejected: 0, evaluations: 0, factorizations: 0, finished: false, changes: 0, force_scale: 0.1, bodies: [{ ...body, position: [x, 0, 0] as Vec3 }],
+  velocity_violation: 0, steps: 0, rejected: 0, evaluations: 0, factorizations: 0, finished: false, changes: 0, force_scale: 0.1, forces: [], gravity: [0, 0, -9.81], bodies: [{ ...body, position: [x, 0, 0] as Vec3 }],
 });
 
 describe("History", () => {
@@ -72,5 +74,33 @@ describe("matrix layout", () => {
     const grid = layout(3, 12, 700, true);
     expect(cellAt(grid, 3, 12, grid.left + 2.5 * grid.cell, grid.top + 1)).toEqual({ row: 0, column: 2 });
     expect(cellAt(grid, 3, 12, grid.left - 1, grid.top + 1)).toBeUndefined();
+  });
+});
+
+describe("forces", () => {
+  const hanging = (): SessionState => ({
+    ...state(0, 0), gravity: [0, -10, 0], bodies: [{ ...body, mass: 2, position: [1, 0, 0], acceleration: [0, -4, 0] }],
+    forces: [{ joint: "pin", on: "bob", by: "ground", at: [0, 0, 0], force: [0, 10, 0], moment: [0, 0, 1] }],
+  });
+  it("on a body cut free add up to mass times acceleration, whatever loads act", () => {
+    const { arrows: list, sum, inertia } = freeBody(hanging(), "bob");
+    expect(list.map((arrow) => [arrow.label, arrow.force])).toEqual([["weight", [0, -20, 0]], ["pin", [0, 10, 0]], ["loads together", [0, 2, 0]]]);
+    expect(sum).toEqual(inertia);
+    expect(list[1] && momentAbout(list[1], [1, 0, 0])).toEqual([0, 0, -9]);
+  });
+  it("are reversed on the first body", () => {
+    expect(arrows(hanging(), { what: "all" }, null, "i")[0]?.force).toEqual([-0, -10, -0]);
+    expect(arrows(hanging(), { what: "joint" }, "other", "j")).toEqual([]);
+  });
+  it("keep one scale from frame to frame", () => {
+    const scale = new ForceScale(5);
+    const run = Array.from({ length: 100 }, (_, k) => ({ ...hanging(), gravity: [0, 0, 0] as Vec3, forces: [{ ...hanging().forces[0]!, force: [0, k + 1, 0] as Vec3 }] }));
+    expect(scale.follow(run.slice(0, 5), false)).toBe(false);
+    expect(scale.follow(run, false)).toBe(true);
+    expect(scale.full).toBe(96);
+    expect(scale.follow(run.slice(0, 50), false)).toBe(false);
+    expect(scale.follow(run.slice(0, 50), true)).toBe(true);
+    expect(roundDown(96)).toBe(50);
+    expect(roundDown(0.2)).toBeCloseTo(0.2);
   });
 });

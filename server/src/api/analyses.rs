@@ -1,0 +1,103 @@
+//! Analyses of a scene other than running it: assembly, kinematics with inverse dynamics, static equilibrium, modes.
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use serde::Deserialize;
+use serde::Serialize;
+use serde_json::Value;
+use triad_engine::analysis::{self, About, AnalysisError};
+use triad_engine::reaction::report::Convention;
+use triad_engine::scene::Scene;
+use utoipa::ToSchema;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::Json;
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::{blocking, session};
+
+/// Output times that a kinematic analysis over HTTP may have.
+const MOST_TIMES: f64 = 5_001.0;
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new()
+        .routes(routes!(assembly))
+        .routes(routes!(kinematics))
+        .routes(routes!(equilibrium))
+        .routes(routes!(modes))
+}
+
+/// A scene to analyse.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct Asked {
+    /// The scene; its schema is at /api/v1/schema/scene.
+    #[schema(value_type = Object)]
+    scene: Value,
+    /// Modes about the `equilibrium` near the start, or about the `start` itself.
+    #[serde(default)]
+    #[schema(value_type = Option<String>, example = "equilibrium")]
+    about: About,
+    /// Bodies that an assembly must not move.
+    #[serde(default)]
+    pinned: Vec<String>,
+}
+
+/// Consistent positions and velocities from a rough start.
+#[utoipa::path(post, path = "/analyses/assembly", tag = "analyses", request_body = Asked, responses(
+    (status = 200, description = "Where each body came to lie, and how far it was moved", body = Object),
+    (status = 422, description = "The scene cannot be assembled", body = ProblemDocument)))]
+async fn assembly(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+    analyse(app, asked, |scene, asked| analysis::assemble(scene, &asked.pinned)).await
+}
+
+/// Positions, velocities, accelerations and driving forces of a scene whose drivers leave it no freedom.
+#[utoipa::path(post, path = "/analyses/kinematics", tag = "analyses", request_body = Asked, responses(
+    (status = 200, description = "One state for each output time, with the reactions of joints and drivers",
+        body = Object),
+    (status = 422, description = "The scene is free to move, or too long", body = ProblemDocument)))]
+async fn kinematics(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+    analyse(app, asked, |scene, _| analysis::kinematics(scene, Convention::default())).await
+}
+
+/// A position of rest near the start, whether it is stable, and the reactions there.
+#[utoipa::path(post, path = "/analyses/equilibrium", tag = "analyses", request_body = Asked, responses(
+    (status = 200, description = "The position and its reactions", body = Object),
+    (status = 422, description = "No position of rest was found", body = ProblemDocument)))]
+async fn equilibrium(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+    analyse(app, asked, |scene, _| analysis::equilibrium(scene)).await
+}
+
+/// Small motions about a position: frequencies, damping and shapes.
+#[utoipa::path(post, path = "/analyses/modes", tag = "analyses", request_body = Asked, responses(
+    (status = 200, description = "The modes, slowest first", body = Object),
+    (status = 422, description = "The scene has no modes there", body = ProblemDocument)))]
+async fn modes(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+    analyse(app, asked, |scene, asked| analysis::modes(scene, asked.about)).await
+}
+
+async fn analyse<T: Serialize>(
+    app: App,
+    asked: Asked,
+    run: impl FnOnce(&Scene, &Asked) -> Result<T, AnalysisError> + Send + 'static,
+) -> Result<axum::Json<Value>, Problem> {
+    blocking(move || {
+        let scene = Scene::from_json(&asked.scene.to_string())?;
+        session::bounded(&scene, &app.limits)?;
+        let times = scene.simulation.duration / scene.simulation.every;
+        if times > MOST_TIMES {
+            let detail = format!("the scene asks for {times:.0} output times, more than {MOST_TIMES}");
+            return Err(Problem::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "too-many-times",
+                detail.clone(),
+                "choose a larger simulation.every or a shorter simulation.duration",
+            )
+            .at("/simulation/every", detail));
+        }
+        let found = run(&scene, &asked)?;
+        serde_json::to_value(found).map(axum::Json).map_err(Problem::internal)
+    })
+    .await
+}

@@ -1,0 +1,108 @@
+// Arrows of forces and turning arrows of moments over the sketch, with the one scale that they share.
+import { svg } from "../core/dom";
+import { num } from "../core/format";
+import type { SessionState, Vec3 } from "../core/types";
+import { arrows, ForceScale, roundDown, type Arrow } from "./force-model";
+import type { Session } from "./session";
+import { add, cross, norm, scale, unit } from "./vec";
+
+/** Length of the force at the 95th percentile, in units of the drawing, and the longest that is drawn. */
+const FULL = 130;
+const LONGEST = 210;
+const HEAD = 11;
+const TURN = 24;
+
+type Project = (p: Vec3) => [number, number];
+
+export interface ForceLayer {
+  root: SVGGElement;
+  update: (state: SessionState, project: Project, perMetre: number) => void;
+}
+
+export function forceLayer(session: Session): ForceLayer {
+  const root = svg("g", { class: "force-layer" });
+  let sizes: ForceScale | undefined;
+  session.on("scene", () => sizes?.forget());
+  session.on("fit", () => sizes?.fit(session.past.all));
+
+  const update: ForceLayer["update"] = (state, project, perMetre) => {
+    const weight = state.bodies.reduce((sum, body) => sum + body.mass, 0) * norm(state.gravity);
+    sizes ??= new ForceScale(weight);
+    sizes.follow(session.past.all, session.latest?.finished === true && !session.reviewing);
+    const list = arrows(state, session.drawn, session.joint, session.told.on);
+    if (list.length === 0) {
+      root.replaceChildren();
+      return;
+    }
+    const perNewton = FULL / sizes.full;
+    // A drawing of a drawing: the arrow points where the force points in space, foreshortened like everything else.
+    const parts = list.flatMap((arrow) => draw(arrow, project, perNewton, perMetre, list.length <= 6));
+    root.replaceChildren(...parts, ...legend(perNewton));
+  };
+  return { root, update };
+}
+
+function draw(arrow: Arrow, project: Project, perNewton: number, perMetre: number, labels: boolean): SVGElement[] {
+  const size = norm(arrow.force);
+  const [x, y] = project(arrow.at);
+  const parts: SVGElement[] = [];
+  const wanted = size * perNewton;
+  let end: [number, number] = [x, y];
+  if (wanted > 2) {
+    const capped = wanted > LONGEST;
+    const length = capped ? LONGEST : wanted;
+    const tip = project(add(arrow.at, scale(unit(arrow.force), length / perMetre)));
+    const [dx, dy] = [tip[0] - x, tip[1] - y];
+    const seen = Math.hypot(dx, dy);
+    if (seen > 3) {
+      const [ux, uy] = [dx / seen, dy / seen];
+      const head = Math.min(HEAD, 0.6 * seen);
+      const neck = [tip[0] - ux * head, tip[1] - uy * head] as const;
+      parts.push(svg("path", { class: `force is-${arrow.kind}`, d: `M${p(x)} ${p(y)}L${p(neck[0])} ${p(neck[1])}` }),
+        svg("path", { class: `force-head is-${arrow.kind}`, d: `M${p(tip[0])} ${p(tip[1])}L${p(neck[0] - uy * head * 0.5)} ${p(neck[1] + ux * head * 0.5)}L${p(neck[0] + uy * head * 0.5)} ${p(neck[1] - ux * head * 0.5)}Z` }));
+      if (capped) parts.push(cut(x + dx * 0.55, y + dy * 0.55, ux, uy, arrow.kind));
+      end = tip;
+    }
+  }
+  if (arrow.moment) parts.push(...turn(arrow, project, perMetre));
+  if (labels) {
+    const text = svg("text", { class: `force-label is-${arrow.kind}`, x: p(end[0] + (end[0] >= x ? 10 : -10)), y: p(end[1] + (end[1] > y ? 18 : -6)), "text-anchor": end[0] >= x ? "start" : "end" });
+    text.textContent = `${arrow.label} ${num(size, 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`;
+    parts.push(text);
+  }
+  return parts;
+}
+
+/** Two strokes across: this arrow would be longer than it is drawn. */
+function cut(x: number, y: number, ux: number, uy: number, kind: string): SVGElement {
+  const stroke = (at: number): string => `M${p(x + ux * at - uy * 8 - ux * 3)} ${p(y + uy * at + ux * 8 - uy * 3)}L${p(x + ux * at + uy * 8 + ux * 3)} ${p(y + uy * at - ux * 8 + uy * 3)}`;
+  return svg("path", { class: `force-cut is-${kind}`, d: `${stroke(-3)}${stroke(4)}` });
+}
+
+/** Three quarters of a circle about the moment's axis, turning as it turns. Its size says nothing, its label does. */
+function turn(arrow: Arrow, project: Project, perMetre: number): SVGElement[] {
+  const axis = unit(arrow.moment ?? [0, 0, 1]);
+  const a = unit(cross(axis, Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
+  const b = cross(axis, a);
+  const radius = TURN / perMetre;
+  const at = (angle: number): [number, number] => project(add(arrow.at, add(scale(a, radius * Math.cos(angle)), scale(b, radius * Math.sin(angle)))));
+  const last = 1.5 * Math.PI;
+  const path = Array.from({ length: 25 }, (_, k) => at((k / 24) * last)).map(([x, y], k) => `${k === 0 ? "M" : "L"}${p(x)} ${p(y)}`).join("");
+  const [tx, ty] = at(last);
+  const [sx, sy] = at(last - 0.3);
+  const seen = Math.hypot(tx - sx, ty - sy) || 1;
+  const [ux, uy] = [(tx - sx) / seen, (ty - sy) / seen];
+  const head = `M${p(tx + ux * 7)} ${p(ty + uy * 7)}L${p(tx - uy * 5)} ${p(ty + ux * 5)}L${p(tx + uy * 5)} ${p(ty - ux * 5)}Z`;
+  return [svg("path", { class: "moment", d: path }), svg("path", { class: "moment-head", d: head })];
+}
+
+function legend(perNewton: number): SVGElement[] {
+  const newtons = roundDown(FULL / perNewton);
+  const length = newtons * perNewton;
+  const [x, y] = [18, 476];
+  const text = svg("text", { class: "force-legend", x: p(x + length + 10), y: p(y + 6) });
+  text.textContent = `${num(newtons)} N   ⫽ longer than drawn`;
+  return [svg("path", { class: "force-bar", d: `M${x} ${y - 6}V${y + 6}M${x} ${y}H${p(x + length)}M${p(x + length)} ${y - 6}V${y + 6}` }), text];
+}
+
+const p = (value: number): string => value.toFixed(1);
