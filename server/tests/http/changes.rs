@@ -113,3 +113,22 @@ async fn reactions_say_which_of_their_numbers_are_unique() {
     assert!((sum(&lower) + sum(&upper) - 20.0 * 9.81).abs() < 1e-6);
     get(&server, &format!("{path}/reactions?about=moon")).await.problem(400, "unknown-point");
 }
+
+#[tokio::test]
+async fn analyses_answer_for_a_scene() {
+    let server = server();
+    let scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    let asked = json!({"scene": scene});
+    let rest = post(&server, "/api/v1/analyses/equilibrium", &asked).await.json();
+    assert_eq!(rest["stable"], true);
+    assert!((rest["bodies"][0]["position"][1].as_f64().expect("a number") + 1.0).abs() < 1e-9);
+    let modes = post(&server, "/api/v1/analyses/modes", &asked).await.json();
+    let frequency = modes["modes"][0]["frequency"].as_f64().expect("a number");
+    assert!((frequency - 9.81_f64.sqrt() / std::f64::consts::TAU).abs() < 1e-6, "{frequency}");
+    let assembly = post(&server, "/api/v1/analyses/assembly", &asked).await.json();
+    assert_eq!(assembly["bodies"][0]["body"], "bob");
+    post(&server, "/api/v1/analyses/kinematics", &asked).await.problem(422, "not-driven");
+    let mut long = asked;
+    long["scene"]["simulation"]["every"] = json!(1e-5);
+    post(&server, "/api/v1/analyses/kinematics", &long).await.problem(422, "too-many-times");
+}

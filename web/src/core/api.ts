@@ -90,6 +90,7 @@ export const api = {
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
+  analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", asked: { scene: unknown }) => call<T>("POST", `/analyses/${kind}`, asked),
   createSession: (source: SessionSource, change?: Numbers) => call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
   sceneOf: (session: string) => call<SceneView>("GET", `/sessions/${id(session)}/scene`),
   change: (session: string, numbers: Numbers, then?: Then) =>

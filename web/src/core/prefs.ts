@@ -1,6 +1,6 @@
 // What the browser remembers. Private windows may refuse storage: then nothing is remembered.
 
-type Key = "theme" | "student" | "shortcuts" | "picture" | `draft:${string}` | `tab:${string}` | "scene-draft";
+type Key = "theme" | "projector" | "student" | "shortcuts" | "picture" | `draft:${string}` | `tab:${string}` | "scene-draft";
 
 export function recall(key: Key): string | null {
   try {
@@ -31,7 +31,16 @@ export function theme(): Theme {
 
 export function applyTheme(): void {
   document.documentElement.dataset.theme = theme();
+  document.documentElement.toggleAttribute("data-projector", projector());
   for (const listener of themeListeners) listener(theme());
+}
+
+/** Big type and strong lines, for the back of a room. */
+export const projector = (): boolean => recall("projector") === "on";
+
+export function toggleProjector(): void {
+  remember("projector", projector() ? null : "on");
+  applyTheme();
 }
 
 export function toggleTheme(): Theme {

@@ -4,6 +4,7 @@ import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { setTitle, type Page } from "../core/router";
 import type { Lesson, LessonSummary, Scene } from "../core/types";
+import { askedView } from "../ui/asked";
 import { problemNotice, skeleton } from "../ui/notice";
 import { exerciseSection } from "../exercise/exercise";
 
@@ -51,9 +52,9 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   };
 
   const openBench = async (lesson: Lesson): Promise<void> => {
-    const [{ workbench }, scene] = await Promise.all([import("../workbench/workbench"), sceneOf(lesson, leaving.signal)]);
+    const [{ workbench }, scene, seen] = await Promise.all([import("../workbench/workbench"), sceneOf(lesson, leaving.signal), askedView()]);
     if (leaving.signal.aborted) return;
-    undo.push(workbench(bench, { source: { lesson: slug }, scene }));
+    undo.push(workbench(bench, { source: { lesson: slug }, scene, seen }));
   };
 
   void load();

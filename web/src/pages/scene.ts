@@ -1,11 +1,13 @@
 // One scene: its text on one side, its run on the other.
 import { api, ApiError } from "../core/api";
 import { h } from "../core/dom";
+import type { Seen } from "../core/link";
 import { recall, remember } from "../core/prefs";
 import { setTitle, type Page } from "../core/router";
 import type { Scene } from "../core/types";
 import { sceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
+import { askedView } from "../ui/asked";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { workbench, type BenchOptions } from "../workbench/workbench";
@@ -42,11 +44,11 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
     endRun?.();
     endRun = workbench(bench, options);
   };
-  const runText = (): void => {
+  const runText = (seen?: Seen): void => {
     try {
       const scene = JSON.parse(editor.text()) as Scene;
       state.textContent = "";
-      open({ source: { scene }, scene });
+      open({ source: { scene }, scene, seen, own: { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) } });
       bench.scrollIntoView({ block: "nearest" });
     } catch {
       state.textContent = "The text is not JSON yet: see the remark below it.";
@@ -68,7 +70,8 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
     try {
       const scene = await api.scene(own ? STARTING_SCENE : name, leaving.signal);
       original = pretty(scene);
-      const draft = own ? recall("scene-draft") : null;
+      const seen = await askedView();
+      const draft = own ? (shownText(seen) ?? recall("scene-draft")) : null;
       if (own) {
         about.textContent = "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
       } else {
@@ -78,8 +81,8 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
       }
       editor.set(draft ?? original);
       restore.hidden = draft === null || draft === original;
-      if (own) runText();
-      else open({ source: { builtin: name }, scene });
+      if (own) runText(seen);
+      else open({ source: { builtin: name }, scene, seen });
     } catch (error) {
       if (leaving.signal.aborted) return;
       const missing = error instanceof ApiError && error.gone;
@@ -99,4 +102,14 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
       endRun?.();
     },
   };
+}
+
+/** The scene of a link, written as a person would. What stands in this browser's own draft stays there until it is edited. */
+function shownText(seen: Seen | undefined): string | null {
+  if (seen?.scene === undefined) return null;
+  try {
+    return pretty(JSON.parse(seen.scene));
+  } catch {
+    return seen.scene;
+  }
 }

@@ -1,7 +1,7 @@
 // The header that stays: name, places, the student's name, theme, help.
 import { h } from "../core/dom";
 import { bind, shortcuts } from "../core/keys";
-import { student, theme, toggleTheme, onTheme } from "../core/prefs";
+import { onTheme, projector, student, theme, toggleProjector, toggleTheme } from "../core/prefs";
 import mark from "../mark.svg?raw";
 import { icon } from "./icons";
 
@@ -17,6 +17,10 @@ export function header(root: HTMLElement): void {
     themeButton.setAttribute("aria-label", label);
     themeButton.title = label;
   };
+  const beamer = h("button", { type: "button", class: "header-button square wide-only", "aria-label": "Projector: big type and strong lines", title: "Projector: big type and strong lines (P)", onclick: toggleProjector }, icon("beamer"));
+  const paintBeamer = (): void => beamer.setAttribute("aria-pressed", String(projector()));
+  onTheme(paintBeamer);
+  paintBeamer();
   onTheme(paintTheme);
   paintTheme();
   paintName(name);
@@ -26,8 +30,9 @@ export function header(root: HTMLElement): void {
     h("a", { class: "brand", href: "/", "aria-label": "Triad, all lessons" }, brandMark, h("span", null, "Triad")),
     h("nav", { "aria-label": "Main" }, h("a", { href: "/" }, "Lessons"), h("a", { href: "/scenes" }, "Scenes")),
     h("span", { class: "header-space" }),
-    name, themeButton,
+    name, beamer, themeButton,
     h("button", { type: "button", class: "header-button square", "aria-label": "Keyboard and help", title: "Keyboard and help (?)", onclick: help }, icon("keys")));
+  bind([{ keys: ["p", "P"], shown: "P", says: "Projector: big type and strong lines", run: toggleProjector }]);
   bind([{ keys: ["?"], shown: "?", says: "Show this help", run: help }]);
 }
 

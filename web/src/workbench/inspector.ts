@@ -2,6 +2,7 @@
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 import { tabs } from "../ui/tabs";
+import { analysesTab } from "./analyses-tab";
 import { bodiesTab } from "./bodies-tab";
 import { jacobianTab } from "./jacobian-tab";
 import { multipliersTab } from "./multipliers-tab";
@@ -16,7 +17,7 @@ export interface InspectorTab {
   refresh: () => void;
 }
 
-export function inspector(session: Session): { root: HTMLElement } {
+export function inspector(session: Session, panelAsked?: string): { root: HTMLElement; current: () => string } {
   const made: Record<string, InspectorTab> = {
     parameters: parametersTab(session),
     state: stateTab(session),
@@ -24,6 +25,7 @@ export function inspector(session: Session): { root: HTMLElement } {
     multipliers: multipliersTab(session),
     bodies: bodiesTab(session),
     plots: plotsTab(session),
+    analyses: analysesTab(session),
   };
   const panel = (key: string): HTMLElement => h("div", null, made[key]?.root);
   const bar = tabs("Inspector", [
@@ -33,7 +35,8 @@ export function inspector(session: Session): { root: HTMLElement } {
     { key: "multipliers", label: "Reactions", panel: panel("multipliers") },
     { key: "bodies", label: "Bodies", panel: panel("bodies") },
     { key: "plots", label: "Plots", panel: panel("plots") },
-  ], recall("tab:inspector"), (key) => {
+    { key: "analyses", label: "Analyses", panel: panel("analyses") },
+  ], panelAsked ?? recall("tab:inspector"), (key) => {
     remember("tab:inspector", key);
     made[key]?.refresh();
   });
@@ -53,5 +56,5 @@ export function inspector(session: Session): { root: HTMLElement } {
       made[bar.current()]?.refresh();
     }, session.latest?.playing ? 100 : 0);
   });
-  return { root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root) };
+  return { root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root), current: bar.current };
 }

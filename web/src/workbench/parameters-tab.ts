@@ -5,6 +5,7 @@ import { count, none, type Numbers, type Parameter, type Then } from "../core/nu
 import { empty, problemNotice } from "../ui/notice";
 import { expertPanel } from "./expert";
 import type { InspectorTab } from "./inspector";
+import { pullPanel } from "./pull";
 import type { Session } from "./session";
 
 /** Steps of a slider whose author chose none. */
@@ -58,6 +59,8 @@ export function parametersTab(session: Session): InspectorTab {
     ask({ values: base.values, places: { ...base.places, [pointer]: value } }, then);
   });
 
+  const hand = pullPanel(session);
+
   const paint = (): void => {
     const view = session.view;
     if (!view) return;
@@ -83,10 +86,11 @@ export function parametersTab(session: Session): InspectorTab {
   return {
     root: h("div", { class: "stack" },
       h("div", { class: "row between" }, state, h("div", { class: "row" }, undo, reset)),
-      trouble, list, expert.root),
+      trouble, list, hand.root, expert.root),
     refresh: () => {
       paint();
       expert.refresh();
+      hand.refresh();
     },
   };
 }

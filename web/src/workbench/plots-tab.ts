@@ -1,10 +1,11 @@
 // Curves over time from the states that arrived. A click in a plot moves the page's clock.
-import { h } from "../core/dom";
+import { h, setText } from "../core/dom";
 import { num, sci, seconds } from "../core/format";
 import { onTheme } from "../core/prefs";
 import type { SessionState } from "../core/types";
 import { empty } from "../ui/notice";
 import { liveTable } from "../ui/table";
+import { difference, plotSvg, resample, type Line } from "./compare";
 import type { InspectorTab } from "./inspector";
 import type { Session } from "./session";
 
@@ -13,6 +14,23 @@ type Chart = { label: string; curves: Curve[]; log?: boolean };
 type Plotter = typeof import("./plotter");
 
 const TABLE_ROWS = 25;
+const COLORS = ["--curve-1", "--curve-2", "--curve-3"];
+const DASHES = [[], [7, 4], [2, 3]];
+
+/** What tells a run from another: its numbers. */
+function runName(session: Session): string {
+  const { values, places } = session.numbers;
+  const changed = [...Object.entries(values), ...Object.entries(places)].map(([name, value]) => `${name} ${typeof value === "object" ? JSON.stringify(value) : String(value)}`);
+  return changed.length > 0 ? changed.join(", ") : "the scene as its author wrote it";
+}
+
+const fileName = (label: string, ending: string): string => `${label.toLowerCase().replaceAll(" ", "-")}.${ending}`;
+
+function saveBlob(blob: Blob, name: string): void {
+  const link = h("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
 
 function charts(state: SessionState): Chart[] {
   const list: Chart[] = [
@@ -23,9 +41,16 @@ function charts(state: SessionState): Chart[] {
   state.bodies.forEach((body, at) => {
     const xyz = (symbol: string, unit: string, of: (s: SessionState, k: number) => number | undefined): Curve[] =>
       ["x", "y", "z"].map((axis, k) => ({ label: `${symbol}${axis}`, unit, of: (s) => of(s, k) ?? NaN }));
+    list.push({ label: `Acceleration of ${body.name}`, curves: xyz("a", "m/s²", (s, k) => s.bodies[at]?.acceleration[k]) });
     list.push({ label: `Position of ${body.name}`, curves: xyz("", "m", (s, k) => s.bodies[at]?.position[k]) });
     list.push({ label: `Velocity of ${body.name}`, curves: xyz("v", "m/s", (s, k) => s.bodies[at]?.velocity[k]) });
     list.push({ label: `Angular velocity of ${body.name}`, curves: xyz("ω", "rad/s", (s, k) => s.bodies[at]?.angular_velocity[k]) });
+  });
+  state.forces.forEach((entry, at) => {
+    const force = (symbol: string, unit: string, of: (s: SessionState, k: number) => number | undefined): Curve[] =>
+      ["x", "y", "z"].map((axis, k) => ({ label: `${symbol}${axis}`, unit, of: (s) => of(s, k) ?? NaN }));
+    list.push({ label: `Force in ${entry.joint} on ${entry.on}`, curves: force("F", "N", (s, k) => s.forces[at]?.force[k]) });
+    list.push({ label: `Moment in ${entry.joint} on ${entry.on}`, curves: force("M", "N m", (s, k) => s.forces[at]?.moment[k]) });
   });
   return list;
 }
@@ -35,7 +60,12 @@ export function plotsTab(session: Session): InspectorTab {
   const canvas = h("div", { class: "plot" });
   const place = h("p", { class: "readout" });
   const tableHolder = h("details", { class: "as-table" }, h("summary", null, "The same as a table"));
-  const save = h("button", { type: "button", class: "button quiet small" }, "Save as CSV");
+  const save = h("button", { type: "button", class: "button quiet small" }, "CSV");
+  const keep = h("button", { type: "button", class: "button small", title: "Lays this run over the next one" }, "Keep this run");
+  const mode = h("select", { class: "field compact", "aria-label": "Show both runs or their difference" }, h("option", { value: "both" }, "both runs"), h("option", { value: "difference" }, "difference"));
+  const modeLabel = h("span", { hidden: true }, mode);
+  const apartFrom = h("p", { class: "when", role: "status" });
+  let kept: { name: string; states: SessionState[] } | undefined;
   let available: Chart[] = [];
   let bodies = "";
   let plotter: Plotter | undefined;
@@ -75,12 +105,32 @@ export function plotsTab(session: Session): InspectorTab {
       }
       return;
     }
+    const lines = linesOf(shown, states);
     plotter.draw(canvas, {
-      key: `${shown.label}|${document.documentElement.dataset.theme ?? ""}`, log: shown.log === true, cursor: session.time,
-      times: states.map((entry) => entry.time),
-      curves: shown.curves.map((curve) => ({ label: curve.label, unit: curve.unit, values: states.map(curve.of) })),
-      seek: (time) => session.seek(time),
+      key: `${shown.label}|${document.documentElement.dataset.theme ?? ""}|${kept?.name ?? ""}|${mode.value}`,
+      log: shown.log === true && mode.value === "both", cursor: session.time,
+      times: states.map((entry) => entry.time), curves: lines, seek: (time) => session.seek(time),
     });
+  };
+
+  /** The curves of this run, those of the kept run, or what lies between them. */
+  const linesOf = (shown: Chart, states: readonly SessionState[]): Line[] => {
+    const times = states.map((entry) => entry.time);
+    const before = kept;
+    const largest: string[] = [];
+    const lines = shown.curves.flatMap((curve, k): Line[] => {
+      const color = COLORS[k % COLORS.length] ?? "--ink";
+      const now = states.map(curve.of);
+      const line = { label: curve.label, unit: curve.unit, values: now, color, dash: DASHES[k % DASHES.length] ?? [] };
+      if (!before) return [line];
+      const other = resample(before.states.map((entry) => entry.time), before.states.map(curve.of), times);
+      const apart = difference(now, other);
+      largest.push(`${curve.label} ${sci(apart.largest, 3)} ${curve.unit}`.trim());
+      return mode.value === "difference" ? [{ ...line, label: `${curve.label}, difference`, values: apart.values }]
+        : [{ ...line, dash: [] }, { ...line, label: `${curve.label}, kept`, values: other, dash: [3, 5] }];
+    });
+    setText(apartFrom, before ? `Kept: ${before.name}. Largest difference: ${largest.join(", ")}.` : "");
+    return lines;
   };
 
   const fillTable = (shown: Chart, states: readonly SessionState[]): void => {
@@ -102,18 +152,41 @@ export function plotsTab(session: Session): InspectorTab {
     if (!shown) return;
     const lines = [["time", ...shown.curves.map((curve) => curve.label)].join(","), ["s", ...shown.curves.map((curve) => curve.unit || "1")].join(","),
       ...session.past.all.map((entry) => [entry.time, ...shown.curves.map((curve) => curve.of(entry))].join(","))];
-    const link = h("a", { href: URL.createObjectURL(new Blob([lines.join("\n") + "\n"], { type: "text/csv" })), download: `${shown.label.toLowerCase().replaceAll(" ", "-")}.csv` });
-    link.click();
-    URL.revokeObjectURL(link.href);
+    saveBlob(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }), fileName(shown.label, "csv"));
   });
+  keep.addEventListener("click", () => {
+    kept = kept ? undefined : { name: runName(session), states: [...session.past.all] };
+    setText(keep, kept ? "Drop the kept run" : "Keep this run");
+    modeLabel.hidden = !kept;
+    if (!kept) setText(apartFrom, "");
+    refresh();
+  });
+  mode.addEventListener("change", refresh);
+  const saveSvg = (): void => {
+    const shown = chart();
+    if (!shown) return;
+    const css = getComputedStyle(canvas);
+    const color = (name: string): string => css.getPropertyValue(name).trim();
+    const lines = linesOf(shown, session.past.all).map((line) => ({ ...line, color: color(line.color) }));
+    const text = plotSvg(`${shown.label}, ${runName(session)}`, session.past.all.map((entry) => entry.time), lines, { ink: color("--ink"), line: color("--line"), paper: color("--surface") });
+    saveBlob(new Blob([text], { type: "image/svg+xml" }), fileName(shown.label, "svg"));
+  };
+  const savePng = async (): Promise<void> => {
+    const shown = chart();
+    const blob = await plotter?.png(canvas);
+    if (shown && blob) saveBlob(blob, fileName(shown.label, "png"));
+  };
   select.addEventListener("change", refresh);
   tableHolder.addEventListener("toggle", refresh);
   onTheme(() => requestAnimationFrame(() => canvas.isConnected && refresh()));
 
   return {
     root: h("div", { class: "stack" },
-      h("div", { class: "row between" }, h("label", { class: "switch" }, h("span", null, "Plot"), select), save),
-      canvas, place, tableHolder),
+      h("div", { class: "row between" }, h("label", { class: "switch" }, h("span", null, "Plot"), select),
+        h("span", { class: "row wrap tight" }, keep, modeLabel, h("span", { class: "help" }, "Save as"), save,
+          h("button", { type: "button", class: "button quiet small", onclick: saveSvg }, "SVG"),
+          h("button", { type: "button", class: "button quiet small", onclick: () => void savePng() }, "PNG"))),
+      canvas, apartFrom, place, tableHolder),
     refresh,
   };
 }

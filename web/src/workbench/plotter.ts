@@ -8,16 +8,15 @@ export interface Drawing {
   log: boolean;
   cursor: number;
   times: number[];
-  curves: { label: string; unit: string; values: number[] }[];
+  curves: { label: string; unit: string; values: (number | null)[]; color: string; dash: number[] }[];
   seek: (time: number) => void;
 }
 
 const HEIGHT = 260;
-const DASHES = [[], [7, 4], [2, 3]];
 const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; cursor: { at: number } }>();
 
 export function draw(place: HTMLElement, drawing: Drawing): void {
-  const values = drawing.curves.map((curve) => curve.values.map((value) => (drawing.log && value <= 0 ? null : value)));
+  const values = drawing.curves.map((curve) => curve.values.map((value) => (drawing.log && value !== null && value <= 0 ? null : value)));
   const data: uPlot.AlignedData = [drawing.times, ...values];
   let entry = plots.get(place);
   if (entry?.key !== drawing.key || !place.contains(entry.plot.root)) {
@@ -46,8 +45,8 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
       ...axis, size: 66, label: drawing.curves[0]?.unit || "", labelFont: font, labelSize: drawing.curves[0]?.unit ? 18 : 0,
       values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))),
     }],
-    series: [{ label: "Time" }, ...drawing.curves.map((curve, k): uPlot.Series => ({
-      label: curve.label, stroke: color(["--curve-1", "--curve-2", "--curve-3"][k] ?? "--ink"), width: 2, dash: DASHES[k] ?? [], points: { show: false },
+    series: [{ label: "Time" }, ...drawing.curves.map((curve): uPlot.Series => ({
+      label: curve.label, stroke: color(curve.color), width: 2, dash: curve.dash, points: { show: false },
       value: (_, value) => (value === null ? "–" : short(value)),
     }))],
     hooks: {
@@ -71,6 +70,12 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
   }, data, place);
   plot.over.addEventListener("click", (event) => drawing.seek(plot.posToVal(event.offsetX, "x")));
   return plot;
+}
+
+/** The picture as it is drawn, for a slide. */
+export function png(place: HTMLElement): Promise<Blob | null> {
+  const canvas = place.querySelector("canvas");
+  return new Promise((done) => (canvas ? canvas.toBlob(done) : done(null)));
 }
 
 function short(value: number): string {

@@ -47,10 +47,14 @@ export class Session {
   told: Told = { on: "j", about: "joint", in: "world" };
   /** Which forces are drawn. */
   drawn: Drawn = { what: "joint" };
+  /** What is shown instead of the run: the result of an analysis, at a moment of the wall clock in ms. */
+  pose: ((now: number) => SessionState) | undefined;
   /** The scene as it runs, its parameters, and the author's. */
   view: SceneView | undefined;
   /** What differs from the author's scene. */
   numbers: Numbers;
+  /** Numbers were changed, or a body was pulled, in the middle of this run: from its start it would go otherwise. */
+  bent = false;
   private before: Numbers[] = [];
   private seenChanges = -1;
   private waiters: (() => void)[] = [];
@@ -146,6 +150,7 @@ export class Session {
       this.cursor = null;
       this.take(await api.change(id, sent, then));
       this.numbers = tidy(to, view);
+      this.bent = (this.latest?.time ?? 0) > 0;
     });
     return !isNone(sent);
   }
@@ -157,6 +162,7 @@ export class Session {
     await this.alone(async () => {
       this.cursor = null;
       this.take(pull ? await api.pull(id, pull) : await api.release(id));
+      this.bent = true;
     });
   }
 
@@ -201,6 +207,7 @@ export class Session {
 
   play(): Promise<void> {
     this.cursor = null;
+    this.setPose(undefined);
     const finished = this.latest?.finished === true;
     return this.ask(async (id) => {
       if (finished) {
@@ -285,6 +292,12 @@ export class Session {
     for (const listener of this.listeners.told) listener();
   }
 
+  setPose(pose: Session["pose"]): void {
+    if (this.pose === pose) return;
+    this.pose = pose;
+    this.emit("shown");
+  }
+
   fitScale(): void {
     for (const listener of this.listeners.fit) listener();
     for (const listener of this.listeners.told) listener();
@@ -316,6 +329,7 @@ export class Session {
     if (before && state.id === before.id && state.time < before.time) {
       this.past.clear();
       this.cursor = null;
+      this.bent = false;
     }
     this.latest = state;
     this.past.add(state);

@@ -1,6 +1,7 @@
 // The scene as a line drawing: at once, without WebGL, and while the 3-D view is on its way.
 import { svg } from "../core/dom";
 import type { BodyFrame, Scene, SceneBody, SceneJoint, SessionState, Shape, Vec3 } from "../core/types";
+import { inPlane, type Grip } from "./pull";
 import { add, along, axesOf, cross, dot, norm, out, scale, sub, unit, type Axes } from "./vec";
 
 interface Piece {
@@ -17,6 +18,10 @@ const HEIGHT = 500;
 
 export interface Sketch {
   root: SVGSVGElement;
+  /** The body under a place of the drawing, and the nearest point of its drawn parts. */
+  grip: (target: Element, x: number, y: number) => Grip | undefined;
+  /** The world's shift that a shift on the drawing means. */
+  move: (dx: number, dy: number) => Vec3;
   update: (state: SessionState) => void;
   /** Draws a changed scene from its start. */
   rebuild: (scene: Scene) => void;
@@ -85,13 +90,27 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
     return made;
   };
 
+  let last: SessionState | undefined;
+
   return {
     root,
+    grip: (target, x, y) => {
+      const piece = pieces?.find((entry) => entry.element === target && !entry.element.matches(".sketch-axis, .sketch-joint"));
+      const frame = piece && last?.bodies[piece.body];
+      if (!piece || !frame) return undefined;
+      // The point in the plane through the piece's middle that lies under the mouse.
+      const axes: Axes = [frame.u, frame.v, frame.w];
+      const middle = add(frame.position, out(axes, scale(piece.points.reduce((sum, point) => add(sum, point), [0, 0, 0] as Vec3), 1 / piece.points.length)));
+      const [mx, my] = project(middle);
+      return { body: frame.name, at: add(middle, inPlane(view, perMetre)(x - mx, y - my)) };
+    },
+    move: (dx, dy) => inPlane(view, perMetre)(dx, dy),
     rebuild: (changed) => {
       scene = changed;
       pieces = undefined;
     },
     update: (state) => {
+      last = state;
       pieces ??= build(state);
       for (const piece of pieces) {
         const frame = state.bodies[piece.body];

@@ -5,6 +5,7 @@ import type { Scene } from "../core/types";
 import { icon } from "../ui/icons";
 import type { Session } from "./session";
 import { forceLayer } from "./force-layer";
+import { dragging, pullLayer } from "./pull";
 import { sketch } from "./sketch";
 import { ViewerUnavailable } from "./unavailable";
 import type { ViewerHandle } from "./viewer";
@@ -13,11 +14,13 @@ export interface Stage {
   root: HTMLElement;
   /** Changes between sketch and 3-D view; it has its place among the controls. */
   toggle: HTMLElement;
+  current: () => "sketch" | "viewer";
   dispose: () => void;
 }
 
-export function stage(session: Session, scene: Scene | undefined): Stage {
-  const drawing = sketch(scene, [forceLayer(session)], (joint) => session.select(session.joint === joint ? null : joint));
+export function stage(session: Session, scene: Scene | undefined, picture?: "sketch" | "viewer"): Stage {
+  const drawing = sketch(scene, [forceLayer(session), pullLayer(session)], (joint) => session.select(session.joint === joint ? null : joint));
+  dragging(session, drawing.root, drawing.grip, drawing.move);
   const host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
   const said = h("span");
@@ -26,18 +29,39 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
   const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, loading);
 
   let viewer: ViewerHandle | undefined;
-  let wanted = recall("picture") !== "sketch" && !savesData();
+  let wanted = picture ? picture === "viewer" : recall("picture") !== "sketch" && !savesData();
   let visible = false;
   let starting = false;
   let failed = false;
   let gone = false;
   let ticking = false;
+  let swinging = false;
   let tickedAt = 0;
   let shownAt = 0;
   let frameCost = 0;
   const waiting: Uint8Array[] = [];
 
+  /** An analysis shows its result in the sketch, also where the 3-D view is open: that one shows the run. */
+  const posed = (): boolean => {
+    root.classList.toggle("is-posed", session.pose !== undefined);
+    if (!session.pose) return false;
+    drawing.update(session.pose(performance.now()));
+    return true;
+  };
+  const swing = (): void => {
+    if (gone || !posed()) {
+      swinging = false;
+      return;
+    }
+    swinging = true;
+    requestAnimationFrame(swing);
+  };
+
   const draw = (): void => {
+    if (posed()) {
+      if (!swinging && !reducedMotion()) swing();
+      return;
+    }
     const time = session.smoothTime;
     const state = session.past.between(time) ?? session.shown;
     if (!state) return;
@@ -157,6 +181,7 @@ export function stage(session: Session, scene: Scene | undefined): Stage {
   return {
     root,
     toggle,
+    current: () => (wanted ? "viewer" : "sketch"),
     dispose: () => {
       gone = true;
       seen.disconnect();

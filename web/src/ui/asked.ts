@@ -1,0 +1,9 @@
+// What the page's address asks to be shown, with a word where it cannot be read.
+import { asked, type Seen } from "../core/link";
+import { banner } from "./notice";
+
+export async function askedView(): Promise<Seen | undefined> {
+  const seen = await asked();
+  if (seen === undefined) banner("This link is damaged: the lesson or scene is shown from its start.", { label: "Fine", run: () => banner(null) });
+  return seen ?? undefined;
+}
