@@ -84,9 +84,10 @@ impl EngineError {
     /// Where in the scene, as a JSON pointer, if it is at one place.
     pub fn pointer(&self) -> Option<String> {
         match self {
-            Self::Scene(SceneError::Syntax { pointer, .. }) => Some(pointer.clone()),
+            Self::Scene(SceneError::Syntax { pointer, .. } | SceneError::NoNumber { pointer, .. }) => {
+                Some(pointer.clone())
+            }
             Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
-            Self::Scene(SceneError::NoNumber { pointer, .. }) => Some(pointer.clone()),
             Self::Model(error) => Some(error.pointer()),
             Self::Assembly { index, .. } => Some(format!("/joints/{index}")),
             _ => None,

@@ -78,6 +78,7 @@ impl ModelBody {
 
     /// This body where `old`, a body of the same frame, stands in a run. Centre of mass and principal axes may differ
     /// between the two: what stays in place is the author's frame.
+    #[must_use]
     pub fn placed_as(&self, old: &Self, frame: &BodyFrame) -> Self {
         let axes = [frame.u, frame.v, frame.w].map(Vector3::from);
         let turn = Matrix3::from_columns(&axes) * old.principal_axes.transpose();

@@ -7,10 +7,12 @@ import type { Session } from "./session";
 import { add, cross, norm, scale, unit } from "./vec";
 
 /** Length of the force at the 95th percentile, in units of the drawing, and the longest that is drawn. */
-const FULL = 130;
-const LONGEST = 210;
+const FULL = 120;
+const LONGEST = 180;
 const HEAD = 11;
 const TURN = 24;
+/** About the width of a letter of a label, in units of the drawing. */
+const WIDE = 11;
 
 type Project = (p: Vec3) => [number, number];
 
@@ -66,8 +68,15 @@ function draw(arrow: Arrow, project: Project, perNewton: number, perMetre: numbe
   }
   if (arrow.moment) parts.push(...turn(arrow, project, perMetre));
   if (labels) {
-    const text = svg("text", { class: `force-label is-${arrow.kind}`, x: p(end[0] + (end[0] >= x ? 10 : -10)), y: p(end[1] + (end[1] > y ? 18 : -6)), "text-anchor": end[0] >= x ? "start" : "end" });
-    text.textContent = `${arrow.label} ${num(size, 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`;
+    const words = `${arrow.label} ${num(size, 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`;
+    // Beside the tip, on the side where the words have room.
+    const room = WIDE * words.length;
+    const right = end[0] >= x ? end[0] + room < 790 : end[0] - room < 10;
+    const text = svg("text", {
+      class: `force-label is-${arrow.kind}`, x: p(end[0] + (right ? 10 : -10)), y: p(Math.min(466, Math.max(24, end[1] + (end[1] > y ? 20 : -6)))),
+      "text-anchor": right ? "start" : "end",
+    });
+    text.textContent = words;
     parts.push(text);
   }
   return parts;
@@ -101,7 +110,7 @@ function legend(perNewton: number): SVGElement[] {
   const length = newtons * perNewton;
   const [x, y] = [18, 476];
   const text = svg("text", { class: "force-legend", x: p(x + length + 10), y: p(y + 6) });
-  text.textContent = `${num(newtons)} N   ⫽ longer than drawn`;
+  text.textContent = `${num(newtons)} N   (crossed twice: longer than drawn)`;
   return [svg("path", { class: "force-bar", d: `M${x} ${y - 6}V${y + 6}M${x} ${y}H${p(x + length)}M${p(x + length)} ${y - 6}V${y + 6}` }), text];
 }
 

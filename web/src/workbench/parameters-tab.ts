@@ -22,7 +22,7 @@ export function parametersTab(session: Session): InspectorTab {
   const trouble = h("div", { "aria-live": "polite" });
   const state = h("p", { class: "help", role: "status" });
   const undo = h("button", { type: "button", class: "button small", onclick: () => void attempt(() => session.undo()) }, "Undo");
-  const reset = h("button", { type: "button", class: "button small", onclick: () => void attempt(() => session.change(none())) }, "As the author wrote it");
+  const reset = h("button", { type: "button", class: "button small", onclick: () => void attempt(() => session.change(none())) }, "Reset all");
   let wanted: { to: Numbers; then?: Then | undefined } | undefined;
   let sending = false;
 
