@@ -9,7 +9,8 @@ import { empty, problemNotice } from "../ui/notice";
 import { fetched } from "./fetched";
 import { freeBody, momentAbout, type Drawn } from "./force-model";
 import type { InspectorTab } from "./inspector";
-import type { Session, Told } from "./session";
+import type { Session } from "./session";
+import type { Told } from "./told";
 import { norm } from "./vec";
 import { wrench } from "./wrench";
 

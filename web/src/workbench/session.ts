@@ -5,38 +5,14 @@ import { num, seconds } from "../core/format";
 import { between, isNone, none, tidy, type Numbers, type SceneView, type Then } from "../core/numbers";
 import type { Pull, SessionState } from "../core/types";
 import { banner } from "../ui/notice";
-import type { Drawn } from "./force-model";
 import { History } from "./history";
+import { Teller, type Drawn, type Told } from "./told";
 
 /** Between two states of a running session, s. */
 const STATE_INTERVAL = 0.1;
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 
-type Events = {
-  /** A state arrived, or the cursor moved: what is shown has changed. */
-  shown: () => void;
-  /** Blocks of the recording, complete in themselves. */
-  blocks: (bytes: Uint8Array) => void;
-  /** Another joint was selected, in the viewer or in the page. */
-  selected: () => void;
-  /** A new connection, or a run from the start: a recording follows from its beginning. */
-  opened: () => void;
-  /** The scene's numbers are known, or were changed. */
-  scene: () => void;
-  /** Forces are told or drawn in another way. */
-  told: () => void;
-  /** The scale of the forces is to be taken from the recording anew. */
-  fit: () => void;
-  problem: (error: unknown) => void;
-};
-
-export interface Told {
-  on: "i" | "j";
-  about: "joint" | "center";
-  in: "world" | "joint" | "body";
-}
-
-export class Session {
+export class Session extends Teller {
   /** The newest state that the server reported. */
   latest: SessionState | undefined;
   readonly past = new History();
@@ -67,18 +43,11 @@ export class Session {
   private busy = false;
   /** The page says that the connection is lost. */
   private missed = false;
-  private listeners: { [K in keyof Events]: Set<Events[K]> } = {
-    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(), told: new Set(), fit: new Set(),
-  };
 
   constructor(readonly source: SessionSource, start?: Numbers) {
+    super();
     this.numbers = start ?? none();
     addEventListener("pagehide", this.drop);
-  }
-
-  on<K extends keyof Events>(event: K, listener: Events[K]): () => void {
-    this.listeners[event].add(listener);
-    return () => this.listeners[event].delete(listener);
   }
 
   /** What the page shows: the newest state, or the one under the cursor. */
@@ -113,7 +82,7 @@ export class Session {
       this.take(await this.create());
       this.connect();
     } catch (error) {
-      this.report(error);
+      this.emit("problem", error);
     }
   }
 
@@ -188,15 +157,11 @@ export class Session {
     this.seenChanges = state.changes;
     try {
       this.view = await api.sceneOf(state.id);
-      this.tellScene();
+      this.emit("scene");
     } catch {
       // The run goes on without its panel of numbers; the next change asks again.
       this.seenChanges = -1;
     }
-  }
-
-  private tellScene(): void {
-    for (const listener of this.listeners.scene) listener();
   }
 
   close(): void {
@@ -278,18 +243,18 @@ export class Session {
   select(joint: string | null): void {
     if (this.joint === joint) return;
     this.joint = joint;
-    for (const listener of this.listeners.selected) listener();
+    this.emit("selected");
   }
 
   /** Tells reactions in another way, in every view. */
   tellAs(change: Partial<Told>): void {
     this.told = { ...this.told, ...change };
-    for (const listener of this.listeners.told) listener();
+    this.emit("told");
   }
 
   draw(drawn: Drawn): void {
     this.drawn = drawn;
-    for (const listener of this.listeners.told) listener();
+    this.emit("told");
   }
 
   setPose(pose: Session["pose"]): void {
@@ -299,8 +264,8 @@ export class Session {
   }
 
   fitScale(): void {
-    for (const listener of this.listeners.fit) listener();
-    for (const listener of this.listeners.told) listener();
+    this.emit("fit");
+    this.emit("told");
   }
 
   /** Opens the stream anew: the server sends the recording from its beginning. */
@@ -317,7 +282,7 @@ export class Session {
       this.take(await request(id));
     } catch (error) {
       if (error instanceof ApiError && error.gone) await this.recreate();
-      else this.report(error);
+      else this.emit("problem", error);
     } finally {
       this.free();
     }
@@ -335,7 +300,7 @@ export class Session {
     this.past.add(state);
     if (state.changes !== this.seenChanges && !this.busy) void this.readScene();
     this.emit("shown");
-    if (state.error && !before?.error) this.report(state.error);
+    if (state.error && !before?.error) this.emit("problem", state.error);
     if (state.finished && before && !before.finished) this.tell();
   }
 
@@ -354,7 +319,7 @@ export class Session {
     };
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
       if (typeof event.data === "string") this.read(event.data);
-      else for (const listener of this.listeners.blocks) listener(new Uint8Array(event.data));
+      else this.emit("blocks", new Uint8Array(event.data));
     };
     socket.onclose = () => {
       if (this.socket === socket) this.lost();
@@ -408,7 +373,7 @@ export class Session {
       announce("The simulation had expired on the server and was started anew, at time 0.");
       banner("The simulation had expired on the server. A fresh one stands at time 0.", { label: "Fine", run: () => banner(null) });
     } catch (error) {
-      this.report(error);
+      this.emit("problem", error);
     }
   }
 
@@ -419,14 +384,6 @@ export class Session {
     const body = state.bodies[0];
     const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
     announce(`${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`);
-  }
-
-  private report(error: unknown): void {
-    for (const listener of this.listeners.problem) listener(error);
-  }
-
-  private emit(event: "shown" | "opened"): void {
-    for (const listener of this.listeners[event]) listener();
   }
 
   private disconnect(): void {

@@ -5,7 +5,8 @@ import { isNone } from "../core/numbers";
 import { icon } from "../ui/icons";
 import { banner } from "../ui/notice";
 import type { Drawn } from "./force-model";
-import type { Session, Told } from "./session";
+import type { Session } from "./session";
+import type { Told } from "./told";
 
 export interface Shared {
   session: Session;
