@@ -5,7 +5,7 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use serde::{Deserialize, Serialize};
 use triad_engine::reaction::report::{About, Component, Convention, ExpressedIn, ReactionReport, Side};
-use utoipa::{IntoParams, ToSchema};
+use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -18,20 +18,17 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 }
 
 /// How reactions are wanted.
-#[derive(Debug, Deserialize, IntoParams)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Wanted {
     /// On body `i` or on body `j` of each joint.
     #[serde(default)]
-    #[param(value_type = Option<String>, example = "j")]
     on: Side,
     /// About the `joint`, the `center` of mass of that body, or a point of the world like `0,1,0`.
     #[serde(default)]
-    #[param(value_type = Option<String>, example = "joint")]
     about: Option<String>,
     /// Components in the frame of the `world`, of the `joint`, or of that `body`.
     #[serde(default, rename = "in")]
-    #[param(value_type = Option<String>, example = "world")]
     expressed_in: ExpressedIn,
 }
 
@@ -107,7 +104,12 @@ struct RemedyView {
 }
 
 /// The reactions at the session's time: force and moment of every joint and driver, and which components are unique.
-#[utoipa::path(get, path = "/sessions/{id}/reactions", tag = "sessions", params(("id" = String, Path), Wanted),
+#[utoipa::path(get, path = "/sessions/{id}/reactions", tag = "sessions", params(("id" = String, Path),
+    ("on" = Option<String>, Query, description = "On body `i` or on body `j` of each joint", example = "j"),
+    ("about" = Option<String>, Query, example = "joint",
+        description = "About the `joint`, the `center` of mass of that body, or a point of the world like `0,1,0`"),
+    ("in" = Option<String>, Query, example = "world",
+        description = "Components in the frame of the `world`, of the `joint`, or of that `body`")),
     responses((status = 200, description = "One entry a joint or driver", body = ReactionsView),
     (status = 404, description = "No such session", body = ProblemDocument),
     (status = 422, description = "The scene has too many rows to tell which are unique", body = ProblemDocument)))]
