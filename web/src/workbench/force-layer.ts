@@ -31,7 +31,8 @@ export function forceLayer(session: Session): ForceLayer {
     const weight = state.bodies.reduce((sum, body) => sum + body.mass, 0) * norm(state.gravity);
     sizes ??= new ForceScale(weight);
     sizes.follow(session.past.all, session.latest?.finished === true && !session.reviewing);
-    const list = arrows(state, session.drawn, session.joint, session.told.on);
+    // Forces belong to the run, not to what an analysis shows in its place.
+    const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.told.on);
     if (list.length === 0) {
       root.replaceChildren();
       return;

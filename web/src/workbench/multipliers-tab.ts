@@ -175,8 +175,11 @@ function paintFreeBody(place: HTMLElement, state: SessionState | undefined, draw
   const body = state.bodies.find((entry) => entry.name === drawn.body);
   if (!body) return;
   const { arrows, sum, inertia } = freeBody(state, drawn.body);
+  const largest = Math.max(1e-300, ...arrows.map((arrow) => norm(arrow.force)));
+  // Beside the largest force this is rounding.
+  const clean = (part: number): number => (Math.abs(part) < 1e-12 * largest ? 0 : part);
   const line = (label: string, force: Vec3, moment: Vec3 | null, strong = false): HTMLElement => h("tr", { class: strong ? "strong" : "" },
-    h("th", { scope: "row" }, label), ...[...force, ...(moment ?? [])].map((part) => h("td", { class: "number" }, num(part, 5))), moment ? null : h("td", { colspan: "3" }));
+    h("th", { scope: "row" }, label), ...[...force, ...(moment ?? [])].map((part) => h("td", { class: "number" }, num(clean(part), 5))), moment ? null : h("td", { colspan: "3" }));
   place.replaceChildren(h("h3", null, `${drawn.body}, cut free`),
     h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Forces on ${drawn.body}` },
       h("table", { class: "data" },

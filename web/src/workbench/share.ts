@@ -8,6 +8,9 @@ import type { Drawn } from "./force-model";
 import type { Session } from "./session";
 import type { Told } from "./told";
 
+/** How long the word of success stays. */
+const GLANCE_MS = 6000;
+
 export interface Shared {
   session: Session;
   panel: () => string;
@@ -35,6 +38,7 @@ async function copy(shared: Shared): Promise<void> {
     banner(shared.session.bent
       ? "The link is copied. This run was changed on its way; the link runs it with these numbers from the start."
       : "The link to this view is copied: whoever opens it sees the same.", { label: "Fine", run: () => banner(null) });
+    setTimeout(() => banner(null), GLANCE_MS);
   } catch {
     // Without leave to write to the clipboard the address itself becomes the link.
     history.replaceState(null, "", link);
