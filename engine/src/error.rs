@@ -22,18 +22,34 @@ pub enum EngineError {
     Uniqueness(#[from] UniquenessError),
     /// No position near the given one satisfies the joints.
     #[error(
-        "the mechanism cannot be assembled near its start: joint \"{joint}\" stays open by {violation:.3e} (moved by \
-         {moved:.3e} m)"
+        "the mechanism cannot be assembled near its start: joint \"{joint}\" stays open by {violation:.3e} of the \
+         mechanism's size{} (moved by {moved:.3e} m)",
+        contradiction(with)
     )]
     Assembly {
         /// The joint whose rows are violated most.
         joint: String,
+        /// The joints that stay open with it: it contradicts one or more of them.
+        with: Vec<String>,
         /// Its index.
         index: usize,
-        /// Largest violation of its rows.
+        /// Largest violation of its rows, relative to their size.
         violation: f64,
         /// How far the bodies were moved in the attempt, m.
         moved: f64,
+    },
+    /// The start can be corrected, but only by moving bodies so far that another start is probably meant.
+    #[error(
+        "joint \"{joint}\" is open at the start, and closing all joints would move bodies by {moved:.3e} m, more than \
+         the {limit:.3e} m that count as a correction"
+    )]
+    StartTooFar {
+        /// The joint that is open most at the given start.
+        joint: String,
+        /// How far bodies would have to be moved, m.
+        moved: f64,
+        /// How far they may be moved, m.
+        limit: f64,
     },
     /// The step control found no step that meets the tolerance.
     #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance")]
@@ -49,6 +65,29 @@ pub enum EngineError {
         /// Time, s.
         time: f64,
     },
+    /// The constraints can no longer be satisfied.
+    #[error(
+        "the run stops at t = {time:.6} s: joint \"{joint}\" is open by {violation:.3e} of the mechanism's size{}",
+        contradiction(with)
+    )]
+    ConstraintsLost {
+        /// Time, s.
+        time: f64,
+        /// The joint or driver whose rows are violated most.
+        joint: String,
+        /// Those that are open with it.
+        with: Vec<String>,
+        /// Largest violation relative to the size of the row.
+        violation: f64,
+    },
+    /// The run has used up the steps that it was given.
+    #[error("the run stops at t = {time:.6} s: its {steps} steps are used up")]
+    StepLimit {
+        /// Time, s.
+        time: f64,
+        /// How many steps it was given.
+        steps: u64,
+    },
     /// A time outside the run was asked for.
     #[error("t = {time} s is outside the run, which goes from {from} s to {to} s")]
     TimeOutside {
@@ -59,6 +98,15 @@ pub enum EngineError {
         /// Last time, s.
         to: f64,
     },
+}
+
+/// Names of joints that are open together with the worst one.
+fn contradiction(with: &[String]) -> String {
+    if with.is_empty() {
+        return String::new();
+    }
+    let names: Vec<String> = with.iter().map(|name| format!("\"{name}\"")).collect();
+    format!(", and with it {}", names.join(", "))
 }
 
 impl EngineError {
@@ -75,8 +123,11 @@ impl EngineError {
             Self::Model(error) => error.code(),
             Self::Uniqueness(error) => error.code(),
             Self::Assembly { .. } => "assembly-failed",
+            Self::StartTooFar { .. } => "start-too-far",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
+            Self::ConstraintsLost { .. } => "constraints-lost",
+            Self::StepLimit { .. } => "step-limit",
             Self::TimeOutside { .. } => "time-outside-run",
         }
     }
@@ -118,7 +169,7 @@ impl EngineError {
             Self::Catalogue(error) => error.hint(),
             Self::Model(error) => error.hint(),
             Self::Uniqueness(error) => error.hint(),
-            Self::Assembly { .. } => {
+            Self::Assembly { .. } | Self::StartTooFar { .. } => {
                 "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
                     .to_owned()
             }
@@ -126,6 +177,14 @@ impl EngineError {
                 "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
                  joint that locks or a body that is far too light."
                     .to_owned()
+            }
+            Self::ConstraintsLost { .. } => {
+                "Look at the last good state: a driver asks for more than the joints allow, two of them contradict each \
+                 other, masses or stiffnesses are too different for the tolerance, or the stabilization is too weak."
+                    .to_owned()
+            }
+            Self::StepLimit { .. } => {
+                "Allow more steps, loosen the tolerance, or look for a stiff spring or a fast driver.".to_owned()
             }
             Self::TimeOutside { .. } => "Ask for a time within the run, or reset it first.".to_owned(),
         }

@@ -55,6 +55,8 @@ pub mod uniqueness;
 
 pub mod reaction;
 
+pub mod trust;
+
 pub mod integrate;
 
 pub mod mechanism;
@@ -70,6 +72,8 @@ pub mod analysis;
 pub mod paper;
 
 pub mod catalogue;
+
+pub mod stress;
 
 mod error;
 

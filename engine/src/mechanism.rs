@@ -5,11 +5,14 @@ use crate::error::EngineError;
 use crate::integrate::Plant;
 use crate::scene::Stabilization;
 use crate::system::System;
+use crate::trust;
 
 /// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
 const NEGLIGIBLE: f64 = 0.1;
 /// |Φ| and |Φ̇| relative to the size of the mechanism below which a state is consistent.
 const CONSISTENT: f64 = 1e-13;
+/// |Φ| of each row relative to its size below which a start is assembled.
+const CLOSED: f64 = 1e-9;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
 const FARTHEST: f64 = 0.35;
 
@@ -38,6 +41,12 @@ impl Mechanism {
         self.elimination.set_velocity(&self.system, q_dot);
     }
 
+    /// Refuses the state at the end of a step that is off the constraints: it must not be taken for a result.
+    pub fn check(&mut self, t: f64, y: &[f64]) -> Result<(), EngineError> {
+        self.set_state(t, y);
+        trust::check(&self.system, &self.elimination, t)
+    }
+
     /// Moves a start onto the constraints. Returns what was corrected, in words.
     pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, EngineError> {
         self.elimination.forget_turns();
@@ -62,14 +71,18 @@ impl Mechanism {
                 break;
             }
         }
-        let (left, _) = self.elimination.violation(&self.system);
+        let left = trust::opening(&self.system, &self.elimination).relative;
         let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         // A comparison that is false for NaN as well.
-        let solved = y.iter().all(|x| x.is_finite())
-            && left <= 1e-9 * length.max(1.0)
-            && moved <= FARTHEST * length.max(1.0);
+        let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
         if !solved {
-            return Err(self.assembly_error(t, &given, moved));
+            return Err(self.assembly_error(t, &given, y, moved));
+        }
+        let limit = FARTHEST * length.max(1.0);
+        if moved > limit {
+            self.set_state(t, &given);
+            let (joint, _) = trust::opening(&self.system, &self.elimination).names(&self.system);
+            return Err(EngineError::StartTooFar { joint, moved, limit });
         }
         if opening > 1e-9 * length {
             notes.push(format!(
@@ -93,12 +106,18 @@ impl Mechanism {
         Ok(notes)
     }
 
-    fn assembly_error(&mut self, t: f64, given: &[f64], moved: f64) -> EngineError {
-        // The joint that is open at the given start says more than the one left open by the failed attempt.
-        self.set_state(t, given);
-        let (index, violation) = self.elimination.worst_group(&self.system);
-        let joint = self.system.groups.get(index).map_or_else(String::new, |g| g.name.clone());
-        EngineError::Assembly { joint, index, violation, moved }
+    fn assembly_error(&mut self, t: f64, given: &[f64], reached: &[f64], moved: f64) -> EngineError {
+        // The best compromise leaves open the joints that contradict each other, and closes all others. Where there
+        // is none (bodies were stretched instead), the joint that is open at the given start says most.
+        let mut opening = trust::opening(&self.system, &self.elimination);
+        let worst = opening.groups.first().map_or(0.0, |&(_, open)| open);
+        if !reached.iter().all(|x| x.is_finite()) || worst < 0.1 * opening.relative {
+            self.set_state(t, given);
+            opening = trust::opening(&self.system, &self.elimination);
+        }
+        let (joint, with) = opening.names(&self.system);
+        let (index, violation) = opening.groups.first().copied().unwrap_or((0, opening.relative));
+        EngineError::Assembly { joint, with, index, violation, moved }
     }
 
     fn baumgarte(&self) -> (f64, f64) {

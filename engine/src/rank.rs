@@ -16,6 +16,8 @@ const AWAY: f64 = 0.03;
 pub struct Rank {
     /// Rank of the joint rows that the solver keeps.
     pub rank: usize,
+    /// The same exactly at the start: less where that is a singular position.
+    pub at_start: usize,
     /// The solver rows that depend on others.
     pub dependent: Vec<usize>,
 }
@@ -24,6 +26,8 @@ pub struct Rank {
 pub fn analyze(system: &System, elimination: &mut Elimination, q: &[f64]) -> Rank {
     let was_redundant = elimination.is_redundant();
     elimination.set_redundant(true);
+    elimination.place(system, q);
+    let lost = elimination.pivots(system, DEPENDENT).iter().filter(|(_, pivot)| *pivot <= DEPENDENT).count();
     let mut nearby = moved_away(system, elimination, q);
     elimination.place(system, &nearby);
     if elimination.violation(system).0 > 1e-9 {
@@ -36,7 +40,7 @@ pub fn analyze(system: &System, elimination: &mut Elimination, q: &[f64]) -> Ran
         pivots.iter().filter(|(_, pivot)| *pivot <= DEPENDENT).map(|(row, _)| *row).collect();
     let mut dependent = dependent;
     dependent.sort_unstable();
-    Rank { rank: system.solver_rows - dependent.len(), dependent }
+    Rank { rank: system.solver_rows - dependent.len(), at_start: system.solver_rows - lost, dependent }
 }
 
 /// A consistent position a little away from q, along an arbitrary admissible velocity.

@@ -12,6 +12,7 @@ use crate::reaction::report::{Convention, ReactionReport, report};
 use crate::reaction::{self, JointMultipliers};
 use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
+use crate::trust;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -98,6 +99,8 @@ pub struct Simulation {
     /// Their work up to the start of the last step, J.
     work: f64,
     scratch: Vec<f64>,
+    /// Steps, rejected ones included, after which the run stops.
+    step_limit: u64,
     /// Made when first asked for.
     jacobian: Option<Jacobian>,
 }
@@ -118,6 +121,13 @@ impl Simulation {
         mechanism.system.start(q, q_dot);
         notes.extend(mechanism.assemble(&mut start)?);
         let rank = rank::analyze(&mechanism.system, &mut mechanism.elimination, &start[..n]);
+        if rank.at_start < rank.rank {
+            notes.push(format!(
+                "the start is a singular position: {} rows lose their hold there, and several branches of motion may \
+                 begin; without a velocity that chooses one, which of them is followed is not determined",
+                rank.rank - rank.at_start
+            ));
+        }
         mechanism.elimination.set_redundant(!rank.dependent.is_empty());
         mechanism.elimination.counters = Counters::default();
         mechanism.set_state(0.0, &start);
@@ -141,6 +151,7 @@ impl Simulation {
             exchanges_energy,
             work: 0.0,
             scratch,
+            step_limit: u64::MAX,
             jacobian: None,
         })
     }
@@ -268,13 +279,23 @@ impl Simulation {
         Ok(true)
     }
 
+    /// Ends a run with [`EngineError::StepLimit`] after so many steps, rejected ones included.
+    pub fn set_step_limit(&mut self, steps: u64) {
+        self.step_limit = steps;
+    }
+
     fn integrate_one(&mut self) -> Result<(), EngineError> {
-        self.work += self.work_of_last_step(self.integrator.time());
         let end = self.duration();
+        let steps = self.integrator.steps();
+        if steps.accepted + steps.rejected >= self.step_limit {
+            return Err(EngineError::StepLimit { time: self.integrator.time(), steps: self.step_limit });
+        }
+        self.work += self.work_of_last_step(self.integrator.time());
         self.integrator.step(&mut self.mechanism, end).map_err(|stop| match stop {
             Stop::StepTooSmall { time, step } => EngineError::StepTooSmall { time, step },
             Stop::NotFinite { time } => EngineError::Diverged { time },
-        })
+        })?;
+        self.mechanism.check(self.integrator.time(), self.integrator.state())
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t, J.
@@ -291,6 +312,17 @@ impl Simulation {
         });
         self.mechanism.elimination.counters = counters;
         work
+    }
+
+    /// Time up to which the run has been integrated, s: that of the last good state if it has stopped.
+    pub fn reached(&self) -> f64 {
+        self.integrator.time()
+    }
+
+    /// How far the shown state is from its constraints, each row relative to its size.
+    pub fn opening(&mut self) -> trust::Opening {
+        self.mechanism.set_state(self.time, &self.shown);
+        trust::opening(&self.mechanism.system, &self.mechanism.elimination)
     }
 
     /// Bodies at the shown state.
@@ -340,6 +372,20 @@ impl Simulation {
             reason: self.reason.clone(),
             finished: self.finished(),
         }
+    }
+
+    /// A run that starts where this one stands, all velocities reversed: without drivers and losses it goes the same
+    /// way back.
+    #[must_use]
+    pub fn turned_back(&self) -> Self {
+        let mut back = self.clone();
+        let n = self.system().coordinates;
+        back.start.copy_from_slice(&self.shown);
+        back.start[n..].iter_mut().for_each(|v| *v = -*v);
+        back.reset();
+        back.mechanism.set_state(0.0, &back.start);
+        back.start_energy = back.mechanism.elimination.energy(&back.mechanism.system);
+        back
     }
 
     /// The Jacobian Φ_q at the shown state, rigid-body rows first.

@@ -190,15 +190,30 @@ impl System {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
+    /// Largest distance of a point of each body's joints and loads from its centre of mass, m.
+    fn arms(&self) -> Vec<f64> {
+        let mut arms = vec![0.0f64; self.model.bodies.len()];
+        for feature in self.features.iter().filter(|f| f.point) {
+            if let BodyRef::Moving(body) = feature.body {
+                arms[body] = arms[body].max(feature.local.norm());
+            }
+        }
+        arms
+    }
+
     fn add_bodies(&mut self) {
         let layouts = sharing::layouts(&self.model);
+        let arms = self.arms();
         for (index, body) in self.model.bodies.iter().enumerate() {
             let j = body.principal;
             let half = 0.5 * j.sum();
             let ibar = j.map(|i| (half - i).max(0.0));
-            // A moment far below m L² is as good as none for the factorization.
-            let scale = body.mass * self.length * self.length;
-            let lent = if j.min() < 1e-7 * scale { 1e-4 * scale } else { 0.0 };
+            // A moment far below m l², l the arm of the body's own joints, is as good as none for the factorization. A
+            // free body needs help only where a moment is missing.
+            let scale = body.mass * arms[index] * arms[index];
+            let lacks = j.min() < 1e-7 * scale || (j.min() == 0.0 && scale == 0.0);
+            let scale = if scale == 0.0 { j.max().max(body.mass * self.length * self.length) } else { scale };
+            let lent = if lacks { 1e-4 * scale } else { 0.0 };
             self.bodies.push(Body {
                 mass: body.mass,
                 principal: j,

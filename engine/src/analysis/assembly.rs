@@ -71,14 +71,16 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
     // A comparison that is false for NaN as well.
     let closed = left <= 1e-9 * mechanism.system.length.max(1.0);
     if !closed {
-        let (index, violation) = mechanism.elimination.worst_group(&mechanism.system);
+        let open = crate::trust::opening(&mechanism.system, &mechanism.elimination);
+        let violation = open.relative;
         if let Some(body) = pinned.first() {
             let reason = format!("then the joints stay open by {violation:.3e}");
             return Err(AnalysisError::Pinned { body: body.clone(), reason });
         }
-        let joint = mechanism.system.groups.get(index).map_or_else(String::new, |g| g.name.clone());
+        let (joint, with) = open.names(&mechanism.system);
+        let index = open.groups.first().map_or(0, |&(index, _)| index);
         let moved = placements(&mechanism, &y).iter().fold(0.0f64, |a, p| a.max(p.moved));
-        return Err(EngineError::Assembly { joint, index, violation, moved }.into());
+        return Err(EngineError::Assembly { joint, with, index, violation, moved }.into());
     }
     Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, opening, left })
 }

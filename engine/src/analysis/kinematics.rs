@@ -104,7 +104,8 @@ fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
     // A comparison that is false for NaN as well.
     let closed = open <= OPEN * system.length.max(1.0);
     if !closed {
-        let (index, violation) = elimination.worst_group(system);
+        let open = crate::trust::opening(system, elimination);
+        let (index, violation) = open.groups.first().copied().unwrap_or((0, open.relative));
         let origin = system.groups.get(index).map_or_else(String::new, |group| group.name.clone());
         return Err(AnalysisError::Unreachable { time, origin, violation });
     }

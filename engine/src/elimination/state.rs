@@ -263,22 +263,8 @@ impl Elimination {
         (relation.value, relation.rate, relation.curvature)
     }
 
-    /// The joint whose rows are violated most, and by how much; positions must be in place.
-    pub fn worst_group(&self, system: &System) -> (usize, f64) {
-        let mut worst = (0, 0.0);
-        for (index, group) in system.groups.iter().enumerate() {
-            for row in &system.rows[group.forms.clone()] {
-                let violation = self.row_violation(system, &row.form).0;
-                if violation > worst.1 {
-                    worst = (index, violation);
-                }
-            }
-        }
-        worst
-    }
-
     /// Largest |Φ| and |Φ̇| of one row form.
-    pub(super) fn row_violation(&self, system: &System, form: &Form) -> (f64, f64) {
+    pub(crate) fn row_violation(&self, system: &System, form: &Form) -> (f64, f64) {
         match *form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
                 let (a, b) = (&self.features[a], &self.features[b]);

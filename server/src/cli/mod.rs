@@ -9,6 +9,7 @@ mod lesson;
 mod paper;
 mod run;
 mod serve;
+mod stress;
 mod terminal;
 
 use std::net::IpAddr;
@@ -151,6 +152,10 @@ enum Command {
         #[arg(long, default_value = ".", value_name = "DIR")]
         out: PathBuf,
     },
+    /// Try to break the engine: singular positions, redundancy, extreme scales, random mechanisms, each judged.
+    #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
+        triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html")]
+    Stress(stress::Stress),
     /// Print the JSON Schema of scenes, for editors.
     #[command(after_help = "Example:\n  triad schema > scene.schema.json")]
     Schema,
@@ -269,6 +274,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
         Command::Bench { quick, out } => bench::bench(quick, &out, json),
+        Command::Stress(options) => stress::stress(&options, json),
         Command::Schema => {
             terminal::print_json(&triad_engine::scene::schema());
             Ok(Outcome::Done)

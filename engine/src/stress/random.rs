@@ -1,0 +1,34 @@
+//! Random mechanisms: a seed is a case.
+//!
+//! A tree of bodies on random joints, closed by random loops, with random loads and drivers. Positions are consistent
+//! by construction, velocities are not. There is no reference solution; there are invariants that every mechanism has.
+
+mod draw;
+mod invariants;
+
+pub use draw::scene;
+pub use invariants::judge;
+
+use super::{Entry, Outcome, Treatment, Verdict};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Draws, runs and judges the mechanism of a seed. A panic is caught and counts as wrong.
+pub fn run(seed: u64, treatment: &Treatment) -> Entry {
+    let scene = scene(seed);
+    let outcome = catch_unwind(AssertUnwindSafe(|| judge(&scene, treatment))).unwrap_or_else(|panic| {
+        Outcome::nothing(Verdict::Wrong, format!("panicked: {}", super::words_of(&*panic)))
+    });
+    Entry {
+        case: format!("seed-{seed}"),
+        family: "random".to_owned(),
+        summary: format!(
+            "{} bodies, {} joints, {} drivers, {} loads",
+            scene.bodies.len(),
+            scene.joints.len(),
+            scene.drivers.len(),
+            scene.loads.len()
+        ),
+        expected: Verdict::Degraded,
+        outcome,
+    }
+}
