@@ -63,6 +63,12 @@ impl Change {
     }
 }
 
+/// A changed scene as the engine is given it: the ranges of its parameters are the author's promise about the scene as
+/// written, and an expert may leave them.
+pub(super) fn as_it_runs(scene: &Scene) -> Scene {
+    Scene { parameters: Vec::new(), ..scene.clone() }
+}
+
 /// A number that may be changed, as it is now.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct ParameterView {

@@ -18,7 +18,9 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
+use triad_engine::EngineError;
 use triad_engine::jacobian::Jacobian;
+use triad_engine::model::Model;
 use triad_engine::reaction::JointMultipliers;
 use triad_engine::reaction::report::{Convention, ReactionReport};
 use triad_engine::scene::Scene;
@@ -27,6 +29,7 @@ use triad_engine::simulation::Simulation;
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::stream::{Hub, Watcher};
+use change::as_it_runs;
 use film::Film;
 use worker::{Command, Reply, Signals, Worker};
 
@@ -46,8 +49,14 @@ pub struct Session {
 impl Session {
     /// Assembles a scene and starts its thread. Blocks until the scene is assembled.
     pub fn start(original: Scene, change: &Change, source: Source, limits: &Limits) -> Result<Self, Problem> {
-        let scene = if change.is_empty() { original.clone() } else { change.of(&original)?.0 };
-        let mut simulation = Simulation::new(&scene)?;
+        let model = Model::new(&original).map_err(EngineError::from)?;
+        let (scene, mut simulation) = if change.is_empty() {
+            (original.clone(), Simulation::from_model(model)?)
+        } else {
+            let (scene, _) = change.of(&original)?;
+            let simulation = Simulation::new(&as_it_runs(&scene))?;
+            (scene, simulation)
+        };
         let id = uuid::Uuid::new_v4().simple().to_string();
         let hub = Arc::new(Hub::default());
         let mut film =

@@ -13,7 +13,7 @@ use triad_engine::reaction::report::{Convention, ReactionReport};
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
-use super::change::{Change, Pull, SceneView, Then};
+use super::change::{Change, Pull, SceneView, Then, as_it_runs};
 use super::film::{Film, cast};
 use super::state::{Extra, SessionState, Source};
 use crate::problem::Problem;
@@ -203,8 +203,8 @@ impl Worker {
 
     fn assembled(&self, scene: &Scene, pull: Option<&Pull>) -> Result<Simulation, Problem> {
         Ok(match pull {
-            None => Simulation::new(scene)?,
-            Some(pull) => Simulation::new(&pull.added_to(scene, self.simulation.model())?)?,
+            None => Simulation::new(&as_it_runs(scene))?,
+            Some(pull) => Simulation::new(&as_it_runs(&pull.added_to(scene, self.simulation.model())?))?,
         })
     }
 
