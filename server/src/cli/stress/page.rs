@@ -20,9 +20,9 @@ pub(super) fn render(report: &Report) -> String {
     let mut page = String::new();
     let counts: Vec<String> = report.counts.iter().map(|(word, n)| format!("{n} {word}")).collect();
     let form = if report.quick { "quick" } else { "full" };
-    let seeds = report
-        .seeds
-        .map_or_else(String::new, |(first, last)| format!(", random mechanisms of the seeds {first} to {last}"));
+    let seeds = report.seeds.map_or_else(String::new, |(first, last)| {
+        format!(", random mechanisms of the seeds {first} to {last}")
+    });
     // Writing to a string cannot fail.
     let _ = write!(
         page,
@@ -38,8 +38,10 @@ pub(super) fn render(report: &Report) -> String {
     );
     page.push_str("<h2>Deviation from the reference</h2>");
     page.push_str(&plot(&report.entries));
-    page.push_str("<h2>Cases</h2><div class=scroll><table><tr><th>Case<th>Verdict<th>Error<th>Energy drift\
-                   <th>Violation<th>Steps<th>Rejected<th>Evaluations<th>Compared with, and why</tr>");
+    page.push_str(
+        "<h2>Cases</h2><div class=scroll><table><tr><th>Case<th>Verdict<th>Error<th>Energy drift\
+                   <th>Violation<th>Steps<th>Rejected<th>Evaluations<th>Compared with, and why</tr>",
+    );
     for entry in report.entries.iter().filter(|e| shown(e)) {
         row(&mut page, entry);
     }
