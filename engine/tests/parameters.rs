@@ -120,5 +120,5 @@ fn a_state_that_no_longer_fits_is_refused() {
     let far = serde_json::json!(9.0);
     let moved = pendulum().changed([], [("/bodies/0/position/0", &far)]).unwrap();
     let mut after = Simulation::new(&moved).unwrap();
-    assert!(matches!(after.continue_from(&mut before), Err(EngineError::Assembly { .. })));
+    assert!(matches!(after.continue_from(&mut before), Err(EngineError::StartTooFar { .. })));
 }
