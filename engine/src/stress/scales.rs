@@ -82,9 +82,11 @@ fn chain(ratio: f64, treatment: &Treatment) -> Outcome {
     // In light tails the whip of the lightest does not show in the energy: compare with the reduced form too.
     let mut reduced = scene.clone();
     reduced.coordinates = crate::scene::Coordinates::Reduced;
+    // The series lift both forms alike: only another integrator makes the comparison mean something.
+    reduced.simulation.integrator = crate::scene::IntegratorKind::Dop853;
     let mut other = crate::simulation::Simulation::new(&reduced).ok();
     Trial::new(scene, treatment)
-        .against("the same in reduced coordinates", (1e-5, 1e-2), move |run| {
+        .against("the same in reduced coordinates by another integrator", (1e-5, 1e-2), move |run| {
             let Some(other) = other.as_mut() else { return f64::NAN };
             other.set_step_limit(200_000);
             if other.advance_to(run.time()).is_err() {
