@@ -31,8 +31,8 @@ pub enum EngineError {
         joint: String,
         /// The joints that stay open with it: it contradicts one or more of them.
         with: Vec<String>,
-        /// Its index.
-        index: usize,
+        /// Where it stands in the scene, as a JSON pointer.
+        pointer: String,
         /// Largest violation of its rows, relative to their size.
         violation: f64,
         /// How far the bodies were moved in the attempt, m.
@@ -46,6 +46,8 @@ pub enum EngineError {
     StartTooFar {
         /// The joint that is open most at the given start.
         joint: String,
+        /// Where it stands in the scene, as a JSON pointer.
+        pointer: String,
         /// How far bodies would have to be moved, m.
         moved: f64,
         /// How far they may be moved, m.
@@ -140,7 +142,7 @@ impl EngineError {
             }
             Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
             Self::Model(error) => Some(error.pointer()),
-            Self::Assembly { index, .. } => Some(format!("/joints/{index}")),
+            Self::Assembly { pointer, .. } | Self::StartTooFar { pointer, .. } => Some(pointer.clone()),
             _ => None,
         }
     }

@@ -81,8 +81,9 @@ impl Mechanism {
         let limit = FARTHEST * length.max(1.0);
         if moved > limit {
             self.set_state(t, &given);
-            let (joint, _) = trust::opening(&self.system, &self.elimination).names(&self.system);
-            return Err(EngineError::StartTooFar { joint, moved, limit });
+            let opening = trust::opening(&self.system, &self.elimination);
+            let (joint, pointer) = (opening.names(&self.system).0, opening.pointer(&self.system));
+            return Err(EngineError::StartTooFar { joint, pointer, moved, limit });
         }
         if opening > 1e-9 * length {
             notes.push(format!(
@@ -116,8 +117,9 @@ impl Mechanism {
             opening = trust::opening(&self.system, &self.elimination);
         }
         let (joint, with) = opening.names(&self.system);
-        let (index, violation) = opening.groups.first().copied().unwrap_or((0, opening.relative));
-        EngineError::Assembly { joint, with, index, violation, moved }
+        let pointer = opening.pointer(&self.system);
+        let violation = opening.groups.first().map_or(opening.relative, |&(_, violation)| violation);
+        EngineError::Assembly { joint, with, pointer, violation, moved }
     }
 
     fn baumgarte(&self) -> (f64, f64) {

@@ -28,6 +28,15 @@ impl Opening {
         let mut names = self.groups.iter().take(NAMED).filter_map(name);
         (names.next().unwrap_or_default(), names.collect())
     }
+
+    /// JSON pointer of the element that is open most: rows are written by joints, then by drivers.
+    pub fn pointer(&self, system: &System) -> String {
+        let index = self.groups.first().map_or(0, |&(index, _)| index);
+        match index.checked_sub(system.model.joints.len()) {
+            Some(driver) => format!("/drivers/{driver}"),
+            None => format!("/joints/{index}"),
+        }
+    }
 }
 
 /// A joint counts as open with the worst one if it is violated by more than this part of it.

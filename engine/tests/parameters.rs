@@ -4,10 +4,12 @@ use triad_engine::scene::{Scene, SceneError};
 use triad_engine::simulation::Simulation;
 use triad_engine::{EngineError, catalogue};
 
+#[allow(clippy::unwrap_used)] // a helper of tests
 fn scene(text: &str) -> Scene {
     Scene::from_json(text).unwrap()
 }
 
+#[allow(clippy::unwrap_used)] // a helper of tests
 fn pendulum() -> Scene {
     let mut value: serde_json::Value =
         serde_json::from_str(&catalogue::scene("simple-pendulum").unwrap().to_json()).unwrap();

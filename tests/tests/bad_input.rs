@@ -73,7 +73,7 @@ fn cases() -> Vec<(&'static str, Value, &'static str, &'static str)> {
             "/bodies/0/orientation",
         ),
         case("/joints/0/axis", json!([0, 0, 0]), "joint-geometry", "/joints/0/axis"),
-        case("/joints/1/point_i", json!([9, 0, 0]), "assembly-failed", "/joints/1"),
+        case("/joints/1/point_i", json!([9, 0, 0]), "start-too-far", "/joints/1"),
         case("/simulation", json!({"tolerance": 0}), "out-of-range", "/simulation/tolerance"),
     ]
 }

@@ -78,9 +78,9 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
             return Err(AnalysisError::Pinned { body: body.clone(), reason });
         }
         let (joint, with) = open.names(&mechanism.system);
-        let index = open.groups.first().map_or(0, |&(index, _)| index);
+        let pointer = open.pointer(&mechanism.system);
         let moved = placements(&mechanism, &y).iter().fold(0.0f64, |a, p| a.max(p.moved));
-        return Err(EngineError::Assembly { joint, with, index, violation, moved }.into());
+        return Err(EngineError::Assembly { joint, with, pointer, violation, moved }.into());
     }
     Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, opening, left })
 }
