@@ -69,8 +69,11 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 /// A chain of ten rods let go from the horizontal; the ratio of successive masses is given.
+///
+/// Half a second: later the whip of light tails is chaotic. At 0.8 s runs still agree to a thousand tolerances, at 1 s
+/// two integrators at a tolerance of 1e-13 differ by metres at the tip.
 fn chain(ratio: f64, treatment: &Treatment) -> Outcome {
-    let mut scene = scene("chain", DOWN, 1.0, 1e-9);
+    let mut scene = scene("chain", DOWN, 0.5, 1e-9);
     let first = if ratio > 1.0 { 1e-9 } else { 1.0 };
     for i in 0..10 {
         let x = f64::from(i);
