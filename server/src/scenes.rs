@@ -27,7 +27,7 @@ impl From<PaperError> for Problem {
     fn from(error: PaperError) -> Self {
         match error {
             PaperError::Engine(error) => error.into(),
-            other => {
+            other @ PaperError::Singular { .. } => {
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, other.code(), other.to_string(), other.hint())
             }
         }

@@ -19,9 +19,12 @@ const RIGHT: f64 = 250.0;
 const TOP: f64 = 30.0;
 const BOTTOM: f64 = 50.0;
 
+/// The time of one kind of linear algebra.
+type Time = fn(&Seconds) -> f64;
+
 /// Full (solid) and reduced (dashed) with each kind of linear algebra.
 pub(super) fn curves(rows: &[Row]) -> Vec<Curve> {
-    let kinds: [(&str, &'static str, fn(&Seconds) -> f64); 3] = [
+    let kinds: [(&str, &'static str, Time); 3] = [
         ("full square matrix", "#b3261e", |s| s.dense),
         ("zeros left out", "#1f5fa8", |s| s.sparse),
         ("rows eliminated", "#2e7d32", |s| s.elimination),
