@@ -216,7 +216,7 @@ pub fn nu(system: &System, at: &Elimination) -> Vec<f64> {
 pub fn gamma(system: &System, at: &Elimination) -> Vec<f64> {
     // For a reduced body, −Φ_Q V̇ q̇ with V̇ q̇ = (0, 0, 0, 2 u̇ × v̇).
     let reduced = |part: &Part| match system.bodies[part.body].coordinates {
-        Coordinates::Full => 0.0,
+        Coordinates::Full | Coordinates::Shared => 0.0,
         Coordinates::Reduced => {
             let rate = &at.bodies[part.body].q_dot;
             part.gradient.e[2].dot(&(2.0 * rate.e[0].cross(&rate.e[1])))

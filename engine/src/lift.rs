@@ -85,7 +85,7 @@ impl Layout {
     /// A body with its own directors; the third of a reduced body is a product.
     pub fn own(coordinates: Coordinates, first: usize) -> Self {
         let third = match coordinates {
-            Coordinates::Full => Director::Own(first + 9),
+            Coordinates::Full | Coordinates::Shared => Director::Own(first + 9),
             Coordinates::Reduced => Director::Product,
         };
         Self { first, directors: [Director::Own(first + 3), Director::Own(first + 6), third] }

@@ -111,7 +111,7 @@ pub fn for_mass_entries(system: &System, at: &Elimination, mut put: impl FnMut(u
             put(first + axis, first + axis, body.mass);
         }
         match body.coordinates {
-            Coordinates::Full => {
+            Coordinates::Full | Coordinates::Shared => {
                 for (k, director) in body.layout.directors.iter().enumerate() {
                     for (axis, (column, _)) in (0..3).zip(std::iter::repeat(director.column()).flatten()) {
                         put(column + axis, column + axis, body.ibar[k]);

@@ -76,7 +76,7 @@ impl Model {
             unique_name(&mut row_names, "joints", index, &written.name)?;
             let (list, name) = ("joints", written.name.as_str());
             let reader = Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
-            let joint = ModelJoint::new(written, &reader)?;
+            let joint = ModelJoint::new(written, &reader, &mut notes)?;
             joints.push(joint);
         }
         let reader =

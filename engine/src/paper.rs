@@ -39,7 +39,7 @@ pub enum PaperError {
     Singular {
         /// Name of the example.
         case: &'static str,
-        /// `full` or `reduced`.
+        /// `full`, `reduced` or `shared`.
         coordinates: &'static str,
         /// Time reached, s.
         time: f64,
@@ -180,5 +180,6 @@ pub fn word(coordinates: Coordinates) -> &'static str {
     match coordinates {
         Coordinates::Full => "full",
         Coordinates::Reduced => "reduced",
+        Coordinates::Shared => "shared",
     }
 }

@@ -35,7 +35,7 @@ fn deviation(
     largest
 }
 
-const KINDS: [Coordinates; 2] = [Coordinates::Full, Coordinates::Reduced];
+const KINDS: [Coordinates; 3] = [Coordinates::Full, Coordinates::Reduced, Coordinates::Shared];
 
 #[test]
 fn the_bricard_loop_follows_its_reference() {
@@ -58,9 +58,7 @@ fn the_spatial_slider_crank_follows_its_references() {
         ("spatial-slider-crank:slender", include_str!("data/slider-crank-slender.csv")),
         ("spatial-slider-crank:mbdyn", include_str!("data/slider-crank-mbdyn.csv")),
     ];
-    // One kind of body each, to save time; the other references run with both.
-    let kinds = [Coordinates::Reduced, Coordinates::Full, Coordinates::Reduced];
-    for (kind, (name, reference)) in kinds.into_iter().zip(references) {
+    for (kind, (name, reference)) in KINDS.into_iter().flat_map(|kind| references.map(|r| (kind, r))) {
         let columns = ["s[m]", "rodx[m]", "rody[m]", "rodz[m]", "ds[m/s]"];
         let found = deviation(name, kind, reference, &columns, |frame| {
             let (rod, block) = (&frame.bodies[1], &frame.bodies[2]);

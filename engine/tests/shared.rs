@@ -6,7 +6,7 @@ use triad_engine::check::check;
 use triad_engine::elimination::Elimination;
 use triad_engine::literal::Literal;
 use triad_engine::model::Model;
-use triad_engine::scene::{AxisRows, Scene};
+use triad_engine::scene::{AxisRows, Coordinates, Scene};
 use triad_engine::simulation::Simulation;
 use triad_engine::system::System;
 
@@ -77,6 +77,30 @@ fn the_literal_equations_agree() {
     for k in 0..n {
         assert!((solution[k] - acceleration[k]).abs() < 1e-9, "{k}: {} {}", solution[k], acceleration[k]);
     }
+}
+
+/// One word for the whole scene does what a word at each joint does, and tells where it cannot.
+#[test]
+fn a_whole_scene_shares_wherever_an_axis_is_a_director() {
+    let mut whole = scene("cp-cv");
+    whole.coordinates = Coordinates::Shared;
+    let (by_scene, by_joint) = (check(&whole).unwrap(), check(&scene("shared")).unwrap());
+    assert_eq!((by_scene.coordinates, by_scene.rows), (by_joint.coordinates, by_joint.rows));
+    assert!(by_scene.notes.is_empty());
+
+    whole.joints[1].axis = Some([0.0, 1.0, 0.1]);
+    let oblique = check(&whole).unwrap();
+    assert_eq!((oblique.coordinates, oblique.rows), (24, 21));
+    assert!(
+        oblique.notes.iter().any(|note| note.contains("\"hinge\" shares no director")),
+        "{:?}",
+        oblique.notes
+    );
+
+    // A body that is described otherwise shares nothing, and is not forced to.
+    whole.joints[1].axis = Some([0.0, 1.0, 0.0]);
+    whole.bodies[0].coordinates = Some(Coordinates::Reduced);
+    assert_eq!(check(&whole).unwrap().coordinates, 21);
 }
 
 /// All hinges of the double four-bar share z with the ground: planar natural coordinates come out by themselves.

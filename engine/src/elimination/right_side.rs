@@ -149,7 +149,7 @@ fn particular_directors(
     let dual = [v.cross(&w), w.cross(&u), u.cross(&v)];
     let half = 0.5 / u.dot(&dual[0]);
     match coordinates {
-        Coordinates::Full => [0, 1, 2]
+        Coordinates::Full | Coordinates::Shared => [0, 1, 2]
             .map(|l| (dual[0] * gamma[(0, l)] + dual[1] * gamma[(1, l)] + dual[2] * gamma[(2, l)]) * half),
         Coordinates::Reduced => {
             let [a, b] = [0, 1].map(|l| (dual[0] * gamma[(0, l)] + dual[1] * gamma[(1, l)]) * half);

@@ -68,7 +68,9 @@ fn of_body(coordinates: Coordinates, q: &Lift, p: &Lift) -> Vec<f64> {
     let dual = [v.cross(&w) / volume, w.cross(&u) / volume, u.cross(&v) / volume];
     let of = |k: usize, l: usize| p.e[k].dot(&dual[l]) * if k == l { 0.5 } else { 1.0 };
     match coordinates {
-        Coordinates::Full => vec![of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2)],
+        Coordinates::Full | Coordinates::Shared => {
+            vec![of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2)]
+        }
         Coordinates::Reduced => vec![of(0, 0), of(1, 1), of(0, 1)],
     }
 }

@@ -35,7 +35,7 @@ pub struct ModelJoint {
 
 impl ModelJoint {
     /// Checks joint `reader.index` of a scene; `reader.joints` are those before it.
-    pub(super) fn new(joint: &Joint, reader: &Reader) -> Result<Self, ModelError> {
+    pub(super) fn new(joint: &Joint, reader: &Reader, notes: &mut Vec<String>) -> Result<Self, ModelError> {
         refuse_strangers(joint, reader)?;
         if joint.kind == JointKind::Gear {
             return gear(joint, reader);
@@ -74,8 +74,8 @@ impl ModelJoint {
             }
             model.pitch = pitch / std::f64::consts::TAU;
         }
-        if model.rows == AxisRows::Shared {
-            check_shared(&model, reader)?;
+        if joint.kind == JointKind::Revolute {
+            choose_sharing(&mut model, reader, notes)?;
         }
         if axes[0] != Vector3::zeros() {
             model.cross = cross_vectors(reader, bodies, axes);
@@ -115,22 +115,44 @@ fn refuse_strangers(joint: &Joint, reader: &Reader) -> Result<(), ModelError> {
     }
 }
 
-/// A director can only be shared where the axis is one, and has coordinates.
-fn check_shared(joint: &ModelJoint, reader: &Reader) -> Result<(), ModelError> {
-    for (side, body) in joint.bodies.into_iter().enumerate() {
-        let BodyRef::Moving(index) = body else { continue };
-        let body = &reader.bodies[index];
-        if body.coordinates == Coordinates::Reduced {
-            let reason =
-                format!("body \"{}\" is reduced; sharing a director needs full coordinates", body.name);
-            return Err(reader.wrong("rows", reason));
+/// Shares the axis where the joint or all of its bodies ask for it. What the joint asks for must be possible; the
+/// bodies' word means wherever it is.
+fn choose_sharing(
+    joint: &mut ModelJoint,
+    reader: &Reader,
+    notes: &mut Vec<String>,
+) -> Result<(), ModelError> {
+    let asked = joint.rows == AxisRows::Shared;
+    let by_bodies = joint.bodies.iter().all(|body| match body {
+        BodyRef::Ground => true,
+        BodyRef::Moving(index) => reader.bodies[*index].coordinates == Coordinates::Shared,
+    });
+    match sharing_obstacle(joint, reader) {
+        Some(reason) if asked => return Err(reader.wrong("rows", reason)),
+        Some(reason) if by_bodies => {
+            notes.push(format!("joint \"{}\" shares no director: {reason}", joint.name));
         }
-        if director_along(&joint.axes[side]).is_none() {
-            let reason = format!("its axis is not along a principal axis of body \"{}\"", body.name);
-            return Err(reader.wrong("rows", reason));
-        }
+        None if by_bodies => joint.rows = AxisRows::Shared,
+        _ => {}
     }
     Ok(())
+}
+
+/// A director can only be shared where the axis is one, and has coordinates.
+fn sharing_obstacle(joint: &ModelJoint, reader: &Reader) -> Option<String> {
+    joint.bodies.into_iter().enumerate().find_map(|(side, body)| {
+        let BodyRef::Moving(index) = body else { return None };
+        let body = &reader.bodies[index];
+        if body.coordinates == Coordinates::Reduced {
+            return Some(format!(
+                "body \"{}\" is reduced; sharing a director needs full coordinates",
+                body.name
+            ));
+        }
+        director_along(&joint.axes[side])
+            .is_none()
+            .then(|| format!("its axis is not along a principal axis of body \"{}\"", body.name))
+    })
 }
 
 fn gear(joint: &Joint, reader: &Reader) -> Result<ModelJoint, ModelError> {

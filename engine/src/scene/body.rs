@@ -13,6 +13,9 @@ pub enum Coordinates {
     Full,
     /// One point and two unit vectors: 9 coordinates (r, u, v), w = u × v, three rigid-body rows.
     Reduced,
+    /// As full, but each revolute joint between such bodies (or such a body and the ground) whose axis is a director
+    /// of both lets them share it, whatever `rows` it names: the axis has no row, the director is written once.
+    Shared,
 }
 
 /// A rigid body.

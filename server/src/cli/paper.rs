@@ -124,7 +124,7 @@ fn row(case: &'static Case) -> Result<Row, Problem> {
 fn side(case: &'static Case, coordinates: Coordinates) -> Result<(Side, Vec<f64>), Problem> {
     let found = run(case, coordinates, LinearAlgebra::Sparse)?;
     let published = match coordinates {
-        Coordinates::Full => case.published.full,
+        Coordinates::Full | Coordinates::Shared => case.published.full,
         Coordinates::Reduced => case.published.reduced,
     };
     let seconds = |algebra| -> Result<f64, Problem> {

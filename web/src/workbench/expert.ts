@@ -24,7 +24,7 @@ export function expertPanel(session: Session, set: Set): { root: HTMLElement; re
     shown = scene;
     choices.replaceChildren(
       choice("Integrator", INTEGRATORS, String(at(scene, "/simulation/integrator")), (value) => set("/simulation/integrator", value, after())),
-      choice("Coordinates", [["full", "12 a body (full)"], ["reduced", "9 a body (reduced)"]], String(at(scene, "/coordinates")), (value) => set("/coordinates", value, "restart")),
+      choice("Coordinates", [["full", "12 a body (full)"], ["reduced", "9 a body (reduced)"], ["shared", "shared at revolute joints"]], String(at(scene, "/coordinates")), (value) => set("/coordinates", value, "restart")),
       choice("Constraints kept by", [["projection", "projection"], ["baumgarte", "Baumgarte"]], String(at(scene, "/simulation/stabilization/kind")),
         (value) => set("/simulation/stabilization", value === "projection" ? { kind: "projection" } : { kind: "baumgarte", alpha: 10, beta: 10 }, after())));
     const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);

@@ -99,7 +99,11 @@ fn compare(scene: &Scene, run: &mut Simulation, findings: &mut Findings) {
         other.bodies.iter_mut().for_each(|b| b.coordinates = Some(coordinates));
         other
     };
-    let mut others = vec![("full", all(Coordinates::Full)), ("reduced", all(Coordinates::Reduced))];
+    let mut others = vec![
+        ("full", all(Coordinates::Full)),
+        ("reduced", all(Coordinates::Reduced)),
+        ("shared", all(Coordinates::Shared)),
+    ];
     if scene.simulation.stabilization == Stabilization::Projection {
         let mut other = scene.clone();
         let by_default = run.summary().integrator == IntegratorKind::Dop853;
