@@ -52,9 +52,9 @@ fn main() -> Result<(), triad_engine::EngineError> {
             mechanism.rate(0.0, black_box(&y), &mut rate);
         });
         report(&format!("{name}: place and velocity"), bodies, || mechanism.set_state(0.0, black_box(&y)));
-        let mut series = Series::<4>::new(&mechanism.system, 2, mechanism.elimination.is_redundant());
+        let mut series = Series::<4>::new(&mechanism.system, 2, mechanism.elimination.is_redundant(), &[]);
         report(&format!("{name}: evaluation, in bundles"), bodies, || {
-            series.place(&mechanism.system, black_box(&y));
+            series.place(&mechanism.system, 0.0, black_box(&y));
             series.evaluate();
             series.store_accelerations(&mechanism.system, &mut rate[n..]);
         });

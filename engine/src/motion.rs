@@ -1,4 +1,8 @@
-//! Prescribed functions of time with exact first and second derivatives.
+//! Prescribed functions of time with exact derivatives.
+
+mod expansion;
+
+pub use expansion::{MOST_TERMS, sine_cosine};
 
 use crate::scene::{Motion, VectorMotion};
 use nalgebra::{Matrix3, Vector3};
@@ -68,32 +72,10 @@ impl Curve {
 
     /// Value, first and second derivative at time t.
     pub fn at(&self, t: f64) -> Jet<f64> {
-        match self {
-            Self::Polynomial(coefficients) => polynomial(coefficients, t),
-            Self::Harmonic { mean, amplitude, frequency, phase } => {
-                let (sin, cos) = (frequency * t + phase).sin_cos();
-                [
-                    mean + amplitude * sin,
-                    amplitude * frequency * cos,
-                    -amplitude * frequency * frequency * sin,
-                ]
-            }
-            Self::Pieces { knots, pieces } => {
-                let piece = knots.partition_point(|&knot| knot <= t).saturating_sub(1);
-                polynomial(&pieces[piece], t - knots[piece])
-            }
-        }
+        let mut series = [0.0; 3];
+        self.expand(t, &mut series);
+        [series[0], series[1], 2.0 * series[2]]
     }
-}
-
-fn polynomial(coefficients: &[f64], t: f64) -> Jet<f64> {
-    let [mut value, mut rate, mut acceleration] = [0.0; 3];
-    for &c in coefficients.iter().rev() {
-        acceleration = acceleration * t + 2.0 * rate;
-        rate = rate * t + value;
-        value = value * t + c;
-    }
-    [value, rate, acceleration]
 }
 
 /// 10 x³ − 15 x⁴ + 6 x⁵ between two constants.
@@ -192,23 +174,10 @@ impl VectorCurve {
 
     /// Value, first and second derivative at time t.
     pub fn at(&self, t: f64) -> Jet<Vector3<f64>> {
-        match self {
-            Self::Components(components) => jets(components, t),
-            Self::Rotated(rotation, components) => jets(components, t).map(|v| rotation * v),
-            Self::Turning { along, across, turned, angle } => {
-                let [theta, rate, acceleration] = angle.at(t);
-                let (sin, cos) = theta.sin_cos();
-                let radial = across * cos + turned * sin;
-                let tangent = turned * cos - across * sin;
-                [along + radial, tangent * rate, tangent * acceleration - radial * rate * rate]
-            }
-        }
+        let mut series = [Vector3::zeros(); 3];
+        self.expand(t, &mut series);
+        [series[0], series[1], series[2] * 2.0]
     }
-}
-
-fn jets(components: &[Curve; 3], t: f64) -> Jet<Vector3<f64>> {
-    let jets = [0, 1, 2].map(|k| components[k].at(t));
-    [0, 1, 2].map(|order| Vector3::from_fn(|k, _| jets[k][order]))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 
 use crate::angle::Angle;
 use crate::model::BodyRef;
-use crate::motion::{Curve, Jet};
+use crate::motion::{Curve, Jet, MOST_TERMS, sine_cosine};
 use nalgebra::Vector3;
 
 /// A point (`point`) or a vector that is fixed in a body or in the ground, or moves in it as prescribed.
@@ -81,12 +81,20 @@ pub struct TargetCurve {
 impl TargetCurve {
     /// Value, first and second derivative at time t.
     pub fn at(&self, t: f64) -> Jet<f64> {
-        let [value, rate, acceleration] = self.curve.at(t);
-        if !self.cosine {
-            return [value, rate, acceleration];
+        let mut series = [0.0; 3];
+        self.expand(t, &mut series);
+        [series[0], series[1], 2.0 * series[2]]
+    }
+
+    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
+    pub fn expand(&self, t: f64, out: &mut [f64]) {
+        self.curve.expand(t, out);
+        if self.cosine {
+            let mut angle = [0.0; MOST_TERMS];
+            let (mut sin, terms) = (angle, out.len().min(MOST_TERMS));
+            angle[..terms].copy_from_slice(&out[..terms]);
+            sine_cosine(&angle[..terms], &mut sin, out);
         }
-        let (sin, cos) = value.sin_cos();
-        [cos, -sin * rate, -cos * rate * rate - sin * acceleration]
     }
 }
 

@@ -8,22 +8,30 @@
 //!
 //! Bodies lie side by side in bundles of L, so that the convolutions run on vector instructions.
 
+mod angles;
 mod bundle;
 mod lanes;
 mod layout;
+mod loads;
+mod prescribed;
+mod recurrence;
 mod rows;
 mod schur;
 mod step;
 
 pub use step::{Plan, Taken};
 
+use crate::balance;
 use crate::elimination::Counters;
 use crate::model::BodyRef;
 use crate::row::{Form, Target};
 use crate::system::System;
+use angles::Angles;
 use bundle::{Bundle, Slot, gram, moment, symmetric};
 use lanes::{Lane, Lifted, Triple, largest, zero};
 use layout::{at_rest, bundles};
+use loads::Loads;
+use prescribed::Prescribed;
 use rows::{Place, Rows};
 use schur::Schur;
 
@@ -39,24 +47,6 @@ const REFINEMENTS: usize = 2;
 const REFINEMENTS_LENT: usize = 3;
 /// The least tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const LEAST_TOLERANCE_REDUNDANT: f64 = 1e-11;
-
-/// What a scene has that the recurrences do not know, or nothing.
-pub fn unsupported(system: &System) -> Option<&'static str> {
-    let row = |form: &Form| match form {
-        Form::Coincidence { .. }
-        | Form::CommonVector { .. }
-        | Form::Product { target: Target::Constant(_), .. } => None,
-        Form::Product { .. } => Some("a driver"),
-        Form::Relation { .. } => Some("a gear or screw"),
-    };
-    if !system.curves.is_empty() {
-        return Some("a prescribed point or vector");
-    }
-    if !system.loads.is_empty() {
-        return Some("a load");
-    }
-    system.rows.iter().find_map(|r| row(&r.form))
-}
 
 /// The series of all bodies and multipliers, and the state that they are expanded about.
 #[derive(Clone, Debug)]
@@ -78,6 +68,16 @@ pub struct Series<const L: usize> {
     forces: Vec<Triple<L>>,
     ground: Vec<Triple<L>>,
     rows: Rows<L>,
+    angles: Angles,
+    prescribed: Prescribed,
+    loads: Loads,
+    /// Whether values of features are needed in every order.
+    watches: bool,
+    /// Time of the state, and of the next break in a prescribed function, s.
+    time: f64,
+    next_break: f64,
+    /// Coefficients of the power of drivers and of loads without potential, if there are any.
+    power: Vec<f64>,
     schur: Schur,
     /// Coefficients of λ, order by order.
     lambda: Vec<f64>,
@@ -92,8 +92,8 @@ pub struct Series<const L: usize> {
 }
 
 impl<const L: usize> Series<L> {
-    /// Allocates for a system, which must be supported, and coefficients up to order `order`.
-    pub fn new(system: &System, order: usize, redundant: bool) -> Self {
+    /// Allocates for a system, and coefficients up to order `order`; `turns` are the angles of joints at the start.
+    pub fn new(system: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
         let (bundles, mut slots, mut place) = bundles::<L>(system);
         let moving = slots.len();
         let mut ground = Vec::new();
@@ -115,7 +115,18 @@ impl<const L: usize> Series<L> {
                 _ => 0.0,
             })
         });
+        let angles = Angles::new(system, &place, stride, turns);
+        let prescribed = Prescribed::new(system, &place, L, stride);
+        let loads = Loads::new(system, &place, L, stride);
+        let exchanges = balance::exchanges_energy(system);
         Self {
+            watches: rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty(),
+            time: 0.0,
+            next_break: f64::INFINITY,
+            power: vec![0.0; if exchanges { stride } else { 0 }],
+            angles,
+            prescribed,
+            loads,
             stride,
             state: vec![[at_rest(), zero()]; bundles.len()],
             q: vec![zero(); bundles.len() * stride],
@@ -145,6 +156,7 @@ impl<const L: usize> Series<L> {
         self.set_ground(true);
         self.rows.turn_common_vectors(&self.values);
         self.rows.store_factors(0, &self.values);
+        self.angles.place(&self.values);
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.linearize(&state[0]);
             for slot in bundle.slots.clone() {
@@ -152,11 +164,11 @@ impl<const L: usize> Series<L> {
             }
         }
         let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
-        let mut pivots = self.schur.build(&self.rows, &self.mobility, epsilon);
+        let mut pivots = self.schur.build(&self.rows, &self.angles, &self.mobility, epsilon);
         self.regularized = self.redundant;
         self.counters.factorizations += 1;
         if !self.redundant && pivots.smallest < NEAR_SINGULAR {
-            pivots = self.schur.build(&self.rows, &self.mobility, REGULARIZATION);
+            pivots = self.schur.build(&self.rows, &self.angles, &self.mobility, REGULARIZATION);
             self.regularized = true;
             self.counters.factorizations += 1;
         }
@@ -188,10 +200,15 @@ impl<const L: usize> Series<L> {
         for (b, state) in self.state.iter().enumerate() {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
-        if self.rows.curved() {
+        if self.watches {
+            self.values_of(|state, _| state[0]);
+            self.set_ground(true);
+            self.store_values(0);
             self.values_of(|state, _| state[1]);
             self.set_ground(false);
-            self.rows.store_factors(1, &self.values);
+            self.prepare_prescribed(1, 1.0);
+            self.prescribed.add_known(1.0, &mut self.values);
+            self.store_values(1);
         }
         self.rows.clear_extra();
         for n in 0..=order.min(self.stride - 1).saturating_sub(2) {
@@ -204,30 +221,27 @@ impl<const L: usize> Series<L> {
     #[inline(always)]
     fn solve_order(&mut self, n: usize) {
         let kappa = ((n + 1) * (n + 2)) as f64;
-        let curved = self.rows.curved();
-        if curved {
-            self.rows.set_convolutions(n, kappa);
-            self.forces.fill([[0.0; L]; 3]);
-            self.rows.add_known_forces(n, &mut self.forces);
+        for bundle in &mut self.bundles {
+            bundle.force = zero();
+            bundle.moment = [[0.0; L]; 3];
+            if n == 0 {
+                bundle.force[0] = bundle.weight;
+            }
+        }
+        if self.watches {
+            self.demand(n, kappa);
+            self.set_known_forces(n);
         }
         for (b, bundle) in self.bundles.iter_mut().enumerate() {
             let range = b * self.stride..(b + 1) * self.stride;
             let (q, p) = (&self.q[range.clone()], &self.p[range]);
-            bundle.force = zero();
-            if n == 0 {
-                bundle.force[0] = bundle.weight;
-            }
-            if curved {
-                for slot in bundle.slots.clone() {
-                    self.slots[slot].pull_back(&self.forces[slot], &mut bundle.force);
-                }
-            }
             let mut gamma = gram(q, n + 2);
             for x in gamma.as_flattened_mut() {
                 *x *= kappa;
             }
             bundle.begin(&q[0], &gamma, moment(q, p, n));
         }
+        self.prepare_prescribed(n + 2, kappa);
         self.solve(n);
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
@@ -237,16 +251,61 @@ impl<const L: usize> Series<L> {
             }
             self.p[at] = bundle.director_forces();
         }
-        if curved {
+        if self.watches {
             let rows = self.correction.len();
-            self.rows.store_multipliers(n, &self.lambda[n * rows..(n + 1) * rows]);
+            let lambda = &self.lambda[n * rows..(n + 1) * rows];
+            self.rows.store_multipliers(n, lambda);
+            self.angles.store_multipliers(n, lambda);
             for (b, bundle) in self.bundles.iter().enumerate() {
                 for slot in bundle.slots.clone() {
                     self.values[slot] = self.slots[slot].of(&self.q[b * self.stride + n + 2]);
                 }
             }
-            self.rows.store_factors(n + 2, &self.values);
+            self.prescribed.add_known(1.0 / kappa, &mut self.values);
+            self.store_values(n + 2);
         }
+    }
+
+    /// Takes over coefficient m of all features.
+    #[inline(always)]
+    fn store_values(&mut self, m: usize) {
+        self.rows.store_factors(m, &self.values);
+        self.angles.store(m, &self.values);
+        self.loads.store(m, &self.values, &self.angles.list);
+    }
+
+    /// What rows demand of κ Q_(n+2) beyond its own part.
+    #[inline(always)]
+    fn demand(&mut self, n: usize, kappa: f64) {
+        if self.rows.curved() {
+            self.rows.set_convolutions(n, kappa);
+        }
+        self.angles.demand(n + 2, kappa, &mut self.rows.extra);
+        self.prescribed.demand(n + 2, kappa, &mut self.rows.extra);
+    }
+
+    /// Generalized forces of order n that loads and multipliers of lower order make.
+    #[inline(always)]
+    fn set_known_forces(&mut self, n: usize) {
+        self.forces.fill([[0.0; L]; 3]);
+        self.rows.add_known_forces(n, &mut self.forces);
+        self.angles.add_known_forces(n, &mut self.forces);
+        let (q, stride) = (&self.q, self.stride);
+        let coefficient = |b: usize, i: usize| &q[b * stride + i];
+        self.loads.apply(n, coefficient, &mut self.forces, &mut self.bundles);
+        self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
+        for bundle in &mut self.bundles {
+            for slot in bundle.slots.clone() {
+                self.slots[slot].pull_back(&self.forces[slot], &mut bundle.force);
+            }
+        }
+    }
+
+    /// What prescribed features have in order m besides the part that their bodies' coefficient m makes.
+    #[inline(always)]
+    fn prepare_prescribed(&mut self, m: usize, factor: f64) {
+        let (q, stride) = (&self.q, self.stride);
+        self.prescribed.prepare(m, factor, |b, i| &q[b * stride + i]);
     }
 
     /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
@@ -266,7 +325,9 @@ impl<const L: usize> Series<L> {
                 }
             }
             self.values_of(|_, bundle| bundle.solution);
+            self.prescribed.add_known(1.0, &mut self.values);
             self.rows.residual(&self.values, &mut self.correction);
+            self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
             self.schur.factor.solve(&mut self.correction);
             self.counters.solves += 1;
             let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
@@ -275,6 +336,8 @@ impl<const L: usize> Series<L> {
             }
             self.forces.fill([[0.0; L]; 3]);
             self.rows.add_forces(&self.correction, &mut self.forces);
+            self.angles.add_forces(&self.correction, &mut self.forces);
+            self.prescribed.add_forces(n, &self.forces);
             for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
                 let mut force = zero();
                 for slot in bundle.slots.clone() {
@@ -292,6 +355,9 @@ impl<const L: usize> Series<L> {
         self.set_ground(true);
         self.rows.store_factors(0, &self.values);
         self.rows.set_violation(&self.values);
+        self.angles.place(&self.values);
+        self.angles.set_violation(&self.values, &mut self.rows.extra);
+        self.prescribed.demand(0, 1.0, &mut self.rows.extra);
         self.correct(0, |state| {
             let mut gamma = symmetric(&state[0], &state[0]);
             for (k, entry) in gamma.iter_mut().enumerate() {
@@ -309,9 +375,15 @@ impl<const L: usize> Series<L> {
         self.values_of(|state, _| state[0]);
         self.set_ground(true);
         self.rows.store_factors(0, &self.values);
+        self.angles.place(&self.values);
         self.values_of(|state, _| state[1]);
         self.set_ground(false);
+        let state = &self.state;
+        self.prescribed.prepare(1, 1.0, |b, _| &state[b][0]);
+        self.prescribed.add_known(1.0, &mut self.values);
         self.rows.set_rate_violation(&self.values);
+        self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
+        self.prescribed.demand(1, 1.0, &mut self.rows.extra);
         self.correct(1, |state| symmetric(&state[0], &state[1]).map(|entry| entry.map(|x| -x)))
     }
 
@@ -319,8 +391,10 @@ impl<const L: usize> Series<L> {
     fn correct(&mut self, which: usize, gamma: impl Fn(&[Lifted<L>; 2]) -> [Lane<L>; 6]) -> f64 {
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.force = zero();
+            bundle.moment = [[0.0; L]; 3];
             bundle.begin(&state[0], &gamma(state), [[0.0; L]; 3]);
         }
+        self.prescribed.hold();
         // The multipliers of a correction mean nothing; the highest order has room for them.
         self.solve(self.stride - 1);
         let mut moved: f64 = 0.0;
@@ -343,9 +417,40 @@ impl<const L: usize> Series<L> {
             .fold(0.0, f64::max)
     }
 
+    /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
+    fn find_power(&mut self, order: usize) {
+        let (q, stride, lambda, rows) = (&self.q, self.stride, &self.lambda, self.correction.len());
+        let coefficient = |b: usize, i: usize| &q[b * stride + i];
+        let multiplier = |i: usize, row: usize| lambda[i * rows + row];
+        self.power.fill(0.0);
+        for (n, power) in self.power.iter_mut().enumerate().take(order.saturating_sub(1)) {
+            *power = self.loads.power(n, coefficient) + self.prescribed.power(n, coefficient, multiplier);
+        }
+    }
+
+    /// Work of drivers and of loads without potential in a time τ after the point of the last expansion, J.
+    pub fn work(&self, tau: f64) -> f64 {
+        self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
+    }
+
+    /// Takes over the time of the state, s: prescribed functions are expanded about it.
+    pub fn set_time(&mut self, t: f64) {
+        self.time = t;
+        self.prescribed.expand(t, &mut self.slots, &mut self.ground);
+        self.loads.expand(t);
+        self.next_break = self.prescribed.next_break(t).min(self.loads.next_break(t));
+    }
+
+    /// Whether prescribed functions are, a time h after the point of expansion, what their series say, but for a
+    /// relative error.
+    fn meets_prescribed(&self, h: f64, time: f64, error: f64) -> bool {
+        self.prescribed.meets(h, time, error) && self.loads.meets(h, time, error)
+    }
+
     /// Moves the point of expansion to the series' value after h, with terms up to order `order`.
     #[inline(always)]
     pub fn advance(&mut self, h: f64, order: usize) {
+        self.angles.advance(h, order);
         for (b, state) in self.state.iter_mut().enumerate() {
             *state = horner(&self.q[b * self.stride..=b * self.stride + order], h);
         }

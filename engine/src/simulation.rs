@@ -304,6 +304,9 @@ impl Simulation {
         if !self.exchanges_energy || t <= start {
             return 0.0;
         }
+        if let Integrator::Taylor(series) = &self.integrator {
+            return series.work_to(t);
+        }
         let counters = self.mechanism.elimination.counters;
         let Self { mechanism, integrator, scratch, .. } = self;
         let (state, rate) = scratch.split_at_mut(integrator.state().len());

@@ -118,8 +118,8 @@ fn order_zero_is_an_evaluation_of_the_accelerations() {
         let expected = simulation.accelerations();
         let y = [simulation.q(), simulation.q_dot()].concat();
         let redundant = !simulation.rank().dependent.is_empty();
-        let mut series = Series::<4>::new(simulation.system(), 2, redundant);
-        series.place(simulation.system(), &y);
+        let mut series = Series::<4>::new(simulation.system(), 2, redundant, &[]);
+        series.place(simulation.system(), simulation.time(), &y);
         series.evaluate();
         let mut found = vec![0.0; expected.len()];
         series.store_accelerations(simulation.system(), &mut found);

@@ -4,7 +4,6 @@ use super::{Dop853, Dopri5, Steps, Stop, Taylor};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
 use crate::scene::{IntegratorKind, Stabilization};
-use crate::series;
 
 /// An integrator at work.
 #[derive(Clone, Debug)]
@@ -20,12 +19,8 @@ pub enum Integrator {
 /// The integrator that a scene asks for, or the best one for it, and the reason.
 pub fn choose(mechanism: &Mechanism) -> (IntegratorKind, String) {
     let settings = &mechanism.system.model.settings;
-    let obstacle = if settings.stabilization == Stabilization::Projection {
-        series::unsupported(&mechanism.system)
-            .map(|what| format!("the series do not know {what} of this scene"))
-    } else {
-        Some("Baumgarte's stabilization belongs to Runge-Kutta methods".to_owned())
-    };
+    let baumgarte = settings.stabilization != Stabilization::Projection;
+    let obstacle = baumgarte.then(|| "Baumgarte's stabilization belongs to Runge-Kutta methods".to_owned());
     match (settings.integrator, obstacle) {
         (IntegratorKind::Auto, None) => (
             IntegratorKind::Taylor,
@@ -49,8 +44,7 @@ impl Integrator {
         let tolerance = mechanism.system.model.settings.tolerance;
         match kind {
             IntegratorKind::Taylor | IntegratorKind::Auto => {
-                let redundant = mechanism.elimination.is_redundant();
-                Self::Taylor(Box::new(Taylor::new(&mechanism.system, redundant, t, y, tolerance)))
+                Self::Taylor(Box::new(Taylor::new(mechanism, t, y, tolerance)))
             }
             IntegratorKind::Dop853 => Self::Dop853(Box::new(Dop853::new(mechanism, t, y, tolerance))),
             IntegratorKind::Dopri5 => Self::Dopri5(Box::new(Dopri5::new(mechanism, t, y, tolerance))),
@@ -115,7 +109,14 @@ impl Integrator {
         match self {
             Self::Dop853(i) => i.step(mechanism, end),
             Self::Dopri5(i) => i.step(mechanism, end),
-            Self::Taylor(i) => i.step(&mechanism.system, end),
+            Self::Taylor(i) => {
+                i.step(&mechanism.system, end)?;
+                if !mechanism.system.angles.is_empty() {
+                    mechanism.set_state(i.time(), i.state());
+                    mechanism.elimination.keep_turns();
+                }
+                Ok(())
+            }
         }
     }
 

@@ -5,6 +5,7 @@
 
 use super::{Steps, Stop};
 use crate::elimination::Counters;
+use crate::mechanism::Mechanism;
 use crate::series::{LEAST_TOLERANCE_REDUNDANT, Plan, Series};
 use crate::system::System;
 
@@ -50,17 +51,21 @@ pub struct Taylor {
 }
 
 impl Taylor {
-    /// Starts at (t, y), which must be consistent, with relative and absolute tolerance `tolerance`.
-    pub fn new(system: &System, redundant: bool, t: f64, y: &[f64], tolerance: f64) -> Self {
+    /// Starts at (t, y), which must be in place in the mechanism and consistent, with relative and absolute tolerance
+    /// `tolerance`.
+    pub fn new(mechanism: &Mechanism, t: f64, y: &[f64], tolerance: f64) -> Self {
+        let Mechanism { system, elimination, .. } = mechanism;
+        let redundant = elimination.is_redundant();
+        let turns: Vec<f64> = elimination.angles.iter().map(|angle| angle.value).collect();
         let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
         let order = order_for(tolerance);
         let mut engine = if system.bodies.len() == 1 {
-            Engine::Narrow(Box::new(Series::new(system, order, redundant)))
+            Engine::Narrow(Box::new(Series::new(system, order, redundant, &turns)))
         } else {
-            Engine::Wide(Box::new(Series::new(system, order, redundant)))
+            Engine::Wide(Box::new(Series::new(system, order, redundant, &turns)))
         };
         with!(&mut engine, s => {
-            s.place(system, y);
+            s.place(system, t, y);
             s.linearize();
         });
         Self {
@@ -105,8 +110,7 @@ impl Taylor {
 
     /// Takes one step, not beyond `end`.
     pub fn step(&mut self, system: &System, end: f64) -> Result<(), Stop> {
-        let left = end - self.t;
-        let plan = Plan { order: self.order, tolerance: self.tolerance, length: self.length, left };
+        let plan = Plan { order: self.order, tolerance: self.tolerance, length: self.length, end };
         let taken = with!(&mut self.engine, s => {
             let taken = s.step(plan);
             s.store(system, &mut self.y);
@@ -115,16 +119,23 @@ impl Taylor {
         if !taken.finite || taken.h.is_nan() {
             return Err(Stop::NotFinite { time: self.t });
         }
-        if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && left > taken.h {
+        if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
+        {
             return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
         }
         self.t_old = self.t;
         self.h_old = taken.h;
         self.order_old = taken.order;
-        self.t = if taken.h == left { end } else { self.t + taken.h };
+        self.t = taken.time;
         self.steps.accepted += 1;
+        self.steps.rejected += taken.rejected;
         self.projections += 1;
         Ok(())
+    }
+
+    /// Work of drivers and of loads without potential from the start of the last step to time t within it, J.
+    pub fn work_to(&self, t: f64) -> f64 {
+        with!(&self.engine, s => s.work((t - self.t_old).clamp(0.0, self.h_old)))
     }
 
     /// Writes y(t) within the last step.

@@ -1,6 +1,7 @@
 //! L bodies side by side: the part of the equations of motion that concerns each body alone — THEORY sections 7, 11.
 
 use super::lanes::{Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, multiply, scaled, zero};
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// A feature of each of L bodies (or of none: all zero).
@@ -56,6 +57,8 @@ pub struct Bundle<const L: usize> {
     lower: [Lane<L>; 6],
     /// Generalized force that acts, less the known convolutions.
     pub force: Lifted<L>,
+    /// Moment about the centre of mass that acts besides.
+    pub moment: Triple<L>,
     /// The unknown: κ Q_(n+2), or a correction of Q.
     pub solution: Lifted<L>,
     /// Its twist part ω̇, and the part for which lent inertia has been returned.
@@ -78,6 +81,7 @@ impl<const L: usize> Bundle<L> {
             inverse: [zeros; 3],
             lower: [[0.0; L]; 6],
             force: zero(),
+            moment: zeros,
             solution: zero(),
             omega: zeros,
             returned: zeros,
@@ -162,9 +166,32 @@ impl<const L: usize> Bundle<L> {
         z
     }
 
+    /// Adds a force at a point of the body in a lane.
+    pub fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..3 {
+            self.force[0][c][lane] += force[c];
+            for k in 0..3 {
+                self.force[1 + k][c][lane] += at[k] * force[c];
+            }
+        }
+    }
+
+    /// Adds a moment on the body in a lane.
+    pub fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>) {
+        for c in 0..3 {
+            self.moment[c][lane] += moment[c];
+        }
+    }
+
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
     #[inline(always)]
-    pub fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], mut moment: Triple<L>) {
+    pub fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
+        let mut moment = known;
+        for c in 0..3 {
+            for l in 0..L {
+                moment[c][l] += self.moment[c][l];
+            }
+        }
         let [uu, vv, ww, uv, uw, vw] = gamma;
         let d = &self.dual;
         let mut particular = [[[0.0; L]; 3]; 3];

@@ -10,8 +10,9 @@ use crate::system::System;
 use nalgebra::Vector3;
 
 impl<const L: usize> Series<L> {
-    /// Takes over y = (q, q̇) as the point of expansion.
-    pub fn place(&mut self, system: &System, y: &[f64]) {
+    /// Takes over y = (q, q̇) at time t as the point of expansion.
+    pub fn place(&mut self, system: &System, t: f64, y: &[f64]) {
+        self.set_time(t);
         let (q, q_dot) = y.split_at(system.coordinates);
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             for (lane, body) in system.bodies[bundle.bodies.clone()].iter().enumerate() {

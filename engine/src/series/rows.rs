@@ -15,15 +15,26 @@ pub struct Place {
 }
 
 impl Place {
+    /// The numbers there.
     #[inline(always)]
-    fn get<const L: usize>(self, values: &[Triple<L>]) -> [f64; 3] {
+    pub fn get<const L: usize>(self, values: &[Triple<L>]) -> [f64; 3] {
         let value = &values[self.slot];
         let lane = self.lane % L;
         [value[0][lane], value[1][lane], value[2][lane]]
     }
 
+    /// Replaces the numbers there.
     #[inline(always)]
-    fn add<const L: usize>(self, values: &mut [Triple<L>], x: [f64; 3]) {
+    pub fn set<const L: usize>(self, values: &mut [Triple<L>], x: [f64; 3]) {
+        let value = &mut values[self.slot];
+        for c in 0..3 {
+            value[c][self.lane % L] = x[c];
+        }
+    }
+
+    /// Adds to the numbers there.
+    #[inline(always)]
+    pub fn add<const L: usize>(self, values: &mut [Triple<L>], x: [f64; 3]) {
         let value = &mut values[self.slot];
         let lane = self.lane % L;
         for c in 0..3 {

@@ -1,5 +1,6 @@
 //! The matrix S = A D⁻¹ Aᵀ of the joints' rows, as H Hᵀ with H = A C⁻ᵀ and D = C Cᵀ.
 
+use super::angles::Angles;
 use super::lanes::Triple;
 use super::rows::{Place, Rows};
 use crate::row::Form;
@@ -15,6 +16,8 @@ enum Gradient {
     Across(usize),
     /// The other factor of lane `lane` of product bundle `bundle`: 0 for x, 1 for y.
     Factor { bundle: usize, lane: usize, side: usize },
+    /// Gradient k of relation r.
+    Relation { r: usize, k: usize },
 }
 
 /// A feature's part of a row form in the block of its body.
@@ -85,6 +88,7 @@ impl Schur {
     pub fn build<const L: usize>(
         &mut self,
         rows: &Rows<L>,
+        angles: &Angles,
         mobility: &[[Triple<L>; 3]],
         epsilon: f64,
     ) -> Pivots {
@@ -113,6 +117,11 @@ impl Schur {
                     let g = rows.product_factors(bundle, lane)[1 - side];
                     if let Some(row) = block.first_mut() {
                         add_gradient(row, &g, &z, term);
+                    }
+                }
+                Gradient::Relation { r, k } => {
+                    if let Some(row) = block.first_mut() {
+                        add_gradient(row, &angles.gradient(r, k), &z, term);
                     }
                 }
             }
@@ -172,7 +181,7 @@ fn add_product<const N: usize>(left: &[f64], right: &[f64], out: &mut [f64]) {
 /// The terms of H, row form by row form.
 fn terms(system: &System, place: &[Place], lanes: usize) -> Vec<Term> {
     let mut terms = Vec::new();
-    let (mut commons, mut products) = (0, 0);
+    let (mut commons, mut products, mut relations) = (0, 0, 0);
     for row in &system.rows {
         let mut add = |order: usize, feature: usize, gradient: Gradient, sign: f64| {
             let incidence = row.incidence[order];
@@ -214,7 +223,12 @@ fn terms(system: &System, place: &[Place], lanes: usize) -> Vec<Term> {
                 }
                 products += 1;
             }
-            Form::Relation { .. } => {}
+            Form::Relation { .. } => {
+                for (k, feature) in row.form.features(&system.angles).into_iter().enumerate() {
+                    add(k, feature, Gradient::Relation { r: relations, k }, 1.0);
+                }
+                relations += 1;
+            }
         }
     }
     terms

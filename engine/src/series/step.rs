@@ -8,6 +8,14 @@ const NEGLIGIBLE: f64 = 0.01;
 /// A Newton step of this size, relative to the mechanism, leaves an error of its square.
 const CONSISTENT: f64 = 1e-7;
 
+/// A step that leaves its constraints, or a prescribed function its series, by this many tolerances is taken anew, half
+/// as long, but not more often than this.
+const FAR: f64 = 100.0;
+const MOST_REJECTED: u64 = 12;
+/// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
+/// end of a step.
+const FARTHEST_TURN: f64 = 3.0;
+
 /// What a step has to do.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
@@ -17,8 +25,8 @@ pub struct Plan {
     pub tolerance: f64,
     /// A length of the mechanism, m.
     pub length: f64,
-    /// Time left to the end, s: no step is longer.
-    pub left: f64,
+    /// End of the run, s: no step goes beyond it.
+    pub end: f64,
 }
 
 /// What a step was.
@@ -26,8 +34,14 @@ pub struct Plan {
 pub struct Taken {
     /// Its size, s.
     pub h: f64,
+    /// The time at its end, s.
+    pub time: f64,
+    /// Whether it ends where a prescribed function has another piece: then it may be as short as it likes.
+    pub at_break: bool,
     /// The order at which the series was cut.
     pub order: usize,
+    /// How often it was shortened because it had left the constraints, or prescribed functions their series.
+    pub rejected: u64,
     /// Whether the new state is made of finite numbers.
     pub finite: bool,
 }
@@ -87,10 +101,39 @@ impl<const L: usize> Series<L> {
 
     #[inline(always)]
     fn step_here(&mut self, plan: Plan) -> Taken {
+        // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
+        let end = plan.end.min(self.next_break);
+        let (start, left) = (self.time, end - self.time);
         self.expand(plan.order);
+        if !self.power.is_empty() {
+            self.find_power(plan.order);
+        }
         let (h, order) = self.reach(plan.order, plan.tolerance);
-        let h = if 1.01 * h >= plan.left { plan.left } else { h };
+        let mut h = self.loads.limit(self.angles.limit(h.min(left), order, FARTHEST_TURN), order);
+        let mut rejected = 0;
+        loop {
+            let mut time = start + h;
+            if 1.01 * h >= left {
+                (h, time) = (left, end);
+            }
+            let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
+            // A comparison that is false for NaN as well.
+            if met && (self.arrive(h, time, order, plan) <= FAR * plan.tolerance || rejected == MOST_REJECTED)
+            {
+                self.correct_velocities();
+                return Taken { h, time, at_break: time == end, order, rejected, finite: self.is_finite() };
+            }
+            rejected += 1;
+            h *= 0.5;
+        }
+    }
+
+    /// Moves to the end of a step, factors S there and projects the positions. Returns how far that moved them, which is
+    /// what the terms that were left out would have added.
+    #[inline(always)]
+    fn arrive(&mut self, h: f64, time: f64, order: usize, plan: Plan) -> f64 {
         self.advance(h, order);
+        self.set_time(time);
         self.linearize_here();
         let mut moved = 0.0;
         for _ in 0..3 {
@@ -103,8 +146,7 @@ impl<const L: usize> Series<L> {
         if moved > NEGLIGIBLE * plan.tolerance {
             self.linearize_here();
         }
-        self.correct_velocities();
-        Taken { h, order, finite: self.is_finite() }
+        moved
     }
 
     /// The step and the order at which the series is cut: the longest step that two successive terms of positions and

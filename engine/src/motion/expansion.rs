@@ -1,0 +1,118 @@
+//! Power series of prescribed functions of time about any moment — THEORY section 11.
+//!
+//! Functions in pieces are expanded in the piece that holds from the moment on, and tell where it ends.
+
+use super::{Curve, VectorCurve};
+use nalgebra::Vector3;
+
+/// Most coefficients that an expansion has.
+pub const MOST_TERMS: usize = 32;
+
+impl Curve {
+    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
+    pub fn expand(&self, t: f64, out: &mut [f64]) {
+        match self {
+            Self::Polynomial(coefficients) => shift(coefficients, t, out),
+            &Self::Harmonic { mean, amplitude, frequency, phase } => {
+                let (sin, cos) = (frequency * t + phase).sin_cos();
+                let mut factor = amplitude;
+                for (k, out) in out.iter_mut().enumerate() {
+                    *out = factor * [sin, cos, -sin, -cos][k % 4];
+                    factor *= frequency / (k + 1) as f64;
+                }
+                if let Some(first) = out.first_mut() {
+                    *first += mean;
+                }
+            }
+            Self::Pieces { knots, pieces } => {
+                let piece = knots.partition_point(|&knot| knot <= t).saturating_sub(1);
+                shift(&pieces[piece], t - knots[piece], out);
+            }
+        }
+    }
+
+    /// The first moment after t at which another piece begins, s, or infinity.
+    pub fn next_break(&self, t: f64) -> f64 {
+        match self {
+            Self::Polynomial(_) | Self::Harmonic { .. } => f64::INFINITY,
+            Self::Pieces { knots, .. } => {
+                // Nothing begins at the first knot: its piece holds before it, too.
+                let next = knots.partition_point(|&knot| knot <= t).max(1);
+                knots.get(next).copied().unwrap_or(f64::INFINITY)
+            }
+        }
+    }
+}
+
+impl VectorCurve {
+    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
+    pub fn expand(&self, t: f64, out: &mut [Vector3<f64>]) {
+        let terms = out.len().min(MOST_TERMS);
+        let mut series = [0.0; MOST_TERMS];
+        match self {
+            Self::Components(components) | Self::Rotated(_, components) => {
+                for (c, component) in components.iter().enumerate() {
+                    component.expand(t, &mut series[..terms]);
+                    for (out, x) in out.iter_mut().zip(series) {
+                        out[c] = x;
+                    }
+                }
+                if let Self::Rotated(rotation, _) = self {
+                    out.iter_mut().for_each(|v| *v = rotation * *v);
+                }
+            }
+            Self::Turning { along, across, turned, angle } => {
+                angle.expand(t, &mut series[..terms]);
+                let (mut sin, mut cos) = ([0.0; MOST_TERMS], [0.0; MOST_TERMS]);
+                sine_cosine(&series[..terms], &mut sin, &mut cos);
+                for (k, out) in out.iter_mut().enumerate().take(terms) {
+                    *out = across * cos[k] + turned * sin[k];
+                }
+                if let Some(first) = out.first_mut() {
+                    *first += along;
+                }
+            }
+        }
+    }
+
+    /// The first moment after t at which another piece begins, s, or infinity.
+    pub fn next_break(&self, t: f64) -> f64 {
+        match self {
+            Self::Components(components) | Self::Rotated(_, components) => {
+                components.iter().map(|c| c.next_break(t)).fold(f64::INFINITY, f64::min)
+            }
+            Self::Turning { angle, .. } => angle.next_break(t),
+        }
+    }
+}
+
+/// The polynomial Σ cₖ xᵏ about x = x₀ — repeated synthetic division.
+fn shift(coefficients: &[f64], x0: f64, out: &mut [f64]) {
+    out.fill(0.0);
+    for &c in coefficients.iter().rev() {
+        for k in (1..out.len()).rev() {
+            out[k] = out[k] * x0 + out[k - 1];
+        }
+        if let Some(first) = out.first_mut() {
+            *first = *first * x0 + c;
+        }
+    }
+}
+
+/// Series of sin θ and cos θ from that of θ — eq. (11.5).
+pub fn sine_cosine(theta: &[f64], sin: &mut [f64], cos: &mut [f64]) {
+    for k in 0..theta.len() {
+        if k == 0 {
+            (sin[0], cos[0]) = theta[0].sin_cos();
+            continue;
+        }
+        let (mut s, mut c) = (0.0, 0.0);
+        for j in 1..=k {
+            let rate = j as f64 * theta[j];
+            s += rate * cos[k - j];
+            c -= rate * sin[k - j];
+        }
+        sin[k] = s / k as f64;
+        cos[k] = c / k as f64;
+    }
+}
