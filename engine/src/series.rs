@@ -8,12 +8,14 @@
 //!
 //! Bodies lie side by side in bundles of L, so that the convolutions run on vector instructions.
 
+mod acting;
 mod angles;
 mod bundle;
 mod lanes;
 mod layout;
 mod loads;
 mod prescribed;
+mod projection;
 mod recurrence;
 mod rows;
 mod schur;
@@ -27,8 +29,8 @@ use crate::model::BodyRef;
 use crate::row::{Form, Target};
 use crate::system::System;
 use angles::Angles;
-use bundle::{Bundle, Slot, gram, moment, symmetric};
-use lanes::{Lane, Lifted, Triple, largest, zero};
+use bundle::{Bundle, Slot, gram, moment};
+use lanes::{Lifted, Triple, largest, zero};
 use layout::{at_rest, bundles};
 use loads::Loads;
 use prescribed::Prescribed;
@@ -71,8 +73,6 @@ pub struct Series<const L: usize> {
     angles: Angles,
     prescribed: Prescribed,
     loads: Loads,
-    /// Whether values of features are needed in every order.
-    watches: bool,
     /// Time of the state, and of the next break in a prescribed function, s.
     time: f64,
     next_break: f64,
@@ -120,7 +120,6 @@ impl<const L: usize> Series<L> {
         let loads = Loads::new(system, &place, L, stride);
         let exchanges = balance::exchanges_energy(system);
         Self {
-            watches: rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty(),
             time: 0.0,
             next_break: f64::INFINITY,
             power: vec![0.0; if exchanges { stride } else { 0 }],
@@ -200,7 +199,7 @@ impl<const L: usize> Series<L> {
         for (b, state) in self.state.iter().enumerate() {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
-        if self.watches {
+        if self.watches() {
             self.values_of(|state, _| state[0]);
             self.set_ground(true);
             self.store_values(0);
@@ -228,7 +227,7 @@ impl<const L: usize> Series<L> {
                 bundle.force[0] = bundle.weight;
             }
         }
-        if self.watches {
+        if self.watches() {
             self.demand(n, kappa);
             self.set_known_forces(n);
         }
@@ -251,7 +250,7 @@ impl<const L: usize> Series<L> {
             }
             self.p[at] = bundle.director_forces();
         }
-        if self.watches {
+        if self.watches() {
             let rows = self.correction.len();
             let lambda = &self.lambda[n * rows..(n + 1) * rows];
             self.rows.store_multipliers(n, lambda);
@@ -266,46 +265,18 @@ impl<const L: usize> Series<L> {
         }
     }
 
+    /// Whether values of features are needed in every order.
+    #[inline(always)]
+    fn watches(&self) -> bool {
+        self.rows.curved() || !self.angles.is_empty() || !self.loads.is_empty() || !self.prescribed.is_empty()
+    }
+
     /// Takes over coefficient m of all features.
     #[inline(always)]
     fn store_values(&mut self, m: usize) {
         self.rows.store_factors(m, &self.values);
         self.angles.store(m, &self.values);
         self.loads.store(m, &self.values, &self.angles.list);
-    }
-
-    /// What rows demand of κ Q_(n+2) beyond its own part.
-    #[inline(always)]
-    fn demand(&mut self, n: usize, kappa: f64) {
-        if self.rows.curved() {
-            self.rows.set_convolutions(n, kappa);
-        }
-        self.angles.demand(n + 2, kappa, &mut self.rows.extra);
-        self.prescribed.demand(n + 2, kappa, &mut self.rows.extra);
-    }
-
-    /// Generalized forces of order n that loads and multipliers of lower order make.
-    #[inline(always)]
-    fn set_known_forces(&mut self, n: usize) {
-        self.forces.fill([[0.0; L]; 3]);
-        self.rows.add_known_forces(n, &mut self.forces);
-        self.angles.add_known_forces(n, &mut self.forces);
-        let (q, stride) = (&self.q, self.stride);
-        let coefficient = |b: usize, i: usize| &q[b * stride + i];
-        self.loads.apply(n, coefficient, &mut self.forces, &mut self.bundles);
-        self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
-        for bundle in &mut self.bundles {
-            for slot in bundle.slots.clone() {
-                self.slots[slot].pull_back(&self.forces[slot], &mut bundle.force);
-            }
-        }
-    }
-
-    /// What prescribed features have in order m besides the part that their bodies' coefficient m makes.
-    #[inline(always)]
-    fn prepare_prescribed(&mut self, m: usize, factor: f64) {
-        let (q, stride) = (&self.q, self.stride);
-        self.prescribed.prepare(m, factor, |b, i| &q[b * stride + i]);
     }
 
     /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
@@ -348,103 +319,12 @@ impl<const L: usize> Series<L> {
         }
     }
 
-    /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the factor at hand. Returns its size.
-    #[inline(always)]
-    pub fn correct_positions(&mut self) -> f64 {
-        self.values_of(|state, _| state[0]);
-        self.set_ground(true);
-        self.rows.store_factors(0, &self.values);
-        self.rows.set_violation(&self.values);
-        self.angles.place(&self.values);
-        self.angles.set_violation(&self.values, &mut self.rows.extra);
-        self.prescribed.demand(0, 1.0, &mut self.rows.extra);
-        self.correct(0, |state| {
-            let mut gamma = symmetric(&state[0], &state[0]);
-            for (k, entry) in gamma.iter_mut().enumerate() {
-                for x in entry {
-                    *x = if k < 3 { 1.0 - 0.5 * *x } else { -0.5 * *x };
-                }
-            }
-            gamma
-        })
-    }
-
-    /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the factor at hand.
-    #[inline(always)]
-    pub fn correct_velocities(&mut self) -> f64 {
-        self.values_of(|state, _| state[0]);
-        self.set_ground(true);
-        self.rows.store_factors(0, &self.values);
-        self.angles.place(&self.values);
-        self.values_of(|state, _| state[1]);
-        self.set_ground(false);
-        let state = &self.state;
-        self.prescribed.prepare(1, 1.0, |b, _| &state[b][0]);
-        self.prescribed.add_known(1.0, &mut self.values);
-        self.rows.set_rate_violation(&self.values);
-        self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
-        self.prescribed.demand(1, 1.0, &mut self.rows.extra);
-        self.correct(1, |state| symmetric(&state[0], &state[1]).map(|entry| entry.map(|x| -x)))
-    }
-
-    #[inline(always)]
-    fn correct(&mut self, which: usize, gamma: impl Fn(&[Lifted<L>; 2]) -> [Lane<L>; 6]) -> f64 {
-        for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
-            bundle.force = zero();
-            bundle.moment = [[0.0; L]; 3];
-            bundle.begin(&state[0], &gamma(state), [[0.0; L]; 3]);
-        }
-        self.prescribed.hold();
-        // The multipliers of a correction mean nothing; the highest order has room for them.
-        self.solve(self.stride - 1);
-        let mut moved: f64 = 0.0;
-        for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
-            let step = bundle.solution.as_flattened();
-            moved = moved.max(largest(step));
-            let target = state[which].as_flattened_mut().as_flattened_mut();
-            for (x, dx) in target.iter_mut().zip(step.as_flattened()) {
-                *x += dx;
-            }
-        }
-        moved
-    }
-
     /// Largest |Q_k| over all bodies.
     #[inline(always)]
     pub fn size_of(&self, k: usize) -> f64 {
         (0..self.bundles.len())
             .map(|b| largest(self.q[b * self.stride + k].as_flattened()))
             .fold(0.0, f64::max)
-    }
-
-    /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
-    fn find_power(&mut self, order: usize) {
-        let (q, stride, lambda, rows) = (&self.q, self.stride, &self.lambda, self.correction.len());
-        let coefficient = |b: usize, i: usize| &q[b * stride + i];
-        let multiplier = |i: usize, row: usize| lambda[i * rows + row];
-        self.power.fill(0.0);
-        for (n, power) in self.power.iter_mut().enumerate().take(order.saturating_sub(1)) {
-            *power = self.loads.power(n, coefficient) + self.prescribed.power(n, coefficient, multiplier);
-        }
-    }
-
-    /// Work of drivers and of loads without potential in a time τ after the point of the last expansion, J.
-    pub fn work(&self, tau: f64) -> f64 {
-        self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
-    }
-
-    /// Takes over the time of the state, s: prescribed functions are expanded about it.
-    pub fn set_time(&mut self, t: f64) {
-        self.time = t;
-        self.prescribed.expand(t, &mut self.slots, &mut self.ground);
-        self.loads.expand(t);
-        self.next_break = self.prescribed.next_break(t).min(self.loads.next_break(t));
-    }
-
-    /// Whether prescribed functions are, a time h after the point of expansion, what their series say, but for a
-    /// relative error.
-    fn meets_prescribed(&self, h: f64, time: f64, error: f64) -> bool {
-        self.prescribed.meets(h, time, error) && self.loads.meets(h, time, error)
     }
 
     /// Moves the point of expansion to the series' value after h, with terms up to order `order`.

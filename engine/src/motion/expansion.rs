@@ -58,7 +58,9 @@ impl VectorCurve {
                     }
                 }
                 if let Self::Rotated(rotation, _) = self {
-                    out.iter_mut().for_each(|v| *v = rotation * *v);
+                    for v in out.iter_mut() {
+                        *v = rotation * *v;
+                    }
                 }
             }
             Self::Turning { along, across, turned, angle } => {

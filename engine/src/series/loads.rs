@@ -1,4 +1,4 @@
-//! Loads as series — eq. (11.5): forces, moments, and elements along a length, an angle or a displacement.
+//! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
 
 use super::angles::Angle;
 use super::bundle::Bundle;

@@ -1,4 +1,5 @@
-//! What moves as prescribed: points and vectors that drivers move, and the numbers that they give to products.
+//! What moves as prescribed: points and vectors that drivers move, and the numbers that they give to products —
+//! eq. (11.3).
 //!
 //! A driven feature is x = C(t) Q with local coordinates that are series themselves. In order m it has, besides
 //! C₀ Q_m, the part Σ C_i Q_(m−i), i > 0, which is known beforehand; likewise the generalized force on it.
