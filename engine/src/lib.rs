@@ -63,6 +63,8 @@ pub mod mechanism;
 
 pub mod balance;
 
+pub mod event;
+
 pub mod simulation;
 
 pub mod check;

@@ -7,6 +7,7 @@
 mod body;
 mod driver;
 mod error;
+mod event;
 mod joint;
 mod load;
 mod parameter;
@@ -15,6 +16,7 @@ mod reader;
 pub use body::ModelBody;
 pub use driver::{DriverKind, ModelDriver};
 pub use error::ModelError;
+pub use event::{EventQuantity, ModelEvent};
 pub use joint::ModelJoint;
 pub use load::{Element, LoadKind, ModelLoad};
 pub use reader::nearest_name;
@@ -48,6 +50,8 @@ pub struct Model {
     pub drivers: Vec<ModelDriver>,
     /// The loads besides gravity, in the scene's order.
     pub loads: Vec<ModelLoad>,
+    /// Moments to look for, in the scene's order.
+    pub events: Vec<ModelEvent>,
     /// How to run it.
     pub settings: Settings,
     /// What was found or corrected, for the author.
@@ -92,6 +96,12 @@ impl Model {
             unique_name(&mut load_names, "loads", index, written.name())?;
             loads.push(ModelLoad::new(written, &reader("loads", index, written.name()))?);
         }
+        let mut event_names = HashMap::new();
+        let mut events = Vec::with_capacity(scene.events.len());
+        for (index, written) in scene.events.iter().enumerate() {
+            unique_name(&mut event_names, "events", index, &written.name)?;
+            events.push(ModelEvent::new(written, &reader("events", index, &written.name))?);
+        }
         parameter::check(scene)?;
         Ok(Self {
             name: scene.name.clone(),
@@ -100,6 +110,7 @@ impl Model {
             joints,
             drivers,
             loads,
+            events,
             settings: scene.simulation.clone(),
             notes,
         })

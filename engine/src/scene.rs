@@ -6,6 +6,7 @@
 mod body;
 mod driver;
 mod error;
+mod event;
 mod joint;
 mod load;
 mod motion;
@@ -15,6 +16,7 @@ mod settings;
 pub use body::{Body, Coordinates, Inertia, Orientation, Shape};
 pub use driver::Driver;
 pub use error::SceneError;
+pub use event::{Event, Passing, Quantity};
 pub use joint::{AxisRows, Joint, JointKind};
 pub use load::{Friction, Load, LoadFrame};
 pub use motion::{Motion, VectorMotion};
@@ -29,6 +31,8 @@ use serde::{Deserialize, Serialize};
 pub const MAX_BODIES: usize = 5_000;
 /// Largest number of joints, drivers or loads that a scene may have (each).
 pub const MAX_JOINTS: usize = 20_000;
+/// Largest number of events that a scene may look for.
+pub const MAX_EVENTS: usize = 1_000;
 /// Largest text of a scene, in bytes.
 pub const MAX_TEXT: usize = 16 << 20;
 
@@ -67,6 +71,9 @@ pub struct Scene {
     /// Forces and moments besides gravity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<Load>,
+    /// Moments to look for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<Event>,
     /// How to run the scene.
     #[serde(default, skip_serializing_if = "is_default")]
     pub simulation: Settings,
@@ -107,6 +114,7 @@ impl Scene {
             ("joints", self.joints.len(), MAX_JOINTS),
             ("drivers", self.drivers.len(), MAX_JOINTS),
             ("loads", self.loads.len(), MAX_JOINTS),
+            ("events", self.events.len(), MAX_EVENTS),
             ("parameters", self.parameters.len(), MAX_PARAMETERS),
         ];
         match lists.into_iter().find(|(_, count, limit)| count > limit) {

@@ -193,9 +193,10 @@ impl<const L: usize> Series<L> {
         }
     }
 
-    /// Expands the motion about the state up to Q_order and λ_(order−2), with the factor at hand.
+    /// Expands the motion about the state up to Q_order and λ_(order−2), with the factor at hand, or up to the first
+    /// order that is `enough`. Returns the order.
     #[inline(always)]
-    pub fn expand(&mut self, order: usize) {
+    pub fn expand(&mut self, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
         for (b, state) in self.state.iter().enumerate() {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
@@ -210,10 +211,15 @@ impl<const L: usize> Series<L> {
             self.store_values(1);
         }
         self.rows.clear_extra();
-        for n in 0..=order.min(self.stride - 1).saturating_sub(2) {
-            self.solve_order(n);
-        }
         self.counters.evaluations += 1;
+        let order = order.min(self.stride - 1);
+        for n in 0..=order.saturating_sub(2) {
+            self.solve_order(n);
+            if enough(self, n + 2) {
+                return n + 2;
+            }
+        }
+        order
     }
 
     /// Q_(n+2) and λ_n from all coefficients before them.

@@ -3,6 +3,7 @@
 use crate::balance;
 use crate::elimination::Counters;
 use crate::error::EngineError;
+use crate::event::{self, Happening};
 use crate::integrate::{self, Integrator, Plant, Stop};
 use crate::jacobian::Jacobian;
 use crate::mechanism::Mechanism;
@@ -101,6 +102,10 @@ pub struct Simulation {
     scratch: Vec<f64>,
     /// Steps, rejected ones included, after which the run stops.
     step_limit: u64,
+    /// What has happened so far, in the order of time.
+    happened: Vec<Happening>,
+    /// When the run ends, s: its duration, or the moment of an event that stops it.
+    end: f64,
     /// Made when first asked for.
     jacobian: Option<Jacobian>,
 }
@@ -136,7 +141,9 @@ impl Simulation {
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
         let exchanges_energy = balance::exchanges_energy(&mechanism.system);
-        let scratch = vec![0.0; if exchanges_energy { 4 * n } else { 0 }];
+        let looks = exchanges_energy || !mechanism.system.watches.is_empty();
+        let scratch = vec![0.0; if looks { 4 * n } else { 0 }];
+        let end = mechanism.system.model.settings.duration;
         Ok(Self {
             mechanism,
             integrator,
@@ -152,8 +159,11 @@ impl Simulation {
             work: 0.0,
             scratch,
             step_limit: u64::MAX,
+            happened: Vec::new(),
+            end,
             jacobian: None,
-        })
+        }
+        .watching())
     }
 
     /// The assembled system.
@@ -196,9 +206,38 @@ impl Simulation {
         &self.shown[self.system().coordinates..]
     }
 
-    /// Whether the end of the run is reached.
+    /// Whether the end of the run is reached, or an event that stops it.
     pub fn finished(&self) -> bool {
-        self.time >= self.duration()
+        self.time >= self.end
+    }
+
+    /// Events up to the shown time, in the order of time.
+    pub fn events(&self) -> &[Happening] {
+        let count = self.happened.partition_point(|h| h.time <= self.time);
+        &self.happened[..count]
+    }
+
+    /// Forgets what has happened; numbers that events look at are counted from the start of the integrator on, whose
+    /// state must be in place.
+    fn watching(mut self) -> Self {
+        self.watch_anew();
+        self
+    }
+
+    fn watch_anew(&mut self) {
+        self.happened.clear();
+        self.end = self.duration();
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        if system.watches.is_empty() {
+            return;
+        }
+        elimination.set_time(system, self.integrator.time());
+        let (q, q_dot) = self.integrator.state().split_at(system.coordinates);
+        elimination.place(system, q);
+        elimination.set_velocity(system, q_dot);
+        for watch in &mut system.watches {
+            watch.begin(elimination);
+        }
     }
 
     /// Goes on from where another run of the same scene stands, whose numbers may differ: bodies keep their places
@@ -233,6 +272,7 @@ impl Simulation {
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
         self.time = time;
         self.shown.copy_from_slice(y);
+        self.watch_anew();
     }
 
     /// Back to the start; counters begin anew.
@@ -248,8 +288,7 @@ impl Simulation {
         if self.time >= self.integrator.time() && !self.finished() {
             self.integrate_one()?;
         }
-        self.time = self.integrator.time();
-        self.shown.copy_from_slice(self.integrator.state());
+        self.show(self.integrator.time());
         Ok(())
     }
 
@@ -262,7 +301,7 @@ impl Simulation {
     /// that is shown stays as it is, and the next call goes on from where this one ended: a caller who must be able
     /// to stop asks in pieces, with the same result.
     pub fn advance_towards(&mut self, t: f64, most_steps: u64) -> Result<bool, EngineError> {
-        let t = t.min(self.duration());
+        let mut t = t.min(self.end);
         if t.is_nan() || t < self.time {
             return Err(EngineError::TimeOutside { time: t, from: self.time, to: self.duration() });
         }
@@ -273,10 +312,16 @@ impl Simulation {
             }
             left -= 1;
             self.integrate_one()?;
+            t = t.min(self.end);
         }
-        self.integrator.interpolate(&mut self.mechanism, t, &mut self.shown);
-        self.time = t;
+        self.show(t);
         Ok(true)
+    }
+
+    /// Shows the state of a time within the last step, not after the end of the run.
+    fn show(&mut self, t: f64) {
+        self.time = t.min(self.end);
+        self.integrator.interpolate(&mut self.mechanism, self.time, &mut self.shown);
     }
 
     /// Ends a run with [`EngineError::StepLimit`] after so many steps, rejected ones included.
@@ -295,7 +340,32 @@ impl Simulation {
             Stop::StepTooSmall { time, step } => EngineError::StepTooSmall { time, step },
             Stop::NotFinite { time } => EngineError::Diverged { time },
         })?;
-        self.mechanism.check(self.integrator.time(), self.integrator.state())
+        self.mechanism.check(self.integrator.time(), self.integrator.state())?;
+        self.look_for_events();
+        Ok(())
+    }
+
+    /// Finds what has happened in the last step.
+    fn look_for_events(&mut self) {
+        if self.mechanism.system.watches.is_empty() {
+            return;
+        }
+        let Self { mechanism, integrator, scratch, happened, .. } = self;
+        let (before, end) = (happened.len(), integrator.time());
+        let step = (end - integrator.last_step(), end);
+        let mut watches = std::mem::take(&mut mechanism.system.watches);
+        let state = &mut scratch[..integrator.state().len()];
+        let see = |t: f64, watch: &event::Watch| {
+            integrator.interpolate(mechanism, t, state);
+            mechanism.set_state(t, state);
+            watch.look(&mechanism.elimination)
+        };
+        event::find(&mut watches, step, see, happened);
+        mechanism.system.watches = watches;
+        if let Some(last) = happened[before..].iter().position(|h| h.stop) {
+            happened.truncate(before + last + 1);
+            self.end = happened[before + last].time;
+        }
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t, J.

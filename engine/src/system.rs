@@ -1,6 +1,7 @@
 //! The assembled system: everything that never changes during a run.
 
 use crate::angle::Angle;
+use crate::event::Watch;
 use crate::lift::{Layout, Lift};
 use crate::load::Load;
 use crate::model::{BodyRef, Model};
@@ -113,6 +114,8 @@ pub struct System {
     pub angles: Vec<Angle>,
     /// Loads besides gravity.
     pub loads: Vec<Load>,
+    /// Moments to look for.
+    pub watches: Vec<Watch>,
     /// The rows.
     pub rows: Vec<Row>,
     /// The joints.
@@ -146,6 +149,7 @@ impl System {
             driver::write(&model, driver, &mut writer);
         }
         let mut loads: Vec<Load> = model.loads.iter().map(|l| Load::new(&model, l, &mut writer)).collect();
+        let watches = model.events.iter().map(|event| Watch::new(&model, event, &mut writer)).collect();
         let place = writer.sort_features();
         for load in &mut loads {
             load.rename(&place);
@@ -160,6 +164,7 @@ impl System {
             targets,
             angles,
             loads,
+            watches,
             rows: Vec::new(),
             groups: Vec::with_capacity(groups.len()),
             incidences: Vec::new(),

@@ -46,6 +46,7 @@ pub fn scene(rods: usize) -> Scene {
         drivers: Vec::new(),
         loads: Vec::new(),
         simulation: Settings { duration: 2.0, ..Settings::default() },
+        events: Vec::new(),
         parameters: Vec::new(),
     }
 }

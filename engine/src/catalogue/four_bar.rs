@@ -42,6 +42,7 @@ pub fn scene(windows: usize) -> Scene {
         drivers: Vec::new(),
         loads: Vec::new(),
         simulation: Settings { duration: 10.0, ..Settings::default() },
+        events: Vec::new(),
         parameters: Vec::new(),
     }
 }

@@ -12,7 +12,7 @@ const MAX_POINTS: usize = 10_000;
 
 /// What is known while the elements of one list are read.
 pub(super) struct Reader<'a> {
-    /// Which list: `joints`, `drivers` or `loads`.
+    /// Which list: `joints`, `drivers`, `loads` or `events`.
     pub list: &'static str,
     /// Place in that list.
     pub index: usize,
@@ -64,16 +64,16 @@ impl Reader<'_> {
 
     /// A joint by its name, of one of the given kinds.
     pub fn joint(&self, name: &str, kinds: &[JointKind]) -> Result<usize, ModelError> {
+        let key = if self.list == "events" { "of/joint" } else { "joint" };
         let Some(index) = self.joints.iter().position(|j| j.name == name) else {
             let nearest = nearest_name(name, self.joints.iter().map(|j| j.name.as_str()));
             let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
-            return Err(self.wrong("joint", format!("there is no joint \"{name}\"{guess}")));
+            return Err(self.wrong(key, format!("there is no joint \"{name}\"{guess}")));
         };
         if kinds.contains(&self.joints[index].kind) {
             Ok(index)
         } else {
-            Err(self
-                .wrong("joint", format!("joint \"{name}\" is not of a kind that it can act in ({kinds:?})")))
+            Err(self.wrong(key, format!("joint \"{name}\" is not of a kind that it can act in ({kinds:?})")))
         }
     }
 

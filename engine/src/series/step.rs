@@ -1,6 +1,7 @@
 //! One step of the series: expand, choose how far the terms reach, move there, and project.
 
 use super::Series;
+use super::lanes::largest;
 use pulp::{Arch, Simd, WithSimd};
 
 /// A correction of positions above this part of the tolerance calls for a new factor.
@@ -8,6 +9,8 @@ const NEGLIGIBLE: f64 = 0.01;
 /// A Newton step of this size, relative to the mechanism, leaves an error of its square.
 const CONSISTENT: f64 = 1e-7;
 
+/// Orders that are found in any case.
+const LEAST_ORDER: usize = 8;
 /// A step that leaves its constraints, or a prescribed function its series, by this many tolerances is taken anew, half
 /// as long, but not more often than this.
 const FAR: f64 = 100.0;
@@ -79,7 +82,7 @@ impl<const L: usize> WithSimd for Evaluate<'_, L> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         self.0.linearize_here();
-        self.0.expand(2);
+        self.0.expand(2, |_, _| false);
     }
 }
 
@@ -104,11 +107,17 @@ impl<const L: usize> Series<L> {
         // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
-        self.expand(plan.order);
+        let allowance = self.allowance(plan.tolerance);
+        // Pieces are polynomials of degree five: orders above that of their accelerations say how good the series are.
+        let order = self.expand(plan.order, |s, k| {
+            end < plan.end
+                && k > LEAST_ORDER
+                && s.reached(k - 1, allowance).min(s.reached(k, allowance)) >= left
+        });
         if !self.power.is_empty() {
-            self.find_power(plan.order);
+            self.find_power(order);
         }
-        let (h, order) = self.reach(plan.order, plan.tolerance);
+        let (h, order) = self.reach(order, allowance);
         let mut h = self.loads.limit(self.angles.limit(h.min(left), order, FARTHEST_TURN), order);
         let mut rejected = 0;
         loop {
@@ -149,22 +158,33 @@ impl<const L: usize> Series<L> {
         moved
     }
 
+    /// The largest terms of positions and velocities that a tolerance allows.
+    #[inline(always)]
+    fn allowance(&self, tolerance: f64) -> [f64; 2] {
+        let size = |which: usize| {
+            let sizes = self.state.iter().map(|state| largest(state[which].as_flattened()));
+            sizes.fold(0.0, f64::max)
+        };
+        [0, 1].map(|which| tolerance * (1.0 + size(which)))
+    }
+
+    /// The step that the term of order k allows.
+    #[inline(always)]
+    fn reached(&self, k: usize, [position, velocity]: [f64; 2]) -> f64 {
+        let term = self.size_of(k);
+        let by_position = (position / term).powf(1.0 / k as f64);
+        let by_velocity = (velocity / (k as f64 * term)).powf(1.0 / (k - 1) as f64);
+        by_position.min(by_velocity)
+    }
+
     /// The step and the order at which the series is cut: the longest step that two successive terms of positions and
     /// velocities allow. Near singular positions high terms are noise, and lower ones decide.
     #[inline(always)]
-    fn reach(&self, order: usize, tolerance: f64) -> (f64, usize) {
-        let position = tolerance * (1.0 + self.size_of(0));
-        let velocity = tolerance * (1.0 + self.size_of(1));
-        let allowed = |k: usize| {
-            let term = self.size_of(k);
-            let by_position = (position / term).powf(1.0 / k as f64);
-            let by_velocity = (velocity / (k as f64 * term)).powf(1.0 / (k - 1) as f64);
-            by_position.min(by_velocity)
-        };
+    fn reach(&self, order: usize, allowance: [f64; 2]) -> (f64, usize) {
         let mut best = (0.0, order);
-        let mut previous = allowed(2);
+        let mut previous = self.reached(2, allowance);
         for k in 3..=order {
-            let next = allowed(k);
+            let next = self.reached(k, allowance);
             let h = previous.min(next);
             if h >= best.0 {
                 best = (h, k);

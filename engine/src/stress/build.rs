@@ -19,6 +19,7 @@ pub fn scene(name: &str, gravity: Triple, duration: f64, tolerance: f64) -> Scen
         bodies: Vec::new(),
         joints: Vec::new(),
         drivers: Vec::new(),
+        events: Vec::new(),
         parameters: Vec::new(),
         loads: Vec::new(),
         simulation: Settings { duration, tolerance, ..Settings::default() },

@@ -59,7 +59,11 @@ enum Command {
     #[command(after_help = "Examples:\n  triad serve --port 9000\n  \
         triad serve --host 0.0.0.0 --database /srv/triad/grades.db   (for a class on one network)")]
     Serve(Serve),
-    /// Run a scene; tells energy drift, constraint violation and work.
+    /// Run a scene; tells energy drift, constraint violation, work and events.
+    ///
+    /// Events are moments that the scene asks for under "events": when a coordinate of a point, a distance, a joint's
+    /// angle or its slide passes a value. An event with "stop": true ends the run. For example
+    /// {"name": "lowest", "of": {"type": "coordinate", "body": "bob", "direction": [0, 1, 0]}, "value": -0.5}
     #[command(after_help = "Examples:\n  triad run simple-pendulum\n  \
         triad run n-four-bar:2 --until 5 --every 0.01 --out positions.csv\n  \
         triad run my-scene.json --rrd run.rrd      (then: rerun run.rrd)\n  \

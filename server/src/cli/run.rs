@@ -180,6 +180,7 @@ fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Op
             "scene": scene.name,
             "settings": scene.simulation,
             "summary": summary,
+            "events": simulation.events(),
             "notes": simulation.notes(),
             "stopped": stopped.map(Problem::document),
         }));
@@ -190,6 +191,13 @@ fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Op
     let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
     for line in lines(scene, &summary, simulation.notes()) {
         say(&line);
+    }
+    for event in simulation.events() {
+        let end = if event.stop { "; the run ends there" } else { "" };
+        say(&format!(
+            "  event                  {} at {:.15} s, rate {:.9}{end}",
+            event.name, event.time, event.rate
+        ));
     }
     for file in [&options.out, &options.rrd].into_iter().flatten() {
         say(&format!("  written                {}", file.display()));

@@ -66,6 +66,7 @@ pub fn scene(seed: u64) -> Scene {
         bodies: (0..count).map(|i| body(&mut random, i)).collect(),
         joints: Vec::new(),
         drivers: Vec::new(),
+        events: Vec::new(),
         parameters: Vec::new(),
         loads: Vec::new(),
         simulation: Settings { duration: 0.5, tolerance: 1e-10, ..Settings::default() },

@@ -1,0 +1,94 @@
+//! Moments to look for, with their points in principal frames.
+
+use super::reader::Reader;
+use super::{BodyRef, ModelError};
+use crate::scene::{Event, JointKind, Passing, Quantity};
+use nalgebra::Vector3;
+
+/// Greatest value of an event, m or rad.
+const FARTHEST: f64 = 1e9;
+
+/// A checked event.
+#[derive(Clone, Debug)]
+pub struct ModelEvent {
+    /// Name.
+    pub name: String,
+    /// The number.
+    pub of: EventQuantity,
+    /// The value that it passes.
+    pub value: f64,
+    /// In which direction.
+    pub passing: Passing,
+    /// Whether the run ends there.
+    pub stop: bool,
+}
+
+/// A number that changes with the motion; local coordinates are in principal frames.
+#[derive(Clone, Debug)]
+pub enum EventQuantity {
+    /// A point's coordinate along a unit vector of the world.
+    Coordinate {
+        /// The body.
+        body: BodyRef,
+        /// The point.
+        local: Vector3<f64>,
+        /// The unit vector.
+        direction: Vector3<f64>,
+    },
+    /// The distance of two points.
+    Distance {
+        /// The two bodies.
+        bodies: [BodyRef; 2],
+        /// The two points.
+        locals: [Vector3<f64>; 2],
+    },
+    /// The angle of a joint.
+    Angle {
+        /// The joint.
+        joint: usize,
+    },
+    /// The displacement of a joint.
+    Slide {
+        /// The joint.
+        joint: usize,
+    },
+}
+
+impl ModelEvent {
+    /// Checks an event.
+    pub(super) fn new(event: &Event, reader: &Reader) -> Result<Self, ModelError> {
+        let of = match &event.of {
+            Quantity::Coordinate { body, point, direction } => {
+                let body = BodyRef::Moving(reader.moving_body("of/body", body)?);
+                let local = reader.local_point(body, &reader.vector("of/point", *point)?);
+                EventQuantity::Coordinate { body, local, direction: reader.unit("of/direction", *direction)? }
+            }
+            Quantity::Distance { body_i, point_i, body_j, point_j } => {
+                let bodies = [reader.body("of/body_i", body_i)?, reader.body("of/body_j", body_j)?];
+                if bodies[0] == bodies[1] {
+                    return Err(reader.wrong("of/body_j", "points of one body keep their distance"));
+                }
+                let points = [reader.vector("of/point_i", *point_i)?, reader.vector("of/point_j", *point_j)?];
+                EventQuantity::Distance {
+                    bodies,
+                    locals: [0, 1].map(|side| reader.local_point(bodies[side], &points[side])),
+                }
+            }
+            Quantity::Angle { joint } => EventQuantity::Angle {
+                joint: reader
+                    .joint(joint, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])?,
+            },
+            Quantity::Slide { joint } => EventQuantity::Slide {
+                joint: reader
+                    .joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])?,
+            },
+        };
+        Ok(Self {
+            name: event.name.clone(),
+            of,
+            value: reader.number("value", event.value, -FARTHEST, FARTHEST)?,
+            passing: event.passing,
+            stop: event.stop,
+        })
+    }
+}
