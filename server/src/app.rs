@@ -1,10 +1,12 @@
 //! What all parts of the server share.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use triad_lessons::Course;
 
 use crate::limits::Limits;
+use crate::reports;
 use crate::session::Registry;
 use crate::store::Store;
 
@@ -19,6 +21,8 @@ pub struct App {
     pub sessions: Arc<Registry>,
     /// What this server allows.
     pub limits: Arc<Limits>,
+    /// The folder with the reports of commands.
+    pub reports: Arc<Path>,
 }
 
 impl App {
@@ -29,6 +33,13 @@ impl App {
             store: Arc::new(store),
             sessions: Arc::default(),
             limits: Arc::new(limits),
+            reports: Path::new(reports::FOLDER).into(),
         }
+    }
+
+    /// The same server, with reports in another folder.
+    #[must_use]
+    pub fn with_reports(self, folder: &Path) -> Self {
+        Self { reports: folder.into(), ..self }
     }
 }

@@ -19,6 +19,7 @@ pub mod app;
 
 pub mod api;
 pub mod page;
+pub mod reports;
 
 pub mod cli;
 

@@ -11,7 +11,7 @@ use triad_engine::scene::{Coordinates, IntegratorKind, Scene};
 use triad_engine::simulation::{BodyFrame, Simulation, Summary};
 use triad_tests::reference::{Reference, distance};
 
-const BOTH: [Coordinates; 2] = [Coordinates::Full, Coordinates::Reduced];
+const ALL: [Coordinates; 3] = [Coordinates::Full, Coordinates::Reduced, Coordinates::Shared];
 
 /// Runs `scene` through the times of `reference` and returns the largest of `error`, with what the run cost.
 fn compare(
@@ -90,7 +90,7 @@ fn body_rates(frame: &BodyFrame) -> [f64; 3] {
 fn a01_simple_pendulum() {
     let reference = Reference::read("a01-simple-pendulum");
     let [x, y, vx, vy, fx, fy] = reference.columns(["x", "y", "vx", "vy", "Rx_ground", "Ry_ground"]);
-    for (coordinates, known) in BOTH.into_iter().zip([5935, 5996]) {
+    for (coordinates, known) in ALL.into_iter().zip([5935, 5996]) {
         let scene = with("simple-pendulum", coordinates);
         let mut force = 0.0f64;
         let (error, summary) = compare(&scene, 1e-13, &reference, 10.0, |simulation, row| {
@@ -114,7 +114,7 @@ fn a02_double_four_bar_through_its_ten_singular_positions() {
     let [x, y] = reference.columns(["B0x", "B0y"]);
     let crossings = reference.rows.windows(2).filter(|w| w[0][y] * w[1][y] < 0.0).count();
     assert_eq!(crossings, 10);
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let scene = with("n-four-bar:2", coordinates);
         let (error, summary) = compare(&scene, 1e-12, &reference, 10.0, |simulation, row| {
             let upright = simulation.frame().bodies[0];
@@ -160,7 +160,7 @@ fn c01_free_body() {
         let reference = Reference::read(data);
         let rates = reference.columns(["w1_body", "w2_body", "w3_body"]);
         let attitude = reference.columns(["q0", "q1", "q2", "q3"]);
-        for (coordinates, known) in BOTH.into_iter().zip(evaluations) {
+        for (coordinates, known) in ALL.into_iter().zip(evaluations) {
             let mut turned = 0.0f64;
             let (error, summary) =
                 compare(&with(name, coordinates), 1e-14, &reference, 10.0, |simulation, row| {
@@ -225,7 +225,7 @@ fn c04_spatial_double_pendulum() {
     let lower = reference.columns(["COM2x", "COM2y", "COM2z"]);
     let ground = reference.columns(["F_O_x", "F_O_y", "F_O_z"]);
     let between = reference.columns(["F_A_x", "F_A_y", "F_A_z"]);
-    for (coordinates, known) in BOTH.into_iter().zip([6420, 6368]) {
+    for (coordinates, known) in ALL.into_iter().zip([6420, 6368]) {
         let scene = with("spatial-double-pendulum", coordinates);
         let mut force = 0.0f64;
         let (error, summary) = compare(&scene, 1e-13, &reference, 5.0, |simulation, row| {

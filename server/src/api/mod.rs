@@ -27,6 +27,7 @@ use utoipa_axum::router::OpenApiRouter;
 use crate::app::App;
 use crate::page;
 use crate::problem::Problem;
+use crate::reports;
 
 pub(crate) use lessons::unknown as unknown_lesson;
 
@@ -80,6 +81,8 @@ pub fn router(app: App) -> Router {
     routes
         .route("/api/openapi.json", get(move || async move { axum::Json(document) }))
         .route("/api/{*rest}", axum::routing::any(unknown_address))
+        .route("/bench", get(reports::bench))
+        .route("/stress", get(reports::stress))
         .fallback(page::serve)
         .method_not_allowed_fallback(|| async { page::method_not_allowed() })
         .layer(DefaultBodyLimit::max(limit))

@@ -3,11 +3,10 @@
 use std::time::{Duration, Instant};
 
 use triad_engine::catalogue;
-use triad_engine::scene::IntegratorKind;
 use triad_engine::simulation::{Simulation, Summary};
 use triad_engine::{EngineError, Scene};
 
-use super::plan::{Case, Plan, Truth};
+use super::plan::{Case, Method, Plan, Truth};
 use super::reference::{self, distance};
 
 /// One run with its error, its times and its work.
@@ -15,9 +14,9 @@ use super::reference::{self, distance};
 pub struct Measured {
     /// Name of the scene.
     pub scene: &'static str,
-    /// The integrator.
-    pub integrator: IntegratorKind,
-    /// Its tolerance.
+    /// How it was run.
+    pub method: Method,
+    /// The tolerance.
     pub tolerance: f64,
     /// Largest distance from the reference, m; `None` if the run stopped early.
     pub error: Option<f64>,
@@ -50,8 +49,9 @@ struct Ready {
 pub fn measure(plan: &Plan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<Measured>, EngineError> {
     let mut ready = Vec::new();
     for (index, case) in plan.cases.iter().enumerate() {
-        progress(0.4 * index as f64 / plan.cases.len() as f64, case.scene);
-        prepare(plan, case, &mut ready)?;
+        prepare(plan, case, &mut ready, |part| {
+            progress(0.4 * (index as f64 + part) / plan.cases.len() as f64, case.scene);
+        })?;
     }
     let deadline = Instant::now() + Duration::from_secs_f64(plan.seconds);
     for round in 0..plan.repeats {
@@ -77,20 +77,28 @@ pub fn measure(plan: &Plan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<M
         .collect())
 }
 
-fn prepare(plan: &Plan, case: &Case, ready: &mut Vec<Ready>) -> Result<(), EngineError> {
+fn prepare(
+    plan: &Plan,
+    case: &Case,
+    ready: &mut Vec<Ready>,
+    mut progress: impl FnMut(f64),
+) -> Result<(), EngineError> {
     let mut scene: Scene = catalogue::scene(case.scene)?;
     scene.simulation.duration = case.duration;
     let truth = reference::reference(case, &scene)?;
     let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
-    for &integrator in &plan.integrators {
-        for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(integrator, t)) {
-            scene.simulation.integrator = integrator;
+    for (index, &method) in plan.methods.iter().enumerate() {
+        progress(index as f64 / plan.methods.len() as f64);
+        for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(method.integrator, t)) {
+            scene.coordinates = method.coordinates;
+            scene.simulation.integrator = method.integrator;
+            scene.simulation.stabilization = method.treatment;
             scene.simulation.tolerance = tolerance;
             let error = reference::positions(&scene, compared).ok().map(|run| distance(&run, &truth));
             let mut simulation = Simulation::new(&scene)?;
             let work = simulation.summary();
             let times = Vec::with_capacity(plan.repeats);
-            let measured = Measured { scene: case.scene, integrator, tolerance, error, times, work };
+            let measured = Measured { scene: case.scene, method, tolerance, error, times, work };
             ready.push(Ready { simulation, measured });
         }
     }

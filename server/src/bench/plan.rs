@@ -1,6 +1,8 @@
 //! What is measured.
 
-use triad_engine::scene::IntegratorKind;
+use std::fmt;
+
+use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
 
 /// A scene to be measured and how its error is known.
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +30,39 @@ pub enum Truth {
         /// Distance of the centre of mass from the pivot, m.
         arm: f64,
     },
-    /// The same scene at the tightest tolerance; compared are the positions of all bodies.
+    /// The same scene by DOP853 at its tightest tolerance; compared are the positions of all bodies.
     Converged,
+}
+
+/// One way to run a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Method {
+    /// The integrator.
+    pub integrator: IntegratorKind,
+    /// The constraint treatment.
+    pub treatment: Stabilization,
+    /// The kind of all bodies.
+    pub coordinates: Coordinates,
+}
+
+/// A word of the scene format.
+pub fn word(value: &impl serde::Serialize) -> String {
+    let value = serde_json::to_value(value).unwrap_or_default();
+    value.as_str().or_else(|| value["kind"].as_str()).unwrap_or_default().to_owned()
+}
+
+impl fmt::Display for Method {
+    /// The integrator, and whatever else is not the default.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&word(&self.integrator))?;
+        if self.treatment != Stabilization::default() {
+            write!(f, " {}", word(&self.treatment))?;
+        }
+        if self.coordinates != Coordinates::default() {
+            write!(f, " {}", word(&self.coordinates))?;
+        }
+        Ok(())
+    }
 }
 
 /// Everything that is measured.
@@ -37,14 +70,29 @@ pub enum Truth {
 pub struct Plan {
     /// The scenes.
     pub cases: Vec<Case>,
-    /// The integrators.
-    pub integrators: Vec<IntegratorKind>,
+    /// The ways to run them.
+    pub methods: Vec<Method>,
     /// The tolerances.
     pub tolerances: Vec<f64>,
     /// Time for all repeats together, s.
     pub seconds: f64,
     /// Most repeats of one run.
     pub repeats: usize,
+}
+
+/// What a user wants of a plan instead of its own lists; an empty list wants nothing else.
+#[derive(Clone, Debug, Default)]
+pub struct Wish {
+    /// Parts of names of scenes.
+    pub scenes: Vec<String>,
+    /// Integrators.
+    pub integrators: Vec<IntegratorKind>,
+    /// Constraint treatments.
+    pub treatments: Vec<Stabilization>,
+    /// Kinds of bodies.
+    pub coordinates: Vec<Coordinates>,
+    /// Tolerances.
+    pub tolerances: Vec<f64>,
 }
 
 const GRAVITY: f64 = 9.81;
@@ -59,21 +107,36 @@ fn windows(scene: &'static str, count: f64) -> Case {
     Case { scene, duration: 10.0, truth }
 }
 
+fn converged(scene: &'static str, duration: f64) -> Case {
+    Case { scene, duration, truth: Truth::Converged }
+}
+
+fn method(integrator: IntegratorKind) -> Method {
+    Method { integrator, treatment: Stabilization::default(), coordinates: Coordinates::default() }
+}
+
 impl Plan {
-    /// The whole sweep.
+    /// The whole sweep: all integrators, and the other kinds of bodies with the two best.
     pub fn full() -> Self {
+        use IntegratorKind::{Auto, Dop853, Dopri5, Taylor};
         let pendulum =
             Truth::Angle { kappa: GRAVITY, start: -std::f64::consts::FRAC_PI_2, rate: 0.0, arm: 1.0 };
+        let others = [Coordinates::Reduced, Coordinates::Shared]
+            .into_iter()
+            .flat_map(|coordinates| [Taylor, Dop853].map(|i| Method { coordinates, ..method(i) }));
         Self {
             cases: vec![
                 Case { scene: "simple-pendulum", duration: 10.0, truth: pendulum },
                 windows("n-four-bar:2", 2.0),
+                windows("n-four-bar:10", 10.0),
                 windows("n-four-bar:40", 40.0),
-                Case { scene: "spatial-double-pendulum", duration: 10.0, truth: Truth::Converged },
-                Case { scene: "spatial-chain:10", duration: 2.0, truth: Truth::Converged },
-                Case { scene: "spatial-chain:100", duration: 2.0, truth: Truth::Converged },
+                converged("bricard", 10.0),
+                converged("spatial-slider-crank", 5.0),
+                converged("spatial-double-pendulum", 10.0),
+                converged("spatial-chain:10", 2.0),
+                converged("spatial-chain:100", 2.0),
             ],
-            integrators: vec![IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Dopri5],
+            methods: [Auto, Taylor, Dop853, Dopri5].map(method).into_iter().chain(others).collect(),
             tolerances: vec![1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11],
             seconds: 240.0,
             repeats: 21,
@@ -83,15 +146,70 @@ impl Plan {
     /// A sweep that takes less than a minute.
     pub fn quick() -> Self {
         let mut plan = Self::full();
-        plan.cases.retain(|case| case.scene != "spatial-chain:100" && case.scene != "n-four-bar:40");
+        plan.cases
+            .retain(|case| !["spatial-chain:100", "n-four-bar:40", "n-four-bar:10"].contains(&case.scene));
+        plan.methods.retain(|m| m.coordinates == Coordinates::default());
         plan.tolerances = vec![1e-4, 1e-6, 1e-8, 1e-10];
         plan.seconds = 20.0;
         plan.repeats = 9;
         plan
     }
 
+    /// The plan with what the user wants instead; what is wanted is crossed, each with each.
+    #[must_use]
+    pub fn with(mut self, wish: Wish) -> Self {
+        let Wish { scenes, integrators, treatments, coordinates, tolerances } = wish;
+        if !scenes.is_empty() {
+            self.cases.retain(|case| scenes.iter().any(|part| case.scene.contains(part.as_str())));
+        }
+        if !tolerances.is_empty() {
+            self.tolerances = tolerances;
+        }
+        if integrators.is_empty() && treatments.is_empty() && coordinates.is_empty() {
+            return self;
+        }
+        let or = |list: Vec<IntegratorKind>, own| if list.is_empty() { own } else { list };
+        let mut own: Vec<IntegratorKind> = Vec::new();
+        for method in &self.methods {
+            if !own.contains(&method.integrator) {
+                own.push(method.integrator);
+            }
+        }
+        let treatments = if treatments.is_empty() { vec![Stabilization::default()] } else { treatments };
+        let coordinates = if coordinates.is_empty() { vec![Coordinates::default()] } else { coordinates };
+        self.methods.clear();
+        for integrator in or(integrators, own) {
+            for &treatment in &treatments {
+                for &coordinates in &coordinates {
+                    self.methods.push(Method { integrator, treatment, coordinates });
+                }
+            }
+        }
+        self
+    }
+
     /// Whether an integrator is worth its time at a tolerance: a method of order 5 is not at tight ones.
     pub fn worth(integrator: IntegratorKind, tolerance: f64) -> bool {
         integrator != IntegratorKind::Dopri5 || tolerance > 1e-8
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wishes_are_crossed_and_the_rest_of_the_plan_stays() {
+        let plan = Plan::quick().with(Wish {
+            scenes: vec!["four-bar".into()],
+            integrators: vec![IntegratorKind::Taylor, IntegratorKind::Dop853],
+            coordinates: vec![Coordinates::Full, Coordinates::Shared],
+            ..Wish::default()
+        });
+        let names: Vec<String> = plan.methods.iter().map(Method::to_string).collect();
+        assert_eq!(names, ["taylor", "taylor shared", "dop853", "dop853 shared"]);
+        assert_eq!(plan.cases.iter().map(|c| c.scene).collect::<Vec<_>>(), ["n-four-bar:2"]);
+        assert_eq!(plan.tolerances, Plan::quick().tolerances);
+        assert_eq!(Plan::quick().with(Wish::default()).methods, Plan::quick().methods);
     }
 }

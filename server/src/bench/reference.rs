@@ -1,5 +1,6 @@
 //! Positions that runs are compared with.
 
+use triad_engine::scene::IntegratorKind;
 use triad_engine::simulation::Simulation;
 use triad_engine::{EngineError, Scene};
 
@@ -37,6 +38,7 @@ pub fn reference(case: &Case, scene: &Scene) -> Result<Positions, EngineError> {
         Truth::Converged => {
             let mut tight = scene.clone();
             tight.simulation.tolerance = 1e-13;
+            tight.simulation.integrator = IntegratorKind::Dop853;
             positions(&tight, scene.bodies.len())
         }
         Truth::Angle { kappa, start, rate, arm } => {

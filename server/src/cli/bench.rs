@@ -1,27 +1,88 @@
 //! `triad bench`: run time against error of the built-in scenes.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
+use clap::Args;
+use serde::de::DeserializeOwned;
+use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
 
 use super::Outcome;
 use super::terminal::{print_line, progress};
-use crate::bench::{Plan, csv, html, measure, table};
+use crate::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
 use crate::problem::Problem;
+use crate::reports;
 
-/// Measures, prints the times to reach three errors, and writes `bench.csv` and `bench.html` into `folder`.
-pub(super) fn bench(quick: bool, folder: &Path, hidden: bool) -> Result<Outcome, Problem> {
+#[derive(Debug, Args)]
+pub(super) struct Bench {
+    /// Fewer scenes, tolerances and repeats: less than a minute.
+    #[arg(long)]
+    quick: bool,
+    /// Only scenes whose names contain one of these.
+    #[arg(long, value_name = "SCENES", value_delimiter = ',')]
+    scenes: Vec<String>,
+    /// Integrators, by the scene format's words.
+    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word::<IntegratorKind>)]
+    integrators: Vec<IntegratorKind>,
+    /// A constraint treatment, as in a scene: a word, or `{"kind": "baumgarte", "alpha": 5, "beta": 5}`; may be
+    /// given more than once.
+    #[arg(long, value_name = "TREATMENT", value_parser = treatment)]
+    treatment: Vec<Stabilization>,
+    /// Kinds of bodies: full, reduced, shared.
+    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word::<Coordinates>)]
+    coordinates: Vec<Coordinates>,
+    /// Tolerances.
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',')]
+    tolerances: Vec<f64>,
+    /// The folder for bench.csv, bench.html and the plots as SVG; made if it is not there. The workbench
+    /// shows what is in its own folder at /bench.
+    #[arg(long, default_value = reports::FOLDER, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Reads a word of the scene format.
+fn word<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    serde_json::from_value(text.into()).map_err(|error| error.to_string())
+}
+
+/// Reads a treatment: a word that needs no numbers, or JSON.
+fn treatment(text: &str) -> Result<Stabilization, String> {
+    let value = if text.trim_start().starts_with('{') {
+        serde_json::from_str(text).map_err(|error| error.to_string())?
+    } else {
+        serde_json::json!({ "kind": text })
+    };
+    serde_json::from_value(value).map_err(|error| error.to_string())
+}
+
+/// Measures, prints the times to reach three errors, and writes tables and plots into a folder.
+pub(super) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
+    let Bench { quick, scenes, integrators, treatment, coordinates, tolerances, out: folder } = options;
     let plan = if quick { Plan::quick() } else { Plan::full() };
-    std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
+    let plan = plan.with(Wish { scenes, integrators, treatments: treatment, coordinates, tolerances });
+    if plan.cases.is_empty() {
+        return Err(Problem::new(
+            StatusCode::BAD_REQUEST,
+            "no-such-scene",
+            "no scene of the benchmark has such a name",
+            "leave --scenes out to see all of them",
+        ));
+    }
+    std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     let bar = progress("bench", 1.0, hidden);
     let runs = measure(&plan, |part, _| bar.reached(part))?;
     drop(bar);
     print_line(&table(&runs));
-    for (name, text) in [("bench.csv", csv(&runs)), ("bench.html", html(&runs))] {
+    let write = |name: &str, bytes: &[u8]| {
         let path = folder.join(name);
-        std::fs::write(&path, text).map_err(|error| unwritable(&path, &error))?;
-        print_line(&format!("written: {}", path.display()));
+        std::fs::write(&path, bytes).map_err(|error| unwritable(&path, &error))
+    };
+    write(reports::BENCH, html(&runs).as_bytes())?;
+    write("bench.csv", csv(&runs).as_bytes())?;
+    for (scene, runs) in by_scene(&runs) {
+        write(&format!("bench-{}.svg", scene.replace(':', "-")), svg(scene, &runs).as_bytes())?;
     }
+    print_line(&format!("written: bench.html, bench.csv and the plots, in {}", folder.display()));
     Ok(Outcome::Done)
 }
 

@@ -19,6 +19,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 
 use crate::problem::Problem;
+use crate::reports;
 
 /// Ends of `--help`: what a newcomer does first.
 const EXAMPLES: &str = "\
@@ -144,18 +145,14 @@ enum Command {
     /// The lessons of the course.
     #[command(subcommand)]
     Lesson(Lesson),
-    /// Measure run time against error of the built-in scenes, for all integrators.
+    /// Measure run time against error of the built-in scenes: integrators, treatments, kinds of bodies, tolerances.
     #[command(
-        after_help = "Examples:\n  triad bench --quick\n  triad bench --out results     (then open results/bench.html)"
+        after_help = "Examples:\n  triad bench --quick            (then open reports/bench.html, or /bench in the \
+        workbench)\n  triad bench --scenes chain --integrators taylor,dop853 --coordinates full,reduced,shared\n  \
+        triad bench --quick --integrators dop853 --treatment projection \
+        --treatment '{\"kind\": \"baumgarte\", \"alpha\": 5, \"beta\": 5}'"
     )]
-    Bench {
-        /// Fewer scenes, tolerances and repeats: less than a minute.
-        #[arg(long)]
-        quick: bool,
-        /// The folder for bench.csv and bench.html; made if it is not there.
-        #[arg(long, default_value = ".", value_name = "DIR")]
-        out: PathBuf,
-    },
+    Bench(bench::Bench),
     /// Try to break the engine: singular positions, redundancy, extreme scales, random mechanisms, each judged.
     #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
         triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html")]
@@ -195,6 +192,9 @@ struct Serve {
     /// Bodies that a live simulation may have.
     #[arg(long, default_value_t = 500, value_name = "N")]
     max_bodies: usize,
+    /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
+    #[arg(long, default_value = reports::FOLDER, value_name = "DIR")]
+    reports: PathBuf,
 }
 
 impl Default for Serve {
@@ -205,6 +205,7 @@ impl Default for Serve {
             database: "triad.db".into(),
             max_sessions: 64,
             max_bodies: 500,
+            reports: reports::FOLDER.into(),
         }
     }
 }
@@ -277,7 +278,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
-        Command::Bench { quick, out } => bench::bench(quick, &out, json),
+        Command::Bench(options) => bench::bench(options, json),
         Command::Stress(options) => stress::stress(&options, json),
         Command::Schema => {
             terminal::print_json(&triad_engine::scene::schema());
@@ -307,8 +308,15 @@ mod tests {
         };
         let default = Serve::default();
         assert_eq!(
-            (serve.host, serve.port, &serve.database, serve.max_sessions, serve.max_bodies),
-            (default.host, default.port, &default.database, default.max_sessions, default.max_bodies)
+            (serve.host, serve.port, &serve.database, serve.max_sessions, serve.max_bodies, &serve.reports),
+            (
+                default.host,
+                default.port,
+                &default.database,
+                default.max_sessions,
+                default.max_bodies,
+                &default.reports
+            )
         );
     }
 }

@@ -17,7 +17,7 @@ use crate::store::Store;
 pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
     let store = Store::open(&options.database)?;
     let limits = Limits { sessions: options.max_sessions, bodies: options.max_bodies, ..Limits::default() };
-    let app = App::new(course, store, limits);
+    let app = App::new(course, store, limits).with_reports(&options.reports);
     let runtime =
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
     runtime.block_on(listen(options, app))?;
