@@ -36,6 +36,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry { name: "free-body", summary: "A torque-free body with three different moments of inertia (C01)" },
     Entry { name: "free-body-flip", summary: "The same body turning about its middle axis: it flips (C01)" },
     Entry { name: "free-fall", summary: "A body thrown and tumbling (C03)" },
+    Entry { name: "heavy-top", summary: "Lagrange's top, let go with a spin: it nods to cusps and goes round" },
     Entry {
         name: "bricard",
         summary: "Six revolute joints in a loop that moves although its rows leave no freedom (A04)",
@@ -61,6 +62,7 @@ const FIXED: &[(&str, &str)] = &[
     ("free-body", include_str!("catalogue/free-body.json")),
     ("free-body-flip", include_str!("catalogue/free-body-flip.json")),
     ("free-fall", include_str!("catalogue/free-fall.json")),
+    ("heavy-top", include_str!("catalogue/heavy-top.json")),
     ("bricard", include_str!("catalogue/bricard.json")),
     ("spatial-slider-crank", include_str!("catalogue/spatial-slider-crank.json")),
 ];

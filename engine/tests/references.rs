@@ -81,3 +81,16 @@ fn the_falling_body_follows_its_reference() {
         assert!(found < 1e-10, "{found:e}");
     }
 }
+
+#[test]
+fn the_heavy_top_follows_its_scalar_equation() {
+    for kind in KINDS {
+        let columns = ["rx[m]", "ry", "rz", "px[m]", "py", "pz"];
+        let found = deviation("heavy-top", kind, include_str!("data/heavy-top.csv"), &columns, |frame| {
+            let top = &frame.bodies[0];
+            let rim = [0, 1, 2].map(|k| top.position[k] + 0.15 * top.u[k]);
+            [top.position, rim].concat()
+        });
+        assert!(found < 1e-9, "{found:e}");
+    }
+}
