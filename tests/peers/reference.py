@@ -1,0 +1,190 @@
+"""References that owe nothing to Triad: minimal coordinates, integrated by extrapolation until nothing changes.
+
+`python3 reference.py heavy-top` prints the table that `engine/tests/data/heavy-top.csv` holds.
+"""
+
+import math
+import sys
+
+import numpy as np
+
+EVERY = 0.01
+"""Interval of the samples, s."""
+
+X = np.longdouble
+"""Extended precision (64 bits of mantissa where the machine has it)."""
+
+
+def extrapolated(f, y, step, order):
+    """One step of Gragg, Bulirsch and Stoer: the modified midpoint rule with 2, 4, …, `order` parts, extrapolated."""
+    table = []
+    for k in range(1, order // 2 + 1):
+        parts = 2 * k
+        h = step / parts
+        before, now = y, y + h * f(y)
+        for _ in range(parts - 1):
+            before, now = now, before + 2 * h * f(now)
+        row = [(before + now + h * f(now)) / 2]
+        for j in range(1, k):
+            ratio = (parts / (2 * (k - j))) ** 2
+            row.append(row[j - 1] + (row[j - 1] - table[-1][j - 1]) / (ratio - 1))
+        table.append(row)
+    return table[-1][-1]
+
+
+def solve(f, y, duration, parts=2, order=16):
+    """States at multiples of EVERY, `parts` steps in each interval."""
+    states = [y]
+    for _ in range(round(duration / EVERY)):
+        for _ in range(parts):
+            y = extrapolated(f, y, y.dtype.type(EVERY) / parts, order)
+        states.append(y)
+    return np.array(states)
+
+
+def converged(f, y, duration, points, parts=1, order=16):
+    """Points along the solution, and the largest change from twice the steps."""
+    coarse, fine = (points(solve(f, y, duration, n, order)) for n in (parts, 2 * parts))
+    change = np.linalg.norm((fine - coarse).astype(float), axis=-1).max()
+    return fine.astype(float), float(change)
+
+
+def angle(kappa, start, rate, duration):
+    """φ̈ = κ sin φ; the point (sin φ, cos φ, 0)."""
+
+    def points(states):
+        phi = states[:, 0]
+        return np.stack([np.sin(phi), np.cos(phi), 0 * phi], axis=-1)[:, None, :]
+
+    return converged(lambda y: np.array([y[1], X(kappa) * np.sin(y[0])]), np.array([X(start), X(rate)]), duration, points)
+
+
+def pendulum(duration):
+    """A01: φ from the upward vertical, released at −π/2."""
+    return angle(X("9.81"), -np.arctan(X(1)) * 2, 0, duration)
+
+
+def four_bar(windows, duration):
+    """A02: all uprights turn by φ; N couplers shift with their tips."""
+    kappa = X("9.81") * 3 * (3 * windows + 1) / (2 * (4 * X(windows) + 1))
+    return angle(kappa, 0, 1, duration)
+
+
+class Top:
+    """Lagrange's top of the scene `heavy-top`, with Euler's angles z-x-z; both momenta about axes are constant."""
+
+    MASS, HEIGHT, RADIUS, SPIN, GRAVITY = X(1), X("0.2"), X("0.15"), X(60), X("9.81")
+    AXIAL = MASS * RADIUS**2 / 2
+    ACROSS = MASS * RADIUS**2 / 4 + MASS * HEIGHT**2
+    TILT = 4 * np.arctan(X(1)) / 3
+
+    def rates(self, y):
+        """Rates of θ, θ̇, φ, ψ."""
+        theta, nod = y[0], y[1]
+        sine, cosine = np.sin(theta), np.cos(theta)
+        spin = self.AXIAL * self.SPIN
+        precession = spin * (np.cos(self.TILT) - cosine) / (self.ACROSS * sine**2)
+        weight = self.MASS * self.GRAVITY * self.HEIGHT
+        moment = (self.ACROSS * precession**2 * cosine - spin * precession + weight) * sine
+        return np.array([nod, moment / self.ACROSS, precession, self.SPIN - precession * cosine])
+
+    def angles(self, duration, parts):
+        """θ, θ̇, φ, ψ at the samples."""
+        return solve(self.rates, np.array([self.TILT, X(0), X(0), X(0)]), duration, parts)
+
+    def points(self, states):
+        """Centre of mass, and the point of the rim that starts at the body's x."""
+        theta, phi, psi = states[:, 0], states[:, 2], states[:, 3]
+        zero = 0 * theta
+        along = np.stack([np.cos(phi), np.sin(phi), zero], axis=-1)
+        side = np.stack([-np.sin(phi) * np.cos(theta), np.cos(phi) * np.cos(theta), np.sin(theta)], axis=-1)
+        axis = np.stack([np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], axis=-1)
+        turned = np.cos(psi)[:, None] * along + np.sin(psi)[:, None] * side
+        centre = self.HEIGHT * axis
+        return np.stack([centre, centre + self.RADIUS * turned], axis=1)
+
+    def reference(self, duration):
+        """Points at the samples, and the largest change from twice the steps."""
+        coarse, fine = (self.points(self.angles(duration, parts)) for parts in (1, 2))
+        return fine.astype(float), float(np.linalg.norm((fine - coarse).astype(float), axis=-1).max())
+
+
+def chain(rods, duration):
+    """The far ends of the chain's rods: joint quaternions and Pinocchio's recursion, its accuracy that of doubles."""
+    import pinocchio as pin
+
+    from problems import chain_model
+
+    model, quaternions, rates = chain_model(pin, rods)
+    data = model.createData()
+    torque = np.zeros(model.nv)
+    n = model.nq
+
+    def f(y):
+        q, v = y[:n], y[n:]
+        unit = (q.reshape(-1, 4) / np.linalg.norm(q.reshape(-1, 4), axis=1)[:, None]).ravel()
+        change = np.empty(n + model.nv)
+        w, e = v.reshape(-1, 3), q.reshape(-1, 4)
+        change[:n].reshape(-1, 4)[:, :3] = 0.5 * (e[:, 3:] * w + np.cross(e[:, :3], w))
+        change[:n].reshape(-1, 4)[:, 3] = -0.5 * (e[:, :3] * w).sum(axis=1)
+        change[n:] = pin.aba(model, data, unit, v, torque)
+        return change
+
+    def points(states):
+        return np.array([chain_ends(state[:n].reshape(-1, 4)) for state in states])
+
+    return converged(f, np.concatenate([quaternions, rates]), duration, points, order=12)
+
+
+def chain_ends(quaternions):
+    """Far ends of rods of 1 m along their x, from the quaternions (x, y, z, w) of their joints."""
+    turn, end, ends = np.eye(3), np.zeros(3), []
+    for e in quaternions:
+        x, y, z, w = e / np.linalg.norm(e)
+        turn = turn @ np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+        end = end + turn[:, 0]
+        ends.append(end)
+    return np.array(ends)
+
+
+def between(samples, times):
+    """Points at any times, by a polynomial through the 14 samples about each."""
+    width = min(14, len(samples))
+    found = np.empty((len(times), *samples.shape[1:]))
+    for row, time in enumerate(times):
+        place = time / EVERY
+        if abs(place - round(place)) < 1e-9:
+            found[row] = samples[round(place)]
+            continue
+        first = min(max(math.floor(place) - width // 2 + 1, 0), len(samples) - width)
+        local = place - first
+        factors = np.array([(-1) ** k * math.comb(width - 1, k) / (local - k) for k in range(width)])
+        found[row] = np.tensordot(factors / factors.sum(), samples[first : first + width], axes=1)
+    return found
+
+
+def main():
+    """Prints the table of the heavy top."""
+    if sys.argv[1:] != ["heavy-top"]:
+        sys.exit("usage: reference.py heavy-top")
+    top, duration = Top(), 5
+    states = top.angles(duration, 2)
+    points = top.points(states)
+    change = abs(points - top.points(top.angles(duration, 1))).max()
+    print("# Lagrange's top (scene heavy-top): Euler's angles z-x-z with the two constant momenta, GBS extrapolation of")
+    print(f"# order 16 in extended precision; twice the steps change it by {float(change):.0e}. Made by tests/peers/reference.py.")
+    print("# r: centre of mass; p: the point of the rim that starts at the body's x")
+    print("t[s],theta[rad],phi,psi,rx[m],ry,rz,px[m],py,pz")
+    for k in range(0, len(states), 10):
+        numbers = [*states[k, [0, 2, 3]], *points[k].ravel()]
+        print(",".join([f"{k * EVERY:.1f}", *(f"{np.float64(x):.16g}" for x in numbers)]))
+
+
+if __name__ == "__main__":
+    main()
