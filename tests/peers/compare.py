@@ -74,9 +74,9 @@ class Program:
         seconds = self.ask(1, setting, self.file)[0]
         if seconds < 0.1:
             # Short runs are easily disturbed.
-            seconds = min(seconds, *self.ask(4, setting))
+            seconds = min(seconds, *self.ask(2, setting))
         table = np.fromfile(self.file, dtype="<f8").reshape(-1, 1 + truth[0].size)
-        if table[-1, 0] < (len(truth) - 1) * reference.EVERY - 1e-6:
+        if table[-1, 0] < (len(truth) - 1) * reference.GRID - 1e-6:
             raise RuntimeError(f"stopped at {table[-1, 0]:.3f} s")
         points = table[:, 1:].reshape(-1, *truth.shape[1:])
         distance = np.linalg.norm(points - reference.between(truth, table[:, 0]), axis=-1).max()
@@ -87,8 +87,8 @@ def sweep(program, families, truth, options):
     """Tries families of settings from coarse to fine; returns what was found."""
     found = []
     left = options.budget
-    for number, (family, settings) in enumerate(families.items()):
-        begin, share = time.monotonic(), left / (len(families) - number)
+    for family, settings in families.items():
+        begin = time.monotonic()
         best, worse = np.inf, 0
         for setting in settings[:: 2 if options.quick else 1]:
             row = {"family": family, "setting": setting, "error": None, "seconds": None, "failure": None}
@@ -100,10 +100,13 @@ def sweep(program, families, truth, options):
             gained = row["error"] is not None and np.isfinite(row["error"]) and row["error"] < 0.9 * best
             best, worse = (row["error"], 0) if gained else (best, worse + 1)
             spent = time.monotonic() - begin
+            row["last"] = spent > left or (row["seconds"] or 0) > options.limit
             # What failed or became worse three times will not become better.
-            if best < ENOUGH or worse > 2 or spent > share or (row["seconds"] or 0) > options.limit:
+            if best < ENOUGH or worse > 2 or row["last"]:
                 break
         left -= time.monotonic() - begin
+        if left <= 0:
+            break
     return found
 
 

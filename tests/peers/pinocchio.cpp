@@ -5,9 +5,8 @@
 // gain=K (Baumgarte with K^2 and 2 K) and mu=M (the proximal parameter of Pinocchio's solver).
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -255,9 +254,9 @@ std::string measure(Mechanism &m, double duration, const std::string &line) {
   std::ostringstream times;
   times.precision(9);
   for (int i = 0; i < repeats; ++i) {
-    auto start = std::chrono::steady_clock::now();
+    const auto start = std::clock();
     integrate(plant, m, duration, settings, [](double, const Vector &) {});
-    times << (i ? ", " : "") << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    times << (i ? ", " : "") << static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   }
   return "{\"times\": [" + times.str() + "]}";
 }

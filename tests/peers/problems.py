@@ -29,7 +29,7 @@ class Problem:
     compared: str
 
     def reference(self):
-        """Points every 0.01 s, and the largest change when the steps of the reference are halved."""
+        """Points at multiples of `reference.GRID`, and their largest difference from steps twice as long."""
         match self.kind:
             case "pendulum":
                 return reference.pendulum(self.duration)

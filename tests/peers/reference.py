@@ -8,8 +8,8 @@ import sys
 
 import numpy as np
 
-EVERY = 0.01
-"""Interval of the samples, s."""
+GRID = 0.0025
+"""Interval of the references, s: a quarter of the interval of comparison, so that they can be read between too."""
 
 X = np.longdouble
 """Extended precision (64 bits of mantissa where the machine has it)."""
@@ -32,20 +32,19 @@ def extrapolated(f, y, step, order):
     return table[-1][-1]
 
 
-def solve(f, y, duration, parts=2, order=16):
-    """States at multiples of EVERY, `parts` steps in each interval."""
+def solve(f, y, duration, step=GRID, order=12):
+    """States at multiples of a step."""
     states = [y]
-    for _ in range(round(duration / EVERY)):
-        for _ in range(parts):
-            y = extrapolated(f, y, y.dtype.type(EVERY) / parts, order)
+    for _ in range(round(duration / step)):
+        y = extrapolated(f, y, y.dtype.type(step), order)
         states.append(y)
     return np.array(states)
 
 
-def converged(f, y, duration, points, parts=1, order=16):
-    """Points along the solution, and the largest change from twice the steps."""
-    coarse, fine = (points(solve(f, y, duration, n, order)) for n in (parts, 2 * parts))
-    change = np.linalg.norm((fine - coarse).astype(float), axis=-1).max()
+def converged(f, y, duration, points, order=10):
+    """Points at multiples of GRID, and the largest difference from steps twice as long."""
+    fine, coarse = (points(solve(f, y, duration, step, order)) for step in (GRID, 2 * GRID))
+    change = np.linalg.norm((fine[::2] - coarse).astype(float), axis=-1).max()
     return fine.astype(float), float(change)
 
 
@@ -88,9 +87,9 @@ class Top:
         moment = (self.ACROSS * precession**2 * cosine - spin * precession + weight) * sine
         return np.array([nod, moment / self.ACROSS, precession, self.SPIN - precession * cosine])
 
-    def angles(self, duration, parts):
-        """θ, θ̇, φ, ψ at the samples."""
-        return solve(self.rates, np.array([self.TILT, X(0), X(0), X(0)]), duration, parts)
+    def start(self):
+        """θ, θ̇, φ, ψ at the start."""
+        return np.array([self.TILT, X(0), X(0), X(0)])
 
     def points(self, states):
         """Centre of mass, and the point of the rim that starts at the body's x."""
@@ -104,9 +103,8 @@ class Top:
         return np.stack([centre, centre + self.RADIUS * turned], axis=1)
 
     def reference(self, duration):
-        """Points at the samples, and the largest change from twice the steps."""
-        coarse, fine = (self.points(self.angles(duration, parts)) for parts in (1, 2))
-        return fine.astype(float), float(np.linalg.norm((fine - coarse).astype(float), axis=-1).max())
+        """Points, and the largest difference from steps twice as long."""
+        return converged(self.rates, self.start(), duration, self.points)
 
 
 def chain(rods, duration):
@@ -133,7 +131,7 @@ def chain(rods, duration):
     def points(states):
         return np.array([chain_ends(state[:n].reshape(-1, 4)) for state in states])
 
-    return converged(f, np.concatenate([quaternions, rates]), duration, points, order=12)
+    return converged(f, np.concatenate([quaternions, rates]), duration, points, order=10)
 
 
 def chain_ends(quaternions):
@@ -158,7 +156,7 @@ def between(samples, times):
     width = min(14, len(samples))
     found = np.empty((len(times), *samples.shape[1:]))
     for row, time in enumerate(times):
-        place = time / EVERY
+        place = time / GRID
         if abs(place - round(place)) < 1e-9:
             found[row] = samples[round(place)]
             continue
@@ -174,16 +172,15 @@ def main():
     if sys.argv[1:] != ["heavy-top"]:
         sys.exit("usage: reference.py heavy-top")
     top, duration = Top(), 5
-    states = top.angles(duration, 2)
-    points = top.points(states)
-    change = abs(points - top.points(top.angles(duration, 1))).max()
+    states = solve(top.rates, top.start(), duration)
+    points, change = top.points(states), top.reference(duration)[1]
     print("# Lagrange's top (scene heavy-top): Euler's angles z-x-z with the two constant momenta, GBS extrapolation of")
-    print(f"# order 16 in extended precision; twice the steps change it by {float(change):.0e}. Made by tests/peers/reference.py.")
+    print(f"# order 12 in extended precision; steps twice as long change it by {change:.0e}. Made by tests/peers/reference.py.")
     print("# r: centre of mass; p: the point of the rim that starts at the body's x")
     print("t[s],theta[rad],phi,psi,rx[m],ry,rz,px[m],py,pz")
-    for k in range(0, len(states), 10):
+    for k in range(0, len(states), 40):
         numbers = [*states[k, [0, 2, 3]], *points[k].ravel()]
-        print(",".join([f"{k * EVERY:.1f}", *(f"{np.float64(x):.16g}" for x in numbers)]))
+        print(",".join([f"{k * GRID:.1f}", *(f"{np.float64(x):.16g}" for x in numbers)]))
 
 
 if __name__ == "__main__":

@@ -25,11 +25,11 @@ def pinocchio(problem):
             "RK4": [{"integrator": "rk4", "rate": n} for n in RATES],
         }
     found = {}
-    for gain, mu in ((10, "1e-6"), (10, "1e-8"), (10, "1e-10")):
+    for gain, mu in ((50, "1e-8"), (50, "1e-6"), (10, "1e-8")):
         loop = {"gain": gain, "mu": mu}
-        found[f"DOP853, mu {mu}"] = [{"integrator": "dop853", "tolerance": t, **loop} for t in powers(2, 13, each=1)]
-        if mu == "1e-8":
-            found[f"RK4, mu {mu}"] = [{"integrator": "rk4", "rate": n, **loop} for n in RATES]
+        name = f"gain {gain}, mu {mu}"
+        found[f"RK4, {name}"] = [{"integrator": "rk4", "rate": n, **loop} for n in RATES]
+        found[f"DOP853, {name}"] = [{"integrator": "dop853", "tolerance": t, **loop} for t in powers(4, 13, each=1)]
     return found
 
 
