@@ -28,8 +28,8 @@ def pinocchio(problem):
     for gain, mu in ((50, "1e-8"), (50, "1e-6"), (10, "1e-8")):
         loop = {"gain": gain, "mu": mu}
         name = f"gain {gain}, mu {mu}"
-        found[f"RK4, {name}"] = [{"integrator": "rk4", "rate": n, **loop} for n in RATES]
         found[f"DOP853, {name}"] = [{"integrator": "dop853", "tolerance": t, **loop} for t in powers(4, 13, each=1)]
+        found[f"RK4, {name}"] = [{"integrator": "rk4", "rate": n, **loop} for n in RATES]
     return found
 
 
@@ -44,7 +44,7 @@ def mujoco(problem):
         f"{integrator}, {constant} steps": [
             {"integrator": integrator, "rate": n, "impedance": "0.9999", "constant": constant} for n in FIRST_ORDER
         ]
-        for integrator in ("RK4", "implicitfast", "discrete")
+        for integrator in ("discrete", "implicitfast", "RK4")
         for constant in (2, 4)
     }
 

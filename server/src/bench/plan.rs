@@ -133,6 +133,7 @@ impl Plan {
                 converged("bricard", 10.0),
                 converged("spatial-slider-crank", 5.0),
                 converged("spatial-double-pendulum", 10.0),
+                converged("heavy-top", 5.0),
                 converged("spatial-chain:10", 2.0),
                 converged("spatial-chain:100", 2.0),
             ],
