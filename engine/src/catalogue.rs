@@ -36,7 +36,10 @@ pub const ENTRIES: &[Entry] = &[
     Entry { name: "free-body", summary: "A torque-free body with three different moments of inertia (C01)" },
     Entry { name: "free-body-flip", summary: "The same body turning about its middle axis: it flips (C01)" },
     Entry { name: "free-fall", summary: "A body thrown and tumbling (C03)" },
-    Entry { name: "heavy-top", summary: "Lagrange's top, let go with a spin: it nods to cusps and goes round" },
+    Entry {
+        name: "heavy-top",
+        summary: "Lagrange's top, let go with a spin: it nods to cusps and goes round",
+    },
     Entry {
         name: "bricard",
         summary: "Six revolute joints in a loop that moves although its rows leave no freedom (A04)",
