@@ -309,6 +309,23 @@ impl Elimination {
         }
     }
 
+    /// Takes over multipliers that were found elsewhere, by solver row; positions must be in place.
+    pub fn take_multipliers(&mut self, system: &System, multiplier: impl Fn(usize) -> f64) {
+        self.fill_blocks(system);
+        for (row, lambda) in self.lambda.iter_mut().enumerate() {
+            *lambda = multiplier(row);
+        }
+    }
+
+    /// Rewrites the multipliers of a common vector, given along two other directions across it.
+    pub fn turn_multipliers(&mut self, system: &System, index: usize, [t1, t2]: [Vector3<f64>; 2]) {
+        let first = system.rows[index].solver;
+        let sum = t1 * self.lambda[first] + t2 * self.lambda[first + 1];
+        for k in 0..2 {
+            self.lambda[first + k] = self.transverse[index][k].dot(&sum);
+        }
+    }
+
     /// The rows A_b of an incidence, six numbers each: translation, then rotation.
     pub fn rows_on(&self, system: &System, incidence: usize) -> &[f64] {
         let incidence = &system.incidences[incidence];

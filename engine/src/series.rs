@@ -211,6 +211,7 @@ impl<const L: usize> Series<L> {
             self.store_values(1);
         }
         self.rows.clear_extra();
+        self.rows.keep_directions();
         self.counters.evaluations += 1;
         let order = order.min(self.stride - 1);
         for n in 0..=order.saturating_sub(2) {
@@ -348,12 +349,6 @@ impl<const L: usize> Series<L> {
         let numbers = self.state.as_flattened().as_flattened().as_flattened().as_flattened();
         // Zero times infinity or NaN is NaN.
         numbers.iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
-    }
-
-    /// Multipliers of the solver rows as coefficients of order n.
-    pub fn multipliers(&self, n: usize) -> &[f64] {
-        let rows = self.correction.len();
-        &self.lambda[n * rows..(n + 1) * rows]
     }
 }
 

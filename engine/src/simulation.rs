@@ -137,7 +137,7 @@ impl Simulation {
         mechanism.elimination.counters = Counters::default();
         mechanism.set_state(0.0, &start);
         let start_energy = mechanism.elimination.energy(&mechanism.system);
-        let (kind, reason) = integrate::choose(&mechanism);
+        let (kind, reason) = integrate::choose(&mechanism, &start);
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
         let exchanges_energy = balance::exchanges_energy(&mechanism.system);
@@ -490,6 +490,18 @@ impl Simulation {
     pub fn multipliers(&mut self) -> Vec<JointMultipliers> {
         self.accelerations();
         reaction::multipliers(&self.mechanism.system, &self.mechanism.elimination)
+    }
+
+    /// The same, read off the series of the last step where the integrator has them: without an evaluation, and as exact
+    /// as the tolerance makes the accelerations. For pictures of many moments.
+    pub fn multipliers_between_steps(&mut self) -> Vec<JointMultipliers> {
+        self.mechanism.set_state(self.time, &self.shown);
+        if let Integrator::Taylor(series) = &self.integrator
+            && series.give_multipliers(&mut self.mechanism, self.time)
+        {
+            return reaction::multipliers(&self.mechanism.system, &self.mechanism.elimination);
+        }
+        self.multipliers()
     }
 
     /// Reactions of joints and drivers at the shown state, with what is unique about them.

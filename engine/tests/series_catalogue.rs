@@ -110,11 +110,28 @@ fn agrees(what: &str, value: &Value) {
             let error = distance(&places(&mut series), expected);
             assert!(error < 3e-9, "{what}, {coordinates}, t = {t}: off by {error:e}");
         }
+        if series.rank().dependent.is_empty() {
+            agrees_on_multipliers(what, &mut series);
+        }
         let summary = series.summary();
         assert_eq!(summary.integrator, IntegratorKind::Taylor);
         assert!(summary.energy_drift.abs() < 1e-9, "{what}, {coordinates}: {:e} J", summary.energy_drift);
         assert!((summary.work - work).abs() < 1e-7, "{what}: work {} against {work}", summary.work);
         assert!(summary.steps < 200, "{what}, {coordinates}: {} steps", summary.steps);
+    }
+}
+
+/// The polynomials of multipliers against an evaluation, within a step: reactions are forces of some newtons.
+fn agrees_on_multipliers(what: &str, series: &mut Simulation) {
+    let work = series.summary().evaluations;
+    let fast = series.multipliers_between_steps();
+    assert_eq!(series.summary().evaluations, work);
+    for (fast, exact) in fast.iter().zip(series.multipliers()) {
+        let error = distance(&fast.force, &exact.force).max(distance(&fast.moment, &exact.moment));
+        assert!(error < 1e-6, "{what}: reaction of {} off by {error:e}", exact.joint);
+        for (a, b) in fast.rows.iter().zip(&exact.rows) {
+            assert!((a.value - b.value).abs() < 1e-6, "{what}: {} of {}", b.label, exact.joint);
+        }
     }
 }
 

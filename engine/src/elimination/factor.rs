@@ -37,7 +37,7 @@ impl Elimination {
         pivots
     }
 
-    fn fill_blocks(&mut self, system: &System) {
+    pub(super) fn fill_blocks(&mut self, system: &System) {
         self.a.fill(0.0);
         for (index, row) in system.rows.iter().enumerate() {
             match row.form {

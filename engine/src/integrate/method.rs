@@ -17,11 +17,20 @@ pub enum Integrator {
 }
 
 /// The integrator that a scene asks for, or the best one for it, and the reason.
-pub fn choose(mechanism: &Mechanism) -> (IntegratorKind, String) {
+///
+/// y is the state at time 0, which must be in place in the mechanism.
+pub fn choose(mechanism: &Mechanism, y: &[f64]) -> (IntegratorKind, String) {
     let settings = &mechanism.system.model.settings;
     let baumgarte = settings.stabilization != Stabilization::Projection;
     let obstacle = baumgarte.then(|| "Baumgarte's stabilization belongs to Runge-Kutta methods".to_owned());
+    let crowded = || Taylor::new(mechanism, 0.0, y, settings.tolerance).crowded(settings.duration);
     match (settings.integrator, obstacle) {
+        (IntegratorKind::Auto, None) if crowded() => (
+            IntegratorKind::Dop853,
+            "the knots of prescribed motions follow so closely that a series would end at each of them long before its \
+             reach"
+                .to_owned(),
+        ),
         (IntegratorKind::Auto, None) => (
             IntegratorKind::Taylor,
             "every row and load of the scene has a recurrence, so that one factorization serves a whole step"

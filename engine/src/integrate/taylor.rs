@@ -11,6 +11,10 @@ use crate::system::System;
 
 /// Highest order.
 pub const MAX_ORDER: usize = 30;
+/// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
+const CROWDED: f64 = 0.1;
+/// Most knots that are counted.
+const MOST_KNOTS: usize = 100_000;
 /// The series, bundled as suits the number of bodies.
 #[derive(Clone, Debug)]
 enum Engine {
@@ -83,6 +87,16 @@ impl Taylor {
         }
     }
 
+    /// Whether knots of prescribed functions follow so closely until `end` that steps, which end at each of them, would be
+    /// far shorter than the series allow.
+    pub fn crowded(&mut self, end: f64) -> bool {
+        let (t, order, tolerance) = (self.t, self.order, self.tolerance);
+        with!(&mut self.engine, s => {
+            let knots = s.knots_before(end, MOST_KNOTS);
+            knots > 0 && (end - t) / (knots as f64) < CROWDED * s.natural_step(order, tolerance)
+        })
+    }
+
     /// End of the last step.
     pub fn time(&self) -> f64 {
         self.t
@@ -136,6 +150,16 @@ impl Taylor {
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J.
     pub fn work_to(&self, t: f64) -> f64 {
         with!(&self.engine, s => s.work((t - self.t_old).clamp(0.0, self.h_old)))
+    }
+
+    /// Gives the mechanism, which stands at time t within the last step, the multipliers of that moment. Tells whether the
+    /// series have them.
+    pub fn give_multipliers(&self, mechanism: &mut Mechanism, t: f64) -> bool {
+        let Mechanism { system, elimination, .. } = mechanism;
+        let tau = t - self.t_old;
+        self.h_old > 0.0
+            && (0.0..=self.h_old).contains(&tau)
+            && with!(&self.engine, s => s.give_multipliers(system, tau, self.order_old, elimination))
     }
 
     /// Writes y(t) within the last step.

@@ -2,6 +2,8 @@
 //! the power of what drivers and loads bring in — eq. (11.8).
 
 use super::Series;
+use crate::elimination::Elimination;
+use crate::system::System;
 
 impl<const L: usize> Series<L> {
     /// What rows demand of κ Q_(n+2) beyond its own part.
@@ -54,12 +56,37 @@ impl<const L: usize> Series<L> {
         self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
     }
 
+    /// Gives the elimination, which stands at the state a time τ after the point of the last expansion, the multipliers of
+    /// that moment from the series up to order `order` of Q. Not where rows are redundant: which of all multipliers that fit
+    /// are smallest changes within a step.
+    pub fn give_multipliers(&self, system: &System, tau: f64, order: usize, to: &mut Elimination) -> bool {
+        if self.redundant || order < 2 {
+            return false;
+        }
+        let rows = self.correction.len();
+        let last = (order - 1) * rows;
+        to.take_multipliers(system, |row| {
+            let coefficients = self.lambda[..last].iter().skip(row).step_by(rows);
+            coefficients.rev().fold(0.0, |sum, c| sum * tau + c)
+        });
+        for common in &self.rows.commons {
+            to.turn_multipliers(system, common.index, common.expanded.map(Into::into));
+        }
+        true
+    }
+
     /// Takes over the time of the state, s: prescribed functions are expanded about it.
     pub fn set_time(&mut self, t: f64) {
         self.time = t;
         self.prescribed.expand(t, &mut self.slots, &mut self.ground);
         self.loads.expand(t);
         self.next_break = self.prescribed.next_break(t).min(self.loads.next_break(t));
+    }
+
+    /// How many times prescribed functions change to another piece before `end`, at most so many.
+    pub fn knots_before(&self, end: f64, most: usize) -> usize {
+        let next = |&t: &f64| Some(self.prescribed.next_break(t).min(self.loads.next_break(t)));
+        std::iter::successors(Some(self.next_break), next).take(most).take_while(|&t| t < end).count()
     }
 
     /// Whether prescribed functions are, a time h after the point of expansion, what their series say, but for a

@@ -57,8 +57,12 @@ pub struct CommonVector {
     a: Place,
     b: Place,
     row: usize,
-    /// The two directions.
+    /// Its place among the system's rows.
+    pub index: usize,
+    /// The two directions where S was factored last.
     pub across: [[f64; 3]; 2],
+    /// The two directions that the series at hand are written in.
+    pub expanded: [[f64; 3]; 2],
 }
 
 /// L rows x · y − c = 0.
@@ -100,14 +104,15 @@ impl<const L: usize> Rows<L> {
         };
         let at = |f: FeatureId| place[f];
         let pair = |d: Difference| [at(d.plus), d.minus.map_or(nowhere, at)];
-        for row in &system.rows {
+        for (index, row) in system.rows.iter().enumerate() {
             match row.form {
                 Form::Coincidence { a, b } => {
                     rows.coincidences.push(Coincidence { a: at(a), b: at(b), row: row.solver });
                 }
                 Form::CommonVector { a, b } => {
                     let (a, b) = (at(a), at(b));
-                    rows.commons.push(CommonVector { a, b, row: row.solver, across: [[0.0; 3]; 2] });
+                    let (across, expanded) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
+                    rows.commons.push(CommonVector { a, b, row: row.solver, index, across, expanded });
                 }
                 Form::Product { a, b, .. } => rows.add_product([pair(a), pair(b)], row.solver, nowhere),
                 Form::Relation { .. } => {}
@@ -142,6 +147,14 @@ impl<const L: usize> Rows<L> {
         for row in &mut self.commons {
             let s = Vector3::from(row.a.get(values));
             row.across = across(&(s / s.norm())).map(Into::into);
+        }
+    }
+
+    /// Series are expanded in the directions at hand.
+    #[inline(always)]
+    pub fn keep_directions(&mut self) {
+        for row in &mut self.commons {
+            row.expanded = row.across;
         }
     }
 

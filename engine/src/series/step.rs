@@ -102,6 +102,12 @@ impl<const L: usize> Series<L> {
         Arch::new().dispatch(Step(self, plan))
     }
 
+    /// The step that the series at the state allow, at which S must be factored, if no knot were in the way, s.
+    pub fn natural_step(&mut self, order: usize, tolerance: f64) -> f64 {
+        self.expand(order, |_, _| false);
+        self.reach(order, self.allowance(tolerance)).0
+    }
+
     #[inline(always)]
     fn step_here(&mut self, plan: Plan) -> Taken {
         // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.

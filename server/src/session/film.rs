@@ -166,7 +166,7 @@ pub(crate) fn cast(scene: &Scene, simulation: &mut Simulation) -> Cast {
 pub(crate) fn sample(simulation: &mut Simulation) -> Sample {
     let frame = simulation.frame();
     let summary = simulation.summary();
-    let reactions = simulation.multipliers().into_iter().map(|joint| Reaction {
+    let reactions = simulation.multipliers_between_steps().into_iter().map(|joint| Reaction {
         at: joint.about,
         force: joint.force,
         multipliers: joint.rows.iter().map(|row| row.value).collect(),
