@@ -253,3 +253,24 @@ fn drivers_of_every_kind_with_every_motion() {
         "reference": { "kind": "turning", "start": [0, 0, 1], "axis": [1, 1, 0], "angle": turn }, "motion": wave }])),
     );
 }
+
+/// Loads with functions of their own (tanh, square roots, angles): the error follows the tolerance over eight decades.
+#[test]
+fn errors_follow_the_tolerance() {
+    let value = with_loads(&json!([
+        { "type": "torsion", "name": "t", "joint": "pin", "stiffness": 15, "friction": { "coulomb": 0.8, "smoothing": 0.2 } },
+        { "type": "spring", "name": "s", "body_i": "a", "point_i": [0, 0.5, 0], "body_j": "c", "point_j": [0.2, 0, 0.1],
+            "stiffness": 30, "free_length": 0.8, "damping": 0.7 },
+    ]));
+    let run = |tolerance: f64| {
+        let mut run =
+            Simulation::new(&scene(value.clone(), "full", tolerance, IntegratorKind::Taylor)).unwrap();
+        run.advance_to(1.99).unwrap();
+        places(&mut run)
+    };
+    let exact = run(1e-14);
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+        let error = distance(&run(tolerance), &exact);
+        assert!(error < 300.0 * tolerance + 1e-12, "{tolerance:e}: {error:e}");
+    }
+}
