@@ -47,6 +47,10 @@ pub mod jacobian;
 
 pub mod literal;
 
+pub mod parts;
+
+pub mod plane;
+
 pub mod series;
 
 pub mod rank;

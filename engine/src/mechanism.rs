@@ -11,6 +11,8 @@ use crate::trust;
 const NEGLIGIBLE: f64 = 0.1;
 /// |Φ| and |Φ̇| relative to the size of the mechanism below which a state is consistent.
 const CONSISTENT: f64 = 1e-13;
+/// A step of assembly that is below this part of the mechanism's size and does not shrink any more is rounding.
+const STALLED: f64 = 1e-9;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
@@ -63,13 +65,17 @@ impl Mechanism {
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
         let (opening, _) = self.elimination.violation(&self.system);
+        let mut last = f64::INFINITY;
         for _ in 0..40 {
             self.elimination.linearize(&self.system);
             let step = self.elimination.correct_positions(&self.system, &mut y[..n]);
             self.elimination.place(&self.system, &y[..n]);
-            if step.is_nan() || step <= CONSISTENT * length {
+            // In a long chain rounding keeps the steps from shrinking further.
+            let stalled = step > 0.5 * last && step <= STALLED * length;
+            if step.is_nan() || step <= CONSISTENT * length || stalled {
                 break;
             }
+            last = step;
         }
         let left = trust::opening(&self.system, &self.elimination).relative;
         let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));

@@ -152,6 +152,7 @@ pub fn reference(case: &Case) -> Result<Vec<f64>, PaperError> {
         integrator: IntegratorKind::Dop853,
         tolerance: REFERENCE_TOLERANCE,
         stabilization: Stabilization::Projection,
+        ..Settings::default()
     };
     let mut simulation = Simulation::new(&scene)?;
     let mut tracked = Vec::new();

@@ -66,12 +66,16 @@ fn moved_away(system: &System, elimination: &mut Elimination, q: &[f64]) -> Vec<
     for (q, v) in q.iter_mut().zip(&velocity) {
         *q += scale * v;
     }
+    let mut last = f64::INFINITY;
     for _ in 0..12 {
         elimination.place(system, &q);
         elimination.linearize(system);
-        if elimination.correct_positions(system, &mut q) < 1e-14 {
+        let step = elimination.correct_positions(system, &mut q);
+        // Close enough for a rank, or no longer shrinking.
+        if step < 1e-14 || (step < 1e-10 * system.length && step > 0.5 * last) {
             break;
         }
+        last = step;
     }
     q
 }

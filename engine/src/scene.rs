@@ -21,7 +21,7 @@ pub use joint::{AxisRows, Joint, JointKind};
 pub use load::{Friction, Load, LoadFrame};
 pub use motion::{Motion, VectorMotion};
 pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places, WrittenScene};
-pub use settings::{IntegratorKind, Settings, Stabilization};
+pub use settings::{IntegratorKind, Settings, Skip, Stabilization};
 
 use error::{plain_error, syntax_error};
 use schemars::JsonSchema;

@@ -10,32 +10,37 @@
 
 mod acting;
 mod angles;
+mod bodies;
 mod bundle;
 mod lanes;
 mod layout;
 mod loads;
+mod planar;
 mod prescribed;
 mod projection;
 mod recurrence;
 mod rows;
 mod schur;
+mod slot;
 mod step;
 
+pub use bodies::Bodies;
+pub use bundle::Bundle;
+pub use planar::Planar;
 pub use step::{Plan, Taken};
 
 use crate::balance;
 use crate::elimination::Counters;
 use crate::model::BodyRef;
-use crate::row::{Form, Target};
 use crate::system::System;
 use angles::Angles;
-use bundle::{Bundle, Slot, gram, moment};
-use lanes::{Lifted, Triple, largest, zero};
-use layout::{at_rest, bundles};
+use lanes::{Triple, largest};
+use layout::bundles;
 use loads::Loads;
 use prescribed::Prescribed;
 use rows::{Place, Rows};
 use schur::Schur;
+use slot::Slot;
 
 /// Regularization of S where rows are redundant, relative to its diagonal; refinement takes its effect out again.
 ///
@@ -47,23 +52,25 @@ const NEAR_SINGULAR: f64 = 1e-9;
 /// Refinement steps where the factor is that of a regularized system, and where inertia was lent.
 const REFINEMENTS: usize = 2;
 const REFINEMENTS_LENT: usize = 3;
+/// A correction of this part of the multipliers is none.
+const ROUNDING: f64 = 1e-15;
 /// The least tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const LEAST_TOLERANCE_REDUNDANT: f64 = 1e-11;
 
 /// The series of all bodies and multipliers, and the state that they are expanded about.
 #[derive(Clone, Debug)]
-pub struct Series<const L: usize> {
+pub struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     /// Coefficients kept for each body: order plus one.
     stride: usize,
-    bundles: Vec<Bundle<L>>,
+    bundles: Vec<B>,
     slots: Vec<Slot<L>>,
     /// Position and velocity at the point of expansion, bundle by bundle.
-    state: Vec<[Lifted<L>; 2]>,
+    state: Vec<[B::Lifted; 2]>,
     /// Coefficients of Q and of the directors' forces p, `stride` for each bundle.
-    q: Vec<Lifted<L>>,
-    p: Vec<[Triple<L>; 3]>,
+    q: Vec<B::Lifted>,
+    p: Vec<B::Directors>,
     /// C⁻¹ s̃ of all features.
-    mobility: Vec<[Triple<L>; 3]>,
+    mobility: Vec<B::Mobility>,
     /// Values of features (or their rates, or second derivatives) and generalized forces on them. Those of the ground
     /// stand behind those of bodies.
     values: Vec<Triple<L>>,
@@ -92,9 +99,23 @@ pub struct Series<const L: usize> {
 }
 
 impl<const L: usize> Series<L> {
-    /// Allocates for a system, and coefficients up to order `order`; `turns` are the angles of joints at the start.
+    /// Allocates for motion in space, and coefficients up to order `order`; `turns` are the angles of joints at the
+    /// start.
     pub fn new(system: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
-        let (bundles, mut slots, mut place) = bundles::<L>(system);
+        Self::of(system, order, redundant, turns)
+    }
+}
+
+impl<const L: usize> Series<L, Planar<L>> {
+    /// The same for motion in a plane, of a system that has been reduced to it.
+    pub fn planar(system: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
+        Self::of(system, order, redundant, turns)
+    }
+}
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
+    fn of(system: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
+        let (bundles, mut slots, mut place) = bundles::<L, B>(system);
         let moving = slots.len();
         let mut ground = Vec::new();
         for (feature, place) in system.features.iter().zip(&mut place) {
@@ -108,13 +129,7 @@ impl<const L: usize> Series<L> {
         let stride = order + 1;
         let all = moving + ground.len();
         slots.shrink_to_fit();
-        let mut rows = Rows::new(system, &place, nowhere, stride);
-        rows.set_constants(|solver| {
-            system.rows.iter().find(|r| r.solver == solver).map_or(0.0, |r| match r.form {
-                Form::Product { target: Target::Constant(c), .. } => c,
-                _ => 0.0,
-            })
-        });
+        let rows = Rows::new(system, &place, nowhere, stride);
         let angles = Angles::new(system, &place, stride, turns);
         let prescribed = Prescribed::new(system, &place, L, stride);
         let loads = Loads::new(system, &place, L, stride);
@@ -127,17 +142,17 @@ impl<const L: usize> Series<L> {
             prescribed,
             loads,
             stride,
-            state: vec![[at_rest(), zero()]; bundles.len()],
-            q: vec![zero(); bundles.len() * stride],
-            p: vec![[[[0.0; L]; 3]; 3]; bundles.len() * stride],
-            mobility: vec![[[[0.0; L]; 3]; 3]; moving],
+            state: vec![[B::at_rest(), B::zero()]; bundles.len()],
+            q: vec![B::zero(); bundles.len() * stride],
+            p: vec![B::no_directors(); bundles.len() * stride],
+            mobility: vec![B::no_mobility(); moving],
             bundles,
             slots,
             values: vec![[[0.0; L]; 3]; all],
             forces: vec![[[0.0; L]; 3]; all],
             ground,
             rows,
-            schur: Schur::new(system, &place, L),
+            schur: Schur::new(system, &place, L, B::TWIST),
             lambda: vec![0.0; system.solver_rows * stride],
             correction: vec![0.0; system.solver_rows],
             redundant,
@@ -148,26 +163,35 @@ impl<const L: usize> Series<L> {
         }
     }
 
+    /// Whether entries of the matrix that never change are written once.
+    pub fn keep_constants(&mut self, keep: bool) {
+        self.schur.keep_constants = keep;
+    }
+
+    /// Entries of the matrix that were not written again.
+    pub fn constants_kept(&self) -> u64 {
+        self.schur.constants_kept
+    }
+
     /// Builds and factors S at the point of expansion.
     #[inline(always)]
     fn linearize_here(&mut self) {
-        self.values_of(|state, _| state[0]);
-        self.set_ground(true);
+        self.place_values();
         self.rows.turn_common_vectors(&self.values);
         self.rows.store_factors(0, &self.values);
         self.angles.place(&self.values);
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.linearize(&state[0]);
-            for slot in bundle.slots.clone() {
+            for slot in bundle.slots() {
                 self.mobility[slot] = bundle.half_mobility(&self.slots[slot], &state[0]);
             }
         }
         let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
-        let mut pivots = self.schur.build(&self.rows, &self.angles, &self.mobility, epsilon);
+        let mut pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, epsilon);
         self.regularized = self.redundant;
         self.counters.factorizations += 1;
         if !self.redundant && pivots.smallest < NEAR_SINGULAR {
-            pivots = self.schur.build(&self.rows, &self.angles, &self.mobility, REGULARIZATION);
+            pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, REGULARIZATION);
             self.regularized = true;
             self.counters.factorizations += 1;
         }
@@ -175,11 +199,23 @@ impl<const L: usize> Series<L> {
     }
 
     #[inline(always)]
-    fn values_of(&mut self, lifted: impl Fn(&[Lifted<L>; 2], &Bundle<L>) -> Lifted<L>) {
+    fn values_of(&mut self, lifted: impl Fn(&[B::Lifted; 2], &B) -> B::Lifted) {
         for (bundle, state) in self.bundles.iter().zip(&self.state) {
             let x = lifted(state, bundle);
-            for slot in bundle.slots.clone() {
-                self.values[slot] = self.slots[slot].of(&x);
+            for slot in bundle.slots() {
+                self.values[slot] = B::value(&self.slots[slot], &x);
+            }
+        }
+    }
+
+    /// Values of all features at the state.
+    #[inline(always)]
+    fn place_values(&mut self) {
+        self.values_of(|state, _| state[0]);
+        self.set_ground(true);
+        for bundle in &self.bundles {
+            for slot in bundle.slots() {
+                bundle.add_constant(&self.slots[slot], &mut self.values[slot]);
             }
         }
     }
@@ -201,8 +237,7 @@ impl<const L: usize> Series<L> {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
         if self.watches() {
-            self.values_of(|state, _| state[0]);
-            self.set_ground(true);
+            self.place_values();
             self.store_values(0);
             self.values_of(|state, _| state[1]);
             self.set_ground(false);
@@ -227,11 +262,11 @@ impl<const L: usize> Series<L> {
     #[inline(always)]
     fn solve_order(&mut self, n: usize) {
         let kappa = ((n + 1) * (n + 2)) as f64;
+        let over_kappa = 1.0 / kappa;
         for bundle in &mut self.bundles {
-            bundle.force = zero();
-            bundle.moment = [[0.0; L]; 3];
+            bundle.clear_force();
             if n == 0 {
-                bundle.force[0] = bundle.weight;
+                bundle.add_weight();
             }
         }
         if self.watches() {
@@ -241,19 +276,15 @@ impl<const L: usize> Series<L> {
         for (b, bundle) in self.bundles.iter_mut().enumerate() {
             let range = b * self.stride..(b + 1) * self.stride;
             let (q, p) = (&self.q[range.clone()], &self.p[range]);
-            let mut gamma = gram(q, n + 2);
-            for x in gamma.as_flattened_mut() {
-                *x *= kappa;
-            }
-            bundle.begin(&q[0], &gamma, moment(q, p, n));
+            bundle.begin(&q[0], &B::gram(q, n + 2, kappa), B::moment(q, p, n));
         }
         self.prepare_prescribed(n + 2, kappa);
         self.solve(n);
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
-            let next = self.q[at + 2].as_flattened_mut().as_flattened_mut();
-            for (q, a) in next.iter_mut().zip(bundle.solution.as_flattened().as_flattened()) {
-                *q = a / kappa;
+            let next = B::lanes_mut(&mut self.q[at + 2]).as_flattened_mut();
+            for (q, a) in next.iter_mut().zip(B::lanes(bundle.solution()).as_flattened()) {
+                *q = a * over_kappa;
             }
             self.p[at] = bundle.director_forces();
         }
@@ -263,11 +294,11 @@ impl<const L: usize> Series<L> {
             self.rows.store_multipliers(n, lambda);
             self.angles.store_multipliers(n, lambda);
             for (b, bundle) in self.bundles.iter().enumerate() {
-                for slot in bundle.slots.clone() {
-                    self.values[slot] = self.slots[slot].of(&self.q[b * self.stride + n + 2]);
+                for slot in bundle.slots() {
+                    self.values[slot] = B::value(&self.slots[slot], &self.q[b * self.stride + n + 2]);
                 }
             }
-            self.prescribed.add_known(1.0 / kappa, &mut self.values);
+            self.prescribed.add_known(over_kappa, &mut self.values);
             self.store_values(n + 2);
         }
     }
@@ -296,15 +327,16 @@ impl<const L: usize> Series<L> {
             (false, false) => 0,
         };
         self.set_ground(false);
+        let (mut first, mut last) = (0.0, f64::INFINITY);
         for pass in 0..=refinements {
             if pass > 0 && self.lends {
                 for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
                     bundle.return_lent(&state[0]);
                 }
             }
-            self.values_of(|_, bundle| bundle.solution);
+            self.values_of(|_, bundle| *bundle.solution());
             self.prescribed.add_known(1.0, &mut self.values);
-            self.rows.residual(&self.values, &mut self.correction);
+            self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
             self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
             self.schur.factor.solve(&mut self.correction);
             self.counters.solves += 1;
@@ -313,15 +345,25 @@ impl<const L: usize> Series<L> {
                 *lambda = if pass == 0 { *correction } else { *lambda + correction };
             }
             self.forces.fill([[0.0; L]; 3]);
-            self.rows.add_forces(&self.correction, &mut self.forces);
+            self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
             self.angles.add_forces(&self.correction, &mut self.forces);
             self.prescribed.add_forces(n, &self.forces);
             for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
-                let mut force = zero();
-                for slot in bundle.slots.clone() {
-                    self.slots[slot].pull_back(&self.forces[slot], &mut force);
+                let mut force = B::zero();
+                for slot in bundle.slots() {
+                    B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
                 }
                 bundle.apply(&state[0], &force);
+            }
+            if self.lends && !self.regularized {
+                // Corrections shrink by the same factor each time: the next one would be size²/last.
+                let size = self.correction.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                if pass == 0 {
+                    first = size;
+                } else if size * size <= ROUNDING * first * last {
+                    break;
+                }
+                last = size;
             }
         }
     }
@@ -329,9 +371,7 @@ impl<const L: usize> Series<L> {
     /// Largest |Q_k| over all bodies.
     #[inline(always)]
     pub fn size_of(&self, k: usize) -> f64 {
-        (0..self.bundles.len())
-            .map(|b| largest(self.q[b * self.stride + k].as_flattened()))
-            .fold(0.0, f64::max)
+        (0..self.bundles.len()).map(|b| largest(B::lanes(&self.q[b * self.stride + k]))).fold(0.0, f64::max)
     }
 
     /// Moves the point of expansion to the series' value after h, with terms up to order `order`.
@@ -339,27 +379,27 @@ impl<const L: usize> Series<L> {
     pub fn advance(&mut self, h: f64, order: usize) {
         self.angles.advance(h, order);
         for (b, state) in self.state.iter_mut().enumerate() {
-            *state = horner(&self.q[b * self.stride..=b * self.stride + order], h);
+            *state = horner::<L, B>(&self.q[b * self.stride..=b * self.stride + order], h);
         }
     }
 
     /// Whether the state is made of finite numbers.
     #[inline(always)]
     pub fn is_finite(&self) -> bool {
-        let numbers = self.state.as_flattened().as_flattened().as_flattened().as_flattened();
+        let numbers = self.state.as_flattened().iter().flat_map(|x| B::lanes(x).as_flattened());
         // Zero times infinity or NaN is NaN.
-        numbers.iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
+        numbers.fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
     }
 }
 
 /// Value and derivative of a polynomial at τ.
 #[inline(always)]
-fn horner<const L: usize>(coefficients: &[Lifted<L>], tau: f64) -> [Lifted<L>; 2] {
-    let mut state = [zero(); 2];
+fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Lifted], tau: f64) -> [B::Lifted; 2] {
+    let mut state = [B::zero(); 2];
     let [value, rate] = &mut state;
-    let (value, rate) = (value.as_flattened_mut(), rate.as_flattened_mut());
+    let (value, rate) = (B::lanes_mut(value), B::lanes_mut(rate));
     for coefficient in coefficients.iter().rev() {
-        for ((value, rate), c) in value.iter_mut().zip(rate.iter_mut()).zip(coefficient.as_flattened()) {
+        for ((value, rate), c) in value.iter_mut().zip(rate.iter_mut()).zip(B::lanes(coefficient)) {
             for l in 0..L {
                 rate[l] = rate[l] * tau + value[l];
                 value[l] = value[l] * tau + c[l];

@@ -1,5 +1,9 @@
 //! A scene that runs: time, state, steps, and what can be asked of them.
 
+mod explain;
+
+pub use explain::LeftOut;
+
 use crate::balance;
 use crate::elimination::Counters;
 use crate::error::EngineError;
@@ -108,6 +112,7 @@ pub struct Simulation {
     end: f64,
     /// Made when first asked for.
     jacobian: Option<Jacobian>,
+    counted: explain::Counted,
 }
 
 impl Simulation {
@@ -162,6 +167,7 @@ impl Simulation {
             happened: Vec::new(),
             end,
             jacobian: None,
+            counted: explain::Counted::default(),
         }
         .watching())
     }
@@ -266,6 +272,7 @@ impl Simulation {
     fn begin(&mut self, time: f64, y: &[f64]) {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
+        self.counted = explain::Counted::default();
         self.work = 0.0;
         self.mechanism.set_state(time, y);
         self.start_energy = self.mechanism.elimination.energy(&self.mechanism.system);
@@ -286,7 +293,7 @@ impl Simulation {
     /// Goes on by one step of the integrator (or to the end of the step that the shown state lies in).
     pub fn step(&mut self) -> Result<(), EngineError> {
         if self.time >= self.integrator.time() && !self.finished() {
-            self.integrate_one()?;
+            self.integrate_one(self.duration())?;
         }
         self.show(self.integrator.time());
         Ok(())
@@ -306,14 +313,17 @@ impl Simulation {
             return Err(EngineError::TimeOutside { time: t, from: self.time, to: self.duration() });
         }
         let mut left = most_steps;
+        let end = if self.model().settings.skip.outputs { self.duration() } else { t };
         while self.integrator.time() < t {
             if left == 0 {
                 return Ok(false);
             }
             left -= 1;
-            self.integrate_one()?;
+            self.integrate_one(end)?;
             t = t.min(self.end);
         }
+        self.counted.outputs[0] += u64::from(t < self.integrator.time());
+        self.counted.outputs[1] += 1;
         self.show(t);
         Ok(true)
     }
@@ -329,8 +339,7 @@ impl Simulation {
         self.step_limit = steps;
     }
 
-    fn integrate_one(&mut self) -> Result<(), EngineError> {
-        let end = self.duration();
+    fn integrate_one(&mut self, end: f64) -> Result<(), EngineError> {
         let steps = self.integrator.steps();
         if steps.accepted + steps.rejected >= self.step_limit {
             return Err(EngineError::StepLimit { time: self.integrator.time(), steps: self.step_limit });
@@ -340,9 +349,27 @@ impl Simulation {
             Stop::StepTooSmall { time, step } => EngineError::StepTooSmall { time, step },
             Stop::NotFinite { time } => EngineError::Diverged { time },
         })?;
-        self.mechanism.check(self.integrator.time(), self.integrator.state())?;
+        let skip = self.model().settings.skip;
+        if !(skip.checks && self.integrator.proves_constraints()) {
+            self.counted.checks += 1;
+            self.mechanism.check(self.integrator.time(), self.integrator.state())?;
+        }
         self.look_for_events();
+        if !skip.reports {
+            self.report_step();
+        }
         Ok(())
+    }
+
+    /// Finds what is otherwise found when somebody asks, at the end of the last step.
+    fn report_step(&mut self) {
+        let shown = (self.time, std::mem::replace(&mut self.shown, self.integrator.state().to_vec()));
+        self.time = self.integrator.time();
+        self.summary();
+        self.multipliers();
+        self.jacobian();
+        (self.time, self.shown) = shown;
+        self.counted.reports += 1;
     }
 
     /// Finds what has happened in the last step.

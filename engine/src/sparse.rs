@@ -7,6 +7,7 @@
 //! that a solve is a chain of short products without divisions.
 
 mod kernel;
+mod wide;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -20,18 +21,16 @@ pub struct Slot {
     pub transposed: bool,
 }
 
-/// Largest block: no joint or driver has more rows.
-pub const MAX_BLOCK: usize = 9;
-
-/// Runs `$call` with the constant `$n` equal to a block's size.
+/// Runs `$call` with the constant `$n` equal to a block's size, or `$wide` for blocks wider than any joint known today.
 macro_rules! by_size {
-    ($size:expr, $n:ident => $call:expr) => {
-        by_size!(@ $size, $n => $call; 1 2 3 4 5 6 7 8 9)
+    ($size:expr, $n:ident => $call:expr, $wide:expr) => {
+        by_size!(@ $size, $n => $call, $wide; 1 2 3 4 5 6 7 8 9)
     };
-    (@ $size:expr, $n:ident => $call:expr; $($value:literal)*) => {
+    (@ $size:expr, $n:ident => $call:expr, $wide:expr; $($value:literal)*) => {
         match $size {
+            0 => {}
             $($value => { const $n: usize = $value; $call })*
-            _ => {}
+            _ => $wide,
         }
     };
 }
@@ -192,6 +191,11 @@ impl BlockCholesky {
         self.values.fill(0.0);
     }
 
+    /// The numbers of the matrix.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// The numbers of the matrix, to be filled through slots.
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
@@ -225,7 +229,11 @@ impl BlockCholesky {
         }
         for place in 0..self.columns.len() {
             let size = self.columns[place].size;
-            by_size!(size, N => self.factor_column::<N>(place, skip, &mut note));
+            by_size!(
+                size,
+                N => self.factor_column::<N>(place, skip, &mut note),
+                self.factor_wide(place, skip, &mut note)
+            );
         }
         pivots
     }
@@ -257,14 +265,68 @@ impl BlockCholesky {
         }
     }
 
+    fn factor_wide(&mut self, place: usize, skip: f64, note: &mut impl FnMut(usize, f64)) {
+        let column = &self.columns[place];
+        let n = column.size;
+        let at = column.diagonal..column.diagonal + n * n;
+        self.factors[at.clone()].copy_from_slice(&self.values[at.clone()]);
+        let reference = &self.diagonal[column.start..column.start + n];
+        let visit = |i: usize, relative: f64| note(column.start + i, relative);
+        wide::invert(n, &mut self.factors[at.clone()], reference, skip, visit);
+        for below in &self.below[column.below.clone()] {
+            // Blocks of a column stand behind its diagonal.
+            let (inverse, rest) = self.factors.split_at_mut(at.end);
+            let own = below.offset..below.offset + below.rows * n;
+            let out = &mut rest[own.start - at.end..own.end - at.end];
+            wide::scale(n, &inverse[at.clone()], &self.values[own], out);
+        }
+        for update in &self.updates[column.updates.clone()] {
+            let (done, later) = self.values.split_at_mut(update.target);
+            wide::update(
+                n,
+                &self.factors[update.left..update.left + update.rows * n],
+                &done[update.right..update.right + update.columns * n],
+                update.columns,
+                &mut later[..update.rows * update.columns],
+            );
+        }
+    }
+
     /// Replaces b by the solution of S x = b.
     pub fn solve(&self, x: &mut [f64]) {
         for column in &self.columns {
-            by_size!(column.size, N => self.forward::<N>(column, x));
+            by_size!(column.size, N => self.forward::<N>(column, x), self.forward_wide(column, x));
         }
         for column in self.columns.iter().rev() {
-            by_size!(column.size, N => self.backward::<N>(column, x));
+            by_size!(column.size, N => self.backward::<N>(column, x), self.backward_wide(column, x));
         }
+    }
+
+    fn forward_wide(&self, column: &Column, x: &mut [f64]) {
+        for below in &self.below[column.below.clone()] {
+            for r in 0..below.rows {
+                let first = below.offset + r * column.size;
+                let e = &self.factors[first..first + column.size];
+                let known: f64 = e.iter().zip(&x[column.start..]).map(|(e, y)| e * y).sum();
+                x[below.start + r] -= known;
+            }
+        }
+    }
+
+    fn backward_wide(&self, column: &Column, x: &mut [f64]) {
+        let n = column.size;
+        let inverse = &self.factors[column.diagonal..column.diagonal + n * n];
+        let mut solution = vec![0.0; n];
+        wide::multiply(n, inverse, &x[column.start..column.start + n], &mut solution);
+        for below in &self.below[column.below.clone()] {
+            let block = &self.factors[below.offset..below.offset + below.rows * n];
+            for (e, value) in block.chunks_exact(n).zip(&x[below.start..]) {
+                for (solution, e) in solution.iter_mut().zip(e) {
+                    *solution -= e * value;
+                }
+            }
+        }
+        x[column.start..column.start + n].copy_from_slice(&solution);
     }
 
     fn forward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
@@ -336,7 +398,7 @@ mod tests {
     proptest! {
         #[test]
         fn solves_what_a_dense_factorization_solves(
-            sizes in prop::collection::vec(1usize..6, 1..12),
+            sizes in prop::collection::vec(prop_oneof![4 => 1usize..6, 1 => 8usize..14], 1..12),
             links in prop::collection::vec((0usize..12, 0usize..12), 0..20),
             mut seed in any::<u64>(),
         ) {

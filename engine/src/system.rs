@@ -6,6 +6,7 @@ use crate::lift::{Layout, Lift};
 use crate::load::Load;
 use crate::model::{BodyRef, Model};
 use crate::motion::VectorCurve;
+use crate::plane::Posture;
 use crate::row::{Feature, Form, TargetCurve};
 use crate::scene::Coordinates;
 use crate::sharing;
@@ -30,6 +31,8 @@ pub struct Body {
     pub coordinates: Coordinates,
     /// How its lifted coordinates follow from q.
     pub layout: Layout,
+    /// How it stands in the plane, in a system that has been reduced to one.
+    pub posture: Option<Posture>,
 }
 
 /// The rows of one joint or driver.
@@ -112,6 +115,8 @@ pub struct System {
     pub targets: Vec<TargetCurve>,
     /// Angles of joints.
     pub angles: Vec<Angle>,
+    /// The joint of each angle.
+    pub angle_joints: Vec<String>,
     /// Loads besides gravity.
     pub loads: Vec<Load>,
     /// Moments to look for.
@@ -154,7 +159,7 @@ impl System {
         for load in &mut loads {
             load.rename(&place);
         }
-        let Writer { features, curves, targets, angles, groups, .. } = writer;
+        let Writer { features, curves, targets, angles, angle_joints, groups, .. } = writer;
         let mut system = Self {
             bodies: Vec::with_capacity(model.bodies.len()),
             moving: features.iter().filter(|f| !f.is_fixed() && f.curve.is_none()).count(),
@@ -163,6 +168,7 @@ impl System {
             curves,
             targets,
             angles,
+            angle_joints,
             loads,
             watches,
             rows: Vec::new(),
@@ -226,6 +232,7 @@ impl System {
                 lent,
                 coordinates: body.coordinates,
                 layout: layouts[index],
+                posture: None,
             });
             self.coordinates += layouts[index].size();
             self.rigid_rows += layouts[index].rigid_rows().count();

@@ -41,6 +41,8 @@ pub struct Writer {
     pub angles: Vec<Angle>,
     /// Joints and drivers.
     pub groups: Vec<WrittenGroup>,
+    /// The joint of each angle.
+    pub angle_joints: Vec<String>,
     known: HashMap<FeatureKey, FeatureId>,
     angle_of_joint: HashMap<String, usize>,
 }
@@ -90,6 +92,7 @@ impl Writer {
             axis: self.vector(i, joint.axes[0]),
         };
         self.angles.push(angle);
+        self.angle_joints.push(joint.name.clone());
         self.angle_of_joint.insert(joint.name.clone(), self.angles.len() - 1);
         self.angles.len() - 1
     }

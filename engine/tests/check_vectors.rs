@@ -293,8 +293,10 @@ fn slider_crank(name: &str) -> Value {
 
 /// Six rods of 0.2 m on balls, zigzag.
 fn chain(name: &str) -> Value {
-    let body = |k: usize| json!({ "name": format!("rod-{k}"), "mass": 0.2,
-        "inertia": { "principal": [8e-5, 0.2 * 0.04 / 12.0, 0.2 * 0.04 / 12.0] } });
+    let body = |k: usize| {
+        json!({ "name": format!("rod-{k}"), "mass": 0.2,
+        "inertia": { "principal": [8e-5, 0.2 * 0.04 / 12.0, 0.2 * 0.04 / 12.0] } })
+    };
     let ball = |k: usize| {
         let previous = if k == 0 { "ground".to_owned() } else { format!("rod-{}", k - 1) };
         json!({ "name": format!("ball-{k}"), "type": "spherical", "body_i": previous, "body_j": format!("rod-{k}"),

@@ -4,6 +4,7 @@ use super::{Dop853, Dopri5, Steps, Stop, Taylor};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
 use crate::scene::{IntegratorKind, Stabilization};
+use crate::system::System;
 
 /// An integrator at work.
 #[derive(Clone, Debug)]
@@ -23,7 +24,10 @@ pub fn choose(mechanism: &Mechanism, y: &[f64]) -> (IntegratorKind, String) {
     let settings = &mechanism.system.model.settings;
     let baumgarte = settings.stabilization != Stabilization::Projection;
     let obstacle = baumgarte.then(|| "Baumgarte's stabilization belongs to Runge-Kutta methods".to_owned());
-    let crowded = || Taylor::new(mechanism, 0.0, y, settings.tolerance).crowded(settings.duration);
+    let System { curves, targets, loads, .. } = &mechanism.system;
+    let prescribed = !(curves.is_empty() && targets.is_empty() && loads.is_empty());
+    let crowded =
+        || prescribed && Taylor::new(mechanism, 0.0, y, settings.tolerance).crowded(settings.duration);
     match (settings.integrator, obstacle) {
         (IntegratorKind::Auto, None) if crowded() => (
             IntegratorKind::Dop853,
@@ -93,6 +97,14 @@ impl Integrator {
             Self::Dop853(i) => i.steps,
             Self::Dopri5(i) => i.steps,
             Self::Taylor(i) => i.steps,
+        }
+    }
+
+    /// Whether the last step has shown by itself that the constraints hold at its end.
+    pub fn proves_constraints(&mut self) -> bool {
+        match self {
+            Self::Dop853(_) | Self::Dopri5(_) => false,
+            Self::Taylor(i) => i.proves_constraints(),
         }
     }
 

@@ -1,53 +1,56 @@
 //! Taylor series on the constrained equations — THEORY section 11.
 //!
-//! Each step expands the motion about its start ([`Series`]), takes the longest step that some pair of successive
-//! terms allows, and projects the end onto the constraints. The polynomial is the dense output.
+//! Each step expands the motion about its start ([`crate::series::Series`]), takes the longest step that some pair of
+//! successive terms allows, and projects the end onto the constraints. The polynomial is the dense output. Parts of a
+//! scene that nothing connects take steps of their own: the one farthest behind goes on.
+
+mod island;
 
 use super::{Steps, Stop};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
-use crate::series::{LEAST_TOLERANCE_REDUNDANT, Plan, Series};
+use crate::parts;
 use crate::system::System;
+use island::Island;
 
 /// Highest order.
 pub const MAX_ORDER: usize = 30;
-/// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
-const CROWDED: f64 = 0.1;
-/// Most knots that are counted.
-const MOST_KNOTS: usize = 100_000;
-/// The series, bundled as suits the number of bodies.
-#[derive(Clone, Debug)]
-enum Engine {
-    /// One body.
-    Narrow(Box<Series<1>>),
-    /// Several.
-    Wide(Box<Series<4>>),
-}
 
-/// Runs `$call` with `$series` bound to the series.
-macro_rules! with {
-    ($engine:expr, $series:ident => $call:expr) => {
-        match $engine {
-            Engine::Narrow($series) => $call,
-            Engine::Wide($series) => $call,
-        }
-    };
+/// What a run leaves out, and by how much.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Saved {
+    /// Bodies that are solved in a plane.
+    pub planar_bodies: usize,
+    /// Rows of the solver, and how many there would be in space.
+    pub rows: usize,
+    /// Rows of the solver for all bodies in space.
+    pub rows_in_space: usize,
+    /// Parts that are solved apart.
+    pub islands: usize,
+    /// Steps of bodies taken, and how many there would be if all parts took the steps of the busiest.
+    pub body_steps: u64,
+    /// Steps of bodies with common steps.
+    pub body_steps_together: u64,
+    /// Bodies that are left out because they cannot move.
+    pub fixed_bodies: usize,
+    /// Entries of the matrix that were not written again.
+    pub constants: u64,
+    /// Steps after which the constraints needed no measuring.
+    pub checks: u64,
 }
 
 /// The integrator and its last step.
 #[derive(Clone, Debug)]
 pub struct Taylor {
-    tolerance: f64,
-    order: usize,
-    length: f64,
-    engine: Engine,
+    islands: Vec<Island>,
     /// End of the last step and the state there.
     t: f64,
     y: Vec<f64>,
-    /// The last step: its start, size and the terms that it used.
+    /// Start of the last step.
     t_old: f64,
-    h_old: f64,
-    order_old: usize,
+    saved: Saved,
+    /// Whether the last step has shown by itself that the constraints hold.
+    proven: bool,
     /// Steps so far.
     pub steps: Steps,
     /// Projections so far.
@@ -59,29 +62,38 @@ impl Taylor {
     /// `tolerance`.
     pub fn new(mechanism: &Mechanism, t: f64, y: &[f64], tolerance: f64) -> Self {
         let Mechanism { system, elimination, .. } = mechanism;
-        let redundant = elimination.is_redundant();
+        let skip = system.model.settings.skip;
+        let q = &y[..system.coordinates];
+        let split = parts::split(system, q, skip.islands, skip.fixed);
         let turns: Vec<f64> = elimination.angles.iter().map(|angle| angle.value).collect();
-        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
-        let order = order_for(tolerance);
-        let mut engine = if system.bodies.len() == 1 {
-            Engine::Narrow(Box::new(Series::new(system, order, redundant, &turns)))
+        let redundant = elimination.is_redundant();
+        let islands: Vec<Island> = if split.parts.is_empty() && split.fixed == 0 {
+            vec![Island::new(system, None, redundant, &turns, t, y, tolerance)]
         } else {
-            Engine::Wide(Box::new(Series::new(system, order, redundant, &turns)))
+            let island = |part: parts::Part| {
+                let turns: Vec<f64> =
+                    part.system.angle_joints.iter().map(|joint| turn(system, &turns, joint)).collect();
+                Island::new(system, Some(part), redundant, &turns, t, y, tolerance)
+            };
+            split.parts.into_iter().map(island).collect()
         };
-        with!(&mut engine, s => {
-            s.place(system, t, y);
-            s.linearize();
-        });
+        let mut saved = Saved {
+            islands: islands.len(),
+            fixed_bodies: split.fixed,
+            rows_in_space: system.solver_rows,
+            ..Saved::default()
+        };
+        for island in &islands {
+            saved.rows += island.rows();
+            saved.planar_bodies += if island.is_planar() { island.bodies() } else { 0 };
+        }
         Self {
-            tolerance,
-            order,
-            length: system.length,
-            engine,
+            islands,
             t,
             y: y.to_vec(),
             t_old: t,
-            h_old: 0.0,
-            order_old: order,
+            saved,
+            proven: false,
             steps: Steps::default(),
             projections: 0,
         }
@@ -90,11 +102,7 @@ impl Taylor {
     /// Whether knots of prescribed functions follow so closely until `end` that steps, which end at each of them, would be
     /// far shorter than the series allow.
     pub fn crowded(&mut self, end: f64) -> bool {
-        let (t, order, tolerance) = (self.t, self.order, self.tolerance);
-        with!(&mut self.engine, s => {
-            let knots = s.knots_before(end, MOST_KNOTS);
-            knots > 0 && (end - t) / (knots as f64) < CROWDED * s.natural_step(order, tolerance)
-        })
+        self.islands.iter_mut().any(|island| island.crowded(end))
     }
 
     /// End of the last step.
@@ -109,73 +117,87 @@ impl Taylor {
 
     /// Size of the last step, s.
     pub fn last_step(&self) -> f64 {
-        self.h_old
+        self.t - self.t_old
     }
 
-    /// Order of the last step.
-    pub fn last_order(&self) -> usize {
-        self.order_old
+    /// Whether the last step has shown by itself that the constraints hold at its end.
+    pub fn proves_constraints(&mut self) -> bool {
+        if self.proven {
+            self.saved.checks += 1;
+        }
+        self.proven
     }
 
     /// Work done so far.
     pub fn counters(&self) -> Counters {
-        with!(&self.engine, s => s.counters)
+        let mut sum = Counters::default();
+        for island in &self.islands {
+            let own = island.counters();
+            sum.evaluations += own.evaluations;
+            sum.factorizations += own.factorizations;
+            sum.solves += own.solves;
+        }
+        sum
     }
 
-    /// Takes one step, not beyond `end`.
+    /// What has been left out so far.
+    pub fn saved(&self) -> Saved {
+        let mut saved = self.saved;
+        let most = self.islands.iter().map(Island::steps).max().unwrap_or(0);
+        for island in &self.islands {
+            saved.body_steps += island.steps() * island.bodies() as u64;
+            saved.body_steps_together += most * island.bodies() as u64;
+            saved.constants += island.constants_kept();
+        }
+        saved
+    }
+
+    /// Takes one step, not beyond `end`: the part that is farthest behind goes on.
     pub fn step(&mut self, system: &System, end: f64) -> Result<(), Stop> {
-        let plan = Plan { order: self.order, tolerance: self.tolerance, length: self.length, end };
-        let taken = with!(&mut self.engine, s => {
-            let taken = s.step(plan);
-            s.store(system, &mut self.y);
-            taken
-        });
-        if !taken.finite || taken.h.is_nan() {
-            return Err(Stop::NotFinite { time: self.t });
-        }
-        if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
-        {
-            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
-        }
-        self.t_old = self.t;
-        self.h_old = taken.h;
-        self.order_old = taken.order;
-        self.t = taken.time;
+        let behind = self.islands.iter_mut().min_by(|a, b| a.time().total_cmp(&b.time()));
+        let Some(island) = behind else {
+            // Nothing can move.
+            (self.t_old, self.t, self.proven) = (self.t, end, false);
+            return Ok(());
+        };
+        let (proven, rejected) = island.step(system, end, &mut self.y)?;
+        self.proven = proven;
         self.steps.accepted += 1;
-        self.steps.rejected += taken.rejected;
+        self.steps.rejected += rejected;
+
         self.projections += 1;
+        self.t_old = self.t;
+        self.t = self.islands.iter().map(Island::time).fold(f64::INFINITY, f64::min);
+        if self.islands.len() > 1 {
+            let Self { islands, t, y, .. } = self;
+            islands.iter().for_each(|island| island.interpolate(system, *t, y));
+        }
         Ok(())
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J.
     pub fn work_to(&self, t: f64) -> f64 {
-        with!(&self.engine, s => s.work((t - self.t_old).clamp(0.0, self.h_old)))
+        self.islands.iter().map(|island| island.work_to(t) - island.work_to(self.t_old)).sum()
     }
 
     /// Gives the mechanism, which stands at time t within the last step, the multipliers of that moment. Tells whether the
-    /// series have them.
+    /// series have them: those of the whole in space do.
     pub fn give_multipliers(&self, mechanism: &mut Mechanism, t: f64) -> bool {
-        let Mechanism { system, elimination, .. } = mechanism;
-        let tau = t - self.t_old;
-        self.h_old > 0.0
-            && (0.0..=self.h_old).contains(&tau)
-            && with!(&self.engine, s => s.give_multipliers(system, tau, self.order_old, elimination))
+        let [island] = self.islands.as_slice() else { return false };
+        island.give_multipliers(mechanism, t)
     }
 
     /// Writes y(t) within the last step.
     pub fn interpolate(&self, system: &System, t: f64, y: &mut [f64]) {
-        if t >= self.t || self.h_old == 0.0 {
-            y.copy_from_slice(&self.y);
-            return;
+        y.copy_from_slice(&self.y);
+        if t < self.t {
+            self.islands.iter().for_each(|island| island.interpolate(system, t.max(self.t_old), y));
         }
-        let tau = (t - self.t_old).clamp(0.0, self.h_old);
-        with!(&self.engine, s => s.interpolate(system, tau, self.order_old, y));
     }
 }
 
-/// Order for a tolerance: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13.
-fn order_for(tolerance: f64) -> usize {
-    let powers = std::iter::successors(Some(tolerance), |t| Some(10.0 * t));
-    let digits = powers.take(MAX_ORDER).take_while(|&t| t < 0.3).count();
-    (5 + digits).clamp(6, MAX_ORDER)
+/// The angle of a joint at the start.
+fn turn(system: &System, turns: &[f64], joint: &str) -> f64 {
+    let place = system.angle_joints.iter().position(|name| name == joint);
+    place.and_then(|place| turns.get(place)).copied().unwrap_or(0.0)
 }

@@ -17,6 +17,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// What keeps the constraints satisfied.
     pub stabilization: Stabilization,
+    /// What is left out because nothing depends on it.
+    #[serde(skip_serializing_if = "Skip::is_everything")]
+    pub skip: Skip,
 }
 
 impl Default for Settings {
@@ -27,6 +30,7 @@ impl Default for Settings {
             integrator: IntegratorKind::default(),
             tolerance: 1e-9,
             stabilization: Stabilization::default(),
+            skip: Skip::default(),
         }
     }
 }
@@ -61,4 +65,77 @@ pub enum Stabilization {
         /// β, 1/s.
         beta: f64,
     },
+}
+
+/// What is left out because nothing depends on it. Every word is true unless it is switched off; then the run takes
+/// longer and gives the same motion. `triad run --explain` tells what each word saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[allow(clippy::struct_excessive_bools)]
+pub struct Skip {
+    /// Coordinates and rows out of the plane, where joints hold all bodies in a plane (integrator `taylor`).
+    pub planar: bool,
+    /// Steps that bodies need not take with others that nothing connects them with (integrator `taylor`).
+    pub islands: bool,
+    /// Bodies that rigid connections tie to the ground (integrator `taylor`).
+    pub fixed: bool,
+    /// Entries of the matrix that never change: they are written once (integrator `taylor`).
+    pub constants: bool,
+    /// Measuring the constraints after a step whose projection has just shown that they hold (integrator `taylor`).
+    pub checks: bool,
+    /// Energy, reactions and the Jacobian of every step: they are found when somebody asks.
+    pub reports: bool,
+    /// Steps that end at each output: outputs are read off the polynomials of the steps.
+    pub outputs: bool,
+}
+
+impl Skip {
+    /// The words.
+    pub const WORDS: [&'static str; 7] =
+        ["planar", "islands", "fixed", "constants", "checks", "reports", "outputs"];
+
+    /// Whether everything is left out that can be.
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub fn is_everything(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Nothing is left out.
+    pub fn nothing() -> Self {
+        let mut skip = Self::default();
+        for word in Self::WORDS {
+            if let Some(on) = skip.word_mut(word) {
+                *on = false;
+            }
+        }
+        skip
+    }
+
+    /// The switch of a word.
+    pub fn word_mut(&mut self, word: &str) -> Option<&mut bool> {
+        match word {
+            "planar" => Some(&mut self.planar),
+            "islands" => Some(&mut self.islands),
+            "fixed" => Some(&mut self.fixed),
+            "constants" => Some(&mut self.constants),
+            "checks" => Some(&mut self.checks),
+            "reports" => Some(&mut self.reports),
+            "outputs" => Some(&mut self.outputs),
+            _ => None,
+        }
+    }
+}
+
+impl Default for Skip {
+    fn default() -> Self {
+        Self {
+            planar: true,
+            islands: true,
+            fixed: true,
+            constants: true,
+            checks: true,
+            reports: true,
+            outputs: true,
+        }
+    }
 }

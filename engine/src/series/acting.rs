@@ -1,11 +1,11 @@
 //! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers; and
 //! the power of what drivers and loads bring in — eq. (11.8).
 
-use super::Series;
+use super::{Bodies, Series};
 use crate::elimination::Elimination;
 use crate::system::System;
 
-impl<const L: usize> Series<L> {
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// What rows demand of κ Q_(n+2) beyond its own part.
     #[inline(always)]
     pub(super) fn demand(&mut self, n: usize, kappa: f64) {
@@ -24,11 +24,11 @@ impl<const L: usize> Series<L> {
         self.angles.add_known_forces(n, &mut self.forces);
         let (q, stride) = (&self.q, self.stride);
         let coefficient = |b: usize, i: usize| &q[b * stride + i];
-        self.loads.apply(n, coefficient, &mut self.forces, &mut self.bundles);
+        self.loads.apply::<L, B>(n, coefficient, &mut self.forces, &mut self.bundles);
         self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
         for bundle in &mut self.bundles {
-            for slot in bundle.slots.clone() {
-                self.slots[slot].pull_back(&self.forces[slot], &mut bundle.force);
+            for slot in bundle.slots() {
+                B::pull_back(&self.slots[slot], &self.forces[slot], bundle.force_mut());
             }
         }
     }
@@ -37,7 +37,7 @@ impl<const L: usize> Series<L> {
     #[inline(always)]
     pub(super) fn prepare_prescribed(&mut self, m: usize, factor: f64) {
         let (q, stride) = (&self.q, self.stride);
-        self.prescribed.prepare(m, factor, |b, i| &q[b * stride + i]);
+        self.prescribed.prepare::<L, B>(m, factor, |b, i| &q[b * stride + i]);
     }
 
     /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
@@ -47,7 +47,8 @@ impl<const L: usize> Series<L> {
         let multiplier = |i: usize, row: usize| lambda[i * rows + row];
         self.power.fill(0.0);
         for (n, power) in self.power.iter_mut().enumerate().take(order.saturating_sub(1)) {
-            *power = self.loads.power(n, coefficient) + self.prescribed.power(n, coefficient, multiplier);
+            *power = self.loads.power::<L, B>(n, coefficient)
+                + self.prescribed.power::<L, B>(n, coefficient, multiplier);
         }
     }
 

@@ -1,54 +1,28 @@
 //! L bodies side by side: the part of the equations of motion that concerns each body alone — THEORY sections 7, 11.
 
+use super::bodies::Bodies;
 use super::lanes::{Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, multiply, scaled, zero};
+use super::slot::Slot;
+use crate::lift::Lift;
+use crate::system::{Body, System};
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// A feature of each of L bodies (or of none: all zero).
-#[derive(Clone, Copy, Debug)]
-pub struct Slot<const L: usize> {
-    /// Local coordinates (ξ, η, ζ).
-    pub local: Triple<L>,
-    /// 1 for a point, 0 for a vector.
-    pub point: Lane<L>,
-}
-
-impl<const L: usize> Slot<L> {
-    /// C x for lifted vectors x.
-    #[inline(always)]
-    pub fn of(&self, x: &Lifted<L>) -> Triple<L> {
-        let mut value = scaled(&self.point, &x[0]);
-        for k in 0..3 {
-            add_scaled(&mut value, &self.local[k], &x[1 + k]);
-        }
-        value
-    }
-
-    /// sum += Cᵀ f.
-    #[inline(always)]
-    pub fn pull_back(&self, f: &Triple<L>, sum: &mut Lifted<L>) {
-        add_scaled(&mut sum[0], &self.point, f);
-        for k in 0..3 {
-            add_scaled(&mut sum[1 + k], &self.local[k], f);
-        }
-    }
-}
 
 /// L bodies: what never changes, what belongs to the point of expansion, and the solution at hand.
 #[derive(Clone, Debug)]
 pub struct Bundle<const L: usize> {
     /// The bodies; fewer than L in the last bundle, whose other lanes hold bodies at rest without joints.
-    pub bodies: Range<usize>,
+    bodies: Range<usize>,
     /// Their features.
-    pub slots: Range<usize>,
+    slots: Range<usize>,
     /// 1/m.
-    pub inverse_mass: Lane<L>,
+    inverse_mass: Lane<L>,
     /// Ī of u, v, w.
-    pub ibar: Triple<L>,
+    ibar: Triple<L>,
     /// Lent inertia.
-    pub lent: Lane<L>,
+    lent: Lane<L>,
     /// Constant generalized force: the weight.
-    pub weight: Triple<L>,
+    weight: Triple<L>,
     /// Half the dual basis of the directors.
     dual: [Triple<L>; 3],
     /// Rows of I_g⁻¹, lent inertia included.
@@ -56,19 +30,45 @@ pub struct Bundle<const L: usize> {
     /// Lower triangle (00, 10, 11, 20, 21, 22) of C⁻¹, I_g = C Cᵀ.
     lower: [Lane<L>; 6],
     /// Generalized force that acts, less the known convolutions.
-    pub force: Lifted<L>,
+    force: Lifted<L>,
     /// Moment about the centre of mass that acts besides.
-    pub moment: Triple<L>,
+    moment: Triple<L>,
     /// The unknown: κ Q_(n+2), or a correction of Q.
-    pub solution: Lifted<L>,
+    solution: Lifted<L>,
     /// Its twist part ω̇, and the part for which lent inertia has been returned.
     omega: Triple<L>,
     returned: Triple<L>,
 }
 
 impl<const L: usize> Bundle<L> {
-    /// Bodies of mass 1 and no inertia, to be filled in lane by lane.
-    pub fn new(bodies: Range<usize>, slots: Range<usize>) -> Self {
+    fn vector(x: &Lifted<L>, k: usize, lane: usize) -> Vector3<f64> {
+        Vector3::from_fn(|c, _| x[k][c][lane])
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, q: &Lifted<L>, moment: &Triple<L>) {
+        let omega = multiply(&self.inverse, moment);
+        for c in 0..3 {
+            for l in 0..L {
+                self.omega[c][l] += omega[c][l];
+            }
+        }
+        for k in 0..3 {
+            add_cross(&mut self.solution[1 + k], &omega, &q[1 + k]);
+        }
+    }
+}
+
+impl<const L: usize> Bodies<L> for Bundle<L> {
+    type Lifted = Lifted<L>;
+    type Rigid = [Lane<L>; 6];
+    type Moment = Triple<L>;
+    type Directors = [Triple<L>; 3];
+    type Mobility = [Triple<L>; 3];
+    const DIRECTIONS: usize = 3;
+    const TWIST: usize = 6;
+
+    fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self {
         let zeros = [[0.0; L]; 3];
         Self {
             bodies,
@@ -88,9 +88,126 @@ impl<const L: usize> Bundle<L> {
         }
     }
 
+    fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
+        self.inverse_mass[lane] = 1.0 / body.mass;
+        self.lent[lane] = body.lent;
+        for c in 0..3 {
+            self.ibar[c][lane] = body.ibar[c];
+            self.weight[c][lane] = body.mass * system.model.gravity[c];
+        }
+    }
+
+    fn bodies(&self) -> Range<usize> {
+        self.bodies.clone()
+    }
+
+    fn slots(&self) -> Range<usize> {
+        self.slots.clone()
+    }
+
+    #[inline(always)]
+    fn zero() -> Lifted<L> {
+        zero()
+    }
+
+    fn at_rest() -> Lifted<L> {
+        let mut q = zero();
+        for k in 0..3 {
+            q[1 + k][k] = [1.0; L];
+        }
+        q
+    }
+
+    #[inline(always)]
+    fn no_directors() -> [Triple<L>; 3] {
+        [[[0.0; L]; 3]; 3]
+    }
+
+    #[inline(always)]
+    fn no_mobility() -> [Triple<L>; 3] {
+        [[[0.0; L]; 3]; 3]
+    }
+
+    #[inline(always)]
+    fn lanes(x: &Lifted<L>) -> &[Lane<L>] {
+        x.as_flattened()
+    }
+
+    #[inline(always)]
+    fn lanes_mut(x: &mut Lifted<L>) -> &mut [Lane<L>] {
+        x.as_flattened_mut()
+    }
+
+    fn read(&self, lane: usize, lift: &Lift, out: &mut Lifted<L>) {
+        for (out, vector) in out.iter_mut().zip([lift.r, lift.e[0], lift.e[1], lift.e[2]]) {
+            for c in 0..3 {
+                out[c][lane] = vector[c];
+            }
+        }
+    }
+
+    fn write(&self, lane: usize, x: &Lifted<L>, _rate: bool) -> Lift {
+        let [r, u, v, w] = [0, 1, 2, 3].map(|k| Self::vector(x, k, lane));
+        Lift { r, e: [u, v, w] }
+    }
+
+    #[inline(always)]
+    fn value(slot: &Slot<L>, x: &Lifted<L>) -> Triple<L> {
+        let mut value = scaled(&slot.point, &x[0]);
+        for k in 0..3 {
+            add_scaled(&mut value, &slot.local[k], &x[1 + k]);
+        }
+        value
+    }
+
+    #[inline(always)]
+    fn add_constant(&self, _: &Slot<L>, _: &mut Triple<L>) {}
+
+    #[inline(always)]
+    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Lifted<L>) {
+        add_scaled(&mut sum[0], &slot.point, f);
+        for k in 0..3 {
+            add_scaled(&mut sum[1 + k], &slot.local[k], f);
+        }
+    }
+
+    fn arm(local: &Vector3<f64>, q: &Lifted<L>, lane: usize, _order: usize) -> Vector3<f64> {
+        Vector3::from_fn(|c, _| (0..3).map(|k| local[k] * q[1 + k][c][lane]).sum())
+    }
+
+    fn center(q: &Lifted<L>, lane: usize) -> Vector3<f64> {
+        Self::vector(q, 0, lane)
+    }
+
+    fn spin(e: &Lifted<L>, f: &Lifted<L>, lane: usize) -> Vector3<f64> {
+        let cross = |k: usize| Self::vector(e, k, lane).cross(&Self::vector(f, k, lane));
+        (1..4).map(cross).sum::<Vector3<f64>>() * 0.5
+    }
+
+    fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..3 {
+            self.force[0][c][lane] += force[c];
+        }
+        self.add_director_force(lane, at, force);
+    }
+
+    fn add_director_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..3 {
+            for k in 0..3 {
+                self.force[1 + k][c][lane] += at[k] * force[c];
+            }
+        }
+    }
+
+    fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>) {
+        for c in 0..3 {
+            self.moment[c][lane] += moment[c];
+        }
+    }
+
     /// Dual basis and inertia at the position q.
     #[inline(always)]
-    pub fn linearize(&mut self, q: &Lifted<L>) {
+    fn linearize(&mut self, q: &Lifted<L>) {
         let [_, u, v, w] = q;
         let dual = [cross(v, w), cross(w, u), cross(u, v)];
         let mut half = dot(u, &dual[0]);
@@ -144,7 +261,7 @@ impl<const L: usize> Bundle<L> {
 
     /// C⁻¹ s̃ of a feature's arm s: three rows.
     #[inline(always)]
-    pub fn half_mobility(&self, slot: &Slot<L>, q: &Lifted<L>) -> [Triple<L>; 3] {
+    fn half_mobility(&self, slot: &Slot<L>, q: &Lifted<L>) -> [Triple<L>; 3] {
         let mut arm = [[0.0; L]; 3];
         for k in 0..3 {
             add_scaled(&mut arm, &slot.local[k], &q[1 + k]);
@@ -166,26 +283,102 @@ impl<const L: usize> Bundle<L> {
         z
     }
 
-    /// Adds a force at a point of the body in a lane.
-    pub fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
-        for c in 0..3 {
-            self.force[0][c][lane] += force[c];
-            for k in 0..3 {
-                self.force[1 + k][c][lane] += at[k] * force[c];
+    #[inline(always)]
+    fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]) {
+        for (row, g) in row.iter_mut().zip(g) {
+            *row += factor * g;
+        }
+    }
+
+    #[inline(always)]
+    fn set_unit_rotations(m: &[Triple<L>; 3], lane: usize, sign: f64, block: &mut [f64]) {
+        let lane = lane % L;
+        let Some(block) = block.as_chunks_mut::<6>().0.first_chunk_mut::<3>() else { return };
+        for (k, row) in block.iter_mut().enumerate() {
+            for (c, z) in m.iter().enumerate() {
+                row[3 + c] = sign * z[k][lane];
             }
         }
     }
 
-    /// Adds a moment on the body in a lane.
-    pub fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>) {
-        for c in 0..3 {
-            self.moment[c][lane] += moment[c];
+    #[inline(always)]
+    fn add_rotation(m: &[Triple<L>; 3], lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]) {
+        let (lane, Some(row)) = (lane % L, row.first_chunk_mut::<6>()) else { return };
+        for (c, z) in m.iter().enumerate() {
+            row[3 + c] += sign * (z[0][lane] * g[0] + z[1][lane] * g[1] + z[2][lane] * g[2]);
         }
+    }
+
+    #[inline(always)]
+    fn pair(a: &[Triple<L>; 3], b: &[Triple<L>; 3]) -> [[Lane<L>; 3]; 3] {
+        let mut block = [[[0.0; L]; 3]; 3];
+        for c in 0..3 {
+            for i in 0..3 {
+                for k in 0..3 {
+                    for l in 0..L {
+                        block[i][k][l] += a[c][i][l] * b[c][k][l];
+                    }
+                }
+            }
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn clear_force(&mut self) {
+        self.force = zero();
+        self.moment = [[0.0; L]; 3];
+    }
+
+    #[inline(always)]
+    fn add_weight(&mut self) {
+        self.force[0] = self.weight;
+    }
+
+    #[inline(always)]
+    fn force_mut(&mut self) -> &mut Lifted<L> {
+        &mut self.force
+    }
+
+    #[inline(always)]
+    fn solution(&self) -> &Lifted<L> {
+        &self.solution
+    }
+
+    #[inline(always)]
+    fn gram(q: &[Lifted<L>], n: usize, kappa: f64) -> [Lane<L>; 6] {
+        gram(q, n).map(|entry| entry.map(|x| kappa * x))
+    }
+
+    #[inline(always)]
+    fn moment(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+        moment(q, p, n)
+    }
+
+    #[inline(always)]
+    fn no_moment() -> Triple<L> {
+        [[0.0; L]; 3]
+    }
+
+    #[inline(always)]
+    fn position_correction(q: &Lifted<L>) -> [Lane<L>; 6] {
+        let mut gamma = symmetric(q, q);
+        for (k, entry) in gamma.iter_mut().enumerate() {
+            for x in entry {
+                *x = if k < 3 { 1.0 - 0.5 * *x } else { -0.5 * *x };
+            }
+        }
+        gamma
+    }
+
+    #[inline(always)]
+    fn velocity_correction(q: &Lifted<L>, q_dot: &Lifted<L>) -> [Lane<L>; 6] {
+        symmetric(q, q_dot).map(|entry| entry.map(|x| -x))
     }
 
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
     #[inline(always)]
-    pub fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
+    fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
         let mut moment = known;
         for c in 0..3 {
             for l in 0..L {
@@ -220,7 +413,7 @@ impl<const L: usize> Bundle<L> {
 
     /// Adds what further generalized forces do.
     #[inline(always)]
-    pub fn apply(&mut self, q: &Lifted<L>, force: &Lifted<L>) {
+    fn apply(&mut self, q: &Lifted<L>, force: &Lifted<L>) {
         let mut moment = [[0.0; L]; 3];
         for k in 0..3 {
             add_cross(&mut moment, &q[1 + k], &force[1 + k]);
@@ -234,22 +427,9 @@ impl<const L: usize> Bundle<L> {
         }
     }
 
-    #[inline(always)]
-    fn turn(&mut self, q: &Lifted<L>, moment: &Triple<L>) {
-        let omega = multiply(&self.inverse, moment);
-        for c in 0..3 {
-            for l in 0..L {
-                self.omega[c][l] += omega[c][l];
-            }
-        }
-        for k in 0..3 {
-            add_cross(&mut self.solution[1 + k], &omega, &q[1 + k]);
-        }
-    }
-
     /// One proximal step for bodies whose inertia was lent.
     #[inline(always)]
-    pub fn return_lent(&mut self, q: &Lifted<L>) {
+    fn return_lent(&mut self, q: &Lifted<L>) {
         let mut moment = [[0.0; L]; 3];
         for c in 0..3 {
             for l in 0..L {
@@ -262,7 +442,7 @@ impl<const L: usize> Bundle<L> {
 
     /// p_k = P_k − Ī_k ë_k of the solution: what the directors' moments are made of.
     #[inline(always)]
-    pub fn director_forces(&self) -> [Triple<L>; 3] {
+    fn director_forces(&self) -> [Triple<L>; 3] {
         let mut p = [self.force[1], self.force[2], self.force[3]];
         for k in 0..3 {
             for c in 0..3 {
@@ -277,7 +457,7 @@ impl<const L: usize> Bundle<L> {
 
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]
-pub fn gram<const L: usize>(q: &[Lifted<L>], n: usize) -> [Lane<L>; 6] {
+fn gram<const L: usize>(q: &[Lifted<L>], n: usize) -> [Lane<L>; 6] {
     let mut sums = [[0.0; L]; 6];
     let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
     for (a, b) in heads.zip(tails).take((n - 1) / 2) {
@@ -315,7 +495,7 @@ fn add_symmetric<const L: usize>(sums: &mut [Lane<L>; 6], e: &Lifted<L>, f: &Lif
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
 #[inline(always)]
-pub fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
     let mut sum = [[0.0; L]; 3];
     for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
         for k in 0..3 {
@@ -327,7 +507,7 @@ pub fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -
 
 /// Entries e_k · f_l + e_l · f_k for the six rigid-body rows.
 #[inline(always)]
-pub fn symmetric<const L: usize>(e: &Lifted<L>, f: &Lifted<L>) -> [Lane<L>; 6] {
+fn symmetric<const L: usize>(e: &Lifted<L>, f: &Lifted<L>) -> [Lane<L>; 6] {
     let mut sums = [[0.0; L]; 6];
     add_symmetric(&mut sums, e, f);
     sums

@@ -1,9 +1,8 @@
 //! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
 
 use super::angles::Angle;
-use super::bundle::Bundle;
-use super::lanes::{Lifted, Triple};
-use super::prescribed::arm;
+use super::bodies::Bodies;
+use super::lanes::Triple;
 use super::recurrence::{
     Vectors, dot, product, product_with_rate, quotient, rate, root, scaled, value, vector_value,
 };
@@ -273,19 +272,19 @@ impl Loads {
 
     /// Adds the generalized forces of order n; `coefficient(b, i)` is Q_i of bundle b.
     #[inline(always)]
-    pub fn apply<'a, const L: usize>(
+    pub fn apply<'a, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
         n: usize,
-        coefficient: impl Fn(usize, usize) -> &'a Lifted<L>,
+        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
         forces: &mut [Triple<L>],
-        bundles: &mut [Bundle<L>],
+        bundles: &mut [B],
     ) {
         for load in &mut self.list {
             match load {
                 Load::Given { seat, at, body_frame, local, world, .. } => {
                     let [bundle, lane] = *seat;
                     world[n] = if *body_frame {
-                        (0..=n).map(|i| arm(&local[i], coefficient(bundle, n - i), lane)).sum()
+                        (0..=n).map(|i| B::arm(&local[i], coefficient(bundle, n - i), lane, n - i)).sum()
                     } else {
                         local[n]
                     };
@@ -323,17 +322,19 @@ impl Loads {
     }
 
     /// Power of order n of all that is not a spring; lower orders must have been asked for before.
-    pub fn power<'a, const L: usize>(
+    pub fn power<'a, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
         n: usize,
-        coefficient: impl Fn(usize, usize) -> &'a Lifted<L>,
+        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
     ) -> f64 {
         let power = |load: &mut Load| match load {
             Load::Given { seat: [bundle, lane], at, world, speed, .. } => {
                 let q = |i: usize| coefficient(*bundle, i);
                 speed[n] = match at {
-                    Some(at) => (column(q(n + 1), 0, *lane) + arm(at, q(n + 1), *lane)) * (n + 1) as f64,
-                    None => (0..=n).map(|i| spin(q(i), q(n - i + 1), *lane) * (n - i + 1) as f64).sum(),
+                    Some(at) => {
+                        (B::center(q(n + 1), *lane) + B::arm(at, q(n + 1), *lane, n + 1)) * (n + 1) as f64
+                    }
+                    None => (0..=n).map(|i| B::spin(q(i), q(n - i + 1), *lane) * (n - i + 1) as f64).sum(),
                 };
                 dot(world, speed, n)
             }
@@ -374,14 +375,4 @@ fn spring_force(n: usize, between: &[Vector3<f64>], over_length: &mut [f64], law
 fn difference<const L: usize>([plus, minus]: [Option<Place>; 2], values: &[Triple<L>]) -> Vector3<f64> {
     let value = |place: Option<Place>| place.map_or(Vector3::zeros(), |p| p.get(values).into());
     value(plus) - value(minus)
-}
-
-/// r, u, v or w of one lane.
-fn column<const L: usize>(q: &Lifted<L>, k: usize, lane: usize) -> Vector3<f64> {
-    Vector3::from_fn(|c, _| q[k][c][lane])
-}
-
-/// ½ Σ e_k × f_k of one lane.
-fn spin<const L: usize>(e: &Lifted<L>, f: &Lifted<L>, lane: usize) -> Vector3<f64> {
-    (1..4).map(|k| column(e, k, lane).cross(&column(f, k, lane))).sum::<Vector3<f64>>() * 0.5
 }

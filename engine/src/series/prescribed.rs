@@ -4,10 +4,11 @@
 //! A driven feature is x = C(t) Q with local coordinates that are series themselves. In order m it has, besides
 //! C₀ Q_m, the part Σ C_i Q_(m−i), i > 0, which is known beforehand; likewise the generalized force on it.
 
-use super::bundle::{Bundle, Slot};
-use super::lanes::{Lifted, Triple};
+use super::bodies::Bodies;
+use super::lanes::Triple;
 use super::recurrence::{Vectors, product_with_rate, value, vector_value};
 use super::rows::Place;
+use super::slot::Slot;
 use crate::model::BodyRef;
 use crate::motion::VectorCurve;
 use crate::row::{Form, Target, TargetCurve};
@@ -113,17 +114,17 @@ impl Prescribed {
 
     /// Finds what features have in order m beyond C₀ Q_m, times a factor; `coefficient(b, i)` is Q_i of bundle b.
     #[inline(always)]
-    pub fn prepare<'a, const L: usize>(
+    pub fn prepare<'a, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
         m: usize,
         factor: f64,
-        coefficient: impl Fn(usize, usize) -> &'a Lifted<L>,
+        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
     ) {
         for feature in &mut self.features {
             feature.known = match feature.body {
                 None => feature.local[m],
                 Some([bundle, lane]) => {
-                    (1..=m).map(|i| arm(&feature.local[i], coefficient(bundle, m - i), lane)).sum()
+                    (1..=m).map(|i| B::arm(&feature.local[i], coefficient(bundle, m - i), lane, m - i)).sum()
                 }
             } * factor;
         }
@@ -151,18 +152,17 @@ impl Prescribed {
 
     /// Takes the known forces of order n on features and adds to those on bodies what earlier orders make.
     #[inline(always)]
-    pub fn pull_back<const L: usize>(&mut self, n: usize, forces: &[Triple<L>], bundles: &mut [Bundle<L>]) {
+    pub fn pull_back<const L: usize, B: Bodies<L>>(
+        &mut self,
+        n: usize,
+        forces: &[Triple<L>],
+        bundles: &mut [B],
+    ) {
         for feature in &mut self.features {
             feature.force[n] = feature.place.get(forces).into();
             let Some([bundle, lane]) = feature.body else { continue };
-            let force = &mut bundles[bundle].force;
             for i in 1..=n {
-                let (l, f) = (&feature.local[i], &feature.force[n - i]);
-                for k in 0..3 {
-                    for c in 0..3 {
-                        force[1 + k][c][lane] += l[k] * f[c];
-                    }
-                }
+                bundles[bundle].add_director_force(lane, &feature.local[i], &feature.force[n - i]);
             }
         }
     }
@@ -185,10 +185,10 @@ impl Prescribed {
 
     /// Power −λᵀν of order n that drivers bring in: the force on a feature times the rate that is prescribed, and
     /// multiplier times rate of a number. `multiplier(i, row)` is a coefficient of λ.
-    pub fn power<'a, const L: usize>(
+    pub fn power<'a, const L: usize, B: Bodies<L> + 'a>(
         &self,
         n: usize,
-        coefficient: impl Fn(usize, usize) -> &'a Lifted<L>,
+        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
         multiplier: impl Fn(usize, usize) -> f64,
     ) -> f64 {
         let mut power = 0.0;
@@ -196,7 +196,10 @@ impl Prescribed {
             let rate = |m: usize| match feature.body {
                 None => feature.local[m + 1] * (m + 1) as f64,
                 Some([bundle, lane]) => (0..=m)
-                    .map(|i| arm(&feature.local[i + 1], coefficient(bundle, m - i), lane) * (i + 1) as f64)
+                    .map(|i| {
+                        B::arm(&feature.local[i + 1], coefficient(bundle, m - i), lane, m - i)
+                            * (i + 1) as f64
+                    })
                     .sum(),
             };
             power -= (0..=n).map(|i| feature.force[i].dot(&rate(n - i))).sum::<f64>();
@@ -208,10 +211,4 @@ impl Prescribed {
         }
         power
     }
-}
-
-/// Σ l_k e_k of one lane.
-#[inline(always)]
-pub fn arm<const L: usize>(local: &Vector3<f64>, q: &Lifted<L>, lane: usize) -> Vector3<f64> {
-    Vector3::from_fn(|c, _| (0..3).map(|k| local[k] * q[1 + k][c][lane]).sum())
 }

@@ -1,68 +1,90 @@
 //! Corrections of the state at the end of a step, onto the constraints — eq. (10.2).
 
-use super::Series;
-use super::bundle::symmetric;
-use super::lanes::{Lane, Lifted, largest, zero};
+use super::lanes::largest;
+use super::{Bodies, Series};
 
-impl<const L: usize> Series<L> {
+/// How far the rank is taken away from a state, relative to the size of the mechanism.
+const AWAY: f64 = 0.03;
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the factor at hand. Returns its size.
     #[inline(always)]
     pub fn correct_positions(&mut self) -> f64 {
-        self.values_of(|state, _| state[0]);
-        self.set_ground(true);
+        self.place_values();
         self.rows.store_factors(0, &self.values);
-        self.rows.set_violation(&self.values);
+        self.rows.set_violation(B::DIRECTIONS, &self.values);
         self.angles.place(&self.values);
         self.angles.set_violation(&self.values, &mut self.rows.extra);
         self.prescribed.demand(0, 1.0, &mut self.rows.extra);
-        self.correct(0, |state| {
-            let mut gamma = symmetric(&state[0], &state[0]);
-            for (k, entry) in gamma.iter_mut().enumerate() {
-                for x in entry {
-                    *x = if k < 3 { 1.0 - 0.5 * *x } else { -0.5 * *x };
-                }
-            }
-            gamma
-        })
+        self.correct(0, |state| B::position_correction(&state[0]))
     }
 
     /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the factor at hand.
     #[inline(always)]
     pub fn correct_velocities(&mut self) -> f64 {
-        self.values_of(|state, _| state[0]);
-        self.set_ground(true);
+        self.place_values();
         self.rows.store_factors(0, &self.values);
         self.angles.place(&self.values);
         self.values_of(|state, _| state[1]);
         self.set_ground(false);
         let state = &self.state;
-        self.prescribed.prepare(1, 1.0, |b, _| &state[b][0]);
+        self.prescribed.prepare::<L, B>(1, 1.0, |b, _| &state[b][0]);
         self.prescribed.add_known(1.0, &mut self.values);
-        self.rows.set_rate_violation(&self.values);
+        self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
         self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
         self.prescribed.demand(1, 1.0, &mut self.rows.extra);
-        self.correct(1, |state| symmetric(&state[0], &state[1]).map(|entry| entry.map(|x| -x)))
+        self.correct(1, |state| B::velocity_correction(&state[0], &state[1]))
     }
 
     #[inline(always)]
-    fn correct(&mut self, which: usize, gamma: impl Fn(&[Lifted<L>; 2]) -> [Lane<L>; 6]) -> f64 {
+    fn correct(&mut self, which: usize, gamma: impl Fn(&[B::Lifted; 2]) -> B::Rigid) -> f64 {
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
-            bundle.force = zero();
-            bundle.moment = [[0.0; L]; 3];
-            bundle.begin(&state[0], &gamma(state), [[0.0; L]; 3]);
+            bundle.clear_force();
+            bundle.begin(&state[0], &gamma(state), B::no_moment());
         }
         self.prescribed.hold();
         // The multipliers of a correction mean nothing; the highest order has room for them.
         self.solve(self.stride - 1);
         let mut moved: f64 = 0.0;
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
-            let step = bundle.solution.as_flattened();
+            let step = B::lanes(bundle.solution());
             moved = moved.max(largest(step));
-            let target = state[which].as_flattened_mut().as_flattened_mut();
+            let target = B::lanes_mut(&mut state[which]).as_flattened_mut();
             for (x, dx) in target.iter_mut().zip(step.as_flattened()) {
                 *x += dx;
             }
         }
         moved
+    }
+
+    /// Whether rows depend on others a little away from the state, along an admissible velocity without symmetry. The
+    /// state is left elsewhere.
+    pub fn depends_nearby(&mut self, length: f64) -> bool {
+        self.linearize();
+        let velocities = self.state.iter_mut().flat_map(|[_, rate]| B::lanes_mut(rate).as_flattened_mut());
+        for (i, v) in velocities.enumerate() {
+            *v = (1.0 + i as f64 * 0.754_877_666_2).sin();
+        }
+        self.correct_velocities();
+        self.correct_velocities();
+        let largest = self.state.iter().map(|[_, rate]| largest(B::lanes(rate))).fold(0.0, f64::max);
+        if largest > 1e-9 {
+            let scale = AWAY * length / largest;
+            for [position, rate] in &mut self.state {
+                let rates = B::lanes(rate).as_flattened();
+                for (x, v) in B::lanes_mut(position).as_flattened_mut().iter_mut().zip(rates) {
+                    *x += scale * v;
+                }
+            }
+            for _ in 0..12 {
+                self.linearize();
+                if self.correct_positions() < 1e-12 * length {
+                    break;
+                }
+            }
+        }
+        self.redundant = false;
+        self.linearize();
+        self.regularized
     }
 }

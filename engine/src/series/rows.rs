@@ -1,7 +1,7 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
 use super::lanes::{Lane, Triple, add_dot, dot, scaled};
-use crate::row::{Difference, FeatureId, Form, across};
+use crate::row::{Difference, FeatureId, Form, Target, across};
 use crate::system::System;
 use nalgebra::Vector3;
 
@@ -114,7 +114,10 @@ impl<const L: usize> Rows<L> {
                     let (across, expanded) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
                     rows.commons.push(CommonVector { a, b, row: row.solver, index, across, expanded });
                 }
-                Form::Product { a, b, .. } => rows.add_product([pair(a), pair(b)], row.solver, nowhere),
+                Form::Product { a, b, target } => {
+                    let constant = if let Target::Constant(c) = target { c } else { 0.0 };
+                    rows.add_product([pair(a), pair(b)], row.solver, constant, nowhere);
+                }
                 Form::Relation { .. } => {}
             }
         }
@@ -123,7 +126,7 @@ impl<const L: usize> Rows<L> {
         rows
     }
 
-    fn add_product(&mut self, factors: [[Place; 2]; 2], row: usize, nowhere: Place) {
+    fn add_product(&mut self, factors: [[Place; 2]; 2], row: usize, constant: f64, nowhere: Place) {
         if self.products.last().is_none_or(|p| p.rows.len() == L) {
             let factors = [[[nowhere; L]; 2]; 2];
             self.products.push(Product { factors, rows: Vec::with_capacity(L), constant: [0.0; L] });
@@ -131,6 +134,7 @@ impl<const L: usize> Rows<L> {
         let Some(product) = self.products.last_mut() else { return };
         let lane = product.rows.len();
         product.rows.push(row);
+        product.constant[lane] = constant;
         for (own, given) in product.factors.iter_mut().flatten().zip(factors.as_flattened()) {
             own[lane] = *given;
         }
@@ -199,8 +203,8 @@ impl<const L: usize> Rows<L> {
 
     /// Extra terms Φ of a correction of positions.
     #[inline(always)]
-    pub fn set_violation(&mut self, values: &[Triple<L>]) {
-        self.set_linear(values);
+    pub fn set_violation(&mut self, directions: usize, values: &[Triple<L>]) {
+        self.set_linear(directions, values);
         for (k, product) in self.products.iter().enumerate() {
             let [x, y] = &self.factors[k * self.stride];
             let value = dot(x, y);
@@ -212,8 +216,8 @@ impl<const L: usize> Rows<L> {
 
     /// Extra terms Φ̇ of a correction of velocities, from the features' rates.
     #[inline(always)]
-    pub fn set_rate_violation(&mut self, values: &[Triple<L>]) {
-        self.set_linear(values);
+    pub fn set_rate_violation(&mut self, directions: usize, values: &[Triple<L>]) {
+        self.set_linear(directions, values);
         for (k, product) in self.products.iter().enumerate() {
             let [x, y] = &self.factors[k * self.stride];
             let [x_rate, y_rate] = product.factors(values);
@@ -226,10 +230,10 @@ impl<const L: usize> Rows<L> {
     }
 
     #[inline(always)]
-    fn set_linear(&mut self, values: &[Triple<L>]) {
+    fn set_linear(&mut self, directions: usize, values: &[Triple<L>]) {
         for row in &self.coincidences {
             let (a, b) = (row.a.get(values), row.b.get(values));
-            for c in 0..3 {
+            for c in 0..directions {
                 self.extra[row.row + c] = a[c] - b[c];
             }
         }
@@ -248,11 +252,13 @@ impl<const L: usize> Rows<L> {
 
     /// What is left of the rows, given the features' part of the unknown.
     #[inline(always)]
-    pub fn residual(&self, values: &[Triple<L>], out: &mut [f64]) {
+    pub fn residual(&self, directions: usize, values: &[Triple<L>], out: &mut [f64]) {
         for row in &self.coincidences {
             let (a, b) = (row.a.get(values), row.b.get(values));
-            for c in 0..3 {
-                out[row.row + c] = a[c] - b[c] + self.extra[row.row + c];
+            let extra = &self.extra[row.row..row.row + directions];
+            let out = &mut out[row.row..row.row + directions];
+            for c in 0..directions {
+                out[c] = a[c] - b[c] + extra[c];
             }
         }
         for row in &self.commons {
@@ -276,11 +282,13 @@ impl<const L: usize> Rows<L> {
 
     /// Generalized forces of multipliers of the current order.
     #[inline(always)]
-    pub fn add_forces(&self, lambda: &[f64], forces: &mut [Triple<L>]) {
+    pub fn add_forces(&self, directions: usize, lambda: &[f64], forces: &mut [Triple<L>]) {
         for row in &self.coincidences {
-            let l = &lambda[row.row..row.row + 3];
+            let lambda = &lambda[row.row..row.row + directions];
+            let mut l = [0.0; 3];
+            l[..directions].copy_from_slice(lambda);
             row.a.add(forces, [-l[0], -l[1], -l[2]]);
-            row.b.add(forces, [l[0], l[1], l[2]]);
+            row.b.add(forces, l);
         }
         for row in &self.commons {
             let l = &lambda[row.row..row.row + 2];
@@ -301,15 +309,6 @@ impl<const L: usize> Rows<L> {
     pub fn store_multipliers(&mut self, n: usize, lambda: &[f64]) {
         for (k, product) in self.products.iter().enumerate() {
             self.lambda[k * self.stride + n] = product.lanes_of(lambda);
-        }
-    }
-
-    /// Constants of the products, whose solver row is looked up.
-    pub fn set_constants(&mut self, constant: impl Fn(usize) -> f64) {
-        for product in &mut self.products {
-            for (lane, &row) in product.rows.iter().enumerate() {
-                product.constant[lane] = constant(row);
-            }
         }
     }
 

@@ -1,11 +1,13 @@
 //! The matrix S = A D⁻¹ Aᵀ of the joints' rows, as H Hᵀ with H = A C⁻ᵀ and D = C Cᵀ.
 
 use super::angles::Angles;
-use super::lanes::Triple;
+use super::bodies::Bodies;
 use super::rows::{Place, Rows};
 use crate::row::Form;
 use crate::sparse::{BlockCholesky, Pivots, Slot};
 use crate::system::{NO_INCIDENCE, System};
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Which gradient a term of H has.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,7 @@ enum Gradient {
 /// A feature's part of a row form in the block of its body.
 #[derive(Clone, Copy, Debug)]
 struct Term {
+    incidence: usize,
     at: usize,
     place: Place,
     gradient: Gradient,
@@ -41,38 +44,86 @@ struct Contribution {
     columns: usize,
 }
 
+/// A product of what two features of a bundle do to each other, and the blocks of S that it is added to: joints that
+/// are nothing but a common point need no rows of H.
+#[derive(Clone, Debug)]
+struct Pair {
+    slots: [usize; 2],
+    targets: Range<usize>,
+}
+
+/// Where the product of a pair goes in one lane.
+#[derive(Clone, Copy, Debug)]
+struct Target {
+    lane: usize,
+    sign: f64,
+    slot: Slot,
+    /// σ/m, which is the same at every state.
+    constant: f64,
+}
+
 /// S and its factor.
 #[derive(Clone, Debug)]
 pub struct Schur {
+    /// Terms of common points, and all others.
+    units: Vec<Term>,
     terms: Vec<Term>,
+    /// Where the others stand in H.
+    changing: Vec<Range<usize>>,
     contributions: Vec<Contribution>,
     h: Vec<f64>,
+    pairs: Vec<Pair>,
+    targets: Vec<Target>,
+    /// What of S never changes.
+    base: Vec<f64>,
+    /// Whether what never changes is written once.
+    pub keep_constants: bool,
+    /// Entries that were not written again.
+    pub constants_kept: u64,
     /// The factor.
     pub factor: BlockCholesky,
 }
 
 impl Schur {
-    /// Writes the program of S.
-    pub fn new(system: &System, place: &[Place], lanes: usize) -> Self {
+    /// Writes the program of S for twists of so many components.
+    pub fn new(system: &System, place: &[Place], lanes: usize, twist: usize) -> Self {
         let sizes: Vec<usize> = system.groups.iter().map(|g| g.solver.len()).collect();
-        let edges = system.touching.iter().flat_map(|incidences| {
+        // A joint without rows (in the plane) meets nobody.
+        let touching: Vec<Vec<usize>> = system
+            .touching
+            .iter()
+            .map(|list| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect())
+            .collect();
+        let edges = touching.iter().flat_map(|incidences: &Vec<usize>| {
             incidences.iter().enumerate().flat_map(move |(k, &p)| {
                 let group = |i: usize| system.incidences[i].group;
                 incidences[k + 1..].iter().map(move |&q| (group(p), group(q)))
             })
         });
         let factor = BlockCholesky::new(&sizes, edges);
+        let ends = ends(system, place);
         let mut contributions = Vec::new();
-        for incidences in &system.touching {
+        let mut pairs: BTreeMap<[usize; 2], Vec<Target>> = BTreeMap::new();
+        for (body, incidences) in touching.iter().enumerate() {
             for (k, &p) in incidences.iter().enumerate() {
                 for &q in &incidences[k..] {
                     let slot = factor.slot(system.incidences[p].group, system.incidences[q].group);
                     let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
+                    if let (Some(a), Some(b)) = (ends[left], ends[right]) {
+                        let (transposed, sign) = (a.place.slot > b.place.slot, a.sign * b.sign);
+                        let mut slots = [a.place.slot, b.place.slot];
+                        slots.sort_unstable();
+                        let slot = Slot { offset: slot.offset, transposed };
+                        let constant = sign / system.bodies[body].mass;
+                        let target = Target { lane: a.place.lane, sign, slot, constant };
+                        pairs.entry(slots).or_default().push(target);
+                        continue;
+                    }
                     let (left, right) = (&system.incidences[left], &system.incidences[right]);
                     contributions.push(Contribution {
                         slot,
-                        left: left.offset,
-                        right: right.offset,
+                        left: left.offset / 6 * twist,
+                        right: right.offset / 6 * twist,
                         rows: left.rows,
                         columns: right.rows,
                     });
@@ -81,89 +132,174 @@ impl Schur {
         }
         // In the order of memory, so that the sums run through the store once.
         contributions.sort_by_key(|c| c.slot.offset);
-        Self { terms: terms(system, place, lanes), contributions, h: vec![0.0; system.block_numbers], factor }
+        let h = vec![0.0; system.block_numbers / 6 * twist];
+        let (units, terms): (Vec<Term>, Vec<Term>) = terms(system, place, lanes, twist)
+            .into_iter()
+            .partition(|t| matches!(t.gradient, Gradient::Unit));
+        // Joints that are only a common point need no rows in H unless they meet others.
+        let mixed = |unit: &Term| {
+            let body = system.incidences[unit.incidence].body;
+            touching[body].iter().any(|&i| ends[i].is_none())
+        };
+        let units = units.into_iter().filter(mixed).collect();
+        let changing = changing(&terms, twist);
+        let mut targets = Vec::new();
+        let mut list = Vec::new();
+        for (slots, own) in pairs {
+            let first = targets.len();
+            targets.extend(own);
+            list.push(Pair { slots, targets: first..targets.len() });
+        }
+        let mut schur = Self {
+            units,
+            terms,
+            changing,
+            contributions,
+            h,
+            pairs: list,
+            targets,
+            base: vec![0.0; factor.values().len()],
+            keep_constants: true,
+            constants_kept: 0,
+            factor,
+        };
+        schur.write_constants(twist, if twist == 3 { 2 } else { 3 });
+        schur
     }
 
     /// Builds S from C⁻¹ s̃ of all features and factors it.
-    pub fn build<const L: usize>(
+    #[inline(always)]
+    pub fn build<const L: usize, B: Bodies<L>>(
         &mut self,
         rows: &Rows<L>,
         angles: &Angles,
-        mobility: &[[Triple<L>; 3]],
+        mobility: &[B::Mobility],
         epsilon: f64,
     ) -> Pivots {
-        self.h.fill(0.0);
+        self.set_terms::<L, B>(rows, angles, mobility);
+        self.factor.values_mut().copy_from_slice(&self.base);
+        if B::TWIST == 3 {
+            self.add_pairs::<L, 2, B>(mobility);
+            self.multiply::<3>();
+        } else {
+            self.add_pairs::<L, 3, B>(mobility);
+            self.multiply::<6>();
+        }
+        self.factor.factor(epsilon, 0.0, |_, _| {})
+    }
+
+    /// H. Rows of common points have a part that never changes: it is written once.
+    #[inline(always)]
+    fn set_terms<const L: usize, B: Bodies<L>>(
+        &mut self,
+        rows: &Rows<L>,
+        angles: &Angles,
+        mobility: &[B::Mobility],
+    ) {
+        if self.keep_constants {
+            self.constants_kept += ((self.units.len() + self.targets.len()) * B::DIRECTIONS) as u64;
+        } else {
+            self.write_constants(B::TWIST, B::DIRECTIONS);
+        }
+        for unit in &self.units {
+            let block = &mut self.h[unit.at..unit.at + B::TWIST * B::DIRECTIONS];
+            B::set_unit_rotations(&mobility[unit.place.slot], unit.place.lane, unit.sign, block);
+        }
+        for range in &self.changing {
+            self.h[range.clone()].fill(0.0);
+        }
         for term in &self.terms {
             let z = &mobility[term.place.slot];
-            let lane = term.place.lane % L;
-            let z = [0, 1, 2].map(|r| [z[r][0][lane], z[r][1][lane], z[r][2][lane]]);
-            let block = self.h[term.at..].as_chunks_mut::<6>().0;
+            let mut block = self.h[term.at..].chunks_exact_mut(B::TWIST);
+            let mut add = |g: &[f64; 3]| {
+                if let Some(row) = block.next() {
+                    B::add_translation(g, term.sign * term.translation, row);
+                    B::add_rotation(z, term.place.lane, g, term.sign, row);
+                }
+            };
             match term.gradient {
-                Gradient::Unit => {
-                    for (k, row) in block.iter_mut().take(3).enumerate() {
-                        row[k] += term.sign * term.translation;
-                        for c in 0..3 {
-                            row[3 + c] += term.sign * z[c][k];
-                        }
-                    }
-                }
-                Gradient::Across(k) => {
-                    let across = rows.commons[k].across;
-                    for (row, g) in block.iter_mut().zip(&across) {
-                        add_gradient(row, g, &z, term);
-                    }
-                }
-                Gradient::Factor { bundle, lane, side } => {
-                    let g = rows.product_factors(bundle, lane)[1 - side];
-                    if let Some(row) = block.first_mut() {
-                        add_gradient(row, &g, &z, term);
-                    }
-                }
-                Gradient::Relation { r, k } => {
-                    if let Some(row) = block.first_mut() {
-                        add_gradient(row, &angles.gradient(r, k), &z, term);
+                Gradient::Unit => {}
+                Gradient::Across(k) => rows.commons[k].across.iter().for_each(add),
+                Gradient::Factor { bundle, lane, side } => add(&rows.product_factors(bundle, lane)[1 - side]),
+                Gradient::Relation { r, k } => add(&angles.gradient(r, k)),
+            }
+        }
+    }
+
+    /// What joints that are only common points add to S: σ (1/m + s̃ᵀ I⁻¹ s̃), whose first part stands there.
+    #[inline(always)]
+    fn add_pairs<const L: usize, const D: usize, B: Bodies<L>>(&mut self, mobility: &[B::Mobility]) {
+        let values = self.factor.values_mut();
+        for pair in &self.pairs {
+            let [a, b] = pair.slots.map(|slot| &mobility[slot]);
+            let block = B::pair(a, b);
+            for target in &self.targets[pair.targets.clone()] {
+                let lane = target.lane % L;
+                let out = values[target.slot.offset..].as_chunks_mut::<D>().0.first_chunk_mut::<D>();
+                let Some(out) = out else { continue };
+                for i in 0..D {
+                    for k in 0..D {
+                        let x = if target.slot.transposed { block[k][i][lane] } else { block[i][k][lane] };
+                        out[i][k] += target.sign * x;
                     }
                 }
             }
         }
-        self.factor.clear();
+    }
+
+    /// The translations in rows of common points: ±1/√m along each direction, and what they make in S.
+    fn write_constants(&mut self, twist: usize, directions: usize) {
+        for unit in &self.units {
+            for k in 0..directions {
+                let row = &mut self.h[unit.at + k * twist..unit.at + (k + 1) * twist];
+                row.fill(0.0);
+                row[k] = unit.sign * unit.translation;
+            }
+        }
+        self.base.fill(0.0);
+        for target in &self.targets {
+            for k in 0..directions {
+                self.base[target.slot.offset + k * (directions + 1)] += target.constant;
+            }
+        }
+    }
+
+    /// S = H Hᵀ.
+    #[inline(always)]
+    fn multiply<const W: usize>(&mut self) {
         let values = self.factor.values_mut();
         for c in &self.contributions {
             let (left, right) =
-                (&self.h[c.left..c.left + 6 * c.rows], &self.h[c.right..c.right + 6 * c.columns]);
+                (&self.h[c.left..c.left + W * c.rows], &self.h[c.right..c.right + W * c.columns]);
             let out = &mut values[c.slot.offset..c.slot.offset + c.rows * c.columns];
             match (c.rows, c.columns) {
-                (3, 3) => add_product::<3>(left, right, out),
-                (5, 5) => add_product::<5>(left, right, out),
+                (2, 2) => add_product::<W, 2>(left, right, out),
+                (3, 3) => add_product::<W, 3>(left, right, out),
+                (5, 5) => add_product::<W, 5>(left, right, out),
                 _ => {
-                    for (a, out) in left.as_chunks::<6>().0.iter().zip(out.chunks_exact_mut(c.columns)) {
-                        for (b, out) in right.as_chunks::<6>().0.iter().zip(out) {
+                    for (a, out) in left.as_chunks::<W>().0.iter().zip(out.chunks_exact_mut(c.columns)) {
+                        for (b, out) in right.as_chunks::<W>().0.iter().zip(out) {
                             *out += dot(a, b);
                         }
                     }
                 }
             }
         }
-        self.factor.factor(epsilon, 0.0, |_, _| {})
     }
 }
 
 #[inline(always)]
-fn add_gradient(row: &mut [f64; 6], g: &[f64; 3], z: &[[f64; 3]; 3], term: &Term) {
-    for c in 0..3 {
-        row[c] += term.sign * term.translation * g[c];
-        row[3 + c] += term.sign * (z[c][0] * g[0] + z[c][1] * g[1] + z[c][2] * g[2]);
+fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
+    let mut sum = a[0] * b[0];
+    for k in 1..W {
+        sum += a[k] * b[k];
     }
+    sum
 }
 
 #[inline(always)]
-fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
-}
-
-#[inline(always)]
-fn add_product<const N: usize>(left: &[f64], right: &[f64], out: &mut [f64]) {
-    let (left, right) = (left.as_chunks::<6>().0, right.as_chunks::<6>().0);
+fn add_product<const W: usize, const N: usize>(left: &[f64], right: &[f64], out: &mut [f64]) {
+    let (left, right) = (left.as_chunks::<W>().0, right.as_chunks::<W>().0);
     let (Some(left), Some(right), Some(out)) = (
         left.first_chunk::<N>(),
         right.first_chunk::<N>(),
@@ -178,21 +314,65 @@ fn add_product<const N: usize>(left: &[f64], right: &[f64], out: &mut [f64]) {
     }
 }
 
+/// The point of a joint that is nothing but a common point, on one body.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    place: Place,
+    sign: f64,
+}
+
+/// For each incidence its point, if its joint is nothing but a common point.
+fn ends(system: &System, place: &[Place]) -> Vec<Option<End>> {
+    let mut ends = vec![None; system.incidences.len()];
+    for group in &system.groups {
+        let [row] = &system.rows[group.forms.clone()] else { continue };
+        let Form::Coincidence { a, b } = row.form else { continue };
+        for (order, feature, sign) in [(0, a, 1.0), (1, b, -1.0)] {
+            let incidence = row.incidence[order];
+            if incidence != NO_INCIDENCE {
+                ends[incidence] = Some(End { place: place[feature], sign });
+            }
+        }
+    }
+    ends
+}
+
+/// The rows of H that terms add to, in pieces.
+fn changing(terms: &[Term], twist: usize) -> Vec<Range<usize>> {
+    let mut rows: Vec<Range<usize>> = terms
+        .iter()
+        .map(|term| {
+            let rows = if matches!(term.gradient, Gradient::Across(_)) { 2 } else { 1 };
+            term.at..term.at + rows * twist
+        })
+        .collect();
+    rows.sort_by_key(|range| range.start);
+    let mut pieces: Vec<Range<usize>> = Vec::new();
+    for range in rows {
+        match pieces.last_mut() {
+            Some(last) if last.end >= range.start => last.end = last.end.max(range.end),
+            _ => pieces.push(range),
+        }
+    }
+    pieces
+}
+
 /// The terms of H, row form by row form.
-fn terms(system: &System, place: &[Place], lanes: usize) -> Vec<Term> {
+fn terms(system: &System, place: &[Place], lanes: usize, twist: usize) -> Vec<Term> {
     let mut terms = Vec::new();
     let (mut commons, mut products, mut relations) = (0, 0, 0);
     for row in &system.rows {
         let mut add = |order: usize, feature: usize, gradient: Gradient, sign: f64| {
-            let incidence = row.incidence[order];
-            if incidence == NO_INCIDENCE {
+            let place_of = row.incidence[order];
+            if place_of == NO_INCIDENCE {
                 return;
             }
-            let incidence = &system.incidences[incidence];
+            let incidence = &system.incidences[place_of];
             let point = system.features[feature].point;
             let mass = system.bodies[incidence.body].mass;
             terms.push(Term {
-                at: incidence.offset + 6 * row.local,
+                incidence: place_of,
+                at: incidence.offset / 6 * twist + twist * row.local,
                 place: place[feature],
                 gradient,
                 sign,

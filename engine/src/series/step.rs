@@ -1,7 +1,7 @@
 //! One step of the series: expand, choose how far the terms reach, move there, and project.
 
-use super::Series;
 use super::lanes::largest;
+use super::{Bodies, Series};
 use pulp::{Arch, Simd, WithSimd};
 
 /// A correction of positions above this part of the tolerance calls for a new factor.
@@ -47,12 +47,15 @@ pub struct Taken {
     pub rejected: u64,
     /// Whether the new state is made of finite numbers.
     pub finite: bool,
+    /// Whether Newton's method has just shown that the constraints hold: its last step was of no size, with a regular
+    /// factor.
+    pub proven: bool,
 }
 
 /// A step, to be compiled for each set of vector instructions.
-struct Step<'a, const L: usize>(&'a mut Series<L>, Plan);
+struct Step<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Plan);
 
-impl<const L: usize> WithSimd for Step<'_, L> {
+impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     type Output = Taken;
 
     #[inline(always)]
@@ -62,9 +65,9 @@ impl<const L: usize> WithSimd for Step<'_, L> {
 }
 
 /// A factorization, likewise.
-struct Linearize<'a, const L: usize>(&'a mut Series<L>);
+struct Linearize<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
 
-impl<const L: usize> WithSimd for Linearize<'_, L> {
+impl<const L: usize, B: Bodies<L>> WithSimd for Linearize<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
@@ -74,9 +77,9 @@ impl<const L: usize> WithSimd for Linearize<'_, L> {
 }
 
 /// An evaluation of the accelerations, likewise.
-struct Evaluate<'a, const L: usize>(&'a mut Series<L>);
+struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
 
-impl<const L: usize> WithSimd for Evaluate<'_, L> {
+impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
@@ -86,7 +89,7 @@ impl<const L: usize> WithSimd for Evaluate<'_, L> {
     }
 }
 
-impl<const L: usize> Series<L> {
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Accelerations and multipliers at the state: builds and factors S, then order 0.
     pub fn evaluate(&mut self) {
         Arch::new().dispatch(Evaluate(self));
@@ -94,12 +97,13 @@ impl<const L: usize> Series<L> {
 
     /// Builds and factors S at the point of expansion.
     pub fn linearize(&mut self) {
-        Arch::new().dispatch(Linearize(self));
+        if L == 1 { self.linearize_here() } else { Arch::new().dispatch(Linearize(self)) }
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
     pub fn step(&mut self, plan: Plan) -> Taken {
-        Arch::new().dispatch(Step(self, plan))
+        // One body leaves nothing to vectorise.
+        if L == 1 { self.step_here(plan) } else { Arch::new().dispatch(Step(self, plan)) }
     }
 
     /// The step that the series at the state allow, at which S must be factored, if no knot were in the way, s.
@@ -118,7 +122,7 @@ impl<const L: usize> Series<L> {
         let order = self.expand(plan.order, |s, k| {
             end < plan.end
                 && k > LEAST_ORDER
-                && s.reached(k - 1, allowance).min(s.reached(k, allowance)) >= left
+                && s.reached(k - 1, allowance, 0.0).min(s.reached(k, allowance, 0.0)) >= left
         });
         if !self.power.is_empty() {
             self.find_power(order);
@@ -132,11 +136,14 @@ impl<const L: usize> Series<L> {
                 (h, time) = (left, end);
             }
             let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
-            // A comparison that is false for NaN as well.
-            if met && (self.arrive(h, time, order, plan) <= FAR * plan.tolerance || rejected == MOST_REJECTED)
-            {
-                self.correct_velocities();
-                return Taken { h, time, at_break: time == end, order, rejected, finite: self.is_finite() };
+            if met {
+                let (moved, closed) = self.arrive(h, time, order, plan);
+                // A comparison that is false for NaN as well.
+                if moved <= FAR * plan.tolerance || rejected == MOST_REJECTED {
+                    self.correct_velocities();
+                    let (finite, proven) = (self.is_finite(), closed && !self.regularized);
+                    return Taken { h, time, at_break: time == end, order, rejected, finite, proven };
+                }
             }
             rejected += 1;
             h *= 0.5;
@@ -144,43 +151,48 @@ impl<const L: usize> Series<L> {
     }
 
     /// Moves to the end of a step, factors S there and projects the positions. Returns how far that moved them, which is
-    /// what the terms that were left out would have added.
+    /// what the terms that were left out would have added, and whether Newton's method has converged.
     #[inline(always)]
-    fn arrive(&mut self, h: f64, time: f64, order: usize, plan: Plan) -> f64 {
+    fn arrive(&mut self, h: f64, time: f64, order: usize, plan: Plan) -> (f64, bool) {
         self.advance(h, order);
         self.set_time(time);
         self.linearize_here();
-        let mut moved = 0.0;
+        let (mut moved, mut closed) = (0.0, false);
         for _ in 0..3 {
             let step = self.correct_positions();
             moved += step;
-            if step <= CONSISTENT * plan.length {
+            closed = step <= CONSISTENT * plan.length;
+            if closed {
                 break;
             }
         }
         if moved > NEGLIGIBLE * plan.tolerance {
             self.linearize_here();
         }
-        moved
+        (moved, closed)
     }
 
     /// The largest terms of positions and velocities that a tolerance allows.
     #[inline(always)]
     fn allowance(&self, tolerance: f64) -> [f64; 2] {
         let size = |which: usize| {
-            let sizes = self.state.iter().map(|state| largest(state[which].as_flattened()));
+            let sizes = self.state.iter().map(|state| largest(B::lanes(&state[which])));
             sizes.fold(0.0, f64::max)
         };
         [0, 1].map(|which| tolerance * (1.0 + size(which)))
     }
 
-    /// The step that the term of order k allows.
+    /// The step that the term of order k allows, or zero if it is shorter than `least`: found without roots.
     #[inline(always)]
-    fn reached(&self, k: usize, [position, velocity]: [f64; 2]) -> f64 {
+    fn reached(&self, k: usize, [position, velocity]: [f64; 2], least: f64) -> f64 {
         let term = self.size_of(k);
-        let by_position = (position / term).powf(1.0 / k as f64);
-        let by_velocity = (velocity / (k as f64 * term)).powf(1.0 / (k - 1) as f64);
-        by_position.min(by_velocity)
+        let (by_position, by_velocity) = (position / term, velocity / (k as f64 * term));
+        let power = (1..k).fold(1.0, |power, _| power * least);
+        if by_velocity < power || by_position < power * least {
+            return 0.0;
+        }
+        let root = |x: f64, k: usize| (x.ln() / k as f64).exp();
+        root(by_position, k).min(root(by_velocity, k - 1))
     }
 
     /// The step and the order at which the series is cut: the longest step that two successive terms of positions and
@@ -188,14 +200,14 @@ impl<const L: usize> Series<L> {
     #[inline(always)]
     fn reach(&self, order: usize, allowance: [f64; 2]) -> (f64, usize) {
         let mut best = (0.0, order);
-        let mut previous = self.reached(2, allowance);
-        for k in 3..=order {
-            let next = self.reached(k, allowance);
+        let mut next = self.reached(order, allowance, 0.0);
+        for k in (3..=order).rev() {
+            let previous = self.reached(k - 1, allowance, best.0);
             let h = previous.min(next);
-            if h >= best.0 {
+            if h > best.0 {
                 best = (h, k);
             }
-            previous = next;
+            next = previous;
         }
         best
     }

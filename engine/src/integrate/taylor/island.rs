@@ -1,0 +1,216 @@
+//! A part of a scene that nothing connects with the rest, and its series.
+
+use super::{MAX_ORDER, Stop};
+use crate::elimination::Counters;
+use crate::mechanism::Mechanism;
+use crate::parts::Part;
+use crate::plane;
+use crate::series::{LEAST_TOLERANCE_REDUNDANT, Plan, Planar, Series};
+use crate::system::System;
+
+/// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
+const CROWDED: f64 = 0.1;
+/// Most knots that are counted.
+const MOST_KNOTS: usize = 100_000;
+
+/// The series, bundled as suits the number of bodies.
+#[derive(Clone, Debug)]
+enum Engine {
+    /// One body.
+    Narrow(Box<Series<1>>),
+    /// Several.
+    Wide(Box<Series<4>>),
+    /// One body in a plane.
+    NarrowPlanar(Box<Series<1, Planar<1>>>),
+    /// Several bodies in a plane.
+    WidePlanar(Box<Series<4, Planar<4>>>),
+}
+
+/// Runs `$call` with `$series` bound to the series.
+macro_rules! with {
+    ($engine:expr, $series:ident => $call:expr) => {
+        match $engine {
+            Engine::Narrow($series) => $call,
+            Engine::Wide($series) => $call,
+            Engine::NarrowPlanar($series) => $call,
+            Engine::WidePlanar($series) => $call,
+        }
+    };
+}
+
+/// A part and its last step.
+#[derive(Clone, Debug)]
+pub struct Island {
+    /// Its bodies, if it is not the whole.
+    part: Option<Box<System>>,
+    tolerance: f64,
+    order: usize,
+    length: f64,
+    bodies: usize,
+    rows: usize,
+    engine: Engine,
+    /// End of the last step.
+    t: f64,
+    /// The last step: its start, size and the terms that it used.
+    t_old: f64,
+    h_old: f64,
+    order_old: usize,
+    steps: u64,
+}
+
+impl Island {
+    /// Starts a part of a system, or the whole, at (t, y).
+    pub fn new(
+        whole: &System,
+        part: Option<Part>,
+        redundant: bool,
+        turns: &[f64],
+        t: f64,
+        y: &[f64],
+        tolerance: f64,
+    ) -> Self {
+        let part = part.map(|part| Box::new(part.system));
+        let system = part.as_deref().unwrap_or(whole);
+        let skip = whole.model.settings.skip;
+        let q = &y[..whole.coordinates];
+        let plane = if skip.planar { plane::recognize(system, q).ok() } else { None };
+        let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
+        let redundant = flat.as_ref().map_or(redundant, |flat| plane::is_redundant(flat, t, y));
+        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
+        let order = order_for(tolerance, flat.is_some());
+        let rows = flat.as_ref().unwrap_or(system).solver_rows;
+        let mut engine = match (&flat, system.bodies.len()) {
+            (None, 1) => Engine::Narrow(Box::new(Series::new(system, order, redundant, turns))),
+            (None, _) => Engine::Wide(Box::new(Series::new(system, order, redundant, turns))),
+            (Some(flat), 1) => Engine::NarrowPlanar(Box::new(Series::planar(flat, order, redundant, turns))),
+            (Some(flat), _) => Engine::WidePlanar(Box::new(Series::planar(flat, order, redundant, turns))),
+        };
+        with!(&mut engine, s => {
+            s.keep_constants(skip.constants);
+            s.place(system, t, y);
+            s.linearize();
+        });
+        let (length, bodies) = (system.length, system.bodies.len());
+        Self {
+            part,
+            tolerance,
+            order,
+            length,
+            bodies,
+            rows,
+            engine,
+            t,
+            t_old: t,
+            h_old: 0.0,
+            order_old: order,
+            steps: 0,
+        }
+    }
+
+    /// End of the last step.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// Bodies.
+    pub fn bodies(&self) -> usize {
+        self.bodies
+    }
+
+    /// Rows of the solver.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Steps so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Whether it is solved in a plane.
+    pub fn is_planar(&self) -> bool {
+        matches!(self.engine, Engine::NarrowPlanar(_) | Engine::WidePlanar(_))
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        with!(&self.engine, s => s.counters)
+    }
+
+    /// Entries of the matrix that were not written again.
+    pub fn constants_kept(&self) -> u64 {
+        with!(&self.engine, s => s.constants_kept())
+    }
+
+    /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
+    /// itself that the constraints hold, and how often it was shortened.
+    pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), Stop> {
+        let plan = Plan { order: self.order, tolerance: self.tolerance, length: self.length, end };
+        let system = self.part.as_deref().unwrap_or(whole);
+        let taken = with!(&mut self.engine, s => {
+            let taken = s.step(plan);
+            s.store(system, y);
+            taken
+        });
+        if !taken.finite || taken.h.is_nan() {
+            return Err(Stop::NotFinite { time: self.t });
+        }
+        if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
+        {
+            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
+        }
+        self.t_old = self.t;
+        self.h_old = taken.h;
+        self.order_old = taken.order;
+        self.t = taken.time;
+        self.steps += 1;
+        Ok((taken.proven, taken.rejected))
+    }
+
+    /// Whether knots of prescribed functions follow so closely until `end` that steps, which end at each of them, would be
+    /// far shorter than the series allow.
+    pub fn crowded(&mut self, end: f64) -> bool {
+        let (t, order, tolerance) = (self.t, self.order, self.tolerance);
+        with!(&mut self.engine, s => {
+            let knots = s.knots_before(end, MOST_KNOTS);
+            knots > 0 && (end - t) / (knots as f64) < CROWDED * s.natural_step(order, tolerance)
+        })
+    }
+
+    /// Gives the mechanism, which stands at time t within the last step, the multipliers of that moment. Tells whether the
+    /// series have them: those of the whole in space do, those of a part or of the plane do not.
+    pub fn give_multipliers(&self, mechanism: &mut Mechanism, t: f64) -> bool {
+        let Mechanism { system, elimination, .. } = mechanism;
+        let tau = t - self.t_old;
+        self.part.is_none()
+            && !self.is_planar()
+            && self.h_old > 0.0
+            && (0.0..=self.h_old).contains(&tau)
+            && with!(&self.engine, s => s.give_multipliers(system, tau, self.order_old, elimination))
+    }
+
+    /// Work of drivers and of loads without potential from the start of its last step to time t, J.
+    pub fn work_to(&self, t: f64) -> f64 {
+        with!(&self.engine, s => s.work((t - self.t_old).clamp(0.0, self.h_old)))
+    }
+
+    /// Writes its own coordinates at time t within its last step.
+    pub fn interpolate(&self, whole: &System, t: f64, y: &mut [f64]) {
+        let system = self.part.as_deref().unwrap_or(whole);
+        if t >= self.t || self.h_old == 0.0 {
+            with!(&self.engine, s => s.store(system, y));
+            return;
+        }
+        let tau = (t - self.t_old).clamp(0.0, self.h_old);
+        with!(&self.engine, s => s.interpolate(system, tau, self.order_old, y));
+    }
+}
+
+/// Order for a tolerance: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13. In a plane a further order costs little against what
+/// each step costs anyway.
+fn order_for(tolerance: f64, planar: bool) -> usize {
+    let powers = std::iter::successors(Some(tolerance), |t| Some(10.0 * t));
+    let digits = powers.take(MAX_ORDER).take_while(|&t| t < 0.3).count();
+    let least = if planar { 9 } else { 5 };
+    (least + digits).clamp(6, MAX_ORDER)
+}

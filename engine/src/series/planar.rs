@@ -1,0 +1,387 @@
+//! L bodies side by side that move in a plane: the same formulation with one director z of two components.
+//!
+//! A point is P = r + a z + b J z with J a quarter turn, the only rigid-body row is z · z = 1, the twist is
+//! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
+
+use super::bodies::Bodies;
+use super::lanes::{Lane, Triple};
+use super::slot::Slot;
+use crate::lift::Lift;
+use crate::plane::Posture;
+use crate::system::{Body, System};
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// A vector in the plane for each lane.
+pub type Pair<const L: usize> = [Lane<L>; 2];
+
+/// L bodies in a plane.
+#[derive(Clone, Debug)]
+pub struct Planar<const L: usize> {
+    bodies: Range<usize>,
+    slots: Range<usize>,
+    /// How each body stands in the plane, and the plane itself.
+    postures: [Posture; L],
+    height: Lane<L>,
+    inverse_mass: Lane<L>,
+    inertia: Lane<L>,
+    lent: Lane<L>,
+    weight: Pair<L>,
+    /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
+    dual: Pair<L>,
+    particular: Pair<L>,
+    /// 1 / I_g and its root, lent inertia included.
+    inverse: Lane<L>,
+    root: Lane<L>,
+    force: [Pair<L>; 2],
+    /// Moment that acts besides.
+    moment: Lane<L>,
+    solution: [Pair<L>; 2],
+    omega: Lane<L>,
+    returned: Lane<L>,
+}
+
+#[inline(always)]
+fn each<const L: usize>(of: impl Fn(usize) -> f64) -> Lane<L> {
+    let mut out = [0.0; L];
+    for (l, out) in out.iter_mut().enumerate() {
+        *out = of(l);
+    }
+    out
+}
+
+impl<const L: usize> Planar<L> {
+    /// Turns the bodies by the angular acceleration of a moment. z̈ is made anew of ω̇: where inertia is lent, its large
+    /// parts must not leave their rounding in z · z̈.
+    #[inline(always)]
+    fn turn(&mut self, z: &Pair<L>, moment: &Lane<L>) {
+        for l in 0..L {
+            self.omega[l] += self.inverse[l] * moment[l];
+            self.solution[1][0][l] = self.particular[0][l] - self.omega[l] * z[1][l];
+            self.solution[1][1][l] = self.particular[1][l] + self.omega[l] * z[0][l];
+        }
+    }
+}
+
+impl<const L: usize> Bodies<L> for Planar<L> {
+    type Lifted = [Pair<L>; 2];
+    type Rigid = Lane<L>;
+    type Moment = Lane<L>;
+    type Directors = Pair<L>;
+    type Mobility = Pair<L>;
+    const DIRECTIONS: usize = 2;
+    const TWIST: usize = 3;
+
+    fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self {
+        let zeros = [[0.0; L]; 2];
+        Self {
+            bodies,
+            slots,
+            postures: [Posture::default(); L],
+            height: [0.0; L],
+            inverse_mass: [1.0; L],
+            inertia: [1.0; L],
+            lent: [0.0; L],
+            weight: zeros,
+            dual: zeros,
+            particular: zeros,
+            inverse: [1.0; L],
+            root: [1.0; L],
+            force: [zeros; 2],
+            moment: [0.0; L],
+            solution: [zeros; 2],
+            omega: [0.0; L],
+            returned: [0.0; L],
+        }
+    }
+
+    fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
+        self.inverse_mass[lane] = 1.0 / body.mass;
+        self.inertia[lane] = body.ibar[0];
+        self.lent[lane] = body.lent;
+        for c in 0..2 {
+            self.weight[c][lane] = body.mass * system.model.gravity[c];
+        }
+        if let Some(posture) = body.posture {
+            self.postures[lane] = posture;
+            self.height[lane] = posture.height;
+        }
+    }
+
+    fn bodies(&self) -> Range<usize> {
+        self.bodies.clone()
+    }
+
+    fn slots(&self) -> Range<usize> {
+        self.slots.clone()
+    }
+
+    #[inline(always)]
+    fn zero() -> [Pair<L>; 2] {
+        [[[0.0; L]; 2]; 2]
+    }
+
+    fn at_rest() -> [Pair<L>; 2] {
+        [[[0.0; L]; 2], [[1.0; L], [0.0; L]]]
+    }
+
+    #[inline(always)]
+    fn no_directors() -> Pair<L> {
+        [[0.0; L]; 2]
+    }
+
+    #[inline(always)]
+    fn no_mobility() -> Pair<L> {
+        [[0.0; L]; 2]
+    }
+
+    #[inline(always)]
+    fn lanes(x: &[Pair<L>; 2]) -> &[Lane<L>] {
+        x.as_flattened()
+    }
+
+    #[inline(always)]
+    fn lanes_mut(x: &mut [Pair<L>; 2]) -> &mut [Lane<L>] {
+        x.as_flattened_mut()
+    }
+
+    fn read(&self, lane: usize, lift: &Lift, out: &mut [Pair<L>; 2]) {
+        let ([x, y], [c, s]) = self.postures[lane].lower(lift);
+        for (out, value) in out.as_flattened_mut().iter_mut().zip([x, y, c, s]) {
+            out[lane] = value;
+        }
+    }
+
+    fn write(&self, lane: usize, x: &[Pair<L>; 2], rate: bool) -> Lift {
+        let [r, z] = x.map(|v| [v[0][lane], v[1][lane]]);
+        self.postures[lane].raise(r, z, rate)
+    }
+
+    #[inline(always)]
+    fn value(slot: &Slot<L>, x: &[Pair<L>; 2]) -> Triple<L> {
+        let [r, z] = x;
+        let ([a, b, _], point) = (&slot.local, &slot.point);
+        [
+            each(|l| point[l] * r[0][l] + a[l] * z[0][l] - b[l] * z[1][l]),
+            each(|l| point[l] * r[1][l] + a[l] * z[1][l] + b[l] * z[0][l]),
+            [0.0; L],
+        ]
+    }
+
+    #[inline(always)]
+    fn add_constant(&self, slot: &Slot<L>, value: &mut Triple<L>) {
+        for l in 0..L {
+            value[2][l] += slot.local[2][l] + slot.point[l] * self.height[l];
+        }
+    }
+
+    #[inline(always)]
+    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut [Pair<L>; 2]) {
+        let ([a, b, _], point, [x, y, _]) = (&slot.local, &slot.point, f);
+        for l in 0..L {
+            sum[0][0][l] += point[l] * x[l];
+            sum[0][1][l] += point[l] * y[l];
+            sum[1][0][l] += a[l] * x[l] + b[l] * y[l];
+            sum[1][1][l] += a[l] * y[l] - b[l] * x[l];
+        }
+    }
+
+    fn arm(local: &Vector3<f64>, q: &[Pair<L>; 2], lane: usize, order: usize) -> Vector3<f64> {
+        let (a, b, [c, s]) = (local[0], local[1], [0, 1].map(|k| q[1][k][lane]));
+        let normal = if order == 0 { local[2] } else { 0.0 };
+        Vector3::new(a * c - b * s, a * s + b * c, normal)
+    }
+
+    fn center(q: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
+        Vector3::new(q[0][0][lane], q[0][1][lane], 0.0)
+    }
+
+    fn spin(e: &[Pair<L>; 2], f: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
+        let ([_, z], [_, rate]) = (e, f);
+        Vector3::new(0.0, 0.0, z[0][lane] * rate[1][lane] - z[1][lane] * rate[0][lane])
+    }
+
+    fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..2 {
+            self.force[0][c][lane] += force[c];
+        }
+        self.add_director_force(lane, at, force);
+    }
+
+    fn add_director_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        let (a, b, x, y) = (at[0], at[1], force[0], force[1]);
+        self.force[1][0][lane] += a * x + b * y;
+        self.force[1][1][lane] += a * y - b * x;
+    }
+
+    fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>) {
+        self.moment[lane] += moment[2];
+    }
+
+    #[inline(always)]
+    fn linearize(&mut self, q: &[Pair<L>; 2]) {
+        let z = &q[1];
+        for l in 0..L {
+            let square = z[0][l] * z[0][l] + z[1][l] * z[1][l];
+            let half = 0.5 / square;
+            self.dual[0][l] = half * z[0][l];
+            self.dual[1][l] = half * z[1][l];
+            self.inverse[l] = 1.0 / (self.inertia[l] * square + self.lent[l]);
+            self.root[l] = self.inverse[l].sqrt();
+        }
+    }
+
+    #[inline(always)]
+    fn half_mobility(&self, slot: &Slot<L>, q: &[Pair<L>; 2]) -> Pair<L> {
+        let (z, [a, b, _], root) = (&q[1], &slot.local, &self.root);
+        [
+            each(|l| -root[l] * (a[l] * z[1][l] + b[l] * z[0][l])),
+            each(|l| root[l] * (a[l] * z[0][l] - b[l] * z[1][l])),
+        ]
+    }
+
+    #[inline(always)]
+    fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]) {
+        for (row, g) in row.iter_mut().take(2).zip(g) {
+            *row += factor * g;
+        }
+    }
+
+    #[inline(always)]
+    fn set_unit_rotations(m: &Pair<L>, lane: usize, sign: f64, block: &mut [f64]) {
+        let lane = lane % L;
+        let Some(block) = block.as_chunks_mut::<3>().0.first_chunk_mut::<2>() else { return };
+        for (k, row) in block.iter_mut().enumerate() {
+            row[2] = sign * m[k][lane];
+        }
+    }
+
+    #[inline(always)]
+    fn add_rotation(m: &Pair<L>, lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]) {
+        let (lane, Some(row)) = (lane % L, row.first_chunk_mut::<3>()) else { return };
+        row[2] += sign * (m[0][lane] * g[0] + m[1][lane] * g[1]);
+    }
+
+    #[inline(always)]
+    fn pair(a: &Pair<L>, b: &Pair<L>) -> [[Lane<L>; 3]; 3] {
+        let mut block = [[[0.0; L]; 3]; 3];
+        for i in 0..2 {
+            for k in 0..2 {
+                for l in 0..L {
+                    block[i][k][l] = a[i][l] * b[k][l];
+                }
+            }
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn clear_force(&mut self) {
+        self.force = Self::zero();
+        self.moment = [0.0; L];
+    }
+
+    #[inline(always)]
+    fn add_weight(&mut self) {
+        self.force[0] = self.weight;
+    }
+
+    #[inline(always)]
+    fn force_mut(&mut self) -> &mut [Pair<L>; 2] {
+        &mut self.force
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, q: &[Pair<L>; 2], gamma: &Lane<L>, mut moment: Lane<L>) {
+        let z = &q[1];
+        for l in 0..L {
+            self.particular[0][l] = gamma[l] * self.dual[0][l];
+            self.particular[1][l] = gamma[l] * self.dual[1][l];
+            let p = [0, 1].map(|c| self.force[1][c][l] - self.inertia[l] * self.particular[c][l]);
+            moment[l] += self.moment[l] + z[0][l] * p[1] - z[1][l] * p[0];
+            self.omega[l] = 0.0;
+            self.returned[l] = 0.0;
+            self.solution[0][0][l] = self.inverse_mass[l] * self.force[0][0][l];
+            self.solution[0][1][l] = self.inverse_mass[l] * self.force[0][1][l];
+        }
+        self.turn(z, &moment);
+    }
+
+    #[inline(always)]
+    fn apply(&mut self, q: &[Pair<L>; 2], force: &[Pair<L>; 2]) {
+        let z = &q[1];
+        let moment = each(|l| z[0][l] * force[1][1][l] - z[1][l] * force[1][0][l]);
+        for c in 0..2 {
+            for l in 0..L {
+                self.solution[0][c][l] += self.inverse_mass[l] * force[0][c][l];
+                self.force[0][c][l] += force[0][c][l];
+                self.force[1][c][l] += force[1][c][l];
+            }
+        }
+        self.turn(z, &moment);
+    }
+
+    #[inline(always)]
+    fn return_lent(&mut self, q: &[Pair<L>; 2]) {
+        let moment = each(|l| self.lent[l] * (self.omega[l] - self.returned[l]));
+        self.returned = self.omega;
+        self.turn(&q[1], &moment);
+    }
+
+    #[inline(always)]
+    fn solution(&self) -> &[Pair<L>; 2] {
+        &self.solution
+    }
+
+    #[inline(always)]
+    fn director_forces(&self) -> Pair<L> {
+        [0, 1].map(|c| each(|l| self.force[1][c][l] - self.inertia[l] * self.solution[1][c][l]))
+    }
+
+    #[inline(always)]
+    fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Lane<L> {
+        let mut sum = [0.0; L];
+        let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
+        for ([_, a], [_, b]) in heads.zip(tails).take((n - 1) / 2) {
+            for l in 0..L {
+                sum[l] += a[0][l] * b[0][l] + a[1][l] * b[1][l];
+            }
+        }
+        let mut sum: Lane<L> = each(|l| 2.0 * sum[l]);
+        if n.is_multiple_of(2) {
+            let [_, z] = &q[n / 2];
+            for l in 0..L {
+                sum[l] += z[0][l] * z[0][l] + z[1][l] * z[1][l];
+            }
+        }
+        each(|l| -kappa * sum[l])
+    }
+
+    #[inline(always)]
+    fn moment(q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
+        let mut sum = [0.0; L];
+        for ([_, z], p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
+            for l in 0..L {
+                sum[l] += z[0][l] * p[1][l] - z[1][l] * p[0][l];
+            }
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn no_moment() -> Lane<L> {
+        [0.0; L]
+    }
+
+    #[inline(always)]
+    fn position_correction(q: &[Pair<L>; 2]) -> Lane<L> {
+        let z = &q[1];
+        each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l]))
+    }
+
+    #[inline(always)]
+    fn velocity_correction(q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Lane<L> {
+        let (z, rate) = (&q[1], &q_dot[1]);
+        each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l]))
+    }
+}

@@ -1,0 +1,71 @@
+//! The kernels for blocks wider than those that are compiled one by one: the same, with lengths known only at run time.
+
+/// Replaces a symmetric n × n block, of which the lower triangle is read, by its inverse, by L D Lᵀ. `reference` is the
+/// diagonal of S; `visit` sees each pivot relative to it, and one not above `skip` drops its row.
+pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, mut visit: impl FnMut(usize, f64)) {
+    for i in 0..n {
+        for k in 0..i {
+            for p in 0..k {
+                block[i * n + k] -= block[i * n + p] * block[k * n + p];
+            }
+        }
+        let mut pivot = block[i * n + i];
+        for k in 0..i {
+            let row = block[i * n + k];
+            block[i * n + k] = row * block[k * n + k];
+            pivot -= row * block[i * n + k];
+        }
+        let relative = if reference[i] == 0.0 { 0.0 } else { pivot / reference[i] };
+        visit(i, relative);
+        block[i * n + i] = if relative <= skip { 0.0 } else { 1.0 / pivot };
+    }
+    // M = L⁻¹ in place; the diagonal keeps the reciprocals of the pivots.
+    for i in 0..n {
+        for k in 0..i {
+            let sum: f64 = (k + 1..i).map(|p| block[i * n + p] * block[p * n + k]).sum();
+            block[i * n + k] = -(block[i * n + k] + sum);
+        }
+    }
+    // Row r of Mᵀ diag M needs only the rows of M from r on.
+    for r in 0..n {
+        for c in 0..=r {
+            let own = if c == r { 1.0 } else { block[r * n + c] };
+            let mut sum = block[r * n + r] * own;
+            for i in r + 1..n {
+                sum += block[i * n + r] * block[i * n + i] * block[i * n + c];
+            }
+            // The diagonal comes last, as the whole row needs its reciprocal.
+            block[r * n + c] = sum;
+        }
+        for c in 0..r {
+            block[c * n + r] = block[r * n + c];
+        }
+    }
+}
+
+/// E ← B D⁻¹ row by row.
+pub fn scale(n: usize, inverse: &[f64], block: &[f64], out: &mut [f64]) {
+    for (row, out) in block.chunks_exact(n).zip(out.chunks_exact_mut(n)) {
+        multiply(n, inverse, row, out);
+    }
+}
+
+/// target −= E Bᵀ, where the rows of B are `columns` in number.
+pub fn update(n: usize, scaled: &[f64], block: &[f64], columns: usize, target: &mut [f64]) {
+    for (e, out) in scaled.chunks_exact(n).zip(target.chunks_exact_mut(columns)) {
+        for (b, out) in block.chunks_exact(n).zip(out) {
+            *out -= dot(e, b);
+        }
+    }
+}
+
+/// M x for a symmetric matrix.
+pub fn multiply(n: usize, matrix: &[f64], x: &[f64], out: &mut [f64]) {
+    for (row, out) in matrix.chunks_exact(n).zip(out) {
+        *out = dot(row, x);
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
