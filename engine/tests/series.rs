@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use triad_engine::catalogue;
-use triad_engine::scene::{Coordinates, IntegratorKind, Scene};
+use triad_engine::scene::{Coordinates, IntegratorKind, Load, LoadFrame, Motion, Scene, VectorMotion};
 use triad_engine::series::Series;
 use triad_engine::simulation::Simulation;
 
@@ -107,6 +107,28 @@ fn automatic_choice_says_why() {
     let summary = Simulation::new(&scene).unwrap().summary();
     assert_eq!(summary.integrator, IntegratorKind::Dop853);
     assert!(summary.reason.contains("Baumgarte"));
+}
+
+/// A step ends at each knot of a table: where they crowd, the series are no longer the best.
+#[test]
+fn automatic_choice_sees_crowded_knots() {
+    let chosen = |knots: u32| {
+        let mut scene = scene("free-body", 1e-9);
+        scene.simulation.integrator = IntegratorKind::Auto;
+        scene.simulation.duration = 4.0;
+        let times: Vec<f64> = (0..=knots).map(|k| 4.0 * f64::from(k) / f64::from(knots)).collect();
+        let values = times.iter().map(|t| (9.0 * t).sin()).collect();
+        let zero = Motion::Constant { value: 0.0 };
+        let moment =
+            VectorMotion::Components { x: Motion::Table { times, values }, y: zero.clone(), z: zero };
+        let (name, body) = ("m".to_owned(), scene.bodies[0].name.clone());
+        scene.loads.push(Load::Moment { name, body, moment, frame: LoadFrame::World });
+        let summary = Simulation::new(&scene).unwrap().summary();
+        assert!(summary.reason.contains("knots") == (summary.integrator == IntegratorKind::Dop853));
+        summary.integrator
+    };
+    assert_eq!(chosen(20), IntegratorKind::Taylor);
+    assert_eq!(chosen(5000), IntegratorKind::Dop853);
 }
 
 /// Order 0 of the series is an evaluation: equal to the elimination body by body, which is written independently.
