@@ -214,7 +214,12 @@ pub fn nu(system: &System, at: &Elimination) -> Vec<f64> {
 
 /// γ of all rows, Φ_q q̈ = γ — eq. (4.2).
 pub fn gamma(system: &System, at: &Elimination) -> Vec<f64> {
-    // For a reduced body, −Φ_Q V̇ q̇ with V̇ q̇ = (0, 0, 0, 2 u̇ × v̇).
+    gamma_parts(system, at).into_iter().map(|[lifted, reduced]| lifted + reduced).collect()
+}
+
+/// γ of all rows in its two parts: that of the lifted coordinates, and −Φ_Q V̇ q̇ of reduced bodies — eq. (3.3).
+pub fn gamma_parts(system: &System, at: &Elimination) -> Vec<[f64; 2]> {
+    // For a reduced body V̇ q̇ = (0, 0, 0, 2 u̇ × v̇).
     let reduced = |part: &Part| match system.bodies[part.body].coordinates {
         Coordinates::Full | Coordinates::Shared => 0.0,
         Coordinates::Reduced => {
@@ -222,5 +227,5 @@ pub fn gamma(system: &System, at: &Elimination) -> Vec<f64> {
             part.gradient.e[2].dot(&(2.0 * rate.e[0].cross(&rate.e[1])))
         }
     };
-    all(system, at).map(|e| e.gamma - e.parts.iter().map(reduced).sum::<f64>()).collect()
+    all(system, at).map(|e| [e.gamma, -e.parts.iter().map(reduced).sum::<f64>()]).collect()
 }

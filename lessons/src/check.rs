@@ -2,6 +2,8 @@
 
 mod answers;
 mod measured;
+mod question;
+mod tasks;
 mod variants;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,8 +15,6 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::course::Course;
-use crate::exercise::{Body, Question};
-use crate::files::ProvenanceKind;
 use crate::lesson::{Lesson, line_of};
 use crate::markdown;
 
@@ -43,20 +43,22 @@ impl fmt::Display for Problem {
 
 /// Checks a whole course. Empty means proven.
 pub fn check_course(course: &Course) -> Vec<Problem> {
-    let mut problems: Vec<Problem> = course
-        .stray()
-        .iter()
-        .map(|file| Problem {
-            file: file.clone(),
-            line: 0,
-            what: "it belongs to no lesson".to_owned(),
-            remedy: "move it into a lesson or remove it".to_owned(),
-        })
-        .collect();
+    let mut problems = check_course_files(course);
     for lesson in course.lessons() {
         problems.extend(check_lesson(course, lesson));
     }
     problems
+}
+
+/// Checks that every file of a course belongs to a lesson.
+pub fn check_course_files(course: &Course) -> Vec<Problem> {
+    let stray = |file: &String| Problem {
+        file: file.clone(),
+        line: 0,
+        what: "it belongs to no lesson".to_owned(),
+        remedy: "move it into a lesson or remove it".to_owned(),
+    };
+    course.stray().iter().map(stray).collect()
 }
 
 /// Checks one lesson of a course.
@@ -65,9 +67,11 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Problem> {
     about(course, &mut found);
     text(course, &mut found);
     stray_files(&mut found);
+    unfinished(&mut found);
     measured::scene(&mut found);
     for question in &lesson.exercise.questions {
-        question_itself(question, &mut found);
+        question::itself(question, &mut found);
+        tasks::task(question, &mut found);
     }
     answers::starter_fails(&mut found);
     answers::reference_passes(&mut found);
@@ -201,12 +205,25 @@ fn link(course: &Course, target: &str, file: &str, line: usize, found: &mut Foun
     }
 }
 
+/// Places that a skeleton left to the author.
+fn unfinished(found: &mut Found) {
+    let lesson = found.lesson;
+    for (name, bytes) in lesson.files.iter() {
+        let text = String::from_utf8_lossy(bytes);
+        for (at, _) in text.lines().enumerate().filter(|(_, line)| line.contains(crate::skeleton::TODO)) {
+            found.add(name, at + 1, "it still says TODO", "write what belongs there");
+        }
+    }
+}
+
 fn stray_files(found: &mut Found) {
     let lesson = found.lesson;
     for name in lesson.files.keys() {
         let belongs = matches!(name.as_str(), "lesson.toml" | "lesson.md" | "scene.json" | "exercise.toml")
             || name.starts_with("reference/")
+            || name.starts_with("scenes/")
             || lesson.wrong.contains_key(name)
+            || lesson.wrong_files.contains(name)
             || lesson.text.figures.contains(name);
         if !belongs {
             found.add(name, 0, "nothing uses this file", "use it or remove it");
@@ -218,86 +235,6 @@ fn stray_files(found: &mut Found) {
             if let Some(other) = ids.insert(id.clone(), name) {
                 let what = format!("the id {id} is also used in {other}; both are part of one page");
                 found.add(name, 0, what, "rename it");
-            }
-        }
-    }
-}
-
-fn question_itself(question: &Question, found: &mut Found) {
-    let id = &question.id;
-    if question.prompt.trim().is_empty() {
-        found.question(id, "its prompt is empty", "ask something");
-    }
-    if question.hints.is_empty() || question.hints.iter().any(|h| h.trim().is_empty()) {
-        found.question(id, "a hint is missing or empty", "give at least one hint that helps without telling");
-    }
-    if question.source.trim().len() < 12 {
-        found.question(
-            id,
-            "its reference has no source",
-            "say in reference/answers.toml where the answer comes from",
-        );
-    }
-    match &question.body {
-        Body::Quantity(q) => {
-            if question.provenance == ProvenanceKind::Argument && !q.rule.is_exact() {
-                found.question(
-                    id,
-                    "an argument is no source for a measured number",
-                    "derive, cite or compute it",
-                );
-            }
-            let allowed = q.rule.allowed(crate::tolerance::norm(&q.reference));
-            if !(q.error >= 0.0 && 10.0 * q.error <= allowed) {
-                let what = format!("its tolerance is {allowed:e}, its reference error {:e}", q.error);
-                found.question(id, what, "a tolerance is at least ten times the error of the reference");
-            }
-            if q.rule.digits().is_some_and(|d| d > 8) {
-                found.question(id, "its tolerance asks for more than 8 digits", "widen it");
-            }
-            for (k, m) in q.misconceptions.iter().enumerate() {
-                if q.rule.accepts(&m.value, &q.reference) {
-                    found.question(
-                        id,
-                        format!("the misconception {} is a right answer", m.id),
-                        "change its value",
-                    );
-                }
-                for other in &q.misconceptions[..k] {
-                    if q.rule.accepts(&m.value, &other.value) {
-                        let what =
-                            format!("the misconceptions {} and {} cannot be told apart", other.id, m.id);
-                        found.question(id, what, "join them or change the numbers");
-                    }
-                }
-                if m.feedback.trim().is_empty() {
-                    found.question(
-                        id,
-                        format!("the misconception {} has no feedback", m.id),
-                        "say what the slip is",
-                    );
-                }
-            }
-        }
-        Body::Choice { options, .. } => {
-            for option in options.iter().filter(|o| o.reason.trim().is_empty() || o.text.trim().is_empty()) {
-                found.question(id, format!("option {} has no text or no reason", option.id), "write both");
-            }
-        }
-        Body::Formula(f) => {
-            for (name, wrong, _) in &f.misconceptions {
-                if crate::grade::same_formula(wrong, &f.reference, &f.ranges, id) {
-                    found.question(
-                        id,
-                        format!("the misconception {name} is a right answer"),
-                        "change its value",
-                    );
-                }
-            }
-            for (k, symbol) in f.symbols.iter().enumerate() {
-                if !f.reference.uses(k) && f.misconceptions.iter().all(|(_, wrong, _)| !wrong.uses(k)) {
-                    found.question(id, format!("nothing uses the symbol {symbol}"), "remove it");
-                }
             }
         }
     }

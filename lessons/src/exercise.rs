@@ -4,9 +4,21 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
+mod tasks;
+mod written;
+
+use serde_json::Value;
+use triad_engine::scene::Scene;
+
+pub(crate) use written::numbers;
+
+pub use tasks::{Implement, ModelTask, Trajectory, Tuning};
+
 use crate::expression::Expression;
-use crate::files::{ExerciseFile, MeasuredFile, ProvenanceKind, QuestionFile, QuestionKind, ReferenceFile};
-use crate::submission::Entry;
+use crate::files::{
+    ExerciseFile, FollowFile, MeasuredFile, ProvenanceKind, QuestionFile, QuestionKind, ReferenceFile,
+};
+use crate::lesson::Files;
 use crate::tolerance::{Rule, Shape};
 use crate::units::Unit;
 use crate::variant::Parameters;
@@ -56,6 +68,8 @@ impl Question {
                 texts.extend(options.iter().flat_map(|o| [o.text.as_str(), o.reason.as_str()]));
             }
             Body::Formula(f) => texts.extend(f.misconceptions.iter().map(|(.., feedback)| feedback.as_str())),
+            Body::Model(m) => texts.extend(m.watches().iter().map(|w| w.feedback.as_str())),
+            Body::Implement(_) | Body::Trajectory(_) | Body::Tuning(_) => {}
         }
         texts
     }
@@ -75,6 +89,14 @@ pub enum Body {
     },
     /// An expression in named symbols.
     Formula(FormulaBody),
+    /// The equations at dealt states.
+    Implement(Implement),
+    /// A table of a motion.
+    Trajectory(Trajectory),
+    /// A scene of the student's own.
+    Model(ModelTask),
+    /// Settings under a budget.
+    Tuning(Tuning),
 }
 
 /// Numbers with a unit.
@@ -98,6 +120,8 @@ pub struct Quantity {
     pub error: f64,
     /// Wrong answers that are recognised.
     pub misconceptions: Vec<Misconception>,
+    /// How a wrong earlier answer is carried through.
+    pub follows: Option<FollowFile>,
 }
 
 /// A wrong answer that is recognised.
@@ -149,12 +173,36 @@ pub struct QuestionError {
     pub remedy: String,
 }
 
+/// What questions are built on: the numbers of the variant, its scenario, and the files of the lesson.
+pub(crate) struct Ground<'a> {
+    pub(crate) parameters: &'a Parameters,
+    pub(crate) scene: &'a Value,
+    pub(crate) files: &'a Files,
+}
+
+impl Ground<'_> {
+    /// The scenario, or the scene in another file of the lesson.
+    fn scene_of(&self, file: Option<&str>) -> Result<Scene, Trouble> {
+        let text = match file {
+            None => self.scene.to_string(),
+            Some(name) => {
+                let bytes = self.files.get(name);
+                let bytes = bytes.ok_or_else(|| trouble(format!("there is no file {name}"), "add it"))?;
+                String::from_utf8_lossy(bytes).into_owned()
+            }
+        };
+        let name = file.unwrap_or("scene.json");
+        Scene::from_json(&text).map_err(|e| trouble(format!("{name}: {e}"), "correct the key it names"))
+    }
+}
+
 /// Joins questions and references.
 pub(crate) fn build(
     file: ExerciseFile,
     mut references: BTreeMap<String, ReferenceFile>,
-    parameters: &Parameters,
+    ground: &Ground,
 ) -> Result<Exercise, QuestionError> {
+    let parameters = ground.parameters;
     let mut questions: Vec<Question> = Vec::new();
     for question in file.questions {
         let id = question.id.clone();
@@ -181,12 +229,17 @@ pub(crate) fn build(
             return Err(fail("it has no reference".to_owned(), &remedy));
         };
         let body = match question.kind {
-            QuestionKind::Number => quantity(&question, &reference, Shape::Number, parameters),
-            QuestionKind::Vector => quantity(&question, &reference, Shape::Vector, parameters),
-            QuestionKind::Matrix => quantity(&question, &reference, Shape::Matrix, parameters),
-            QuestionKind::Choice => choice(&question, &reference),
-            QuestionKind::Formula => formula(&question, &reference),
+            QuestionKind::Number => written::quantity(&question, &reference, Shape::Number, ground),
+            QuestionKind::Vector => written::quantity(&question, &reference, Shape::Vector, ground),
+            QuestionKind::Matrix => written::quantity(&question, &reference, Shape::Matrix, ground),
+            QuestionKind::Choice => written::choice(&question, &reference),
+            QuestionKind::Formula => written::formula(&question, &reference),
+            QuestionKind::Implement => tasks::implement(&question, ground),
+            QuestionKind::Trajectory => tasks::trajectory(&question, ground),
+            QuestionKind::Model => tasks::model(&question, ground),
+            QuestionKind::Tuning => tasks::tuning(&question, &reference, ground),
         }
+        .and_then(|body| foreign_tables(&question).map(|()| body))
         .map_err(|(problem, remedy)| fail(problem, &remedy))?;
         questions.push(Question {
             id,
@@ -201,6 +254,7 @@ pub(crate) fn build(
             measured: reference.measured,
         });
     }
+    follows_earlier(&questions)?;
     if let Some(id) = references.keys().next() {
         return Err(QuestionError {
             question: id.clone(),
@@ -211,6 +265,36 @@ pub(crate) fn build(
     Ok(Exercise { pass_mark: file.pass_mark, questions })
 }
 
+/// What is carried through comes from an earlier number.
+fn follows_earlier(questions: &[Question]) -> Result<(), QuestionError> {
+    for (at, question) in questions.iter().enumerate() {
+        let Body::Quantity(Quantity { follows: Some(follows), .. }) = &question.body else { continue };
+        for earlier in follows.from.values() {
+            if !questions[..at].iter().any(|q| q.id == *earlier && q.kind == QuestionKind::Number) {
+                return Err(QuestionError {
+                    question: question.id.clone(),
+                    problem: format!("it follows {earlier}, which is no earlier number"),
+                    remedy: "name an earlier question of kind number".to_owned(),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Tables of one kind of question do not belong to another.
+fn foreign_tables(question: &QuestionFile) -> Result<(), Trouble> {
+    use QuestionKind as Kind;
+    let kind = question.kind;
+    let name = format!("{kind:?}").to_lowercase();
+    let quantity = matches!(kind, Kind::Number | Kind::Vector | Kind::Matrix);
+    refuse(question.implement.is_some() && kind != Kind::Implement, "the table implement", &name)?;
+    refuse(question.trajectory.is_some() && kind != Kind::Trajectory, "the table trajectory", &name)?;
+    refuse(question.model.is_some() && kind != Kind::Model, "the table model", &name)?;
+    refuse(question.tuning.is_some() && kind != Kind::Tuning, "the table tuning", &name)?;
+    refuse(question.follows.is_some() && !quantity, "the table follows", &name)
+}
+
 type Trouble = (String, String);
 
 fn trouble(problem: impl Into<String>, remedy: impl Into<String>) -> Trouble {
@@ -219,154 +303,4 @@ fn trouble(problem: impl Into<String>, remedy: impl Into<String>) -> Trouble {
 
 fn refuse(present: bool, key: &str, kind: &str) -> Result<(), Trouble> {
     if present { Err(trouble(format!("{key} does not belong to a {kind}"), "remove it")) } else { Ok(()) }
-}
-
-fn quantity(
-    question: &QuestionFile,
-    reference: &ReferenceFile,
-    shape: Shape,
-    parameters: &Parameters,
-) -> Result<Body, Trouble> {
-    refuse(!question.options.is_empty(), "an option", "number, vector or matrix")?;
-    refuse(!question.symbols.is_empty(), "symbols", "number, vector or matrix")?;
-    let unit_text =
-        question.unit.as_deref().ok_or_else(|| trouble("it has no unit", "add unit = \"N\", or \"\""))?;
-    let unit = Unit::parse(unit_text).map_err(|e| trouble(format!("its unit: {e}"), "correct unit"))?;
-    let tolerance = question.tolerance.ok_or_else(|| {
-        trouble("it has no tolerance", "add tolerance = { relative = 0.005, absolute = 0 }")
-    })?;
-    let in_range = |x: f64| (0.0..f64::INFINITY).contains(&x);
-    if !in_range(tolerance.relative) || tolerance.relative >= 0.5 || !in_range(tolerance.absolute) {
-        return Err(trouble("its tolerance is negative or too large", "keep relative between 0 and 0.5"));
-    }
-    let rule = Rule { absolute: tolerance.absolute, relative: tolerance.relative };
-    if tolerance.exact != rule.is_exact() {
-        return Err(trouble(
-            "its tolerance is neither exact nor a range",
-            "write exact = true, or relative/absolute",
-        ));
-    }
-    if shape != Shape::Number && question.frame.is_none() {
-        return Err(trouble("it has no frame", "add frame = \"the ground frame (x, y, z)\""));
-    }
-    let (values, size) = numbers(&reference.value, shape, parameters)?;
-    let misconceptions = question
-        .misconceptions
-        .iter()
-        .map(|m| {
-            let (value, own) = numbers(&m.value, shape, parameters)?;
-            if own != size {
-                return Err(trouble(
-                    format!("misconception {} has another size", m.id),
-                    "give it the reference's",
-                ));
-            }
-            Ok(Misconception { id: m.id.clone(), value, feedback: parameters.fill(&m.feedback) })
-        })
-        .collect::<Result<_, _>>()?;
-    Ok(Body::Quantity(Quantity {
-        shape,
-        size,
-        unit,
-        asks_unit: question.asks_unit,
-        frame: question.frame.clone(),
-        rule,
-        reference: values,
-        error: reference.error,
-        misconceptions,
-    }))
-}
-
-/// Numbers of an author: written out or as an expression in the parameters.
-fn numbers(entry: &Entry, shape: Shape, parameters: &Parameters) -> Result<(Vec<f64>, [usize; 2]), Trouble> {
-    let one = |entry: &Entry| -> Result<f64, Trouble> {
-        let value = match entry {
-            Entry::Number(x) => *x,
-            Entry::Text(text) => parameters
-                .eval(text)
-                .map_err(|e| trouble(format!("the value \u{201c}{text}\u{201d}: {e}"), "correct it"))?,
-            Entry::List(_) => return Err(trouble("a value is nested too deeply", "write one list per row")),
-        };
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            Err(trouble("a value is not finite", "correct the expression"))
-        }
-    };
-    let row = |entry: &Entry| -> Result<Vec<f64>, Trouble> {
-        match entry {
-            Entry::List(list) if !list.is_empty() => list.iter().map(one).collect(),
-            _ => Err(trouble("a value is not a list", "write value = [1, 2, 3]")),
-        }
-    };
-    match (shape, entry) {
-        (Shape::Number, entry) => Ok((vec![one(entry)?], [1, 1])),
-        (Shape::Vector, entry) => {
-            let values = row(entry)?;
-            let size = [values.len(), 1];
-            Ok((values, size))
-        }
-        (Shape::Matrix, Entry::List(rows)) => {
-            let rows: Vec<Vec<f64>> = rows.iter().map(row).collect::<Result<_, _>>()?;
-            let columns = rows.first().map_or(0, Vec::len);
-            if columns == 0 || rows.iter().any(|r| r.len() != columns) {
-                return Err(trouble("the rows have different lengths", "write every row in full"));
-            }
-            Ok((rows.concat(), [rows.len(), columns]))
-        }
-        (Shape::Matrix, _) => {
-            Err(trouble("the value is not a list of rows", "write value = [[1, 0], [0, 1]]"))
-        }
-    }
-}
-
-fn choice(question: &QuestionFile, reference: &ReferenceFile) -> Result<Body, Trouble> {
-    refuse(question.unit.is_some(), "a unit", "choice")?;
-    refuse(question.tolerance.is_some(), "a tolerance", "choice")?;
-    refuse(!question.misconceptions.is_empty(), "a misconception (the options have reasons)", "choice")?;
-    let options: Vec<Choice> = question
-        .options
-        .iter()
-        .map(|o| Choice { id: o.id.clone(), text: o.text.clone(), reason: o.reason.clone() })
-        .collect();
-    if options.len() < 2 || options.iter().enumerate().any(|(k, o)| options[..k].iter().any(|p| p.id == o.id))
-    {
-        return Err(trouble("it has fewer than two options, or two with the same id", "add options a, b, …"));
-    }
-    match &reference.value {
-        Entry::Text(right) if options.iter().any(|o| o.id == *right) => {
-            Ok(Body::Choice { options, right: right.clone() })
-        }
-        _ => Err(trouble("its reference is not one of its options", "name the right option's id as value")),
-    }
-}
-
-fn formula(question: &QuestionFile, reference: &ReferenceFile) -> Result<Body, Trouble> {
-    refuse(question.unit.is_some(), "a unit", "formula")?;
-    refuse(question.tolerance.is_some(), "a tolerance", "formula")?;
-    refuse(!question.options.is_empty(), "an option", "formula")?;
-    let symbols: Vec<String> = question.symbols.keys().cloned().collect();
-    let ranges: Vec<[f64; 2]> = question.symbols.values().copied().collect();
-    if symbols.is_empty()
-        || ranges.iter().any(|[low, high]| !(low.is_finite() && high.is_finite() && low < high))
-    {
-        return Err(trouble("it has no symbols, or an empty range", "add symbols = { m = [0.5, 2.0] }"));
-    }
-    let names: Vec<&str> = symbols.iter().map(String::as_str).collect();
-    let read = |entry: &Entry| match entry {
-        Entry::Text(text) => Expression::parse(text, &names)
-            .map_err(|e| trouble(format!("\u{201c}{text}\u{201d}: {e}"), "correct it")),
-        _ => Err(trouble("a formula is not text", "write value = \"m*g\"")),
-    };
-    let reference_text = match &reference.value {
-        Entry::Text(text) => text.clone(),
-        _ => String::new(),
-    };
-    let misconceptions = question
-        .misconceptions
-        .iter()
-        .map(|m| Ok((m.id.clone(), read(&m.value)?, m.feedback.clone())))
-        .collect::<Result<_, Trouble>>()?;
-    let expression = read(&reference.value)?;
-    Ok(Body::Formula(FormulaBody { symbols, ranges, reference: expression, reference_text, misconceptions }))
 }

@@ -2,10 +2,17 @@
 
 use std::collections::BTreeMap;
 
+mod tasks;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::submission::{Answer, Entry};
+pub use tasks::{
+    Band, FollowFile, ImplementFile, ModelFile, Part, Slip, TrajectoryFile, TuningFile, WatchFile,
+    WrongModelFile,
+};
+
+use crate::submission::{Answer, Entry, Settings};
 
 /// `course.toml`: the course as a whole.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -116,6 +123,14 @@ pub enum QuestionKind {
     Choice,
     /// An expression in named symbols, compared at random points.
     Formula,
+    /// The equations at dealt states, from the student's own program.
+    Implement,
+    /// A table of a motion, from any program.
+    Trajectory,
+    /// A scene that the student writes.
+    Model,
+    /// Settings of a run under a budget.
+    Tuning,
 }
 
 /// One question. Which keys it needs depends on its kind.
@@ -153,6 +168,16 @@ pub struct QuestionFile {
     /// Symbols of the formula and the range from which each is drawn for the comparison (formula).
     #[serde(default)]
     pub symbols: BTreeMap<String, [f64; 2]>,
+    /// A wrong earlier answer is carried through (number, vector, matrix).
+    pub follows: Option<FollowFile>,
+    /// What the student's program evaluates (implement).
+    pub implement: Option<ImplementFile>,
+    /// What the table holds (trajectory).
+    pub trajectory: Option<TrajectoryFile>,
+    /// What the scene must do (model).
+    pub model: Option<ModelFile>,
+    /// What may be chosen, and the budget (tuning).
+    pub tuning: Option<TuningFile>,
 }
 
 /// How close is close enough.
@@ -177,7 +202,9 @@ pub struct MisconceptionFile {
     /// Name, unique in the question.
     pub id: String,
     /// The answer it leads to, in the question's unit.
-    pub value: Entry,
+    pub value: Option<Entry>,
+    /// In its place: a wrong model that the engine runs. The question must be `measured`.
+    pub model: Option<WrongModelFile>,
     /// What to tell the student, in Markdown: the slip, not the answer.
     pub feedback: String,
 }
@@ -198,8 +225,11 @@ pub struct OptionFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceFile {
-    /// Number or expression, list of these, formula, or the id of the right option.
-    pub value: Entry,
+    /// Number or expression, list of these, formula, or the id of the right option. Not for `engine`, nor where the
+    /// question is answered by work.
+    pub value: Option<Entry>,
+    /// Settings that meet the demand (tuning).
+    pub settings: Option<Settings>,
     /// Bound on the reference's own error, in the question's unit. Needed for numbers.
     #[serde(default)]
     pub error: f64,
@@ -298,6 +328,8 @@ pub enum ProvenanceKind {
     Published,
     /// Computed by a program that shares no code with this engine.
     Independent,
+    /// Computed by this engine from `measured`, with an error estimate from a second run; for what has no closed form.
+    Engine,
     /// A definition or an argument (for choices).
     Argument,
 }

@@ -1,7 +1,13 @@
 //! Grading: a submission against a lesson, always with the same result.
 
+mod follow;
 mod formula;
+mod implement;
+mod model;
+mod picture;
 mod quantity;
+mod trajectory;
+mod tuning;
 
 use thiserror::Error;
 
@@ -36,12 +42,15 @@ impl GradeError {
 }
 
 /// What is said about one answer before it is put into a verdict.
+#[derive(Default)]
 pub(crate) struct Outcome {
     mark: Mark,
     /// Share of the points, from 0 to 1.
     share: f64,
     html: String,
     slip: Option<String>,
+    /// A picture, as SVG of our own making.
+    figure: Option<String>,
 }
 
 impl Outcome {
@@ -50,17 +59,17 @@ impl Outcome {
             mark: Mark::Right,
             share: 1.0,
             html: format!("<p>Right.</p>{}", render_short(note)),
-            slip: None,
+            ..Self::default()
         }
     }
 
     fn wrong(slip: Option<&str>, html: String) -> Self {
-        Self { mark: Mark::Wrong, share: 0.0, html, slip: slip.map(str::to_owned) }
+        Self { mark: Mark::Wrong, html, slip: slip.map(str::to_owned), ..Self::default() }
     }
 
     fn invalid(text: &str) -> Self {
         let html = format!("<p>{} No attempt is used.</p>", escape(text));
-        Self { mark: Mark::Invalid, share: 0.0, html, slip: None }
+        Self { mark: Mark::Invalid, html, ..Self::default() }
     }
 }
 
@@ -74,8 +83,18 @@ pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeE
             known: all.iter().map(|q| q.id.as_str()).collect::<Vec<_>>().join(", "),
         });
     }
-    let questions: Vec<QuestionVerdict> =
-        all.iter().map(|question| judge(question, submission.answers.get(&question.id))).collect();
+    let mut questions: Vec<QuestionVerdict> = Vec::with_capacity(all.len());
+    for question in all {
+        let answer = submission.answers.get(&question.id);
+        let mut verdict = judge(lesson, question, answer);
+        if verdict.verdict == Mark::Wrong
+            && let (Body::Quantity(body), Some(answer)) = (&question.body, answer)
+            && let Some(outcome) = follow::judge(lesson, body, &questions, submission, answer)
+        {
+            verdict = told(question, outcome);
+        }
+        questions.push(verdict);
+    }
     let earned: f64 = questions.iter().map(|q| q.earned).sum();
     let possible: f64 = questions.iter().map(|q| q.possible).sum();
     let gradable = questions.iter().all(|q| q.verdict != Mark::Invalid);
@@ -87,20 +106,37 @@ pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeE
         passed: gradable && earned >= lesson.exercise.pass_mark * possible * (1.0 - 1e-12),
         gradable,
         questions,
-        provenance: Provenance { engine: triad_engine::VERSION.to_owned(), lesson_hash: lesson.hash.clone() },
+        provenance: Provenance {
+            engine: triad_engine::VERSION.to_owned(),
+            lesson_hash: lesson.hash.clone(),
+            seed: lesson.seed.clone(),
+            parameters: lesson.parameters.iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+        },
     })
 }
 
-fn judge(question: &Question, answer: Option<&Answer>) -> QuestionVerdict {
+fn judge(lesson: &Lesson, question: &Question, answer: Option<&Answer>) -> QuestionVerdict {
+    let note = &question.right;
     let outcome = match answer {
         None => blank(),
         Some(answer) if answer.is_blank() => blank(),
         Some(answer) => match &question.body {
-            Body::Quantity(body) => quantity::judge(body, &question.right, answer),
+            Body::Quantity(body) => quantity::judge(body, note, answer),
             Body::Choice { options, right } => choice(options, right, answer),
-            Body::Formula(body) => formula::judge(body, &question.id, &question.right, answer),
+            Body::Formula(body) => formula::judge(body, &question.id, note, answer),
+            Body::Implement(task) => {
+                let seed = crate::implement::seed(lesson, &question.id);
+                implement::judge(task, &seed, note, answer)
+            }
+            Body::Trajectory(task) => trajectory::judge(task, note, answer),
+            Body::Model(task) => model::judge(task, note, answer),
+            Body::Tuning(task) => tuning::judge(task, note, answer),
         },
     };
+    told(question, outcome)
+}
+
+fn told(question: &Question, outcome: Outcome) -> QuestionVerdict {
     QuestionVerdict {
         id: question.id.clone(),
         earned: outcome.share * question.points,
@@ -108,11 +144,12 @@ fn judge(question: &Question, answer: Option<&Answer>) -> QuestionVerdict {
         verdict: outcome.mark,
         message_html: outcome.html,
         slip: outcome.slip,
+        figure_svg: outcome.figure,
     }
 }
 
 fn blank() -> Outcome {
-    Outcome { mark: Mark::Blank, share: 0.0, html: "<p>Not answered.</p>".to_owned(), slip: None }
+    Outcome { mark: Mark::Blank, html: "<p>Not answered.</p>".to_owned(), ..Outcome::default() }
 }
 
 fn choice(options: &[Choice], right: &str, answer: &Answer) -> Outcome {

@@ -1,18 +1,22 @@
 //! A lesson: read from its folder, shown to students without its answers.
 
-use std::collections::BTreeMap;
-use std::path::Path;
+mod view;
 
-use schemars::JsonSchema;
-use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
+
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
-use crate::exercise::{self, Body, Exercise, Question, QuestionError};
-use crate::files::{ExerciseFile, LessonFile, QuestionKind, ReferenceFile, StepFile, StepKind, WrongFile};
+use crate::exercise::{self, Exercise, Ground, Question, QuestionError};
+use crate::files::{ExerciseFile, LessonFile, ReferenceFile, WrongFile};
 use crate::markdown::{self, Rendered};
-use crate::tolerance::Shape;
 use crate::variant::Parameters;
+
+pub use view::{
+    ColumnView, ExerciseView, LessonSummary, LessonView, OptionView, QuestionView, StepView, TuningView,
+};
 
 /// The files of one folder: path below it, content.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -84,9 +88,13 @@ pub struct Lesson {
     pub hash: String,
     /// The numbers drawn for a student, by name; the defaults where no student is known.
     pub parameters: Parameters,
+    /// Whose numbers these are: the seed that they were drawn from; empty for the defaults.
+    pub seed: String,
     pub(crate) source: Source,
-    pub(crate) files: Files,
+    pub(crate) files: Arc<Files>,
     pub(crate) figures: BTreeMap<String, String>,
+    /// Files below `wrong/` that a wrong answer sends.
+    pub(crate) wrong_files: BTreeSet<String>,
 }
 
 /// What the questions are built from, kept to build them again with other numbers.
@@ -126,14 +134,18 @@ impl Lesson {
         };
         let parameters = Parameters::defaults(&source.exercise.parameters);
         let (questions, references) = (source.exercise.clone(), source.references.clone());
-        let exercise = exercise::build(questions, references, &parameters).map_err(|error| {
+        let ground = Ground { parameters: &parameters, scene: &scene, files: &files };
+        let exercise = exercise::build(questions, references, &ground).map_err(|error| {
             let content = reader.text("exercise.toml", "").unwrap_or_default();
             let line = line_of(content, &error.question);
             LessonError::Question { file: path("exercise.toml"), line, error }
         })?;
         let mut wrong = BTreeMap::new();
+        let mut wrong_files = BTreeSet::new();
         for name in named(&files, "wrong/", "toml") {
-            wrong.insert(name.clone(), reader.toml(name, "")?);
+            let mut file: WrongFile = reader.toml(name, "")?;
+            wrong_files.extend(reader.fetch_files(name, &mut file)?);
+            wrong.insert(name.clone(), file);
         }
         let (slug, hash) = (slug.to_owned(), fingerprint(&files));
         let folder = folder.to_owned();
@@ -148,9 +160,11 @@ impl Lesson {
             wrong,
             hash,
             parameters,
+            seed: String::new(),
             source,
-            files,
+            files: Arc::new(files),
             figures,
+            wrong_files,
         })
     }
 
@@ -162,176 +176,6 @@ impl Lesson {
     /// Hint number `k` (from 1) of a question, as HTML.
     pub fn hint_html(&self, question: &str, k: usize) -> Option<String> {
         Some(markdown::render_short(self.question(question)?.hints.get(k.checked_sub(1)?)?))
-    }
-
-    /// The entry for the list of lessons.
-    pub fn summary(&self) -> LessonSummary {
-        LessonSummary {
-            slug: self.slug.clone(),
-            number: self.number,
-            title: self.about.title.clone(),
-            summary: self.about.summary.clone(),
-            minutes: self.about.minutes,
-            objectives: self.about.objectives.clone(),
-        }
-    }
-
-    /// What a student may see: the text, the scenario and the questions, but no answer.
-    pub fn public_view(&self) -> LessonView {
-        LessonView {
-            summary: self.summary(),
-            prerequisites: self.about.prerequisites.clone(),
-            html: self.text.html.clone(),
-            scene: self.scene.clone(),
-            steps: self.about.steps.iter().map(|step| StepView::new(step, &self.parameters)).collect(),
-            exercise: ExerciseView {
-                pass_mark: self.exercise.pass_mark,
-                questions: self.exercise.questions.iter().map(QuestionView::new).collect(),
-            },
-        }
-    }
-}
-
-/// A lesson in the list of lessons.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct LessonSummary {
-    /// Stable name for addresses.
-    pub slug: String,
-    /// Place in the course, from 1.
-    pub number: u32,
-    /// Title.
-    pub title: String,
-    /// One sentence.
-    pub summary: String,
-    /// Time a student needs.
-    pub minutes: u32,
-    /// What the student can do afterwards.
-    pub objectives: Vec<String>,
-}
-
-/// A lesson as a student sees it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct LessonView {
-    /// Title, summary and so on.
-    #[serde(flatten)]
-    pub summary: LessonSummary,
-    /// Slugs of the lessons that come before.
-    pub prerequisites: Vec<String>,
-    /// The text as safe HTML.
-    pub html: String,
-    /// The scenario.
-    pub scene: serde_json::Value,
-    /// Predict, run, check, explain; may be empty.
-    pub steps: Vec<StepView>,
-    /// The questions.
-    pub exercise: ExerciseView,
-}
-
-/// A step as a student sees it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct StepView {
-    /// What to do here.
-    pub kind: StepKind,
-    /// The step as safe HTML.
-    pub html: String,
-}
-
-/// The questions as a student sees them.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ExerciseView {
-    /// Share of the points that passes.
-    pub pass_mark: f64,
-    /// The questions in order.
-    pub questions: Vec<QuestionView>,
-}
-
-/// A question as a student sees it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct QuestionView {
-    /// Id under which the answer is sent.
-    pub id: String,
-    /// Kind.
-    pub kind: QuestionKind,
-    /// What is asked, as safe HTML.
-    pub prompt_html: String,
-    /// Unit that is assumed unless another is given; absent for choices and where the unit is asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unit: Option<String>,
-    /// True if the student has to give the unit.
-    pub asks_unit: bool,
-    /// Rows and columns to fill in.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub size: Option<[usize; 2]>,
-    /// Symbols that a formula may use.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub symbols: Vec<String>,
-    /// What counts as right, in words.
-    pub rule: String,
-    /// Points.
-    pub points: f64,
-    /// Options of a choice.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub options: Option<Vec<OptionView>>,
-    /// How many hints there are.
-    pub hints_available: usize,
-}
-
-/// An option as a student sees it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct OptionView {
-    /// Id to send.
-    pub id: String,
-    /// The option as safe HTML.
-    pub html: String,
-}
-
-impl StepView {
-    fn new(step: &StepFile, parameters: &Parameters) -> Self {
-        Self { kind: step.kind, html: markdown::render_short(&parameters.fill(&step.text)) }
-    }
-}
-
-impl QuestionView {
-    fn new(question: &Question) -> Self {
-        let (mut unit, mut asks_unit, mut size, mut symbols, mut options) =
-            (None, false, None, Vec::new(), None);
-        let rule = match &question.body {
-            Body::Quantity(q) => {
-                asks_unit = q.asks_unit;
-                unit = (!asks_unit).then(|| q.unit.text().to_owned());
-                size = (q.shape != Shape::Number).then_some(q.size);
-                let shown = if asks_unit { "" } else { q.unit.text() };
-                q.rule.sentence(q.shape, shown, q.frame.as_deref())
-            }
-            Body::Choice { options: all, .. } => {
-                let view = |o: &exercise::Choice| OptionView {
-                    id: o.id.clone(),
-                    html: markdown::render_short(&o.text),
-                };
-                options = Some(all.iter().map(view).collect());
-                "Choose one option.".to_owned()
-            }
-            Body::Formula(f) => {
-                symbols.clone_from(&f.symbols);
-                format!(
-                    "Any form of the right formula counts; it is compared with ours at many points. Symbols: {}.",
-                    f.symbols.join(", ")
-                )
-            }
-        };
-        Self {
-            id: question.id.clone(),
-            kind: question.kind,
-            prompt_html: markdown::render_short(&question.prompt),
-            unit,
-            asks_unit,
-            size,
-            symbols,
-            rule,
-            points: question.points,
-            options,
-            hints_available: question.hints.len(),
-        }
     }
 }
 
@@ -370,6 +214,29 @@ impl<'a> Reader<'a> {
             line: error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1),
             problem: error.message().to_owned(),
         })
+    }
+}
+
+impl Reader<'_> {
+    /// An answer `file = "@wrong/name.json"` stands for the content of that file.
+    fn fetch_files(&self, name: &str, wrong: &mut WrongFile) -> Result<Vec<String>, LessonError> {
+        let mut fetched = Vec::new();
+        for answer in wrong.answers.values_mut() {
+            let Some(path) = answer.file.as_deref().and_then(|f| f.strip_prefix('@')) else { continue };
+            let path = path.to_owned();
+            let path = path.as_str();
+            if !path.starts_with("wrong/") {
+                let problem = format!("{name}: a file of a wrong answer lies below wrong/");
+                return Err(LessonError::Unreadable {
+                    file: format!("{}/{name}", self.folder),
+                    line: 1,
+                    problem,
+                });
+            }
+            fetched.push(path.to_owned());
+            answer.file = Some(self.text(path, "a wrong answer names it")?.to_owned());
+        }
+        Ok(fetched)
     }
 }
 

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Largest submission that is read, in bytes.
-const MAX_BYTES: usize = 256 * 1024;
+const MAX_BYTES: usize = 4 << 20;
+/// Largest file in an answer, in bytes.
+pub(crate) const MAX_FILE: usize = 1 << 20;
 /// Most answers in one submission.
 const MAX_ANSWERS: usize = 200;
 
@@ -17,6 +19,9 @@ pub struct Submission {
     /// Who answers; any name the class agrees on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub student: Option<String>,
+    /// The numbers that were asked about, if not the student's own: the seed of the lesson as it was shown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<String>,
     /// The answers by the question's id. A question that is left out is blank.
     pub answers: BTreeMap<String, Answer>,
 }
@@ -34,6 +39,25 @@ pub struct Answer {
     /// The id of the option that was chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
+    /// The text of a file: JSON or CSV of a program, a table, a scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Settings of a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settings: Option<Settings>,
+}
+
+/// Settings of a run, as chosen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// The integrator.
+    pub integrator: triad_engine::scene::IntegratorKind,
+    /// Its tolerance, as typed.
+    pub tolerance: Entry,
+    /// Baumgarte's α and β in 1/s, as typed; without them the state is projected.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub baumgarte: Option<[Entry; 2]>,
 }
 
 /// A value as typed: text keeps the digits that were written, a JSON number is taken as its shortest text.
@@ -103,6 +127,14 @@ impl Submission {
         if submission.answers.len() > MAX_ANSWERS {
             return Err(SubmissionError::TooLarge { limit: format!("{MAX_ANSWERS} answers") });
         }
+        if let Some((id, _)) = submission
+            .answers
+            .iter()
+            .find(|(_, answer)| answer.file.as_ref().is_some_and(|file| file.len() > MAX_FILE))
+        {
+            let limit = format!("{} KiB in the file of {}", MAX_FILE / 1024, crate::number::shorten(id));
+            return Err(SubmissionError::TooLarge { limit });
+        }
         Ok(submission)
     }
 }
@@ -111,7 +143,10 @@ impl Answer {
     /// True if nothing was filled in.
     pub fn is_blank(&self) -> bool {
         let no_text = |t: &Option<String>| t.as_ref().is_none_or(|t| t.trim().is_empty());
-        self.value.as_ref().is_none_or(Entry::is_blank) && no_text(&self.choice)
+        self.value.as_ref().is_none_or(Entry::is_blank)
+            && no_text(&self.choice)
+            && no_text(&self.file)
+            && self.settings.as_ref().is_none_or(|s| s.tolerance.is_blank())
     }
 }
 
@@ -154,7 +189,7 @@ mod tests {
 
     #[test]
     fn bounds_hold() {
-        let huge = format!(r#"{{"answers":{{"a":{{"value":"{}"}}}}}}"#, "9".repeat(300_000));
+        let huge = format!(r#"{{"answers":{{"a":{{"value":"{}"}}}}}}"#, "9".repeat(5 << 20));
         assert_eq!(Submission::from_json(&huge).unwrap_err().code(), "submission-too-large");
         let nested =
             format!("{{\"answers\":{{\"a\":{{\"value\":{}1{}}}}}}}", "[".repeat(500), "]".repeat(500));

@@ -1,6 +1,7 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
 mod kinds;
+mod tasks;
 
 use std::collections::BTreeMap;
 
@@ -13,12 +14,13 @@ fn course() -> Course {
 }
 
 fn answer(value: &str, unit: &str) -> Answer {
-    Answer { value: Some(Entry::Text(value.to_owned())), unit: Some(unit.to_owned()), choice: None }
+    Answer { value: Some(Entry::Text(value.to_owned())), unit: Some(unit.to_owned()), ..Answer::default() }
 }
 
 fn judged(lesson: &str, id: &str, answer: Answer) -> crate::QuestionVerdict {
     let course = course();
-    let submission = Submission { student: None, answers: BTreeMap::from([(id.to_owned(), answer)]) };
+    let submission =
+        Submission { answers: BTreeMap::from([(id.to_owned(), answer)]), ..Submission::default() };
     let verdict = grade(course.lesson(lesson).unwrap(), &submission).unwrap();
     verdict.questions.into_iter().find(|q| q.id == id).unwrap()
 }
@@ -75,8 +77,10 @@ fn what_cannot_be_judged_costs_nothing_and_says_why() {
     assert_eq!(judged("simple-pendulum", "sign-of-lambda", choice).verdict, Mark::Invalid);
     assert_eq!(judged("simple-pendulum", "force-on-ground", answer("3", "N")).verdict, Mark::Invalid);
     let course = course();
-    let unknown =
-        Submission { student: None, answers: BTreeMap::from([("nope".to_owned(), answer("1", ""))]) };
+    let unknown = Submission {
+        answers: BTreeMap::from([("nope".to_owned(), answer("1", ""))]),
+        ..Submission::default()
+    };
     let error = grade(course.lesson("2").unwrap(), &unknown).unwrap_err();
     assert!(error.to_string().contains("tension-bottom"));
 }
@@ -109,6 +113,8 @@ fn the_public_view_holds_no_answer() {
                 }
                 Body::Choice { options, .. } => secrets.extend(options.iter().map(|o| o.reason.clone())),
                 Body::Formula(f) => secrets.extend(f.misconceptions.iter().map(|(.., text)| text.clone())),
+                Body::Model(m) => secrets.extend(m.watches().iter().map(|w| w.feedback.clone())),
+                Body::Implement(_) | Body::Trajectory(_) | Body::Tuning(_) => {}
             }
         }
         for secret in secrets.iter().filter(|s| s.len() > 8) {

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 
 use thiserror::Error;
+use triad_engine::scene::Scene;
+use triad_engine::simulation::Simulation;
 
-use crate::exercise::{self, Body, Exercise};
+use crate::exercise::{self, Body, Exercise, Ground};
 use crate::expression::{Expression, ExpressionError};
 use crate::files::ParameterFile;
 use crate::lesson::Lesson;
@@ -84,6 +86,12 @@ impl Parameters {
         })
     }
 
+    /// One more named number.
+    pub(crate) fn add(&mut self, name: &str, value: f64) {
+        self.names.push(name.to_owned());
+        self.values.push(value);
+    }
+
     fn draw(files: &BTreeMap<String, ParameterFile>, random: &mut Random) -> Self {
         let values = files.values().map(|p| {
             let steps = ((p.to - p.from) / p.step + 1e-9).floor() + 1.0;
@@ -110,18 +118,33 @@ impl Lesson {
             return Err(VariantError::Range { name: name.clone() });
         }
         if files.is_empty() {
-            return Ok(self.clone());
+            // States that are dealt are the student's own even where the numbers are everybody's.
+            return Ok(Self { seed: seed.to_owned(), ..self.clone() });
         }
         let mut random = Random::new(&format!("{}/{seed}", self.slug));
         let mut reason = String::new();
         for _ in 0..MAX_DRAWS {
-            let lesson = self.with(Parameters::draw(files, &mut random))?;
-            match fits(&lesson.exercise) {
-                Ok(()) => return Ok(lesson),
+            // A draw for which the scene does not start or a wrong model has no answer is a bad draw, not a bad lesson.
+            let lesson = match self.with(Parameters::draw(files, &mut random)) {
+                Ok(lesson) => lesson,
+                Err(VariantError::Unusable { what }) => {
+                    reason = what;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
+            match fits(&lesson.exercise).and_then(|()| starts(&lesson.scene)) {
+                Ok(()) => return Ok(Self { seed: seed.to_owned(), ..lesson }),
                 Err(why) => reason = why,
             }
         }
         Err(VariantError::NoneFits { reason })
+    }
+
+    /// Whether each student gets numbers, or states, of their own.
+    pub fn has_variants(&self) -> bool {
+        !self.parameters.is_empty()
+            || self.exercise.questions.iter().any(|q| matches!(q.body, Body::Implement(_)))
     }
 
     /// The lesson with these numbers.
@@ -140,10 +163,23 @@ impl Lesson {
             };
             *place = serde_json::Value::Number(number);
         }
+        let ground = Ground { parameters: &parameters, scene: &lesson.scene, files: &lesson.files };
         lesson.exercise =
-            exercise::build(file, references, &parameters).map_err(|error| unusable(error.to_string()))?;
+            exercise::build(file, references, &ground).map_err(|error| unusable(error.to_string()))?;
         lesson.parameters = parameters;
         Ok(lesson)
+    }
+}
+
+/// Whether the scenario can be started, and not in a singular position.
+fn starts(scene: &serde_json::Value) -> Result<(), String> {
+    let scene = Scene::from_json(&scene.to_string()).map_err(|e| e.to_string())?;
+    let simulation = Simulation::new(&scene).map_err(|e| e.to_string())?;
+    let rank = simulation.rank();
+    if rank.at_start < rank.rank {
+        Err("the scenario starts in a singular position".to_owned())
+    } else {
+        Ok(())
     }
 }
 
@@ -205,7 +241,7 @@ mod tests {
             let pull = format!("{:.5}", m * 9.81 / phi.to_radians().cos());
             let answer = Answer { value: Some(Entry::Text(pull)), ..Answer::default() };
             let answers = BTreeMap::from([("pull".to_owned(), answer)]);
-            let verdict = grade(&variant, &Submission { student: None, answers }).unwrap();
+            let verdict = grade(&variant, &Submission { answers, ..Submission::default() }).unwrap();
             assert_eq!(verdict.questions.iter().find(|q| q.id == "pull").unwrap().verdict, Mark::Right);
         }
     }
@@ -226,6 +262,7 @@ mod tests {
         (range.step, range.from, range.to, range.default) = (1.0, 44.9999, 45.0001, 45.0);
         assert_eq!(lesson.variant("ada").unwrap_err().code(), "variant-none-fits");
         lesson.source.exercise.scene[0].pointer = "/bodies/9/mass".to_owned();
-        assert!(lesson.variant("ada").unwrap_err().to_string().contains("/bodies/9/mass"));
+        let error = lesson.variant("ada").unwrap_err().to_string();
+        assert!(error.contains("/bodies/9/mass"), "{error}");
     }
 }

@@ -1,5 +1,7 @@
 //! What grading says: one verdict for a submission, one for each of its questions.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,10 +43,13 @@ pub struct QuestionVerdict {
     /// Name of the slip that was recognised; for statistics and for the checks of authors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slip: Option<String>,
+    /// A picture of what was computed, as SVG that the grader drew.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figure_svg: Option<String>,
 }
 
 /// How one answer was judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Mark {
     /// Full points.
@@ -52,16 +57,23 @@ pub enum Mark {
     /// Not right; the message says what it can.
     Wrong,
     /// Nothing was filled in.
+    #[default]
     Blank,
     /// Could not be judged (unreadable, wrong form, too few digits); no attempt is used.
     Invalid,
 }
 
 /// What graded a submission, so that a grade can be traced and repeated.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Provenance {
     /// Version of the engine and of the grader.
     pub engine: String,
     /// Fingerprint of every file of the lesson (64-bit FNV-1a, hexadecimal).
     pub lesson_hash: String,
+    /// Seed of the numbers and states; empty for those that everybody sees.
+    #[serde(default)]
+    pub seed: String,
+    /// The numbers that were drawn.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, f64>,
 }

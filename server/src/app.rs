@@ -9,12 +9,15 @@ use crate::limits::Limits;
 use crate::reports;
 use crate::session::Registry;
 use crate::store::Store;
+use crate::variants::Variants;
 
 /// The server's state; cheap to clone.
 #[derive(Debug, Clone)]
 pub struct App {
     /// The lessons, with their answers: they stay in here.
     pub course: Arc<Course>,
+    /// The lessons with students' own numbers.
+    pub variants: Arc<Variants>,
     /// The gradebook.
     pub store: Arc<Store>,
     /// The live simulations.
@@ -30,6 +33,7 @@ impl App {
     pub fn new(course: Course, store: Store, limits: Limits) -> Self {
         Self {
             course: Arc::new(course),
+            variants: Arc::default(),
             store: Arc::new(store),
             sessions: Arc::default(),
             limits: Arc::new(limits),

@@ -7,6 +7,7 @@ use triad_lessons::submission::{Submission, SubmissionError};
 use triad_lessons::verdict::Verdict;
 
 use crate::problem::Problem;
+use crate::variants::Variants;
 
 impl From<SubmissionError> for Problem {
     fn from(error: SubmissionError) -> Self {
@@ -35,9 +36,12 @@ impl From<GradeError> for Problem {
     }
 }
 
-/// Reads a submission and grades it.
-pub fn grade(lesson: &Lesson, text: &str) -> Result<(Submission, Verdict), Problem> {
+/// Reads a submission and grades it with the numbers that it is about: those of its seed if it names one, else the
+/// student's own.
+pub fn grade(lesson: &Lesson, variants: &Variants, text: &str) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
-    let verdict = triad_lessons::grade(lesson, &submission)?;
+    let seed = submission.seed.as_deref().or(submission.student.as_deref()).unwrap_or_default();
+    let lesson = variants.of(lesson, seed)?;
+    let verdict = triad_lessons::grade(&lesson, &submission)?;
     Ok((submission, verdict))
 }

@@ -12,6 +12,7 @@ pub mod grading;
 pub mod scenes;
 pub mod store;
 pub mod stream;
+pub mod variants;
 
 pub mod session;
 

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use super::Found;
+use super::{Found, tasks};
 use crate::exercise::{Body, Quantity, Question};
 use crate::grade::grade;
+use crate::implement::{Deal, seed};
 use crate::lesson::Lesson;
 use crate::markdown::render_short;
 use crate::submission::{Answer, Entry, Submission};
 use crate::tolerance::Shape;
+use crate::trajectory::reference_csv;
 use crate::verdict::{Mark, QuestionVerdict};
 
 /// A student who fills in nothing must not pass.
@@ -30,17 +32,36 @@ pub(super) fn starter_fails(found: &mut Found) {
 
 /// The answers that must pass.
 pub fn reference_submission(lesson: &Lesson) -> Submission {
-    let answer = |question: &Question| match &question.body {
-        Body::Quantity(q) => {
-            Answer { value: Some(entry(q, &q.reference)), unit: Some(q.unit.text().to_owned()), choice: None }
-        }
+    let questions = &lesson.exercise.questions;
+    let answers = questions.iter().map(|q| (q.id.clone(), reference_answer(lesson, q))).collect();
+    Submission { answers, ..Submission::default() }
+}
+
+/// The right answer to one question, as a student would send it.
+pub(super) fn reference_answer(lesson: &Lesson, question: &Question) -> Answer {
+    let file = |text: String| Answer { file: Some(text), ..Answer::default() };
+    match &question.body {
+        Body::Quantity(q) => Answer {
+            value: Some(entry(q, &q.reference)),
+            unit: Some(q.unit.text().to_owned()),
+            ..Answer::default()
+        },
         Body::Choice { right, .. } => Answer { choice: Some(right.clone()), ..Answer::default() },
         Body::Formula(f) => {
             Answer { value: Some(Entry::Text(f.reference_text.clone())), ..Answer::default() }
         }
-    };
-    let answers = lesson.exercise.questions.iter().map(|q| (q.id.clone(), answer(q))).collect();
-    Submission { student: None, answers }
+        Body::Implement(task) => {
+            let deal = Deal::new(task, &seed(lesson, &question.id));
+            let parts = deal.and_then(|deal| {
+                task.asks.iter().map(|part| Ok((*part, deal.answers(*part)?))).collect::<Result<_, String>>()
+            });
+            // What cannot be dealt is told by the check of the question itself.
+            parts.map(|parts| file(tasks::written(&parts, task.states))).unwrap_or_default()
+        }
+        Body::Trajectory(task) => reference_csv(task, 1000).map(file).unwrap_or_default(),
+        Body::Model(task) => file(task.reference.to_json()),
+        Body::Tuning(task) => Answer { settings: Some(task.reference.clone()), ..Answer::default() },
+    }
 }
 
 /// Values of a question's size as a student would send them, with all their digits.
@@ -103,7 +124,12 @@ pub(super) fn wrong_answers_fail(found: &mut Found) {
         let names: Vec<&String> = match &question.body {
             Body::Quantity(q) => q.misconceptions.iter().map(|m| &m.id).collect(),
             Body::Formula(f) => f.misconceptions.iter().map(|(id, ..)| id).collect(),
-            Body::Choice { .. } => Vec::new(),
+            // Options have reasons; the slips of work are made up and tried out by the check itself.
+            Body::Choice { .. }
+            | Body::Implement(_)
+            | Body::Trajectory(_)
+            | Body::Model(_)
+            | Body::Tuning(_) => Vec::new(),
         };
         for name in names.into_iter().filter(|n| !shown.contains(&(question.id.clone(), (*n).clone()))) {
             let what = format!("no wrong answer shows the misconception {name}");
@@ -133,7 +159,7 @@ fn recognised(question: Option<&Question>, slip: &str, given: &QuestionVerdict) 
         Some(Body::Quantity(q)) => q.misconceptions.iter().find(|m| m.id == slip).map(|m| &m.feedback),
         Some(Body::Choice { options, .. }) => options.iter().find(|o| o.id == slip).map(|o| &o.reason),
         Some(Body::Formula(f)) => f.misconceptions.iter().find(|(id, ..)| id == slip).map(|(.., text)| text),
-        None => None,
+        _ => None,
     };
     match feedback {
         Some(text) if !given.message_html.contains(&render_short(text)) => {

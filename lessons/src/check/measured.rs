@@ -1,15 +1,16 @@
 //! Comparing a reference with what the scenario shows: the engine measures, the author's source decides.
 //!
 //! A measurement is no source. It proves that scenario and question speak of the same thing, so that a student who
-//! reads the answer off the run is right.
+//! reads the answer off the run is right. What has no closed form may be computed by the engine; then the error comes
+//! from a second run by another method.
 
-use triad_engine::check::check as engine_check;
-use triad_engine::scene::{GROUND, Scene};
+use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
 use super::Found;
 use crate::exercise::Body;
-use crate::files::{Component, CountKind, MeasuredFile, MotionKind};
+use crate::files::MeasuredFile;
+use crate::measure::{MOST_STEPS, measure};
 use crate::tolerance::norm;
 
 /// Reads the scenario, runs it as far as the questions ask, and compares.
@@ -23,6 +24,7 @@ pub(super) fn scene(found: &mut Found) {
         Ok(simulation) => simulation,
         Err(error) => return found.add("scene.json", 0, error.to_string(), remedy),
     };
+    simulation.set_step_limit(MOST_STEPS);
     let mut wanted: Vec<(&str, &MeasuredFile)> = found
         .lesson
         .exercise
@@ -58,79 +60,4 @@ fn compare(found: &Found, id: &str, value: &[f64]) -> Result<(), String> {
     Err(format!(
         "the scene shows {value:?}, a tenth of the tolerance is {allowed:e}, the difference {difference:e}"
     ))
-}
-
-fn measure(scene: &Scene, simulation: &mut Simulation, measured: &MeasuredFile) -> Result<Vec<f64>, String> {
-    let vector = if let Some(count) = measured.count {
-        let report = engine_check(scene).map_err(|e| e.to_string())?;
-        let n = match count {
-            CountKind::DegreesOfFreedom => report.degrees_of_freedom,
-            CountKind::Rank => report.rank,
-            CountKind::Rows => report.rows,
-            CountKind::Coordinates => report.coordinates,
-            CountKind::JacobianEntries => simulation.jacobian().entries.len(),
-        };
-        return Ok(vec![n as f64]);
-    } else if measured.energy {
-        return Ok(vec![simulation.summary().energy]);
-    } else if let Some(joint) = &measured.joint {
-        reaction(simulation, joint, measured)?
-    } else if let Some(body) = &measured.body {
-        motion(scene, simulation, body, measured)?
-    } else {
-        return Err("measured names neither a count, the energy, a joint nor a body".to_owned());
-    };
-    Ok(match measured.component {
-        None => vector.to_vec(),
-        Some(Component::X) => vec![vector[0]],
-        Some(Component::Y) => vec![vector[1]],
-        Some(Component::Z) => vec![vector[2]],
-        Some(Component::Size) => vec![norm(&vector)],
-    })
-}
-
-/// Force or moment of a joint on the side that is asked for.
-fn reaction(simulation: &mut Simulation, joint: &str, measured: &MeasuredFile) -> Result<[f64; 3], String> {
-    let all = simulation.multipliers();
-    let reaction =
-        all.iter().find(|m| m.joint == joint).ok_or_else(|| format!("there is no joint {joint}"))?;
-    let (side, vector) = match (&measured.force_on, &measured.moment_on) {
-        (Some(side), None) => (side, reaction.force),
-        (None, Some(side)) => (side, reaction.moment),
-        _ => return Err("a joint is measured by force_on or by moment_on".to_owned()),
-    };
-    if *side == reaction.on {
-        Ok(vector)
-    } else if *side == reaction.by || *side == GROUND && reaction.by == GROUND {
-        Ok(vector.map(|x| -x))
-    } else {
-        Err(format!("{side} is not a body of the joint {joint}"))
-    }
-}
-
-fn motion(
-    scene: &Scene,
-    simulation: &mut Simulation,
-    body: &str,
-    measured: &MeasuredFile,
-) -> Result<[f64; 3], String> {
-    let index = scene.bodies.iter().position(|b| b.name == body);
-    let frame = simulation.frame();
-    let state = index.and_then(|k| frame.bodies.get(k)).ok_or_else(|| format!("there is no body {body}"))?;
-    let [xi, eta, zeta] = measured.point.unwrap_or_default();
-    let arm: [f64; 3] = std::array::from_fn(|k| xi * state.u[k] + eta * state.v[k] + zeta * state.w[k]);
-    let [a, b, c] = state.angular_velocity;
-    let turning = [b * arm[2] - c * arm[1], c * arm[0] - a * arm[2], a * arm[1] - b * arm[0]];
-    match measured.motion {
-        Some(MotionKind::Position) => Ok(std::array::from_fn(|k| state.position[k] + arm[k])),
-        Some(MotionKind::Velocity) => Ok(std::array::from_fn(|k| state.velocity[k] + turning[k])),
-        Some(MotionKind::AngularVelocity) => Ok(state.angular_velocity),
-        Some(MotionKind::U) => Ok(state.u),
-        Some(MotionKind::V) => Ok(state.v),
-        Some(MotionKind::W) => Ok(state.w),
-        None => {
-            Err("a body is measured by its motion: position, velocity, angular-velocity, u, v or w"
-                .to_owned())
-        }
-    }
 }

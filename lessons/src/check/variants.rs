@@ -63,9 +63,9 @@ fn count(lesson: &Lesson, recognised: &mut BTreeMap<(String, String), usize>) {
         let Body::Quantity(q) = &question.body else { continue };
         for m in &q.misconceptions {
             let unit = Some(q.unit.text().to_owned());
-            let answer = Answer { value: Some(entry(q, &m.value)), unit, choice: None };
+            let answer = Answer { value: Some(entry(q, &m.value)), unit, ..Answer::default() };
             let answers = BTreeMap::from([(question.id.clone(), answer)]);
-            let verdict = grade(lesson, &Submission { student: None, answers });
+            let verdict = grade(lesson, &Submission { answers, ..Submission::default() });
             let slip = verdict.ok().and_then(|v| v.questions.into_iter().find(|v| v.id == question.id)?.slip);
             let key = (question.id.clone(), m.id.clone());
             *recognised.entry(key).or_default() += usize::from(slip.as_deref() == Some(m.id.as_str()));

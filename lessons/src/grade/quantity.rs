@@ -34,7 +34,8 @@ pub(super) fn judge(question: &Quantity, note: &str, answer: &Answer) -> Outcome
             if question.shape == Shape::Number { "number is" } else { "numbers are" },
             mismatch(&unit, &question.unit)
         );
-        return Outcome { mark: Mark::Wrong, share: 1.0 - UNIT_SHARE, html, slip: Some("unit".to_owned()) };
+        let slip = Some("unit".to_owned());
+        return Outcome { mark: Mark::Wrong, share: 1.0 - UNIT_SHARE, html, slip, ..Outcome::default() };
     }
     let mut outcome = match slip(question, &values) {
         Some((id, feedback)) => Outcome::wrong(Some(id), format!("<p>Not right.</p>{feedback}")),
@@ -57,6 +58,13 @@ pub(super) fn judge(question: &Quantity, note: &str, answer: &Answer) -> Outcome
         outcome.html.push_str("<p>The unit fits.</p>");
     }
     outcome
+}
+
+/// The numbers of an answer in the question's unit, if they can be read and their dimension is right.
+pub(super) fn values(question: &Quantity, answer: &Answer) -> Option<Vec<f64>> {
+    let (written, unit) = read(question, answer).ok()?;
+    let factor = unit.factor / question.unit.factor;
+    (unit.dimension == question.unit.dimension).then(|| written.iter().map(|w| w.value * factor).collect())
 }
 
 fn mismatch(unit: &Unit, wanted: &Unit) -> String {

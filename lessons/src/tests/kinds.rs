@@ -67,8 +67,9 @@ fn course() -> Course {
 }
 
 fn judged(id: &str, value: Entry, unit: Option<&str>) -> QuestionVerdict {
-    let answer = Answer { value: Some(value), unit: unit.map(str::to_owned), choice: None };
-    let submission = Submission { student: None, answers: BTreeMap::from([(id.to_owned(), answer)]) };
+    let answer = Answer { value: Some(value), unit: unit.map(str::to_owned), ..Answer::default() };
+    let submission =
+        Submission { answers: BTreeMap::from([(id.to_owned(), answer)]), ..Submission::default() };
     let verdict = grade(course().lesson("kinds").unwrap(), &submission).unwrap();
     assert!(!verdict.passed);
     verdict.questions.into_iter().find(|q| q.id == id).unwrap()

@@ -1,21 +1,35 @@
 //! Lessons, as students may see them.
 
+// The documentation macro writes out paths of its own.
+#![allow(unused_qualifications)]
+
+use std::sync::Arc;
+
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::StatusCode;
-use serde::Serialize;
+use axum::http::{StatusCode, header};
+use axum::response::IntoResponse;
+use serde::{Deserialize, Serialize};
+use triad_lessons::DealView;
 use triad_lessons::course::CourseError;
 use triad_lessons::lesson::{Lesson, LessonSummary, LessonView};
-use utoipa::ToSchema;
+use triad_lessons::starter::Language;
+use utoipa::{IntoParams, ToSchema};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::extract::At;
+use super::extract::{Asked, At};
 use crate::app::App;
+use crate::blocking;
 use crate::problem::{Problem, ProblemDocument, suggest};
 
 pub(super) fn routes() -> OpenApiRouter<App> {
-    OpenApiRouter::new().routes(routes!(list)).routes(routes!(show)).routes(routes!(hint))
+    OpenApiRouter::new()
+        .routes(routes!(list))
+        .routes(routes!(show))
+        .routes(routes!(hint))
+        .routes(routes!(states))
+        .routes(routes!(starter))
 }
 
 impl From<CourseError> for Problem {
@@ -51,12 +65,37 @@ async fn list(State(app): State<App>) -> Answer<Vec<LessonSummary>> {
     Answer(app.course.lessons().iter().map(Lesson::summary).collect())
 }
 
+/// Whose numbers.
+#[derive(Debug, Default, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+struct Whose {
+    /// A student's name; the same name gives the same numbers for ever. Without it, the numbers that everybody sees.
+    student: Option<String>,
+    /// Another seed in the place of a student's name.
+    seed: Option<String>,
+}
+
+impl Whose {
+    fn seed(&self) -> Option<&str> {
+        self.seed.as_deref().or(self.student.as_deref())
+    }
+}
+
+/// The lesson of that name with the numbers of a seed.
+pub(super) fn variant(app: &App, name: &str, seed: Option<&str>) -> Result<Arc<Lesson>, Problem> {
+    app.variants.of(find(app, name)?, seed.unwrap_or_default())
+}
+
 /// A lesson: its text, its scenario and its exercise, without the answers.
-#[utoipa::path(get, path = "/lessons/{slug}", tag = "lessons", params(("slug" = String, Path)), responses(
+#[utoipa::path(get, path = "/lessons/{slug}", tag = "lessons", params(("slug" = String, Path), Whose), responses(
     (status = 200, description = "The lesson", body = Object),
     (status = 404, description = "No such lesson", body = ProblemDocument)))]
-async fn show(State(app): State<App>, At(slug): At<String>) -> Result<Answer<LessonView>, Problem> {
-    Ok(Answer(find(&app, &slug)?.public_view()))
+async fn show(
+    State(app): State<App>,
+    At(slug): At<String>,
+    Asked(whose): Asked<Whose>,
+) -> Result<Answer<LessonView>, Problem> {
+    blocking(move || Ok(Answer(variant(&app, &slug, whose.seed())?.public_view()))).await
 }
 
 /// One hint.
@@ -68,22 +107,16 @@ struct Hint {
 
 /// A hint to a question; the first is number 1.
 #[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/hints/{k}", tag = "lessons",
-    params(("slug" = String, Path), ("id" = String, Path), ("k" = usize, Path)), responses(
+    params(("slug" = String, Path), ("id" = String, Path), ("k" = usize, Path), Whose), responses(
     (status = 200, description = "The hint", body = Hint),
     (status = 404, description = "No such lesson, question or hint", body = ProblemDocument)))]
 async fn hint(
     State(app): State<App>,
     At((slug, id, k)): At<(String, String, usize)>,
+    Asked(whose): Asked<Whose>,
 ) -> Result<Answer<Hint>, Problem> {
-    let lesson = find(&app, &slug)?;
-    let question = lesson.question(&id).ok_or_else(|| {
-        Problem::new(
-            StatusCode::NOT_FOUND,
-            "unknown-question",
-            format!("the lesson {slug} has no question called \"{id}\""),
-            suggest(&id, lesson.exercise.questions.iter().map(|question| question.id.as_str())),
-        )
-    })?;
+    let lesson = blocking(move || variant(&app, &slug, whose.seed())).await?;
+    let question = lesson.question(&id).ok_or_else(|| unknown_question(&lesson, &id))?;
     let html = lesson.hint_html(&id, k).ok_or_else(|| {
         Problem::new(
             StatusCode::NOT_FOUND,
@@ -93,4 +126,89 @@ async fn hint(
         )
     })?;
     Ok(Answer(Hint { html }))
+}
+
+/// The states at which a student's own program evaluates the equations.
+#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/states", tag = "lessons",
+    params(("slug" = String, Path), ("id" = String, Path), Whose), responses(
+    (status = 200, description = "The mechanism in numbers, names of rows and columns, and the states", body = Object),
+    (status = 404, description = "No such lesson, or no such question of kind implement", body = ProblemDocument)))]
+async fn states(
+    State(app): State<App>,
+    At((slug, id)): At<(String, String)>,
+    Asked(whose): Asked<Whose>,
+) -> Result<Answer<DealView>, Problem> {
+    let dealt = blocking(move || {
+        let lesson = variant(&app, &slug, whose.seed())?;
+        deal(&lesson, &id)
+    });
+    Ok(Answer(dealt.await?))
+}
+
+/// The states of a question.
+pub(crate) fn deal(lesson: &Lesson, id: &str) -> Result<DealView, Problem> {
+    let dealt = lesson.deal(id).ok_or_else(|| not_to_implement(lesson, id))?;
+    dealt.map_err(Problem::internal)
+}
+
+/// A program that reads the states and writes the answer, without the equations.
+#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/starters/{language}", tag = "lessons",
+    params(("slug" = String, Path), ("id" = String, Path), ("language" = String, Path,
+    description = "python, octave (the same as matlab) or julia")), responses(
+    (status = 200, description = "The program", body = String, content_type = "text/plain"),
+    (status = 404, description = "No such lesson, question or language", body = ProblemDocument)))]
+async fn starter(
+    State(app): State<App>,
+    At((slug, id, language)): At<(String, String, String)>,
+) -> Result<impl IntoResponse, Problem> {
+    let lesson = find(&app, &slug)?;
+    let (name, text) = starter_of(lesson, &id, &language)?;
+    let disposition = format!("attachment; filename=\"{name}\"");
+    Ok((
+        [
+            (header::CONTENT_TYPE, "text/plain; charset=utf-8".to_owned()),
+            (header::CONTENT_DISPOSITION, disposition),
+        ],
+        text,
+    ))
+}
+
+/// Name and text of a starter.
+pub(crate) fn starter_of(
+    lesson: &Lesson,
+    id: &str,
+    language: &str,
+) -> Result<(&'static str, String), Problem> {
+    let known = Language::from_word(language).ok_or_else(|| {
+        Problem::new(
+            StatusCode::NOT_FOUND,
+            "unknown-language",
+            format!("there is no starter in {language}"),
+            "there are starters in python, octave (the same as matlab) and julia",
+        )
+    })?;
+    let text = lesson.starter(id, known).ok_or_else(|| not_to_implement(lesson, id))?;
+    Ok((known.file(), text))
+}
+
+fn unknown_question(lesson: &Lesson, id: &str) -> Problem {
+    Problem::new(
+        StatusCode::NOT_FOUND,
+        "unknown-question",
+        format!("the lesson {} has no question called \"{id}\"", lesson.slug),
+        suggest(id, lesson.exercise.questions.iter().map(|question| question.id.as_str())),
+    )
+}
+
+/// The answer to a question that asks for no program.
+fn not_to_implement(lesson: &Lesson, id: &str) -> Problem {
+    if lesson.question(id).is_none() {
+        return unknown_question(lesson, id);
+    }
+    Problem::new(
+        StatusCode::NOT_FOUND,
+        "not-to-implement",
+        format!("the question {id} does not ask for a program"),
+        "states and starters belong to questions of kind implement",
+    )
 }

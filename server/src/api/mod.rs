@@ -29,7 +29,7 @@ use crate::page;
 use crate::problem::Problem;
 use crate::reports;
 
-pub(crate) use lessons::unknown as unknown_lesson;
+pub(crate) use lessons::{deal, starter_of, unknown as unknown_lesson};
 
 /// The head of the interface's description; addresses and schemas are added by the routes themselves.
 #[derive(OpenApi)]

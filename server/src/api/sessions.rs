@@ -40,6 +40,8 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 struct NewSession {
     /// The scenario of a lesson, by the lesson's slug.
     lesson: Option<String>,
+    /// With `lesson`: whose numbers, a student's name or another seed; without it, those that everybody sees.
+    seed: Option<String>,
     /// A built-in scene, by name.
     #[schema(example = "n-four-bar:2")]
     builtin: Option<String>,
@@ -90,7 +92,8 @@ async fn create(
     Json(wanted): Json<NewSession>,
 ) -> Result<impl IntoResponse, Problem> {
     let session = blocking(move || {
-        let (mut scene, source) = choose(&app, wanted.lesson, wanted.builtin, wanted.scene)?;
+        let (mut scene, source) =
+            choose(&app, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
         let written_here = matches!(source, Source::Scene(_));
         let started = app.sessions.start(scene, &wanted.change, source, &app.limits);
@@ -108,12 +111,13 @@ async fn create(
 fn choose(
     app: &App,
     lesson: Option<String>,
+    seed: Option<&str>,
     builtin: Option<String>,
     scene: Option<serde_json::Value>,
 ) -> Result<(Scene, Source), Problem> {
     match (lesson, builtin, scene) {
         (Some(slug), None, None) => {
-            let lesson = super::lessons::find(app, &slug)?;
+            let lesson = super::lessons::variant(app, &slug, seed)?;
             let scene = Scene::from_json(&lesson.scene.to_string())?;
             Ok((scene, Source::Lesson(slug)))
         }

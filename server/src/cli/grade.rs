@@ -8,6 +8,7 @@ use super::Outcome;
 use super::lesson::find;
 use super::terminal::{print_json, print_line};
 use crate::problem::Problem;
+use crate::variants::Variants;
 use crate::{grading, scenes};
 
 /// Largest file with answers, in bytes.
@@ -17,7 +18,7 @@ const LARGEST: u64 = 1 << 20;
 pub(super) fn grade(course: &Course, lesson: &str, file: &Path, json: bool) -> Result<Outcome, Problem> {
     let lesson = find(course, lesson)?;
     let text = scenes::read(file, LARGEST)?;
-    let (_, verdict) = grading::grade(lesson, &text)?;
+    let (_, verdict) = grading::grade(lesson, &Variants::default(), &text)?;
     if json {
         print_json(&verdict);
     } else {

@@ -1,14 +1,17 @@
 //! `triad lesson`.
 
 use std::path::Path;
+use std::time::Instant;
 
+use axum::http::StatusCode;
 use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
-use super::Outcome;
 use super::terminal::{print_json, print_line};
+use super::{Outcome, Starter};
 use crate::api::unknown_lesson;
 use crate::problem::Problem;
+use crate::variants::Variants;
 
 /// The course in a folder, or the one that is built in.
 pub(super) fn course(folder: Option<&Path>) -> Result<Course, Problem> {
@@ -37,19 +40,133 @@ pub(super) fn list(course: &Course, json: bool) -> Outcome {
     Outcome::Done
 }
 
-/// Proves the course, or one lesson of it.
+/// Proves the course, or one lesson of it, and tells how long each lesson took.
 pub(super) fn check(course: &Course, lesson: Option<&str>, json: bool) -> Result<Outcome, Problem> {
-    let (checked, faults) = match lesson {
-        Some(name) => (1, triad_lessons::check_lesson(course, find(course, name)?)),
-        None => (course.lessons().len(), triad_lessons::check_course(course)),
+    let start = Instant::now();
+    let mut faults = triad_lessons::check_course_files(course);
+    let lessons: Vec<&Lesson> = match lesson {
+        Some(name) => vec![find(course, name)?],
+        None => course.lessons().iter().collect(),
     };
+    let mut times = Vec::with_capacity(lessons.len());
+    for lesson in &lessons {
+        let begin = Instant::now();
+        faults.extend(triad_lessons::check_lesson(course, lesson));
+        times.push(json!({"lesson": lesson.slug, "seconds": rounded(begin)}));
+    }
     if json {
-        print_json(&json!({"lessons": checked, "faults": faults}));
+        print_json(
+            &json!({"lessons": lessons.len(), "faults": faults, "seconds": rounded(start), "times": times}),
+        );
     } else {
         for fault in &faults {
             print_line(&fault.to_string());
         }
-        print_line(&format!("{checked} lessons checked, {} faults", faults.len()));
+        for time in &times {
+            print_line(&format!(
+                "{:>8.2} s  {}",
+                time["seconds"],
+                time["lesson"].as_str().unwrap_or_default()
+            ));
+        }
+        let (n, seconds) = (lessons.len(), rounded(start));
+        print_line(&format!("{n} lessons checked in {seconds} s, {} faults", faults.len()));
     }
     Ok(if faults.is_empty() { Outcome::Done } else { Outcome::No })
+}
+
+/// Seconds since then, to hundredths.
+fn rounded(begin: Instant) -> f64 {
+    (begin.elapsed().as_secs_f64() * 100.0).round() / 100.0
+}
+
+/// Writes the skeleton of a lesson into a course.
+pub(super) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome, Problem> {
+    let sound = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if slug.is_empty() || slug.len() > 60 || !slug.chars().all(sound) || slug.starts_with('-') {
+        let what = format!("\"{slug}\" cannot be the name of a lesson");
+        let hint = "use small letters, digits and dashes, such as double-pendulum";
+        return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "lesson-name", what, hint));
+    }
+    let head = into.join("course.toml");
+    let number = if head.exists() {
+        let course = Course::load(into)?;
+        if let Some(lesson) = course.lesson(slug) {
+            let what = format!("there is a lesson {slug} in {} already", into.join(&lesson.folder).display());
+            let hint = "choose another name, or edit that one";
+            return Err(Problem::new(StatusCode::CONFLICT, "lesson-exists", what, hint));
+        }
+        course.lessons().iter().map(|l| l.number).max().unwrap_or(0) + 1
+    } else {
+        write(&head, "format_version = 1\ntitle = \"A course\"\n")?;
+        1
+    };
+    let folder = into.join(format!("{number:02}-{slug}"));
+    for (name, text) in triad_lessons::skeleton::files(number, slug) {
+        write(&folder.join(name), &text)?;
+    }
+    if json {
+        print_json(&json!({"folder": folder.display().to_string(), "number": number}));
+        return Ok(Outcome::Done);
+    }
+    print_line(&format!("Lesson {number} begins in {}", folder.display()));
+    print_line(&format!("See it while you write:  triad --course {} lesson preview {slug}", into.display()));
+    print_line(&format!("What is still to do:     triad --course {} lesson check {slug}", into.display()));
+    Ok(Outcome::Done)
+}
+
+/// Writes a file and the folders above it.
+fn write(path: &Path, text: &str) -> Result<(), Problem> {
+    let refused = |error: std::io::Error| {
+        Problem::new(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "unwritable-file",
+            format!("cannot write {}: {error}", path.display()),
+            "check that the folder exists and that you may write there",
+        )
+    };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(refused)?;
+    }
+    std::fs::write(path, text).map_err(refused)
+}
+
+/// Writes a starter and its states.
+pub(super) fn starter(course: &Course, options: &Starter, json: bool) -> Result<Outcome, Problem> {
+    let lesson = Variants::default().of(find(course, &options.lesson)?, &options.student)?;
+    let (name, text) = crate::api::starter_of(&lesson, &options.question, &options.language)?;
+    let dealt = crate::api::deal(&lesson, &options.question)?;
+    let states = serde_json::to_string_pretty(&dealt).map_err(Problem::internal)?;
+    write(&options.out.join(name), &text)?;
+    write(&options.out.join("states.json"), &states)?;
+    if json {
+        print_json(&json!({"starter": name, "states": "states.json", "seed": lesson.seed}));
+    } else {
+        let folder = options.out.display();
+        print_line(&format!("{name} and states.json are in {folder}; the program writes answer.json"));
+        print_line(&format!(
+            "Hand it in: {{\"answers\": {{\"{}\": {{\"file\": \"…\"}}}}}}",
+            options.question
+        ));
+    }
+    Ok(Outcome::Done)
+}
+
+/// Prints a schema.
+pub(super) fn schema(of: &str) -> Result<Outcome, Problem> {
+    let schema = match of {
+        "scene" => Some(triad_engine::scene::schema()),
+        other => triad_lessons::schema::of(other),
+    };
+    let schema = schema.ok_or_else(|| {
+        let names = triad_lessons::schema::NAMES.join(", ");
+        Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "unknown-schema",
+            format!("there is no schema of \"{of}\""),
+            format!("there are schemas of scene, {names}"),
+        )
+    })?;
+    print_json(&schema);
+    Ok(Outcome::Done)
 }

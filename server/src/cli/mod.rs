@@ -7,6 +7,7 @@ mod csv;
 mod grade;
 mod lesson;
 mod paper;
+mod preview;
 mod run;
 mod serve;
 mod stress;
@@ -157,9 +158,15 @@ enum Command {
     #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
         triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html")]
     Stress(stress::Stress),
-    /// Print the JSON Schema of scenes, for editors.
-    #[command(after_help = "Example:\n  triad schema > scene.schema.json")]
-    Schema,
+    /// Print a JSON Schema, for editors: of a scene, or of an author's file.
+    #[command(
+        after_help = "Examples:\n  triad schema > scene.schema.json\n  triad schema exercise > exercise.schema.json"
+    )]
+    Schema {
+        /// Of what: scene, course, lesson, exercise, reference (reference/answers.toml) or wrong (wrong/*.toml).
+        #[arg(default_value = "scene")]
+        of: String,
+    },
 }
 
 #[derive(Debug, Subcommand)]
@@ -173,6 +180,47 @@ enum Lesson {
         /// Only this lesson.
         lesson: Option<String>,
     },
+    /// Begin a lesson: a skeleton that runs, with TODO where your words belong.
+    #[command(after_help = "Example:\n  triad lesson new my-lesson --into my-course\n  \
+        triad --course my-course lesson preview my-lesson\n  triad --course my-course lesson check my-lesson")]
+    New {
+        /// Its name in addresses: small letters, digits and dashes.
+        slug: String,
+        /// The folder of the course; made if it is not there.
+        #[arg(long, default_value = ".", value_name = "DIR")]
+        into: PathBuf,
+    },
+    /// Show a lesson in the browser while you write it: every saved file is shown at once, with its faults.
+    #[command(after_help = "Example:\n  triad --course my-course lesson preview my-lesson")]
+    Preview {
+        /// The lesson.
+        lesson: String,
+        /// Port to listen at; 0 takes any free one.
+        #[arg(long, default_value_t = 8090)]
+        port: u16,
+    },
+    /// Write the starter of a question that asks for a program, and the states that are dealt to a student.
+    #[command(
+        after_help = "Example:\n  triad lesson starter rigid-body-rows program --language octave --student ada --out ."
+    )]
+    Starter(Starter),
+}
+
+#[derive(Debug, Args)]
+struct Starter {
+    /// The lesson.
+    lesson: String,
+    /// The question.
+    question: String,
+    /// python, octave (the same as matlab) or julia.
+    #[arg(long, default_value = "python")]
+    language: String,
+    /// Whose states; without it, those that everybody sees.
+    #[arg(long, default_value = "", value_name = "NAME")]
+    student: String,
+    /// The folder for the program and states.json.
+    #[arg(long, default_value = ".", value_name = "DIR")]
+    out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -262,8 +310,8 @@ pub fn main() -> ExitCode {
 }
 
 fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
-    let Arguments { command, json, course } = arguments;
-    let course = || lesson::course(course.as_deref());
+    let Arguments { command, json, course: folder } = arguments;
+    let course = || lesson::course(folder.as_deref());
     match command.unwrap_or_else(|| Command::Serve(Serve::default())) {
         Command::Serve(options) => serve::serve(&options, course()?),
         Command::Run(options) => run::run(&options, json),
@@ -278,12 +326,14 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
+        Command::Lesson(Lesson::New { slug, into }) => lesson::new(&slug, &into, json),
+        Command::Lesson(Lesson::Preview { lesson, port }) => {
+            preview::preview(folder.as_deref(), &lesson, port)
+        }
+        Command::Lesson(Lesson::Starter(options)) => lesson::starter(&course()?, &options, json),
         Command::Bench(options) => bench::bench(options, json),
         Command::Stress(options) => stress::stress(&options, json),
-        Command::Schema => {
-            terminal::print_json(&triad_engine::scene::schema());
-            Ok(Outcome::Done)
-        }
+        Command::Schema { of } => lesson::schema(&of),
     }
 }
 

@@ -70,15 +70,20 @@ async function call<T>(method: string, path: string, body?: unknown, signal?: Ab
 
 const id = encodeURIComponent;
 
-export type SessionSource = { lesson: string } | { builtin: string } | { scene: unknown };
+/** Whose numbers: a student's name, or another seed. */
+const whose = (seed?: string): string => seed ? `?${new URLSearchParams({ seed })}` : "";
+
+export type SessionSource = { lesson: string; seed?: string } | { builtin: string } | { scene: unknown };
 
 export const api = {
   lessons: (signal?: AbortSignal) => call<LessonSummary[]>("GET", "/lessons", undefined, signal),
-  lesson: (slug: string, signal?: AbortSignal) => call<Lesson>("GET", `/lessons/${id(slug)}`, undefined, signal),
-  hint: (slug: string, question: string, k: number) =>
-    call<{ html: string }>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}`),
-  submit: (slug: string, student: string, answers: Record<string, Answer>) =>
-    call<Verdict>("POST", `/lessons/${id(slug)}/submissions`, { student, answers }),
+  lesson: (slug: string, seed: string, signal?: AbortSignal) => call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
+  hint: (slug: string, question: string, k: number, seed?: string) =>
+    call<{ html: string }>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}${whose(seed)}`),
+  statesUrl: (slug: string, question: string, seed?: string): string => `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
+  starterUrl: (slug: string, question: string, language: string): string => `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
+  submit: (slug: string, student: string, answers: Record<string, Answer>, seed?: string) =>
+    call<Verdict>("POST", `/lessons/${id(slug)}/submissions`, seed === undefined ? { student, answers } : { student, seed, answers }),
   submissions: (query: { student: string; lesson?: string; limit?: number }, signal?: AbortSignal) => {
     const search = new URLSearchParams({ student: query.student });
     if (query.lesson) search.set("lesson", query.lesson);

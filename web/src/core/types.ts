@@ -18,7 +18,7 @@ export interface Option {
 
 export interface Question {
   id: string;
-  kind: "number" | "vector" | "choice" | "formula";
+  kind: "number" | "vector" | "matrix" | "choice" | "formula" | "implement" | "trajectory" | "model" | "tuning";
   prompt_html: string;
   /** The unit that the answer is read in. */
   unit?: string | null;
@@ -30,6 +30,14 @@ export interface Question {
   rule: string;
   points: number;
   options?: Option[];
+  /** What a program returns for each state (implement). */
+  asks?: string[];
+  /** Columns of the table besides t (trajectory). */
+  columns?: { name: string; what: string }[];
+  /** What may be chosen (tuning). */
+  tuning?: { integrators: string[]; baumgarte: boolean; budget: number; error: number };
+  /** Earlier questions whose answer is carried through. */
+  follows?: string[];
   hints_available: number;
 }
 
@@ -42,6 +50,10 @@ export interface Lesson {
   prerequisites: string[];
   html: string;
   scene: Scene | string;
+  /** Whether each student gets numbers, or states, of their own. */
+  has_variants: boolean;
+  /** Whose numbers these are; empty for those that everybody sees. */
+  seed: string;
   /** What to do with the mechanism, in order. */
   steps?: { kind: "predict" | "run" | "check" | "explain"; html: string }[];
   exercise: { questions: Question[]; pass_mark?: number };
@@ -221,7 +233,9 @@ export interface CheckReport {
 
 export type Answer =
   | { value: string; unit?: string }
-  | { value: string[]; unit?: string }
+  | { value: string | string[] | string[][]; unit?: string }
+  | { file: string }
+  | { settings: { integrator: string; tolerance: string; baumgarte?: [string, string] } }
   | { choice: string };
 
 export type VerdictKind = "right" | "wrong" | "blank" | "invalid";
@@ -232,6 +246,8 @@ export interface QuestionVerdict {
   possible: number;
   verdict: VerdictKind;
   message_html: string;
+  /** A picture that the grader drew. */
+  figure_svg?: string;
 }
 
 export interface Verdict {

@@ -16,15 +16,24 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
   const { questions } = lesson.exercise;
   if (questions.length === 0) return () => undefined;
   const total = questions.reduce((sum, question) => sum + question.points, 0);
-  const draftKey = `draft:${lesson.slug}` as const;
+  // Answers belong to the numbers that they are about.
+  const draftKey: `draft:${string}` = lesson.has_variants && lesson.seed ? `draft:${lesson.slug}:${lesson.seed}` : `draft:${lesson.slug}`;
   const draft = readDraft(recall(draftKey));
+  let ready = false;
 
   const saveDraft = (): void => {
     const values: Record<string, string[]> = {};
-    for (const field of fields) values[field.id] = field.draft();
+    // Hints that are being opened again must not be forgotten meanwhile.
+    if (!ready) return;
+    for (const field of fields) {
+      values[field.id] = field.draft();
+      const opened = Math.max(field.hints(), Number(draft[`${field.id}#hints`]?.[0] ?? 0));
+      if (opened > 0) values[`${field.id}#hints`] = [String(opened)];
+    }
     remember(draftKey, JSON.stringify(values));
   };
-  const fields: QuestionField[] = questions.map((question, at) => questionField(lesson.slug, question, at + 1, draft[question.id], saveDraft));
+  const fields: QuestionField[] = questions.map((question, at) => questionField(lesson, question, at + 1, { draft: draft[question.id], hints: Number(draft[`${question.id}#hints`]?.[0] ?? 0) }, saveDraft));
+  ready = true;
 
   const name = h("input", { id: "student", class: "field", autocomplete: "name", maxlength: "80", required: true, value: student.get() });
   const send = h("button", { class: "button primary" }, "Check my answers");
@@ -44,12 +53,21 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
       name.focus();
       return;
     }
+    if (lesson.has_variants && lesson.seed !== who) {
+      // The lesson is loaded again with the numbers of that name; what was typed stays for comparison.
+      rememberFor(lesson, who, recall(draftKey));
+      announce(`${who}, these are your own numbers now. Look at your answers, then check them.`);
+      // The name may be the one that is known already, from another page.
+      if (student.get() === who) dispatchEvent(new Event("triad:student"));
+      setStudent(who);
+      return;
+    }
     setStudent(who);
     send.disabled = true;
     send.textContent = "Checking…";
     try {
       const answers = Object.fromEntries(fields.map((field) => [field.id, field.answer()]));
-      const verdict = await api.submit(lesson.slug, who, answers);
+      const verdict = await api.submit(lesson.slug, who, answers, lesson.has_variants ? lesson.seed : undefined);
       await showVerdict(verdict);
       past.add(verdict);
     } catch (error) {
@@ -82,11 +100,32 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
   };
   addEventListener("triad:student", renamed);
 
-  root.append(
+  root.append(...[
     h("div", { class: "section-head" }, h("h2", null, "Exercise"), h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}${lesson.exercise.pass_mark ? `; ${points(lesson.exercise.pass_mark * total)} to pass` : ""}`)),
-    form, past.root);
+    whose(lesson), form, past.root].filter((part) => part !== null));
   void past.load();
   return () => removeEventListener("triad:student", renamed);
+}
+
+/** Says whose numbers these are; without a name, asks for one. */
+function whose(lesson: Lesson): HTMLElement | null {
+  if (!lesson.has_variants) return null;
+  if (lesson.seed) return h("p", { class: "whose" }, "These are the numbers of ", h("b", null, lesson.seed), ". Everybody has their own.");
+  const name = h("input", { id: "whose", class: "field", autocomplete: "name", maxlength: "80" });
+  const form = h("form", { class: "whose" }, h("label", { for: "whose" }, "Everybody has their own numbers in this exercise. Your name:"), name,
+    h("button", { class: "button small" }, "Show my numbers"));
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    if (name.value.trim()) setStudent(name.value);
+    else name.focus();
+  });
+  return form;
+}
+
+/** A draft that was begun before the name was known goes on under the name. */
+function rememberFor(lesson: Lesson, who: string, draft: string | null): void {
+  const key: `draft:${string}` = `draft:${lesson.slug}:${who}`;
+  if (draft && !recall(key)) remember(key, draft);
 }
 
 function readDraft(text: string | null): Record<string, string[]> {

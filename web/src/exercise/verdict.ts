@@ -22,7 +22,8 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   return h("div", { class: `verdict is-${result.verdict}` },
     h("p", { class: "verdict-head" }, icon(mark), h("strong", null, word),
       h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`)),
-    text.textContent ? text : null);
+    text.textContent ? text : null,
+    result.figure_svg ? authored(h("div", { class: "verdict-figure" }), result.figure_svg) : null);
 }
 
 export function verdictSummary(verdict: Verdict): HTMLElement {

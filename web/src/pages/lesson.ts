@@ -2,6 +2,7 @@
 import { api, ApiError } from "../core/api";
 import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
+import { student } from "../core/prefs";
 import { setTitle, type Page } from "../core/router";
 import type { Lesson, LessonSummary, Scene } from "../core/types";
 import { askedView } from "../ui/asked";
@@ -22,9 +23,12 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
     h("nav", { class: "jump", "aria-label": "Parts of this lesson" },
       h("a", { href: "#text" }, "Text"), h("a", { href: "#mechanism" }, "Mechanism"), h("a", { href: "#exercise" }, "Exercise")));
 
+  let shown: Lesson | undefined;
+
   const load = async (): Promise<void> => {
     try {
-      const lesson = await api.lesson(slug, leaving.signal);
+      const lesson = await api.lesson(slug, student.get(), leaving.signal);
+      shown = lesson;
       setTitle(lesson.title);
       // A short wait for KaTeX saves a jump of the whole text; a long one would keep it from the reader.
       if (hasMaths(lesson.html)) await Promise.race([loadMaths(), new Promise((done) => setTimeout(done, MATHS_PATIENCE_MS))]);
@@ -54,14 +58,24 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   const openBench = async (lesson: Lesson): Promise<void> => {
     const [{ workbench }, scene, seen] = await Promise.all([import("../workbench/workbench"), sceneOf(lesson, leaving.signal), askedView()]);
     if (leaving.signal.aborted) return;
-    undo.push(workbench(bench, { source: { lesson: slug }, scene, seen }));
+    undo.push(workbench(bench, { source: lesson.seed ? { lesson: slug, seed: lesson.seed } : { lesson: slug }, scene, seen }));
   };
+
+  // Another name, other numbers: text, mechanism and exercise are made anew.
+  const renamed = (): void => {
+    if (!shown?.has_variants || shown.seed === student.get()) return;
+    for (const step of undo.splice(0)) step();
+    bench.replaceChildren(benchPlaceholder());
+    void load().then(() => exercise.scrollIntoView({ block: "start" }));
+  };
+  addEventListener("triad:student", renamed);
 
   void load();
   return {
     title: "Lesson",
     dispose: () => {
       leaving.abort();
+      removeEventListener("triad:student", renamed);
       for (const step of undo) step();
     },
   };

@@ -1,0 +1,300 @@
+//! Questions that are answered by work, and what goes with them: right, wrong with its own feedback, bad input, bounds.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::lesson::Lesson;
+use crate::submission::{Answer, Entry, Settings};
+use crate::{Course, Mark, QuestionVerdict, Submission, grade, reference_submission};
+
+fn lesson(slug: &str) -> Lesson {
+    Course::embedded().unwrap_or_else(|e| panic!("{e}")).lesson(slug).unwrap().clone()
+}
+
+fn judged(lesson: &Lesson, id: &str, answer: Answer) -> QuestionVerdict {
+    all(lesson, [(id, answer)]).remove(id).unwrap()
+}
+
+fn all<const N: usize>(lesson: &Lesson, answers: [(&str, Answer); N]) -> BTreeMap<String, QuestionVerdict> {
+    let answers = answers.into_iter().map(|(id, a)| (id.to_owned(), a)).collect();
+    let verdict = grade(lesson, &Submission { answers, ..Submission::default() }).unwrap();
+    verdict.questions.into_iter().map(|q| (q.id.clone(), q)).collect()
+}
+
+fn file(text: impl Into<String>) -> Answer {
+    Answer { file: Some(text.into()), ..Answer::default() }
+}
+
+fn value(text: &str) -> Answer {
+    Answer { value: Some(Entry::Text(text.to_owned())), ..Answer::default() }
+}
+
+/// The file of the reference, as JSON to be spoilt.
+fn reference(lesson: &Lesson, id: &str) -> serde_json::Value {
+    let text = reference_submission(lesson).answers[id].file.clone().unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn a_program_is_told_which_block_row_and_column_is_off() {
+    let lesson = lesson("jacobian").variant("ada").unwrap();
+    let right = judged(&lesson, "program", file(reference(&lesson, "program").to_string()));
+    assert_eq!((right.verdict, right.earned), (Mark::Right, right.possible));
+
+    let mut spoilt = reference(&lesson, "program");
+    // Row 12 is the hinge's first, columns from 0 the upper link's.
+    spoilt["states"][2]["jacobian"][12][3] = 7.0.into();
+    let wrong = judged(&lesson, "program", file(spoilt.to_string()));
+    assert_eq!((wrong.verdict, wrong.earned), (Mark::Wrong, 0.5 * wrong.possible));
+    for says in ["state 3 of 5", "1 of 504 entries", "hinge: CP.x", "upper.ux", "block of hinge and body upper"] {
+        assert!(wrong.message_html.contains(says), "{says}: {}", wrong.message_html);
+    }
+    let own = reference(&lesson, "program")["states"][2]["jacobian"][12][3].to_string();
+    assert!(!wrong.message_html.contains(&own), "the right number is not told");
+}
+
+#[test]
+fn slips_of_a_program_are_recognised() {
+    let lesson = lesson("rigid-body-rows").variant("ada").unwrap();
+    let spoilt = |part: &str, change: &dyn Fn(f64) -> f64| {
+        let mut answer = reference(&lesson, "program");
+        for state in answer["states"].as_array_mut().unwrap() {
+            for x in state[part].as_array_mut().unwrap() {
+                *x = change(x.as_f64().unwrap()).into();
+            }
+        }
+        judged(&lesson, "program", file(answer.to_string()))
+    };
+    assert_eq!(spoilt("gamma", &|x| -x).slip.as_deref(), Some("gamma-gamma-sign"));
+    assert_eq!(spoilt("gamma", &|x| x / 2.0).slip.as_deref(), Some("gamma-gamma-half"));
+    assert_eq!(spoilt("phi", &|x| -x).slip.as_deref(), Some("phi-sign"));
+    let mut transposed = reference(&lesson, "program");
+    for state in transposed["states"].as_array_mut().unwrap() {
+        let rows = state["jacobian"].as_array().unwrap().clone();
+        let columns: Vec<Vec<_>> = (0..12).map(|c| rows.iter().map(|r| r[c].clone()).collect()).collect();
+        state["jacobian"] = serde_json::json!(columns);
+    }
+    let verdict = judged(&lesson, "program", file(transposed.to_string()));
+    assert_eq!(verdict.slip.as_deref(), Some("jacobian-transposed"), "{}", verdict.message_html);
+    // The states of another student are not one's own.
+    let other = lesson.variant("emmy").unwrap();
+    let copied = judged(&other, "program", file(reference(&lesson, "program").to_string()));
+    assert_eq!((copied.verdict, copied.earned), (Mark::Wrong, 0.0));
+}
+
+#[test]
+fn a_program_may_write_csv_and_bad_files_cost_nothing() {
+    let lesson = lesson("rigid-body-rows");
+    let reference = reference(&lesson, "program");
+    let mut csv = "state,part,row,column,value\n".to_owned();
+    for (k, state) in reference["states"].as_array().unwrap().iter().enumerate() {
+        for part in ["phi", "gamma", "jacobian"] {
+            for (row, line) in state[part].as_array().unwrap().iter().enumerate() {
+                let cells = line.as_array().cloned().unwrap_or_else(|| vec![line.clone()]);
+                for (column, x) in cells.iter().enumerate().filter(|(_, x)| part != "jacobian" || x.as_f64() != Some(0.0)) {
+                    writeln!(csv, "{},{part},{},{},{x}", k + 1, row + 1, column + 1).unwrap();
+                }
+            }
+        }
+    }
+    assert_eq!(judged(&lesson, "program", file(&csv)).verdict, Mark::Right);
+    for (text, says) in [
+        ("{", "not JSON"),
+        ("{\"states\": []}", "0 states in the file, 5 were dealt"),
+        ("{\"states\": [{\"phi\": [1]},{\"phi\": [1]},{\"phi\": [1]},{\"phi\": [1]},{\"phi\": [1]}]}", "6 numbers are asked for"),
+        ("{\"states\": [{\"phi\": [1,2,3,4,5,null]},{},{},{},{}]}", "no number"),
+        ("state,part,row,column,value\n9,phi,1,1,0", "goes from 1 to 5"),
+        ("state,part,row,column,value\n1,psi,1,1,0", "there is no part psi"),
+        ("state,row,column,value\n1,1,1,0", "part is missing"),
+        ("state,part,row,column,value\n1,phi,1,1,NaN", "not a finite number"),
+    ] {
+        let verdict = judged(&lesson, "program", file(text));
+        assert_eq!(verdict.verdict, Mark::Invalid, "{text}: {}", verdict.message_html);
+        assert!(verdict.message_html.contains(says), "{text}: {}", verdict.message_html);
+    }
+    assert_eq!(judged(&lesson, "program", value("3")).verdict, Mark::Invalid);
+    let huge = serde_json::json!({"answers": {"program": {"file": "x".repeat((1 << 20) + 1)}}});
+    assert_eq!(Submission::from_json(&huge.to_string()).unwrap_err().code(), "submission-too-large");
+}
+
+/// A table of the plane pendulum by hand: the engine's own reference, shifted or stretched.
+fn pendulum(late: f64, factor: f64, every: f64) -> String {
+    let lesson = lesson("verification");
+    let text = reference_submission(&lesson).answers["your-run"].file.clone().unwrap();
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(1).map(|l| l.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let at = |t: f64, column: usize| {
+        let x = (t / 0.01).clamp(0.0, 999.0);
+        let k = rows.iter().position(|r| r[0] > t).unwrap_or(1000).clamp(1, 1000) - 1;
+        let s = x - x.floor();
+        rows[k][column] * (1.0 - s) + rows[k + 1][column] * s
+    };
+    let mut out = "t; x [m]; y [m]\n".to_owned();
+    let mean = |c: usize| rows.iter().map(|r| r[c]).sum::<f64>() / rows.len() as f64;
+    let (mx, my) = (mean(1), mean(2));
+    let mut t = 0.0;
+    while t < 10.0 + 0.5 * every {
+        let (x, y) = (at(t - late, 1), at(t - late, 2));
+        writeln!(out, "{t};{};{}", mx + factor * (x - mx), my + factor * (y - my)).unwrap();
+        t += every;
+    }
+    out
+}
+
+#[test]
+fn a_table_is_judged_by_bands_and_phase_is_told_from_amplitude() {
+    let lesson = lesson("verification");
+    let judge = |text: String| judged(&lesson, "your-run", file(text));
+    let right = judge(pendulum(0.0, 1.0, 0.02));
+    assert_eq!((right.verdict, right.earned), (Mark::Right, 4.0), "{}", right.message_html);
+    let late = judge(pendulum(0.05, 1.0, 0.02));
+    assert_eq!(late.slip.as_deref(), Some("phase"), "{}", late.message_html);
+    assert!(late.message_html.contains("s too late"), "{}", late.message_html);
+    let large = judge(pendulum(0.0, 1.2, 0.04));
+    assert_eq!(large.slip.as_deref(), Some("amplitude"), "{}", large.message_html);
+    let nearly = judge(pendulum(0.0, 1.006, 0.02));
+    assert_eq!(nearly.earned, 0.7 * 4.0, "{}", nearly.message_html);
+    let swapped = judge(pendulum(0.0, 1.0, 0.02).replace("x [m]; y", "y [m]; x"));
+    assert_eq!((swapped.verdict, swapped.earned, swapped.slip), (Mark::Wrong, 0.0, None));
+}
+
+#[test]
+fn a_table_that_cannot_be_used_says_why() {
+    let lesson = lesson("verification");
+    let long = pendulum(0.0, 1.0, 0.02);
+    for (text, says) in [
+        ("t,x\n0,1\n".to_owned(), "no column y"),
+        ("t,x,y\n0,1,2\n".to_owned(), "at least 20 rows"),
+        (long.lines().take(300).collect::<Vec<_>>().join("\n"), "must cover 0 to 10 s"),
+        (pendulum(0.0, 1.0, 0.5), "gap"),
+        (long.replace("0.02;", "0;"), "Times must grow"),
+        (long.replace("0.02;", "soon;"), "Line 3, column t"),
+    ] {
+        let verdict = judged(&lesson, "your-run", file(text));
+        let fits = verdict.message_html.contains(says);
+        if says == "gap" && verdict.verdict == Mark::Right {
+            continue; // Half a second is the longest that is allowed.
+        }
+        assert!(fits && verdict.verdict == Mark::Invalid, "{says}: {}", verdict.message_html);
+    }
+}
+
+#[test]
+fn a_scene_is_judged_by_what_it_does() {
+    let lesson = lesson("slider-crank");
+    let mut scene = reference(&lesson, "scene");
+    // Other names, another order, another way to say the same: nobody looks at the text.
+    scene["bodies"][0]["name"] = "wheel".into();
+    scene["joints"][0]["body_j"] = "wheel".into();
+    scene["joints"][1]["body_i"] = "wheel".into();
+    scene["bodies"].as_array_mut().unwrap().reverse();
+    let right = judged(&lesson, "scene", file(scene.to_string()));
+    assert_eq!(right.verdict, Mark::Right, "{}", right.message_html);
+
+    let mut heavy = scene.clone();
+    heavy["gravity"] = serde_json::json!([0, 0, 0]);
+    let wrong = judged(&lesson, "scene", file(heavy.to_string()));
+    assert_eq!(wrong.verdict, Mark::Wrong);
+    assert!(wrong.earned > 0.0 && wrong.earned < wrong.possible, "partial credit: {}", wrong.earned);
+
+    let mut large = scene.clone();
+    large["bodies"] = serde_json::json!(vec![scene["bodies"][0].clone(); 7]);
+    for (text, says) in [
+        ("{".to_owned(), "cannot be read"),
+        (scene.to_string().replace("\"universal\"", "\"hinge\""), "hinge"),
+        (scene.to_string().replace("\"wheel\"}", "\"whee\"}"), ""),
+        (large.to_string(), "at most 6"),
+        (String::from("{\"name\":\"x\",\"bodies\":[]}"), ""),
+    ] {
+        let verdict = judged(&lesson, "scene", file(text));
+        assert_ne!(verdict.verdict, Mark::Blank);
+        assert!(verdict.message_html.contains(says), "{says}: {}", verdict.message_html);
+    }
+}
+
+#[test]
+fn settings_are_run_and_drawn() {
+    let lesson = lesson("work-and-precision");
+    let settings = |word: &str, tolerance: &str| {
+        let integrator = serde_json::from_value(serde_json::json!(word)).unwrap();
+        let settings = Settings { integrator, tolerance: Entry::Text(tolerance.to_owned()), baumgarte: None };
+        judged(&lesson, "tune", Answer { settings: Some(settings), ..Answer::default() })
+    };
+    let right = settings("dop853", "1e-8");
+    assert_eq!(right.verdict, Mark::Right, "{}", right.message_html);
+    let picture = right.figure_svg.unwrap();
+    assert!(picture.contains("dopri5") && picture.contains("your run"), "the curves open when it is right");
+    let coarse = settings("dop853", "1e-4");
+    assert_eq!((coarse.slip.as_deref(), coarse.earned), (Some("too-coarse"), 0.5 * coarse.possible));
+    assert!(!coarse.figure_svg.unwrap().contains("polyline"), "the curves would be the answer");
+    assert_eq!(settings("dopri5", "1e-9").slip.as_deref(), Some("too-dear"));
+    for (word, tolerance, says) in
+        [("taylor", "1e-8", "no choice taylor"), ("dop853", "soon", "not a number"), ("dop853", "1e-20", "from 1e-13")]
+    {
+        let verdict = settings(word, tolerance);
+        assert_eq!(verdict.verdict, Mark::Invalid);
+        assert!(verdict.message_html.contains(says), "{}", verdict.message_html);
+    }
+    assert_eq!(settings("dop853", "").verdict, Mark::Blank);
+}
+
+#[test]
+fn a_right_step_from_a_wrong_answer_is_a_right_step() {
+    let lesson = lesson("spherical-joint");
+    let both = |speed: &str, pull: &str| {
+        let verdicts = all(&lesson, [("speed", value(speed)), ("pull", value(pull))]);
+        (verdicts["speed"].verdict, verdicts["pull"].clone())
+    };
+    let (speed, pull) = both("3.000", "18.00");
+    assert_eq!((speed, pull.verdict, pull.slip.as_deref()), (Mark::Wrong, Mark::Right, Some("follow-through")));
+    assert!(pull.message_html.contains("your own answer to question 2"), "{}", pull.message_html);
+    // The same number beside a right speed is wrong.
+    assert_eq!(both("4.4294", "18.00").1.verdict, Mark::Wrong);
+    assert_eq!(both("3.000", "17.00").1.verdict, Mark::Wrong);
+    // The right answer stays right.
+    assert_eq!(both("3.000", "39.24").1.slip, None);
+}
+
+/// Written down once: a change would give every student other numbers, and last year's grades other questions.
+#[test]
+fn variants_stay_for_ever() {
+    let numbers = |slug: &str, seed: &str| {
+        let lesson = lesson(slug).variant(seed).unwrap();
+        lesson.parameters.iter().map(|(name, x)| format!("{name}={x}")).collect::<Vec<_>>().join(" ")
+    };
+    for (slug, seed, golden) in GOLDEN {
+        assert_eq!(numbers(slug, seed), *golden, "{slug} {seed}");
+    }
+    let states = lesson("jacobian").variant("ada").unwrap().deal("program").unwrap().unwrap();
+    assert_eq!((states.seed.as_str(), states.rows.len(), states.columns.len()), ("ada", 21, 24));
+    assert_eq!(states.states[0].q[..4], GOLDEN_STATE, "the first numbers of the first state");
+}
+
+const GOLDEN: &[(&str, &str, &str)] = &[];
+const GOLDEN_STATE: [f64; 4] = [0.0; 4];
+
+/// The wrong models say what a derivation on paper says.
+#[test]
+fn wrong_models_give_the_answers_of_the_slips() {
+    use crate::exercise::Body;
+    let answers = |slug: &str, id: &str| -> BTreeMap<String, Vec<f64>> {
+        let lesson = lesson(slug);
+        let Body::Quantity(q) = &lesson.question(id).unwrap().body else { panic!("{id}") };
+        q.misconceptions.iter().map(|m| (m.id.clone(), m.value.clone())).collect()
+    };
+    let near = |a: &[f64], b: &[f64]| {
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6 * (1.0 + b.abs())), "{a:?} {b:?}");
+    };
+    let hinge = answers("joint-reactions", "force-on-ground");
+    near(&hinge["on-the-ball"], &[0.0, 2.0 * 9.81 + 32.0, 0.0]);
+    near(&hinge["static"], &[0.0, -2.0 * 9.81, 0.0]);
+    near(&hinge["weight-missing"], &[0.0, -32.0, 0.0]);
+    near(&answers("equations-of-motion", "force")["mass-for-weight"], &[0.0, 0.75, 0.0]);
+    let arm = answers("inverse-dynamics", "upper-end");
+    near(&arm["static"], &[3.0 * 9.81 * 0.6 * 1f64.cos()]);
+    near(&arm["no-gravity"], &[-3.0 * 1.44 / 3.0 * 9.0]);
+    near(&answers("points-and-vectors", "corner-start")["opposite-corner"], &[1.2, 1.7, 0.9]);
+    // The wrong sign turns the body differently: no closed form, but surely not the same.
+    let Body::Quantity(turned) = &lesson("reduced-body").question("turned").unwrap().body.clone() else { panic!() };
+    assert!(turned.error < 1e-8 && !turned.rule.accepts(&turned.misconceptions[0].value, &turned.reference));
+}

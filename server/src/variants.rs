@@ -1,0 +1,78 @@
+//! Lessons with the numbers of one student, made once and kept for a while.
+
+use std::collections::{HashMap, VecDeque};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use axum::http::StatusCode;
+use triad_lessons::{Lesson, VariantError};
+
+use crate::problem::Problem;
+
+/// Lessons that are kept.
+const KEPT: usize = 256;
+/// Longest seed, in characters: that of a student's name.
+pub const LONGEST_SEED: usize = 100;
+
+/// The lessons of students who were here last.
+#[derive(Debug, Default)]
+pub struct Variants {
+    kept: Mutex<Kept>,
+}
+
+#[derive(Debug, Default)]
+struct Kept {
+    lessons: HashMap<(String, String), Arc<Lesson>>,
+    order: VecDeque<(String, String)>,
+}
+
+impl Variants {
+    /// The lesson with the numbers of a seed: a student's name, or a seed that was chosen. Empty: everybody's.
+    pub fn of(&self, lesson: &Lesson, seed: &str) -> Result<Arc<Lesson>, Problem> {
+        let seed = checked(seed)?;
+        if seed.is_empty() {
+            return Ok(Arc::new(lesson.clone()));
+        }
+        let key = (lesson.slug.clone(), seed.to_owned());
+        // The hash tells a lesson that was edited since from the one that is kept.
+        let kept = self.lock().lessons.get(&key).filter(|l| l.hash == lesson.hash).cloned();
+        if let Some(lesson) = kept {
+            return Ok(lesson);
+        }
+        let made = Arc::new(lesson.variant(seed)?);
+        let mut kept = self.lock();
+        if kept.lessons.insert(key.clone(), made.clone()).is_none() {
+            kept.order.push_back(key);
+        }
+        while kept.order.len() > KEPT {
+            if let Some(oldest) = kept.order.pop_front() {
+                kept.lessons.remove(&oldest);
+            }
+        }
+        Ok(made)
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A seed of reasonable length, without control characters.
+pub fn checked(seed: &str) -> Result<&str, Problem> {
+    let seed = seed.trim();
+    if seed.chars().count() > LONGEST_SEED || seed.chars().any(char::is_control) {
+        return Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "invalid-seed",
+            format!("the seed has more than {LONGEST_SEED} characters, or control characters"),
+            "use the student's name",
+        ));
+    }
+    Ok(seed)
+}
+
+impl From<VariantError> for Problem {
+    fn from(error: VariantError) -> Self {
+        let hint = "this is the author's mistake, not yours: run `triad lesson check`";
+        Self::new(StatusCode::INTERNAL_SERVER_ERROR, error.code(), error.to_string(), hint)
+    }
+}

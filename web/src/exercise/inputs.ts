@@ -1,0 +1,122 @@
+// The fields of one question, by kind: what is typed, pasted, chosen or uploaded becomes an answer.
+import { authored, h } from "../core/dom";
+import type { Answer, Question } from "../core/types";
+import { fileInput } from "./file";
+import { tuningInput } from "./tuning";
+
+export interface Inputs {
+  root: HTMLElement;
+  answer: () => Answer;
+  draft: () => string[];
+}
+
+/** Where a question belongs: its lesson, whose numbers it asks about, and the ids of what describes it. */
+export interface Place {
+  slug: string;
+  seed: string;
+  base: string;
+  described: string;
+}
+
+export function inputsOf(question: Question, place: Place, draft: string[] | undefined): Inputs {
+  switch (question.kind) {
+    case "choice": return choice(question, place, draft);
+    case "vector": return grid(question, place, draft);
+    case "matrix": return grid(question, place, draft);
+    case "implement": case "trajectory": case "model": return fileInput(question, place, draft);
+    case "tuning": return tuningInput(question, place, draft);
+    default: return single(question, place, draft);
+  }
+}
+
+export function textInput(id: string, label: string, described: string, value: string, cls = ""): HTMLInputElement {
+  return h("input", {
+    id, class: `field number ${cls}`, inputmode: cls.includes("unit") ? "text" : "decimal", autocomplete: "off",
+    autocapitalize: "off", spellcheck: "false", "aria-label": label, "aria-describedby": described, value, maxlength: "64",
+  });
+}
+
+function unitInput(question: Question, place: Place, draft: string | undefined): HTMLInputElement | null {
+  if (!question.asks_unit) return null;
+  return textInput(`${place.base}-unit`, "Unit", place.described, draft ?? "", "unit-field");
+}
+
+/** A unit that is not asked for stands behind the field. */
+function givenUnit(question: Question): HTMLElement | null {
+  return question.unit ? h("span", { class: "given-unit" }, question.unit) : null;
+}
+
+function single(question: Question, place: Place, draft: string[] | undefined): Inputs {
+  const formula = question.kind === "formula";
+  const value = textInput(`${place.base}-value`, formula ? "Formula" : "Value", place.described, draft?.[0] ?? "");
+  if (formula) {
+    value.inputMode = "text";
+    value.maxLength = 400;
+  }
+  const unit = unitInput(question, place, draft?.[1]);
+  return {
+    root: h("div", { class: "answer" }, value, unit ?? givenUnit(question)),
+    answer: () => withUnit({ value: value.value.trim() }, unit),
+    draft: () => [value.value, ...(unit ? [unit.value] : [])],
+  };
+}
+
+/** A vector in one line, a matrix in lines. Numbers that were copied elsewhere can be pasted into any cell. */
+function grid(question: Question, place: Place, draft: string[] | undefined): Inputs {
+  const [rows, columns] = question.size ?? [3, 1];
+  const matrix = question.kind === "matrix";
+  const axes = rows === 3 ? ["x", "y", "z"] : Array.from({ length: rows }, (_, k) => String(k + 1));
+  const cells = Array.from({ length: rows * columns }, (_, k) => {
+    const row = Math.floor(k / columns);
+    const label = matrix ? `row ${row + 1}, column ${(k % columns) + 1}` : `${axes[row]} component`;
+    const suffix = matrix ? `${row + 1}-${(k % columns) + 1}` : axes[row];
+    return textInput(`${place.base}-${suffix}`, label, place.described, draft?.[k] ?? "");
+  });
+  cells.forEach((cell, at) => cell.addEventListener("paste", (event) => {
+    const pieces = (event.clipboardData?.getData("text") ?? "").trim().split(/[\s;[\]]+|,(?=\s)/).filter(Boolean);
+    if (pieces.length < 2) return;
+    event.preventDefault();
+    pieces.slice(0, cells.length - at).forEach((piece, k) => { cells[at + k]!.value = piece.replace(/,$/, ""); });
+    cell.dispatchEvent(new Event("input", { bubbles: true }));
+  }));
+  const unit = unitInput(question, place, draft?.[cells.length]);
+  const after = unit ?? givenUnit(question);
+  const root = matrix
+    ? h("div", { class: "answer is-matrix" },
+      h("div", { class: "matrix-field", role: "group", "aria-label": `${rows} rows, ${columns} columns`, style: `--columns:${columns}` }, ...cells), after)
+    : h("div", { class: "answer is-vector" },
+      ...cells.map((cell, k) => h("span", { class: "component" }, h("span", { "aria-hidden": "true" }, axes[k] ?? ""), cell)), after);
+  const lines = (): string[][] => Array.from({ length: rows }, (_, r) => cells.slice(r * columns, (r + 1) * columns).map((cell) => cell.value.trim()));
+  return {
+    root,
+    answer: () => withUnit({ value: matrix ? lines() : cells.map((cell) => cell.value.trim()) }, unit),
+    draft: () => [...cells.map((cell) => cell.value), ...(unit ? [unit.value] : [])],
+  };
+}
+
+function withUnit<T extends { value: string | string[] | string[][] }>(answer: T, unit: HTMLInputElement | null): Answer {
+  return unit ? { ...answer, unit: unit.value.trim() } : answer;
+}
+
+function choice(question: Question, { base }: Place, draft: string[] | undefined): Inputs {
+  const radios = (question.options ?? []).map((option) => {
+    const radio = h("input", { type: "radio", name: base, value: option.id, id: `${base}-${option.id}` });
+    radio.checked = draft?.[0] === option.id;
+    const text = authored(h("span"), option.html);
+    // An option that is a formula alone is named by its LaTeX, which every screen reader can say.
+    if (onlyMaths(text)) radio.setAttribute("aria-label", text.textContent?.trim() ?? option.id);
+    return { radio, label: h("label", { class: "option", for: radio.id }, radio, text) };
+  });
+  const chosen = (): string => radios.find((entry) => entry.radio.checked)?.radio.value ?? "";
+  return {
+    root: h("div", { class: "answer is-choice" }, ...radios.map((entry) => entry.label)),
+    answer: () => ({ choice: chosen() }),
+    draft: () => [chosen()],
+  };
+}
+
+function onlyMaths(text: HTMLElement): boolean {
+  const copy = text.cloneNode(true) as HTMLElement;
+  for (const formula of copy.querySelectorAll(".math")) formula.remove();
+  return !/\p{L}/u.test(copy.textContent ?? "");
+}
