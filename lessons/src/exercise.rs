@@ -76,6 +76,8 @@ impl Question {
 }
 
 /// What is graded, by family of kinds.
+// A lesson has a handful of these, and each is made once.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {
     /// A number, a vector or a matrix.
@@ -133,6 +135,8 @@ pub struct Misconception {
     pub value: Vec<f64>,
     /// What to tell the student (Markdown).
     pub feedback: String,
+    /// Computed by running a wrong model.
+    pub computed: bool,
 }
 
 /// An option of a choice.

@@ -4,6 +4,7 @@ mod answer;
 mod slips;
 mod view;
 
+use triad_engine::lift::Director;
 use triad_engine::literal::Literal;
 use triad_engine::mechanism::Mechanism;
 use triad_engine::row::Form;
@@ -94,6 +95,12 @@ impl Deal {
         let mut mechanism = mechanism(&task.scene)?;
         if mechanism.system.rows.iter().any(|row| matches!(row.form, Form::Relation { .. })) {
             return Err("gears, screws and angle drivers are not polynomials; leave them out".to_owned());
+        }
+        let own = |d: &Director| d.is_own() || *d == Director::Product;
+        if !mechanism.system.bodies.iter().all(|body| body.layout.directors.iter().all(own)) {
+            return Err(
+                "bodies that share directors have no columns of their own; write full or reduced".to_owned()
+            );
         }
         let mut random = Random::new(seed);
         let mut states = Vec::with_capacity(task.states);

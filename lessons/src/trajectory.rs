@@ -1,5 +1,7 @@
 //! A motion as a table, and how far another table is from it: in phase, in amplitude, in shape.
 
+use std::fmt::Write as _;
+
 use triad_engine::simulation::Simulation;
 
 use crate::exercise::Trajectory;
@@ -182,8 +184,11 @@ pub(crate) fn reference_csv(task: &Trajectory, samples: usize) -> Result<String,
     let mut text = format!("t,{names}\n");
     for k in 0..=samples {
         let t = task.end * k as f64 / samples as f64;
-        let row: Vec<String> = (0..task.columns.len()).map(|c| format!("{:.12e}", track.at(c, t))).collect();
-        text += &format!("{t:.9},{}\n", row.join(","));
+        let _ = write!(text, "{t:.9}");
+        for column in 0..task.columns.len() {
+            let _ = write!(text, ",{:.12e}", track.at(column, t));
+        }
+        text.push('\n');
     }
     Ok(text)
 }

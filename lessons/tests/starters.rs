@@ -58,7 +58,13 @@ fn filled(starter: &str, lines: &str) -> String {
 }
 
 /// Runs a program beside the states and grades what it wrote.
-fn graded(lesson: &Lesson, language: Language, text: &str, command: &mut Command, folder: &Path) -> (Mark, f64) {
+fn graded(
+    lesson: &Lesson,
+    language: Language,
+    text: &str,
+    command: &mut Command,
+    folder: &Path,
+) -> (Mark, f64) {
     let states = serde_json::to_string(&lesson.deal("program").unwrap().unwrap()).unwrap();
     std::fs::write(folder.join("states.json"), states).unwrap();
     std::fs::write(folder.join(language.file()), text).unwrap();
@@ -76,10 +82,12 @@ fn graded(lesson: &Lesson, language: Language, text: &str, command: &mut Command
 
 fn tried(language: Language, program: &str, arguments: &[&str], solution: &str) {
     let lesson = lesson();
-    let folder = std::env::temp_dir().join(format!("triad-starter-{}-{}", language.word(), std::process::id()));
+    let folder =
+        std::env::temp_dir().join(format!("triad-starter-{}-{}", language.word(), std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let starter = lesson.starter("program", language).unwrap();
-    let mut run = |text: &str| graded(&lesson, language, text, Command::new(program).args(arguments), &folder);
+    let mut run =
+        |text: &str| graded(&lesson, language, text, Command::new(program).args(arguments), &folder);
     assert_eq!(run(&starter), (Mark::Wrong, 0.0), "the starter as it is handed out");
     assert_eq!(run(&filled(&starter, solution)), (Mark::Right, 4.0), "the starter with the equations");
     std::fs::remove_dir_all(&folder).unwrap();
@@ -105,7 +113,9 @@ fn the_octave_starter_runs_and_passes_when_it_is_filled_in() {
              TRIAD_SKIP_OCTAVE=1 to leave it unproven"
         );
         if skip {
-            println!("NOT TESTED: the Octave starter, because TRIAD_SKIP_OCTAVE is set and octave-cli is not there");
+            println!(
+                "NOT TESTED: the Octave starter, because TRIAD_SKIP_OCTAVE is set and octave-cli is not there"
+            );
             return;
         }
         let apt = |arguments: &[&str]| {

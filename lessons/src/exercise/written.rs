@@ -87,6 +87,7 @@ pub(super) fn quantity(
             id: m.id.clone(),
             value,
             feedback: parameters.fill(&m.feedback),
+            computed: m.model.is_some(),
         });
     }
     Ok(Body::Quantity(Quantity {

@@ -44,7 +44,7 @@ pub(super) fn judge(task: &Implement, seed: &str, note: &str, answer: &Answer) -
     if right == parts.len() {
         return Outcome::right(note);
     }
-    let lines: String = task
+    let lines: Vec<String> = task
         .asks
         .iter()
         .zip(&parts)
@@ -54,7 +54,7 @@ pub(super) fn judge(task: &Implement, seed: &str, note: &str, answer: &Answer) -
     Outcome {
         mark: Mark::Wrong,
         share: right as f64 / parts.len() as f64,
-        html: format!("<p>{right} of {} parts are right.</p><ul>{lines}</ul>", parts.len()),
+        html: format!("<p>{right} of {} parts are right.</p><ul>{}</ul>", parts.len(), lines.concat()),
         slip,
         ..Outcome::default()
     }
@@ -137,7 +137,8 @@ fn place(
         listed(&rows, row_names)
     );
     if matrix {
-        text += &format!(", column {}", listed(&columns, names.columns));
+        text += ", column ";
+        text += &listed(&columns, names.columns);
         text += &blocks(off, row_names, names.columns);
     }
     text += match common_factor(given, right, off) {

@@ -44,14 +44,14 @@ pub(super) fn judge(task: &ModelTask, note: &str, answer: &Answer) -> Outcome {
         Err(problem) => return Outcome::invalid(&format!("The author's scene does not run: {problem}.")),
     };
     let good = looked.iter().filter(|l| l.good).count();
-    let list: String = looked
+    let list: Vec<String> = looked
         .iter()
         .map(|l| {
             let (sign, after) = if l.good { ("✓", String::new()) } else { ("✗", l.html.clone()) };
             format!("<li>{sign} {}{after}</li>", escape(&l.what))
         })
         .collect();
-    let list = format!("<ul class=\"checks\">{list}</ul>");
+    let list = format!("<ul class=\"checks\">{}</ul>", list.concat());
     if good == looked.len() {
         let html = format!("<p>Right.</p>{list}{}", render_short(note));
         return Outcome { mark: Mark::Right, share: 1.0, html, ..Outcome::default() };
@@ -114,7 +114,7 @@ fn look(task: &ModelTask, scene: &Scene, report: &CheckReport) -> Result<Vec<Loo
     }
     for (kind, least) in &demands.joints {
         let of_kind = |j: &&triad_engine::scene::Joint| {
-            serde_json::to_value(j.kind).ok().and_then(|v| v.as_str().map(|s| s == kind)).unwrap_or(false)
+            serde_json::to_value(j.kind).is_ok_and(|word| word.as_str() == Some(kind.as_str()))
         };
         let has = scene.joints.iter().filter(of_kind).count();
         looked.push(Looked {

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_engine::equations::{column_names, row_names};
+use triad_engine::lift::Director;
 use triad_engine::model::BodyRef;
 use triad_engine::row::{Difference, FeatureId, Form, Target};
 use triad_engine::scene::GROUND;
@@ -145,10 +146,7 @@ impl DealState {
 fn bodies(system: &System) -> Vec<DealBody> {
     let body = |(body, model): (&triad_engine::system::Body, &triad_engine::model::ModelBody)| DealBody {
         name: model.name.clone(),
-        coordinates: match body.coordinates {
-            triad_engine::scene::Coordinates::Full => "full",
-            triad_engine::scene::Coordinates::Reduced => "reduced",
-        },
+        coordinates: if body.layout.directors.contains(&Director::Product) { "reduced" } else { "full" },
         first_column: body.layout.first,
         mass: body.mass,
         inertia: body.principal.into(),

@@ -190,8 +190,8 @@ async fn pass(State(shared): State<Shared>, mut request: Request) -> Response {
     }
     let (mut parts, body) = response.into_parts();
     let text = to_bytes(body, LARGEST_PAGE).await.unwrap_or_default();
-    let text =
-        String::from_utf8_lossy(&text).replace("</body>", "<script src=\"/preview.js\"></script></body>");
+    // After everything else; browsers take a script there into the body.
+    let text = format!("{}<script src=\"/preview.js\"></script>", String::from_utf8_lossy(&text));
     parts.headers.remove(header::CONTENT_LENGTH);
     parts.headers.remove(header::ETAG);
     parts.headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
