@@ -134,7 +134,7 @@ impl Deal {
 }
 
 /// The system of a scene, ready to be put into any state.
-pub(crate) fn mechanism(scene: &Scene) -> Result<Mechanism, String> {
+fn mechanism(scene: &Scene) -> Result<Mechanism, String> {
     let simulation = Simulation::new(scene).map_err(|e| e.to_string())?;
     let mut mechanism = Mechanism::new(simulation.system().clone());
     mechanism.elimination.set_redundant(!simulation.rank().dependent.is_empty());

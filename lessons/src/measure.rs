@@ -114,8 +114,10 @@ pub(crate) fn measure(
     if measured.energy {
         return Ok(vec![simulation.summary().energy]);
     }
-    let vector = Seen::of(simulation).vector(scene, measured)?;
-    Ok(component(vector, measured.component))
+    // Reactions cost an evaluation: only where they are asked for.
+    let reactions = if measured.joint.is_some() { simulation.multipliers() } else { Vec::new() };
+    let seen = Seen { bodies: simulation.frame().bodies, reactions };
+    Ok(component(seen.vector(scene, measured)?, measured.component))
 }
 
 /// A run at time `t`, given up after a bounded number of steps.
@@ -138,6 +140,8 @@ pub(crate) fn reference_scenes(scene: &Scene, end: f64) -> [Scene; 2] {
         let mut scene = scene.clone();
         let stabilization = Stabilization::Projection;
         let duration = scene.simulation.duration.max(end);
+        // What a reader may change belongs to the settings as they were.
+        scene.parameters.clear();
         scene.simulation = Settings { integrator, tolerance, stabilization, duration, ..scene.simulation };
         scene
     };

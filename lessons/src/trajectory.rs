@@ -19,6 +19,10 @@ pub(crate) struct Track {
     end: f64,
     /// For each column, values at the grid's points.
     values: Vec<Vec<f64>>,
+    /// For each column, its mean.
+    means: Vec<f64>,
+    /// The largest value of all.
+    largest: f64,
     /// Bound on the relative error, from two runs.
     pub error: f64,
 }
@@ -50,7 +54,9 @@ impl Track {
         }
         let second = both.pop().unwrap_or_default();
         let values = both.pop().unwrap_or_default();
-        let mut track = Self { end: task.end, values, error: 0.0 };
+        let means = values.iter().map(|v| v.iter().sum::<f64>() / v.len() as f64).collect();
+        let largest = values.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let mut track = Self { end: task.end, values, means, largest, error: 0.0 };
         let times: Vec<f64> = (0..=INTERVALS).map(|k| task.end * k as f64 / INTERVALS as f64).collect();
         track.error = 2.0 * track.difference(&times, &second, 0.0, 1.0) + 1e-12;
         Ok(track)
@@ -69,16 +75,12 @@ impl Track {
         a * s1 * s2 * s3 / -6.0 + b * s * s2 * s3 / 2.0 - c * s * s1 * s3 / 2.0 + d * s * s1 * s2 / 6.0
     }
 
-    fn mean(&self, column: usize) -> f64 {
-        self.values[column].iter().sum::<f64>() / self.values[column].len() as f64
-    }
-
     /// Root of the mean square over time of what is measured against `a·(x(t − late) − mean) + mean`, each column
     /// relative to its own.
     fn difference(&self, times: &[f64], given: &[Vec<f64>], late: f64, factor: f64) -> f64 {
         let mut sum = 0.0;
         for (column, values) in given.iter().enumerate() {
-            let mean = self.mean(column);
+            let mean = self.means[column];
             let (mut square, mut size, mut weight) = (0.0, 0.0, 0.0);
             for (k, (t, value)) in times.iter().zip(values).enumerate() {
                 if t - late < 0.0 || t - late > self.end {
@@ -94,21 +96,17 @@ impl Track {
                 weight += w;
             }
             // A column that should be zero is judged by the largest column.
-            let floor = weight * (1e-3 * self.largest()).powi(2);
+            let floor = weight * (1e-3 * self.largest).powi(2);
             sum += square / size.max(floor).max(f64::MIN_POSITIVE);
         }
         (sum / given.len().max(1) as f64).sqrt()
-    }
-
-    fn largest(&self) -> f64 {
-        self.values.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()))
     }
 
     /// The factor that fits best for a delay: a linear problem.
     fn best_factor(&self, times: &[f64], given: &[Vec<f64>], late: f64) -> f64 {
         let (mut product, mut square) = (0.0, 0.0);
         for (column, values) in given.iter().enumerate() {
-            let mean = self.mean(column);
+            let mean = self.means[column];
             for (t, value) in times.iter().zip(values) {
                 if (0.0..=self.end).contains(&(t - late)) {
                     let own = self.at(column, t - late) - mean;

@@ -120,6 +120,8 @@ fn chosen(task: &Tuning, settings: &Settings) -> Result<Scene, String> {
         }
     };
     let mut scene = task.scene.clone();
+    // What a reader may change belongs to the settings as they were.
+    scene.parameters.clear();
     scene.simulation.integrator = settings.integrator;
     scene.simulation.tolerance = tolerance;
     scene.simulation.stabilization = stabilization;

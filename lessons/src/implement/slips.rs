@@ -2,9 +2,11 @@
 
 use triad_engine::literal::Literal;
 use triad_engine::mechanism::Mechanism;
+use triad_engine::model::Model;
 use triad_engine::scene::{Coordinates, Scene};
+use triad_engine::system::System;
 
-use super::{Deal, Grid, mechanism, part_of};
+use super::{Deal, Grid, part_of};
 use crate::exercise::Implement;
 use crate::files::Part;
 use crate::slip::{gamma_parts, in_degrees, wrong_sign};
@@ -58,7 +60,9 @@ pub(crate) fn slipped(task: &Implement, deal: &mut Deal, part: Part) -> Result<V
         add(id, feedback, each(deal, &make)?, &mut list);
     }
     for (id, feedback, scene) in other_scenes(task, part) {
-        let other = Deal::at(mechanism(&scene)?, deal.states.clone());
+        // The wrong mechanism need not close at its start: it is only put into the states that were dealt.
+        let model = Model::new(&scene).map_err(|e| e.to_string())?;
+        let other = Deal::at(Mechanism::new(System::new(model)), deal.states.clone());
         add(id, feedback, other.answers(part)?, &mut list);
     }
     Ok(list)

@@ -67,6 +67,7 @@ async fn list(State(app): State<App>) -> Answer<Vec<LessonSummary>> {
 
 /// Whose numbers.
 #[derive(Debug, Default, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 struct Whose {
     /// A student's name; the same name gives the same numbers for ever. Without it, the numbers that everybody sees.

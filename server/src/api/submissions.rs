@@ -90,6 +90,7 @@ fn student(name: Option<&str>) -> Result<String, Problem> {
 
 /// Which submissions to list.
 #[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 struct Filter {
     /// Only this student's.

@@ -1,6 +1,7 @@
 // Questions that are answered by a file: what a program wrote, a table, a scene. Chosen from the disk or pasted.
 import { api } from "../core/api";
 import { announce, h } from "../core/dom";
+import { plural } from "../core/format";
 import type { Question } from "../core/types";
 import { icon } from "../ui/icons";
 import type { Inputs, Place } from "./inputs";
@@ -36,7 +37,7 @@ export function fileInput(question: Question, place: Place, draft: string[] | un
     told.classList.toggle("is-bad", large);
     told.textContent = !text.value.trim() ? ""
       : large ? `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`
-        : `${name ? `${name}, ` : ""}${size(bytes)}, ${text.value.trim().split("\n").length} lines`;
+        : `${name ? `${name}, ` : ""}${size(bytes)}, ${plural(text.value.trim().split("\n").length, "line")}`;
     clear.hidden = text.value === "";
   };
   const take = async (file: File | undefined): Promise<void> => {

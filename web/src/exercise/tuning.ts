@@ -20,6 +20,7 @@ export function tuningInput(question: Question, place: Place, draft: string[] | 
   if (draft?.[0] && offered.integrators.includes(draft[0])) integrator.value = draft[0];
   const tolerance = textInput(`${base}-tolerance`, "Tolerance", described, draft?.[1] ?? "");
   tolerance.placeholder = "1e-6";
+  tolerance.inputMode = "text";
   const kind = h("select", { id: `${base}-stabilization`, class: "field", "aria-describedby": described },
     h("option", { value: "projection" }, "Projection"), h("option", { value: "baumgarte" }, "Baumgarte"));
   kind.value = draft?.[2] === "baumgarte" ? "baumgarte" : "projection";
