@@ -86,8 +86,7 @@ fn tried(language: Language, program: &str, arguments: &[&str], solution: &str) 
         std::env::temp_dir().join(format!("triad-starter-{}-{}", language.word(), std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let starter = lesson.starter("program", language).unwrap();
-    let mut run =
-        |text: &str| graded(&lesson, language, text, Command::new(program).args(arguments), &folder);
+    let run = |text: &str| graded(&lesson, language, text, Command::new(program).args(arguments), &folder);
     assert_eq!(run(&starter), (Mark::Wrong, 0.0), "the starter as it is handed out");
     assert_eq!(run(&filled(&starter, solution)), (Mark::Right, 4.0), "the starter with the equations");
     std::fs::remove_dir_all(&folder).unwrap();
