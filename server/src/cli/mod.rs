@@ -271,6 +271,12 @@ struct Run {
     /// Tolerance of the integrator, instead of the scene's.
     #[arg(long, value_name = "TOL")]
     tolerance: Option<f64>,
+    /// Leave nothing out of this kind, though nothing depends on it; `all` for every kind.
+    #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = skip_words())]
+    no_skip: Vec<String>,
+    /// Tell what was left out because nothing depends on it, and what that saved.
+    #[arg(long)]
+    explain: bool,
     /// Write positions, velocities and reactions as CSV (`-` for standard output).
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -280,6 +286,11 @@ struct Run {
     /// Show the run in a native rerun viewer that listens at this address.
     #[arg(long, value_name = "URL", num_args = 0..=1, default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     rerun: Option<String>,
+}
+
+/// The words of `simulation.skip`, and one for all of them.
+fn skip_words() -> Vec<&'static str> {
+    triad_engine::scene::Skip::WORDS.into_iter().chain(["all"]).collect()
 }
 
 /// How a command ended, if nothing was refused.

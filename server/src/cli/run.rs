@@ -4,8 +4,8 @@ use std::path::Path;
 
 use axum::http::StatusCode;
 use serde_json::json;
-use triad_engine::scene::Scene;
-use triad_engine::simulation::{Simulation, Summary};
+use triad_engine::scene::{Scene, Skip};
+use triad_engine::simulation::{LeftOut, Simulation, Summary};
 
 use super::csv::Table;
 use super::terminal::{Progress, print_json, print_line, progress};
@@ -45,6 +45,13 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     simulation.duration = options.until.unwrap_or(simulation.duration);
     simulation.every = options.every.unwrap_or(simulation.every);
     simulation.tolerance = options.tolerance.unwrap_or(simulation.tolerance);
+    for word in &options.no_skip {
+        if word == "all" {
+            simulation.skip = Skip::nothing();
+        } else if let Some(on) = simulation.skip.word_mut(word) {
+            *on = false;
+        }
+    }
     let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
     if writes && outputs > MOST_OUTPUTS {
@@ -175,6 +182,7 @@ fn output_failed(error: &impl std::fmt::Display) -> Problem {
 
 fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Option<&Problem>, json: bool) {
     let summary = simulation.summary();
+    let left_out = options.explain.then(|| simulation.left_out());
     if json {
         print_json(&json!({
             "scene": scene.name,
@@ -182,6 +190,7 @@ fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Op
             "summary": summary,
             "events": simulation.events(),
             "notes": simulation.notes(),
+            "left_out": left_out,
             "stopped": stopped.map(Problem::document),
         }));
         return;
@@ -199,12 +208,20 @@ fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Op
             event.name, event.time, event.rate
         ));
     }
+    for line in left_out.iter().flatten().map(explanation) {
+        say(&line);
+    }
     for file in [&options.out, &options.rrd].into_iter().flatten() {
         say(&format!("  written                {}", file.display()));
     }
     if let Some(problem) = stopped {
         eprintln!("{} {problem}", super::terminal::error_word());
     }
+}
+
+fn explanation(left: &LeftOut) -> String {
+    let switch = if left.on { "on " } else { "off" };
+    format!("  left out: {:<10} {switch}  {}", left.word, left.what)
 }
 
 fn lines(scene: &Scene, s: &Summary, notes: &[String]) -> Vec<String> {
