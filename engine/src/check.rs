@@ -3,8 +3,11 @@
 use crate::error::EngineError;
 use crate::model::Model;
 use crate::scene::Scene;
+use crate::rank::Rank;
 use crate::simulation::Simulation;
+use crate::system::System;
 use serde::Serialize;
+use std::ops::Range;
 
 /// Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -36,28 +39,53 @@ pub struct RedundantRows {
     pub rows: Vec<String>,
 }
 
+/// Equations of one row form of which some depend on others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DependentSet {
+    /// The joint or driver, as an index.
+    pub group: usize,
+    /// The row form, as an index.
+    pub row: usize,
+    /// Its equations among all rows, those of rigid bodies first.
+    pub equations: Range<usize>,
+    /// How many of them are too many.
+    pub dependent: usize,
+}
+
+/// The equations that say again what others say.
+pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
+    let mut sets = Vec::new();
+    for (group, joint) in system.groups.iter().enumerate() {
+        for index in joint.forms.clone().filter(|&index| !system.rows[index].implied) {
+            let row = &system.rows[index];
+            let dropped = (row.solver..row.solver + row.form.independent())
+                .filter(|solver| rank.dependent.contains(solver))
+                .count();
+            // Three equations of a common vector hold two directions: one of them always depends on the others.
+            let dependent = dropped + row.form.equations() - row.form.independent();
+            if dependent > 0 {
+                let first = system.rigid_rows + row.equation;
+                let equations = first..first + row.form.equations();
+                sets.push(DependentSet { group, row: index, equations, dependent });
+            }
+        }
+    }
+    sets
+}
+
 /// Checks, assembles and counts.
 pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
     let simulation = Simulation::from_model(Model::new(scene)?)?;
     let system = simulation.system();
     let rank = simulation.rank();
-    let mut redundant = Vec::new();
-    for group in &system.groups {
-        let mut rows = Vec::new();
-        for row in system.rows[group.forms.clone()].iter().filter(|row| !row.implied) {
-            let dependent = (row.solver..row.solver + row.form.independent())
-                .filter(|solver| rank.dependent.contains(solver))
-                .count()
-                + row.form.equations()
-                - row.form.independent();
-            match dependent {
-                0 => {}
-                1 => rows.push(row.label.to_owned()),
-                n => rows.push(format!("{n} of {}", row.label)),
-            }
-        }
-        if !rows.is_empty() {
-            redundant.push(RedundantRows { joint: group.name.clone(), rows });
+    let mut redundant: Vec<RedundantRows> = Vec::new();
+    for set in dependent_sets(system, rank) {
+        let label = system.rows[set.row].label;
+        let words = if set.dependent == 1 { label.to_owned() } else { format!("{} of {label}", set.dependent) };
+        let joint = &system.groups[set.group].name;
+        match redundant.last_mut().filter(|last| last.joint == *joint) {
+            Some(last) => last.rows.push(words),
+            None => redundant.push(RedundantRows { joint: joint.clone(), rows: vec![words] }),
         }
     }
     let rows = system.rigid_rows + system.equations;

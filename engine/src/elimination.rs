@@ -332,6 +332,17 @@ impl Elimination {
         &self.a[incidence.offset..incidence.offset + 6 * incidence.rows]
     }
 
+    /// The rows A_b D_b⁻¹ of an incidence, six numbers each.
+    pub fn weighted_rows_on(&self, system: &System, incidence: usize) -> &[f64] {
+        let incidence = &system.incidences[incidence];
+        &self.b[incidence.offset..incidence.offset + 6 * incidence.rows]
+    }
+
+    /// The joints in the order in which S is eliminated.
+    pub fn elimination_order(&self) -> Vec<usize> {
+        self.factor.order()
+    }
+
     /// Multipliers of the solver rows.
     pub fn solver_multipliers(&self) -> &[f64] {
         &self.lambda

@@ -51,6 +51,8 @@ pub mod parts;
 
 pub mod plane;
 
+pub mod matrices;
+
 pub mod series;
 
 pub mod rank;

@@ -201,6 +201,13 @@ impl BlockCholesky {
         &mut self.values
     }
 
+    /// The blocks in the order of their elimination.
+    pub fn order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.rank.len()).collect();
+        order.sort_by_key(|&block| self.rank[block]);
+        order
+    }
+
     /// Blocks of L, with fill.
     pub fn blocks(&self) -> usize {
         self.columns.len() + self.below.len()

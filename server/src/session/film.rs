@@ -1,6 +1,7 @@
 //! A simulation and its recording, kept in step.
 //!
-//! Samples are taken at the scene's own output times and wait unencoded until somebody watches.
+//! Samples are taken at the scene's own output times and wait unencoded until somebody watches; they are kept, so that
+//! forces can be drawn in another way.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -11,24 +12,30 @@ use triad_engine::simulation::Simulation;
 
 use super::worker::BEAT;
 use crate::problem::Problem;
-use crate::stream::{Cast, Hub, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Tie};
+use crate::stream::{Arrows, Camera, Cast, Hub, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Scale, Tie};
 
-/// Samples of one simulation on their way to its watchers.
+/// Samples of one simulation, kept, and on their way to its watchers.
 pub(crate) struct Film {
     cast: Cast,
+    arrows: Arrows,
+    camera: Camera,
     hub: Arc<Hub>,
     id: String,
     /// Counts recordings: a viewer must not join one after a reset to the one before.
     take: u64,
     recorder: Option<Recorder>,
-    waiting: Vec<Sample>,
-    waiting_bytes: usize,
+    samples: Vec<Sample>,
+    /// Of the samples, so many are encoded.
+    developed: usize,
+    bytes: usize,
     limit: usize,
-    frames: u64,
     encoded: u64,
-    last: f64,
+    /// Bytes of arrows that were drawn again.
+    redrawn: usize,
+    /// The scale of forces was taken from the recording.
+    fitted: bool,
     /// When blocks were last made, and how long to wait until the next.
-    developed: Instant,
+    developed_at: Instant,
     pace: Duration,
 }
 
@@ -37,6 +44,10 @@ pub(crate) struct Film {
 const ENTITIES_AT_FULL_RATE: usize = 16;
 /// The longest wait between two blocks.
 const SLOWEST: Duration = Duration::from_millis(500);
+/// So many samples make a recording that a scale can be taken from.
+const ENOUGH: usize = 32;
+/// When arrows that were drawn again fill this part of the bound, the recording is written anew without the old ones.
+const REDRAWN_PART: usize = 16;
 
 impl Film {
     /// The film of session `id`, which holds at most `limit` bytes.
@@ -44,101 +55,173 @@ impl Film {
         let entities = cast.bodies.len() + 2 * cast.joints.len() + 2;
         let beats = u32::try_from(entities / ENTITIES_AT_FULL_RATE).unwrap_or(u32::MAX);
         Self {
-            developed: Instant::now(),
+            developed_at: Instant::now(),
             pace: BEAT.saturating_mul(beats).min(SLOWEST),
             cast,
+            arrows: Arrows::default(),
+            camera: Camera::default(),
             hub,
             id: id.to_owned(),
             take: 0,
             recorder: None,
-            waiting: Vec::new(),
-            waiting_bytes: 0,
+            samples: Vec::new(),
+            developed: 0,
+            bytes: 0,
             limit,
-            frames: 0,
             encoded: 0,
-            last: f64::NEG_INFINITY,
+            redrawn: 0,
+            fitted: false,
         }
     }
 
-    /// Records the simulation as it stands, unless that instant is recorded already.
-    pub(crate) fn take(&mut self, simulation: &mut Simulation) -> Result<(), Problem> {
-        if simulation.time() <= self.last {
-            return Ok(());
+    /// Records the simulation as it stands, unless that instant is recorded already. Tells whether it was not.
+    pub(crate) fn take(&mut self, simulation: &mut Simulation) -> Result<bool, Problem> {
+        if self.samples.last().is_some_and(|last| simulation.time() <= last.time) {
+            return Ok(false);
         }
         let sample = sample(simulation);
-        self.waiting_bytes += sample.size();
-        if self.waiting_bytes + self.hub.bytes() > self.limit {
+        self.bytes += sample.size();
+        if self.bytes + self.hub.bytes() > self.limit {
             return Err(full(self.limit));
         }
-        self.last = sample.time;
-        self.waiting.push(sample);
-        self.frames += 1;
-        Ok(())
+        self.samples.push(sample);
+        if !self.fitted && self.samples.len() >= ENOUGH {
+            self.fit(false)?;
+        }
+        Ok(true)
     }
 
     /// Encodes what waits, if anybody watches and it is time.
     pub(crate) fn develop_in_turn(&mut self) -> Result<(), Problem> {
-        if self.developed.elapsed() < self.pace { Ok(()) } else { self.develop() }
+        if self.developed_at.elapsed() < self.pace { Ok(()) } else { self.develop() }
     }
 
     /// Encodes what waits, if anybody watches.
     pub(crate) fn develop(&mut self) -> Result<(), Problem> {
-        if self.hub.watchers() == 0 || (self.waiting.is_empty() && self.recorder.is_some()) {
+        let waiting = &self.samples[self.developed..];
+        if self.hub.watchers() == 0 || (waiting.is_empty() && self.recorder.is_some()) {
             return Ok(());
         }
         let recorder = match &mut self.recorder {
             Some(recorder) => recorder,
             empty => {
                 let id = format!("{}-{}", self.id, self.take);
-                empty.insert(Recorder::to_blocks(&id, self.cast.clone()).map_err(unrecorded)?)
+                let mut new = Recorder::to_blocks(&id, self.cast.clone()).map_err(unrecorded)?;
+                new.redraw(self.arrows.clone(), self.cast.scale, &[]).map_err(unrecorded)?;
+                if self.camera != Camera::default() {
+                    new.look_from(self.camera).map_err(unrecorded)?;
+                }
+                empty.insert(new)
             }
         };
-        self.developed = Instant::now();
-        recorder.write(&self.waiting).map_err(unrecorded)?;
-        self.encoded += self.waiting.len() as u64;
-        self.waiting.clear();
-        self.waiting_bytes = 0;
-        if let Some(block) = recorder.block().map_err(unrecorded)? {
+        self.developed_at = Instant::now();
+        recorder.write(waiting).map_err(unrecorded)?;
+        self.encoded += waiting.len() as u64;
+        self.developed = self.samples.len();
+        self.send()
+    }
+
+    /// Hands out what the recorder has written.
+    fn send(&mut self) -> Result<(), Problem> {
+        if let Some(recorder) = &self.recorder
+            && let Some(block) = recorder.block().map_err(unrecorded)?
+        {
             self.hub.push(block);
         }
         Ok(())
     }
 
+    /// Draws forces in another way, at all times.
+    pub(crate) fn draw(&mut self, arrows: Arrows) -> Result<(), Problem> {
+        if arrows == self.arrows {
+            return Ok(());
+        }
+        self.arrows = arrows;
+        self.redraw()
+    }
+
+    /// Takes the scale of forces from the recording, unless it would hardly change and is not `wanted`.
+    pub(crate) fn fit(&mut self, wanted: bool) -> Result<(), Problem> {
+        let scale = self.cast.scale.fitted(self.samples.iter(), self.cast.size);
+        self.fitted = true;
+        if scale == self.cast.scale || (!wanted && scale.is_near(self.cast.scale)) {
+            return Ok(());
+        }
+        self.cast.scale = scale;
+        self.redraw()
+    }
+
+    fn redraw(&mut self) -> Result<(), Problem> {
+        let Some(recorder) = &mut self.recorder else { return Ok(()) };
+        if self.redrawn > self.limit / REDRAWN_PART {
+            self.rewrite();
+            return self.develop();
+        }
+        let before = self.hub.bytes();
+        recorder
+            .redraw(self.arrows.clone(), self.cast.scale, &self.samples[..self.developed])
+            .map_err(unrecorded)?;
+        self.send()?;
+        self.redrawn += self.hub.bytes() - before;
+        Ok(())
+    }
+
+    /// Looks at the mechanism from another side.
+    pub(crate) fn look_from(&mut self, camera: Camera) -> Result<(), Problem> {
+        self.camera = camera;
+        let Some(recorder) = &self.recorder else { return Ok(()) };
+        recorder.look_from(camera).map_err(unrecorded)?;
+        self.send()
+    }
+
     /// Follows a simulation that goes on with other numbers: the recording goes on too, unless what it shows looks
     /// different from now on. The scale of forces stays.
     pub(crate) fn follow(&mut self, mut cast: Cast) {
-        cast.force_scale = self.cast.force_scale;
+        cast.scale = self.cast.scale;
         if cast.bodies != self.cast.bodies || cast.joints != self.cast.joints {
             self.restart_with(cast);
         }
     }
 
-    /// Starts another recording of a changed scene.
+    /// Starts another recording of a changed scene. Its forces are to be compared with those before: they keep their
+    /// scale until the recording says otherwise.
     pub(crate) fn restart_with(&mut self, cast: Cast) {
-        self.cast = cast;
+        let scale = if self.fitted { self.cast.scale } else { cast.scale };
+        self.cast = Cast { scale, ..cast };
+        self.fitted = false;
         self.restart();
     }
 
     /// Starts another recording from nothing.
     pub(crate) fn restart(&mut self) {
+        self.samples.clear();
+        self.bytes = 0;
+        self.rewrite();
+    }
+
+    /// Starts another recording of the samples that there are.
+    fn rewrite(&mut self) {
         self.take += 1;
         self.recorder = None;
-        self.waiting.clear();
-        self.waiting_bytes = 0;
-        self.frames = 0;
+        self.developed = 0;
         self.encoded = 0;
-        self.last = f64::NEG_INFINITY;
+        self.redrawn = 0;
         self.hub.restart();
     }
 
     /// Frames recorded, and those of them encoded.
     pub(crate) fn counts(&self) -> (u64, u64) {
-        (self.frames, self.encoded)
+        (self.samples.len() as u64, self.encoded)
     }
 
-    /// Length of a reaction's arrow, m/N.
-    pub(crate) fn force_scale(&self) -> f64 {
-        self.cast.force_scale
+    /// How forces are drawn.
+    pub(crate) fn arrows(&self) -> (&Arrows, Scale) {
+        (&self.arrows, self.cast.scale)
+    }
+
+    /// From where the mechanism is looked at.
+    pub(crate) fn camera(&self) -> Camera {
+        self.camera
     }
 
     /// Who watches.
@@ -149,10 +232,14 @@ impl Film {
 
 /// The cast of a simulation at its start.
 pub(crate) fn cast(scene: &Scene, simulation: &mut Simulation) -> Cast {
-    let joints = simulation
-        .multipliers()
-        .into_iter()
-        .map(|joint| Tie { name: joint.joint, rows: joint.rows.into_iter().map(|row| row.label).collect() });
+    let bodies: Vec<String> = simulation.model().bodies.iter().map(|body| body.name.clone()).collect();
+    let body = |name: &str| bodies.iter().position(|body| body == name);
+    let joints = simulation.multipliers().into_iter().map(|joint| Tie {
+        on: body(&joint.on),
+        by: body(&joint.by),
+        name: joint.joint,
+        rows: joint.rows.into_iter().map(|row| row.label).collect(),
+    });
     let jacobian = simulation.jacobian();
     let pattern = Pattern {
         rows: jacobian.rows.len(),
@@ -166,14 +253,22 @@ pub(crate) fn cast(scene: &Scene, simulation: &mut Simulation) -> Cast {
 pub(crate) fn sample(simulation: &mut Simulation) -> Sample {
     let frame = simulation.frame();
     let summary = simulation.summary();
+    let accelerations = simulation.mass_accelerations();
+    let model = simulation.model();
+    let weights = model.bodies.iter().map(|body| (model.gravity * body.mass).into()).collect();
+    let inertia =
+        model.bodies.iter().zip(accelerations).map(|(body, a)| a.map(|part| part * body.mass)).collect();
     let reactions = simulation.multipliers_between_steps().into_iter().map(|joint| Reaction {
         at: joint.about,
         force: joint.force,
+        moment: joint.moment,
         multipliers: joint.rows.iter().map(|row| row.value).collect(),
     });
     Sample {
         time: simulation.time(),
         poses: frame.bodies.iter().map(|b| Pose { position: b.position, axes: [b.u, b.v, b.w] }).collect(),
+        weights,
+        inertia,
         reactions: reactions.collect(),
         energy: summary.energy,
         position_violation: summary.position_violation,

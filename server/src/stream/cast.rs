@@ -3,6 +3,8 @@
 use triad_engine::model::{BodyRef, Model};
 use triad_engine::scene::{Scene, Shape};
 
+use super::arrows::Scale;
+
 /// A body as it is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actor {
@@ -25,6 +27,10 @@ pub struct Tie {
     pub name: String,
     /// The names of its rows.
     pub rows: Vec<String>,
+    /// The body that its recorded force acts on, and the body that exerts it; the ground is no body.
+    pub on: Option<usize>,
+    /// See `on`.
+    pub by: Option<usize>,
 }
 
 /// The pattern of the Jacobian.
@@ -57,8 +63,8 @@ pub struct Cast {
     pub center: [f64; 3],
     /// How far the mechanism reaches from there at the start, in metres.
     pub reach: f64,
-    /// Length of a reaction's arrow, in metres a newton; one for the whole scene.
-    pub force_scale: f64,
+    /// How long arrows are: one scale for the whole scene.
+    pub scale: Scale,
 }
 
 impl Cast {
@@ -95,8 +101,7 @@ impl Cast {
             size,
             center,
             reach,
-            // The weight of everything is drawn half as long as the mechanism.
-            force_scale: 0.5 * size / if weight > 0.0 { weight } else { 1.0 },
+            scale: Scale::of_weight(weight, size),
         }
     }
 }

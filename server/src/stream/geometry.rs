@@ -6,6 +6,7 @@ use rerun::{
 };
 use triad_engine::scene::Shape;
 
+use super::arrows::Kind;
 use super::cast::{Actor, Cast, Pattern};
 
 /// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
@@ -13,8 +14,8 @@ const PALETTE: [[u8; 3]; 6] =
     [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [0, 114, 178], [204, 121, 167]];
 /// Joints are grey.
 const PIN: [u8; 3] = [120, 120, 120];
-/// Reactions are vermilion everywhere.
-const REACTION: [u8; 3] = [213, 94, 0];
+/// Weight and loads of a body that is cut free.
+pub(super) const FREE_BODY: &str = "world/cut-free";
 /// Directors u, v, w: red, green, blue as everywhere.
 const AXES: [[u8; 3]; 3] = [[220, 60, 60], [60, 170, 60], [70, 110, 230]];
 /// The largest picture of a Jacobian, in pixels a side; a larger one is drawn smaller.
@@ -36,8 +37,7 @@ pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingS
     }
     for joint in &cast.joints {
         let arrow = Arrows3D::update_fields()
-            .with_colors([color(REACTION)])
-            .with_radii([narrow(0.01 * cast.size)])
+            .with_radii([narrow(0.012 * cast.size)])
             .with_labels([joint.name.as_str()])
             .with_show_labels(false);
         recording.log_static(path(&["world", "joints", &joint.name]), &arrow)?;
@@ -45,6 +45,8 @@ pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingS
         let lines = SeriesLines::new().with_names(names);
         recording.log_static(path(&["plots", "multipliers", &joint.name]), &lines)?;
     }
+    let arrow = Arrows3D::update_fields().with_radii([narrow(0.012 * cast.size)]);
+    recording.log_static(FREE_BODY, &arrow)?;
     recording.log_static("plots/energy", &SeriesLines::new().with_names(["energy, J"]))?;
     let violation = SeriesLines::new().with_names(["position, m", "velocity, m/s"]);
     recording.log_static("plots/violation", &violation)?;
@@ -153,6 +155,16 @@ fn picture(pattern: &Pattern) -> Image {
     }
     let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     Image::from_rgb24(pixels, [side(width), side(height)])
+}
+
+/// Reactions are vermilion everywhere, moments purple, weights blue, loads green.
+pub(super) fn color_of(kind: Kind) -> Color {
+    color(match kind {
+        Kind::Reaction => [213, 94, 0],
+        Kind::Moment => [204, 121, 167],
+        Kind::Weight => [0, 114, 178],
+        Kind::Load => [0, 158, 115],
+    })
 }
 
 fn color(rgb: [u8; 3]) -> Color {

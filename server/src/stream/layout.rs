@@ -9,12 +9,15 @@ use rerun::blueprint::{
 use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg, StoreKind};
 use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
 use super::cast::Cast;
 use super::geometry::single;
 use super::{APPLICATION, TIMELINE};
 
 /// Sends the layout, and makes the viewer use it.
-pub(super) fn send(recording: &RecordingStream, cast: &Cast) -> RecordingStreamResult<()> {
+pub(super) fn send(recording: &RecordingStream, cast: &Cast, from: Camera) -> RecordingStreamResult<()> {
     let mechanism = ContainerLike::from(
         Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]),
     );
@@ -33,17 +36,40 @@ pub(super) fn send(recording: &RecordingStream, cast: &Cast) -> RecordingStreamR
     let Some(id) = messages.first().map(|message| message.store_id().clone()) else { return Ok(()) };
     let (extra, written) = RecordingStreamBuilder::from_store_id(&id).send_properties(false).memory()?;
     extra.set_time_sequence("blueprint", 0);
-    extra.log(camera, &eye(cast))?;
+    extra.log(camera, &eye(cast, from))?;
     messages.extend(written.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
     let activation = BlueprintActivationCommand { blueprint_id: id, make_active: true, make_default: true };
     recording.send_blueprint(messages, activation);
     Ok(())
 }
 
-/// A camera that sees the whole mechanism: nearly from the front where it hangs in a vertical x-y plane, from
-/// above a corner otherwise.
-fn eye(cast: &Cast) -> EyeControls3D {
-    let direction = if cast.y_is_up() { [0.35, 0.3, 2.5] } else { [1.5, -1.9, 1.1] };
+/// From where the mechanism is looked at.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Camera {
+    /// Nearly from the front where it hangs in a vertical x-y plane, from above a corner otherwise.
+    #[default]
+    Corner,
+    /// Against the axis that points forward.
+    Front,
+    /// Against the x axis.
+    Side,
+    /// Along gravity.
+    Above,
+}
+
+/// A camera that sees the whole mechanism.
+fn eye(cast: &Cast, from: Camera) -> EyeControls3D {
+    let direction = match (from, cast.y_is_up()) {
+        (Camera::Corner, true) => [0.35, 0.3, 2.5],
+        (Camera::Corner, false) => [1.5, -1.9, 1.1],
+        (Camera::Front, true) => [0.0, 0.0, 2.6],
+        (Camera::Front, false) => [0.0, -2.6, 0.0],
+        (Camera::Side, _) => [2.6, 0.0, 0.0],
+        // Not quite along the upward axis, which would leave the picture's own turn open.
+        (Camera::Above, true) => [0.0, 2.6, 0.02],
+        (Camera::Above, false) => [0.0, -0.02, 2.6],
+    };
     let position: [f64; 3] = std::array::from_fn(|k| cast.center[k] + 0.9 * cast.reach * direction[k]);
     let up = if cast.y_is_up() { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     EyeControls3D::new()

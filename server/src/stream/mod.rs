@@ -5,6 +5,7 @@
 //!                    └▶ a file, or a native viewer
 //! ```
 
+mod arrows;
 mod cast;
 mod geometry;
 mod hub;
@@ -12,8 +13,10 @@ mod layout;
 mod recorder;
 mod sample;
 
+pub use arrows::{Arrows, Drawn, On, Point, Scale};
 pub use cast::{Actor, Cast, Pattern, Tie};
 pub use hub::{Delivery, Hub, Watcher};
+pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};
 pub use sample::{Pose, Reaction, Sample};
 

@@ -5,12 +5,14 @@ use std::time::Duration;
 
 use rerun::sink::BinaryStreamStorage;
 use rerun::{
-    Arrows3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, Scalars,
+    Arrows3D, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, Scalars,
     TimeColumn, Transform3D,
 };
 
+use super::arrows::{Arrows, Piece, Scale};
 use super::cast::Cast;
-use super::geometry::{self, path, single};
+use super::geometry::{self, FREE_BODY, color_of, path, single};
+use super::layout::Camera;
 use super::sample::Sample;
 use super::{APPLICATION, TIMELINE, layout};
 
@@ -38,6 +40,7 @@ pub struct Recorder {
     recording: RecordingStream,
     sink: Sink,
     cast: Cast,
+    arrows: Arrows,
     encoded: u64,
 }
 
@@ -62,9 +65,9 @@ impl Recorder {
     }
 
     fn start(recording: RecordingStream, sink: Sink, cast: Cast) -> Result<Self, RecordError> {
-        layout::send(&recording, &cast)?;
+        layout::send(&recording, &cast, Camera::default())?;
         geometry::log_static(&recording, &cast)?;
-        Ok(Self { recording, sink, cast, encoded: 0 })
+        Ok(Self { recording, sink, cast, arrows: Arrows::default(), encoded: 0 })
     }
 
     /// How many samples have been encoded.
@@ -79,6 +82,7 @@ impl Recorder {
         }
         self.write_bodies(samples)?;
         self.write_joints(samples)?;
+        self.write_arrows(samples)?;
         self.write_series("plots/energy", samples, |s| [s.energy])?;
         self.write_series("plots/violation", samples, |s| [s.position_violation, s.velocity_violation])?;
         self.encoded += samples.len() as u64;
@@ -106,11 +110,6 @@ impl Recorder {
         let time = || TimeColumn::new_duration_secs(TIMELINE, known.iter().map(|sample| sample.time));
         for (index, joint) in joints.iter().enumerate() {
             let reactions = || known.iter().map(|sample| &sample.reactions[index]);
-            let arrows = Arrows3D::update_fields()
-                .with_origins(reactions().map(|r| single(r.at)))
-                .with_vectors(reactions().map(|r| single(r.force.map(|f| f * self.cast.force_scale))))
-                .columns_of_unit_batches()?;
-            self.recording.send_columns(path(&["world", "joints", &joint.name]), [time()], arrows)?;
             let rows = joint.rows.len();
             let values = reactions()
                 .flat_map(|r| (0..rows).map(|k| r.multipliers.get(k).copied().unwrap_or(f64::NAN)));
@@ -118,6 +117,47 @@ impl Recorder {
             self.recording.send_columns(path(&["plots", "multipliers", &joint.name]), [time()], columns)?;
         }
         Ok(())
+    }
+
+    /// Draws forces in another way, also those that were drawn already: what is written last counts.
+    pub fn redraw(&mut self, arrows: Arrows, scale: Scale, samples: &[Sample]) -> Result<(), RecordError> {
+        self.cast.scale = scale;
+        self.arrows = arrows;
+        self.write_arrows(samples)?;
+        Ok(())
+    }
+
+    /// Looks at the mechanism from another side.
+    pub fn look_from(&self, camera: Camera) -> Result<(), RecordError> {
+        Ok(layout::send(&self.recording, &self.cast, camera)?)
+    }
+
+    fn write_arrows(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
+        if samples.is_empty() {
+            return Ok(());
+        }
+        for (index, joint) in self.cast.joints.iter().enumerate() {
+            let entity = path(&["world", "joints", &joint.name]);
+            self.write_pieces(entity, samples, |sample| self.arrows.of_joint(&self.cast, index, sample))?;
+        }
+        self.write_pieces(FREE_BODY.into(), samples, |sample| self.arrows.of_body(&self.cast, sample))
+    }
+
+    fn write_pieces(
+        &self,
+        entity: EntityPath,
+        samples: &[Sample],
+        pieces: impl Fn(&Sample) -> Vec<Piece>,
+    ) -> RecordingStreamResult<()> {
+        let drawn: Vec<Vec<Piece>> = samples.iter().map(pieces).collect();
+        let counts: Vec<usize> = drawn.iter().map(Vec::len).collect();
+        let all = || drawn.iter().flatten();
+        let columns = Arrows3D::update_fields()
+            .with_origins(all().map(|piece| single(piece.from)))
+            .with_vectors(all().map(|piece| single(piece.vector)))
+            .with_colors(all().map(|piece| color_of(piece.kind)))
+            .columns(counts)?;
+        self.recording.send_columns(entity, [times(samples)], columns)
     }
 
     /// One value or several of each sample, as lines of one plot.

@@ -14,8 +14,10 @@ pub struct Pose {
 pub struct Reaction {
     /// Where it acts, in the world, in metres.
     pub at: [f64; 3],
-    /// The force on the joint's second body, in the world, in newtons.
+    /// The force on the body `on` of its [`Tie`](super::Tie), in the world, in newtons.
     pub force: [f64; 3],
+    /// The moment on that body about `at`, in the world, in newton metres.
+    pub moment: [f64; 3],
     /// The multipliers of the joint's rows.
     pub multipliers: Vec<f64>,
 }
@@ -27,6 +29,10 @@ pub struct Sample {
     pub time: f64,
     /// One a body, in the scene's order.
     pub poses: Vec<Pose>,
+    /// Weights, in the world, in newtons; one a body.
+    pub weights: Vec<[f64; 3]>,
+    /// Mass times acceleration of the centre of mass, in the world, in newtons; one a body.
+    pub inertia: Vec<[f64; 3]>,
     /// One a joint, in the scene's order; empty where the reactions could not be found.
     pub reactions: Vec<Reaction>,
     /// Energy, in joules.
@@ -40,7 +46,7 @@ pub struct Sample {
 impl Sample {
     /// About how many bytes it takes to hold this sample, or to encode it.
     pub fn size(&self) -> usize {
-        let rows: usize = self.reactions.iter().map(|reaction| reaction.multipliers.len() + 6).sum();
-        size_of::<f64>() * (4 + 12 * self.poses.len() + rows)
+        let rows: usize = self.reactions.iter().map(|reaction| reaction.multipliers.len() + 9).sum();
+        size_of::<f64>() * (4 + 18 * self.poses.len() + rows)
     }
 }

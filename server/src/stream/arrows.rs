@@ -1,0 +1,336 @@
+//! How forces are drawn: which of them, on which side, about which point, and how long.
+//!
+//! One scale for the whole scene. An arrow that would be longer than the longest is drawn as two in a row; a moment
+//! is an arrow with two heads about whose direction it turns.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::cast::{Cast, Tie};
+use super::sample::{Reaction, Sample};
+
+/// Which forces are drawn and how they are told.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Arrows {
+    /// On the first or on the second body of each joint.
+    pub on: On,
+    /// About which point: there the force is drawn and the moment taken.
+    pub about: Point,
+    /// Which of them.
+    pub drawn: Drawn,
+}
+
+/// The body that is acted on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum On {
+    /// Body i.
+    I,
+    /// Body j.
+    #[default]
+    J,
+}
+
+/// The point about which moments are taken.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Point {
+    /// The joint's.
+    #[default]
+    Joint,
+    /// The centre of mass of the body that is acted on.
+    Center,
+}
+
+/// Which forces are drawn.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drawn {
+    /// None.
+    None,
+    /// Those of every joint.
+    #[default]
+    All,
+    /// That of one joint.
+    Joint(String),
+    /// All forces on one body, which is cut free.
+    Body(String),
+}
+
+/// How long arrows are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// m/N.
+    pub force: f64,
+    /// m/(N m).
+    pub moment: f64,
+    /// The longest that is drawn, m.
+    pub longest: f64,
+}
+
+/// Forces at this part of a recording are drawn at their full length.
+const PERCENTILE: f64 = 0.95;
+/// That length, and the longest, beside the size of the mechanism.
+const FULL: f64 = 0.5;
+const LONGEST: f64 = 0.8;
+/// Beside the force of the same joint times the mechanism's size, a smaller moment is rounding.
+const NO_MOMENT: f64 = 1e-7;
+
+impl Scale {
+    /// Before anything is recorded: the weight of everything is drawn at full length.
+    pub fn of_weight(weight: f64, size: f64) -> Self {
+        let force = FULL * size / if weight > 0.0 { weight } else { 1.0 };
+        Self { force, moment: force / size.max(1e-9), longest: LONGEST * size }
+    }
+
+    /// From a recording; what it has none of keeps its scale.
+    #[must_use]
+    pub fn fitted<'a>(self, samples: impl Iterator<Item = &'a Sample>, size: f64) -> Self {
+        let (mut forces, mut moments) = (Vec::new(), Vec::new());
+        for sample in samples {
+            forces.extend(sample.reactions.iter().map(|r| norm(r.force)));
+            moments.extend(
+                sample.reactions.iter().filter(|r| has_moment(r, size)).map(|reaction| norm(reaction.moment)),
+            );
+            forces.extend(sample.weights.iter().copied().map(norm));
+        }
+        let scaled = |sizes: Vec<f64>, old: f64| percentile(sizes).map_or(old, |full| FULL * size / full);
+        Self { force: scaled(forces, self.force), moment: scaled(moments, self.moment), ..self }
+    }
+
+    /// Whether another scale differs so little that eyes would not see it.
+    pub fn is_near(self, other: Self) -> bool {
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.2;
+        near(self.force, other.force) && near(self.moment, other.moment)
+    }
+}
+
+fn percentile(mut sizes: Vec<f64>) -> Option<f64> {
+    sizes.retain(|size| size.is_finite() && *size > 0.0);
+    if sizes.is_empty() {
+        return None;
+    }
+    // The place is within the list because the part is below one.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let at = (PERCENTILE * sizes.len() as f64) as usize;
+    let (_, found, _) = sizes.select_nth_unstable_by(at.min(sizes.len() - 1), f64::total_cmp);
+    Some(*found)
+}
+
+/// What an arrow stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A joint's force.
+    Reaction,
+    /// A joint's moment.
+    Moment,
+    /// A body's weight.
+    Weight,
+    /// What loads and springs do to a body, together.
+    Load,
+}
+
+/// A piece of an arrow as the viewer draws it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// What it stands for.
+    pub kind: Kind,
+    /// Where it starts, m.
+    pub from: [f64; 3],
+    /// To where, from there, m.
+    pub vector: [f64; 3],
+}
+
+impl Arrows {
+    /// The arrows of a joint at one instant.
+    pub fn of_joint(&self, cast: &Cast, joint: usize, sample: &Sample) -> Vec<Piece> {
+        let tie = &cast.joints[joint];
+        let Some(reaction) = sample.reactions.get(joint) else { return Vec::new() };
+        let Some((sign, body)) = self.side_of(tie, cast) else { return Vec::new() };
+        let force = times(reaction.force, sign);
+        let mut moment = times(reaction.moment, sign);
+        let mut at = reaction.at;
+        let mut is_moment = has_moment(reaction, cast.size);
+        if let (Point::Center, Some(body)) = (self.about, body) {
+            let center = sample.poses[body].position;
+            moment = plus(moment, cross(minus(at, center), force));
+            at = center;
+            is_moment = norm(moment) > NO_MOMENT * cast.size * norm(force).max(1e-300);
+        }
+        let mut pieces = Vec::new();
+        arrow(&mut pieces, Kind::Reaction, at, times(force, cast.scale.force), cast.scale.longest);
+        if is_moment {
+            arrow(&mut pieces, Kind::Moment, at, times(moment, cast.scale.moment), cast.scale.longest);
+        }
+        pieces
+    }
+
+    /// The sign of a joint's force, and the body that it acts on; nothing if it is not drawn.
+    fn side_of(&self, tie: &Tie, cast: &Cast) -> Option<(f64, Option<usize>)> {
+        let told_on = (1.0, tie.on);
+        let other = (-1.0, tie.by);
+        match &self.drawn {
+            Drawn::None => None,
+            Drawn::Joint(name) if *name != tie.name => None,
+            Drawn::All | Drawn::Joint(_) => Some(if self.on == On::J { told_on } else { other }),
+            Drawn::Body(name) => {
+                let body = cast.bodies.iter().position(|body| body.name == *name)?;
+                [told_on, other].into_iter().find(|(_, on)| *on == Some(body))
+            }
+        }
+    }
+
+    /// Weight and loads of the body that is cut free, if one is.
+    pub fn of_body(&self, cast: &Cast, sample: &Sample) -> Vec<Piece> {
+        let Drawn::Body(name) = &self.drawn else { return Vec::new() };
+        let Some(body) = cast.bodies.iter().position(|body| body.name == *name) else { return Vec::new() };
+        let (weight, at) = (sample.weights[body], sample.poses[body].position);
+        // What neither weight nor joints account for is what loads and springs do.
+        let mut rest = minus(sample.inertia[body], weight);
+        let mut largest = norm(weight).max(norm(rest));
+        for (tie, reaction) in cast.joints.iter().zip(&sample.reactions) {
+            if let Some((sign, _)) = self.side_of(tie, cast) {
+                rest = minus(rest, times(reaction.force, sign));
+                largest = largest.max(norm(reaction.force));
+            }
+        }
+        let mut pieces = Vec::new();
+        arrow(&mut pieces, Kind::Weight, at, times(weight, cast.scale.force), cast.scale.longest);
+        if sample.reactions.len() == cast.joints.len() && norm(rest) > 1e-6 * largest {
+            arrow(&mut pieces, Kind::Load, at, times(rest, cast.scale.force), cast.scale.longest);
+        }
+        pieces
+    }
+}
+
+fn has_moment(reaction: &Reaction, size: f64) -> bool {
+    norm(reaction.moment) > NO_MOMENT * size * norm(reaction.force).max(1e-300)
+}
+
+/// An arrow in pieces: two in a row where it would be too long, one head more for a moment.
+fn arrow(pieces: &mut Vec<Piece>, kind: Kind, from: [f64; 3], vector: [f64; 3], longest: f64) {
+    let length = norm(vector);
+    if !length.is_finite() || length < 1e-3 * longest {
+        return;
+    }
+    let mut last = (from, vector);
+    if length > longest {
+        let drawn = times(vector, longest / length);
+        pieces.push(Piece { kind, from, vector: times(drawn, 0.46) });
+        last = (plus(from, times(drawn, 0.54)), times(drawn, 0.46));
+    }
+    if kind == Kind::Moment {
+        pieces.push(Piece { kind, from: last.0, vector: times(last.1, 0.8) });
+    }
+    pieces.push(Piece { kind, from: last.0, vector: last.1 });
+}
+
+fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn times(a: [f64; 3], factor: f64) -> [f64; 3] {
+    a.map(|x| x * factor)
+}
+
+fn norm(a: [f64; 3]) -> f64 {
+    a.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cast::Actor;
+    use super::super::sample::Pose;
+    use super::*;
+
+    const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+    /// A body of 2 kg that hangs at a pin, which turns it too.
+    fn hanging() -> (Cast, Sample) {
+        let bob = Actor {
+            name: "bob".into(),
+            shapes: Vec::new(),
+            center_of_mass: [0.0; 3],
+            principal_axes: AXES,
+            joint_points: Vec::new(),
+        };
+        let pin = Tie { name: "pin".into(), rows: Vec::new(), on: Some(0), by: None };
+        let cast = Cast {
+            title: String::new(),
+            bodies: vec![bob],
+            joints: vec![pin],
+            pattern: super::super::Pattern::default(),
+            gravity: [0.0, -10.0, 0.0],
+            size: 1.0,
+            center: [0.0; 3],
+            reach: 1.0,
+            scale: Scale { force: 0.01, moment: 0.1, longest: 0.8 },
+        };
+        let reaction =
+            Reaction { at: [0.0; 3], force: [0.0, 25.0, 0.0], moment: [0.0, 0.0, 2.0], multipliers: Vec::new() };
+        let sample = Sample {
+            time: 0.0,
+            poses: vec![Pose { position: [1.0, 0.0, 0.0], axes: AXES }],
+            weights: vec![[0.0, -20.0, 0.0]],
+            inertia: vec![[0.0, 5.0, 0.0]],
+            reactions: vec![reaction],
+            energy: 0.0,
+            position_violation: 0.0,
+            velocity_violation: 0.0,
+        };
+        (cast, sample)
+    }
+
+    #[test]
+    fn arrows_turn_with_the_body_and_move_with_the_point() {
+        let (cast, sample) = hanging();
+        let mut arrows = Arrows::default();
+        let on_j = arrows.of_joint(&cast, 0, &sample);
+        assert_eq!(on_j[0], Piece { kind: Kind::Reaction, from: [0.0; 3], vector: [0.0, 0.25, 0.0] });
+        assert_eq!(on_j.len(), 3, "one arrow for the force, two heads for the moment: {on_j:?}");
+        arrows.on = On::I;
+        assert_eq!(arrows.of_joint(&cast, 0, &sample)[0].vector, [0.0, -0.25, 0.0]);
+        // About the centre of mass: M + (at − c) × F = 2 − 25 N m, and that is too long to be drawn.
+        arrows = Arrows { about: Point::Center, ..Arrows::default() };
+        let about = arrows.of_joint(&cast, 0, &sample);
+        assert_eq!(about[0].from, [1.0, 0.0, 0.0]);
+        let moments: Vec<_> = about.iter().filter(|piece| piece.kind == Kind::Moment).collect();
+        assert_eq!(moments.len(), 3, "two in a row, the last with two heads");
+        let tip = plus(moments[2].from, moments[2].vector);
+        assert!((tip[2] + 0.8).abs() < 1e-12, "{tip:?}");
+        arrows.drawn = Drawn::Joint("other".into());
+        assert!(arrows.of_joint(&cast, 0, &sample).is_empty());
+    }
+
+    #[test]
+    fn a_body_that_is_cut_free_has_all_its_forces() {
+        let (cast, mut sample) = hanging();
+        let arrows = Arrows { drawn: Drawn::Body("bob".into()), ..Arrows::default() };
+        // m a = 25 N − 20 N: nothing is left for loads.
+        let pieces = arrows.of_body(&cast, &sample);
+        assert_eq!(pieces, [Piece { kind: Kind::Weight, from: [1.0, 0.0, 0.0], vector: [0.0, -0.2, 0.0] }]);
+        sample.inertia[0] = [2.0, 5.0, 0.0];
+        let pieces = arrows.of_body(&cast, &sample);
+        assert_eq!(pieces[1], Piece { kind: Kind::Load, from: [1.0, 0.0, 0.0], vector: [0.02, 0.0, 0.0] });
+    }
+
+    #[test]
+    fn the_scale_is_that_of_the_recording_and_one_outlier_does_not_make_it() {
+        let (cast, sample) = hanging();
+        let mut samples = vec![sample; 100];
+        samples[50].reactions[0].force = [0.0, 1e6, 0.0];
+        let scale = cast.scale.fitted(samples.iter(), 1.0);
+        assert!((scale.force - 0.5 / 25.0).abs() < 1e-12, "{scale:?}");
+        assert!((scale.moment - 0.5 / 2.0).abs() < 1e-12, "{scale:?}");
+        assert!(scale.is_near(Scale { force: scale.force * 1.1, ..scale }) && !scale.is_near(cast.scale));
+    }
+}
