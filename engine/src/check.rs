@@ -2,8 +2,8 @@
 
 use crate::error::EngineError;
 use crate::model::Model;
-use crate::scene::Scene;
 use crate::rank::Rank;
+use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::system::System;
 use serde::Serialize;
@@ -81,7 +81,8 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
     let mut redundant: Vec<RedundantRows> = Vec::new();
     for set in dependent_sets(system, rank) {
         let label = system.rows[set.row].label;
-        let words = if set.dependent == 1 { label.to_owned() } else { format!("{} of {label}", set.dependent) };
+        let words =
+            if set.dependent == 1 { label.to_owned() } else { format!("{} of {label}", set.dependent) };
         let joint = &system.groups[set.group].name;
         match redundant.last_mut().filter(|last| last.joint == *joint) {
             Some(last) => last.rows.push(words),

@@ -270,7 +270,11 @@ mod tests {
             let left = touched(&full);
             for i in 0..left.nrows() {
                 for j in 0..=i {
-                    assert!(with_fill[(i, j)] == 1.0 || left[(i, j)] == 0.0, "{name} {i} {j}: {}", left[(i, j)]);
+                    assert!(
+                        with_fill[(i, j)] == 1.0 || left[(i, j)] == 0.0,
+                        "{name} {i} {j}: {}",
+                        left[(i, j)]
+                    );
                 }
             }
         }

@@ -7,6 +7,7 @@ use triad_lessons::Course;
 
 use crate::limits::Limits;
 use crate::reports;
+use crate::room::Rooms;
 use crate::session::Registry;
 use crate::store::Store;
 use crate::variants::Variants;
@@ -22,6 +23,8 @@ pub struct App {
     pub store: Arc<Store>,
     /// The live simulations.
     pub sessions: Arc<Registry>,
+    /// The lectures.
+    pub rooms: Arc<Rooms>,
     /// What this server allows.
     pub limits: Arc<Limits>,
     /// The folder with the reports of commands.
@@ -36,6 +39,7 @@ impl App {
             variants: Arc::default(),
             store: Arc::new(store),
             sessions: Arc::default(),
+            rooms: Arc::default(),
             limits: Arc::new(limits),
             reports: Path::new(reports::FOLDER).into(),
         }

@@ -12,9 +12,12 @@ pub mod grading;
 pub mod scenes;
 pub mod store;
 pub mod stream;
+pub mod urdf;
 pub mod variants;
 
 pub mod session;
+
+pub mod room;
 
 pub mod app;
 

@@ -25,6 +25,14 @@ pub struct Limits {
     pub stalled_viewer: Duration,
     /// Submissions returned by one request.
     pub submissions: usize,
+    /// Lecture rooms at a time.
+    pub rooms: usize,
+    /// Followers of one lecture.
+    pub followers: usize,
+    /// A room whose presenter has not been heard of this long is closed.
+    pub room_idle: Duration,
+    /// And so is a room of this age.
+    pub room_life: Duration,
 }
 
 impl Default for Limits {
@@ -39,6 +47,10 @@ impl Default for Limits {
             recording_bytes: 128 << 20,
             stalled_viewer: Duration::from_secs(30),
             submissions: 1000,
+            rooms: 16,
+            followers: 500,
+            room_idle: Duration::from_mins(30),
+            room_life: Duration::from_hours(12),
         }
     }
 }

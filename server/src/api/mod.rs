@@ -4,9 +4,13 @@ mod analyses;
 mod bounds;
 mod changes;
 mod extract;
+mod follow;
 mod health;
+mod import;
 mod lessons;
+mod matrices;
 mod reactions;
+mod rooms;
 mod scenes;
 mod sessions;
 mod stream;
@@ -29,6 +33,7 @@ use crate::page;
 use crate::problem::Problem;
 use crate::reports;
 
+pub(crate) use extract::parse;
 pub(crate) use lessons::{deal, starter_of, unknown as unknown_lesson};
 
 /// The head of the interface's description; addresses and schemas are added by the routes themselves.
@@ -45,6 +50,7 @@ pub(crate) use lessons::{deal, starter_of, unknown as unknown_lesson};
         (name = "submissions", description = "What was handed in, and what it earned"),
         (name = "scenes", description = "Built-in scenes, and what a scene amounts to"),
         (name = "sessions", description = "Live simulations"),
+        (name = "rooms", description = "Lectures: one session that many follow"),
         (name = "analyses", description = "What a scene can be asked besides running it"),
         (name = "server", description = "The server itself")
     )
@@ -59,11 +65,15 @@ fn described() -> (Router<App>, Document) {
                 .merge(lessons::routes())
                 .merge(submissions::routes())
                 .merge(scenes::routes())
+                .merge(import::routes())
                 .merge(sessions::routes())
                 .merge(changes::routes())
                 .merge(analyses::routes())
                 .merge(reactions::routes())
+                .merge(matrices::routes())
                 .merge(stream::routes())
+                .merge(rooms::routes())
+                .merge(follow::routes())
                 .merge(health::routes()),
         )
         .split_for_parts()
@@ -111,11 +121,12 @@ async fn uncached_interface(request: axum::extract::Request, next: Next) -> Resp
     response
 }
 
-/// Closes idle sessions for as long as the server runs.
+/// Closes idle sessions and rooms for as long as the server runs.
 pub async fn keep_house(app: App) {
     let mut often = tokio::time::interval(Duration::from_secs(15));
     loop {
         often.tick().await;
         app.sessions.expire(&app.limits);
+        app.rooms.expire(&app.limits);
     }
 }

@@ -1,5 +1,7 @@
-//! Reactions of a live session, told completely: on which body, about which point, in which frame, and which of
-//! their components are unique.
+//! Forces of a live session: multipliers, reactions told completely (on which body, about which point, in which frame,
+//! which of their components are unique), and how they are drawn.
+
+use std::sync::Arc;
 
 use axum::extract::State;
 use axum::http::StatusCode;
@@ -9,18 +11,28 @@ use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::extract::{Asked, At};
+use super::extract::{Asked, At, Json};
+use super::matrices::When;
 use crate::app::App;
 use crate::problem::{Problem, ProblemDocument};
+use crate::session::{Session, SessionState};
+use crate::stream::{Arrows, Camera};
 
 pub(super) fn routes() -> OpenApiRouter<App> {
-    OpenApiRouter::new().routes(routes!(reactions))
+    OpenApiRouter::new()
+        .routes(routes!(reactions))
+        .routes(routes!(multipliers))
+        .routes(routes!(draw))
+        .routes(routes!(look_from))
 }
 
 /// How reactions are wanted.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Wanted {
+pub(super) struct Wanted {
+    /// The time, s: one that the run has passed; the present if it is not given.
+    #[serde(default)]
+    at: Option<f64>,
     /// On body `i` or on body `j` of each joint.
     #[serde(default)]
     on: Side,
@@ -34,7 +46,7 @@ struct Wanted {
 
 /// Every reaction at one moment.
 #[derive(Debug, Serialize, ToSchema)]
-struct ReactionsView {
+pub(super) struct ReactionsView {
     /// Time, s.
     time: f64,
     /// The reactions, joints before drivers.
@@ -109,7 +121,8 @@ struct RemedyView {
     ("about" = Option<String>, Query, example = "joint",
         description = "About the `joint`, the `center` of mass of that body, or a point of the world like `0,1,0`"),
     ("in" = Option<String>, Query, example = "world",
-        description = "Components in the frame of the `world`, of the `joint`, or of that `body`")),
+        description = "Components in the frame of the `world`, of the `joint`, or of that `body`"),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "One entry a joint or driver", body = ReactionsView),
     (status = 404, description = "No such session", body = ProblemDocument),
     (status = 422, description = "The scene has too many rows to tell which are unique", body = ProblemDocument)))]
@@ -118,10 +131,122 @@ async fn reactions(
     At(id): At<String>,
     Asked(wanted): Asked<Wanted>,
 ) -> Result<axum::Json<ReactionsView>, Problem> {
-    let session = app.sessions.get(&id)?;
+    Ok(axum::Json(reactions_of(&*app.sessions.get(&id)?, wanted).await?))
+}
+
+pub(super) async fn reactions_of(session: &Session, wanted: Wanted) -> Result<ReactionsView, Problem> {
     let about = about(wanted.about.as_deref())?;
     let convention = Convention { on: wanted.on, about, expressed_in: wanted.expressed_in };
-    Ok(axum::Json(session.reactions(convention).await?.into()))
+    let report = session.look(wanted.at, move |run| run.reactions(convention).map_err(Problem::from)).await?;
+    Ok(report.into())
+}
+
+/// The multiplier of one row.
+#[derive(Debug, Serialize, ToSchema)]
+struct MultiplierView {
+    /// The row.
+    label: String,
+    /// Its multiplier.
+    value: f64,
+}
+
+/// The reaction in one joint.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = ReactionView)]
+pub(super) struct JointView {
+    /// Name of the joint.
+    joint: String,
+    /// The multipliers of its rows.
+    rows: Vec<MultiplierView>,
+    /// Force on the body `on`, N: body j of the joint, or body i if j is the ground.
+    #[schema(value_type = Vec<f64>)]
+    force_on_j: [f64; 3],
+    /// Moment, N m, about the point `at`.
+    #[schema(value_type = Vec<f64>)]
+    moment_on_j: [f64; 3],
+    /// The joint's point in the world, m.
+    #[schema(value_type = Vec<f64>)]
+    at: [f64; 3],
+    /// The body that the force acts on.
+    on: String,
+    /// The body that exerts it.
+    by: String,
+    /// The frame of all components.
+    expressed_in: String,
+}
+
+/// The multipliers and reactions, joint by joint.
+#[utoipa::path(get, path = "/sessions/{id}/multipliers", tag = "sessions", params(("id" = String, Path),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    responses((status = 200, description = "One entry a joint", body = Vec<JointView>)))]
+async fn multipliers(
+    State(app): State<App>,
+    At(id): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<Vec<JointView>>, Problem> {
+    Ok(axum::Json(multipliers_of(&*app.sessions.get(&id)?, when.at).await?))
+}
+
+pub(super) async fn multipliers_of(session: &Session, at: Option<f64>) -> Result<Vec<JointView>, Problem> {
+    let found = session.look(at, |run| Ok(run.multipliers())).await?;
+    let joints = found.into_iter().map(|joint| JointView {
+        joint: joint.joint,
+        rows: joint
+            .rows
+            .into_iter()
+            .map(|row| MultiplierView { label: row.label, value: row.value })
+            .collect(),
+        force_on_j: joint.force,
+        moment_on_j: joint.moment,
+        at: joint.about,
+        on: joint.on,
+        by: joint.by,
+        expressed_in: joint.expressed_in.into(),
+    });
+    Ok(joints.collect())
+}
+
+/// How forces are to be drawn; what is not given stays.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct NewDrawing {
+    /// Which, on which body, about which point.
+    arrows: Option<Arrows>,
+    /// Take the scale of forces from the recording so far.
+    #[serde(default)]
+    fit: bool,
+}
+
+/// Draw forces in another way, in every picture of this session and at all times of its recording.
+#[utoipa::path(put, path = "/sessions/{id}/drawing", tag = "sessions", params(("id" = String, Path)),
+    request_body = NewDrawing, responses(
+    (status = 200, description = "The state with the new drawing", body = SessionState)))]
+async fn draw(
+    State(app): State<App>,
+    At(id): At<String>,
+    Json(new): Json<NewDrawing>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.draw(new.arrows, new.fit).await?))
+}
+
+/// Where the camera is to stand.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct NewCamera {
+    /// From where the mechanism is looked at.
+    from: Camera,
+}
+
+/// Look at the mechanism from another side.
+#[utoipa::path(put, path = "/sessions/{id}/camera", tag = "sessions", params(("id" = String, Path)),
+    request_body = NewCamera, responses(
+    (status = 200, description = "The state with the new camera", body = SessionState)))]
+async fn look_from(
+    State(app): State<App>,
+    At(id): At<String>,
+    Json(new): Json<NewCamera>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+    Ok(axum::Json(app.sessions.get(&id)?.look_from(new.from).await?))
 }
 
 fn about(asked: Option<&str>) -> Result<About, Problem> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use triad_engine::scene::{Scene, Stabilization};
 use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
@@ -30,8 +30,6 @@ pub(super) fn routes() -> OpenApiRouter<App> {
         .routes(routes!(play))
         .routes(routes!(pause))
         .routes(routes!(reset))
-        .routes(routes!(jacobian))
-        .routes(routes!(multipliers))
 }
 
 /// What to simulate: exactly one of `lesson`, `builtin` and `scene`.
@@ -251,85 +249,4 @@ async fn pause(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<
     (status = 200, description = "The state at the start", body = SessionState)))]
 async fn reset(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.reset().await?))
-}
-
-/// The Jacobian of the constraints: a sparse matrix whose rows and columns have names.
-#[derive(Debug, Serialize, ToSchema)]
-struct JacobianView {
-    /// What each row is: its joint or body, and the row.
-    rows: Vec<String>,
-    /// What each column is: its body, and the coordinate.
-    columns: Vec<String>,
-    /// Row, column, value, and whether the entry never changes; entries that are not listed are zero by structure.
-    #[schema(value_type = Vec<Vec<Object>>)]
-    entries: Vec<(usize, usize, f64, bool)>,
-}
-
-/// The Jacobian at the session's time.
-#[utoipa::path(get, path = "/sessions/{id}/jacobian", tag = "sessions", params(("id" = String, Path)), responses(
-    (status = 200, description = "Pattern and values", body = JacobianView)))]
-async fn jacobian(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<JacobianView>, Problem> {
-    let session = app.sessions.get(&id)?;
-    let found = session.jacobian().await?;
-    let entries = found.entries.iter().map(|e| (e.row, e.column, e.value, e.constant)).collect();
-    Ok(axum::Json(JacobianView { rows: found.rows, columns: found.columns, entries }))
-}
-
-/// The multiplier of one row.
-#[derive(Debug, Serialize, ToSchema)]
-struct MultiplierView {
-    /// The row.
-    label: String,
-    /// Its multiplier.
-    value: f64,
-}
-
-/// The reaction in one joint.
-#[derive(Debug, Serialize, ToSchema)]
-struct ReactionView {
-    /// Name of the joint.
-    joint: String,
-    /// The multipliers of its rows.
-    rows: Vec<MultiplierView>,
-    /// Force on the body `on`, N: body j of the joint, or body i if j is the ground.
-    #[schema(value_type = Vec<f64>)]
-    force_on_j: [f64; 3],
-    /// Moment, N m, about the point `at`.
-    #[schema(value_type = Vec<f64>)]
-    moment_on_j: [f64; 3],
-    /// The joint's point in the world, m.
-    #[schema(value_type = Vec<f64>)]
-    at: [f64; 3],
-    /// The body that the force acts on.
-    on: String,
-    /// The body that exerts it.
-    by: String,
-    /// The frame of all components.
-    expressed_in: String,
-}
-
-/// The multipliers and reactions at the session's time, joint by joint.
-#[utoipa::path(get, path = "/sessions/{id}/multipliers", tag = "sessions", params(("id" = String, Path)), responses(
-    (status = 200, description = "One entry a joint", body = Vec<ReactionView>)))]
-async fn multipliers(
-    State(app): State<App>,
-    At(id): At<String>,
-) -> Result<axum::Json<Vec<ReactionView>>, Problem> {
-    let session = app.sessions.get(&id)?;
-    let found = session.multipliers().await?;
-    let joints = found.into_iter().map(|joint| ReactionView {
-        joint: joint.joint,
-        rows: joint
-            .rows
-            .into_iter()
-            .map(|row| MultiplierView { label: row.label, value: row.value })
-            .collect(),
-        force_on_j: joint.force,
-        moment_on_j: joint.moment,
-        at: joint.about,
-        on: joint.on,
-        by: joint.by,
-        expressed_in: joint.expressed_in.into(),
-    });
-    Ok(axum::Json(joints.collect()))
 }

@@ -27,7 +27,7 @@ use crate::stream::{Delivery, Watcher};
 /// Between two states on one socket.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Between two pings, so that nobody between us closes a quiet connection.
-const PING_INTERVAL: Duration = Duration::from_secs(20);
+pub(super) const PING_INTERVAL: Duration = Duration::from_secs(20);
 
 pub(super) fn routes() -> OpenApiRouter<App> {
     OpenApiRouter::new().routes(routes!(stream))
@@ -36,7 +36,7 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 /// What a watcher is told in text.
 #[derive(Serialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
-enum Notice<'a> {
+pub(super) enum Notice<'a> {
     State(&'a SessionState),
     Reset,
     Closed,
@@ -49,18 +49,9 @@ enum Notice<'a> {
     (status = 426, description = "The request is not a WebSocket's", body = ProblemDocument)))]
 async fn stream(State(app): State<App>, At(id): At<String>, request: Request) -> Result<Response, Problem> {
     let session = app.sessions.get(&id)?;
-    let (mut parts, _) = request.into_parts();
-    let upgrade = WebSocketUpgrade::from_request_parts(&mut parts, &app).await;
-    let upgrade = upgrade.map_err(|rejection: WebSocketUpgradeRejection| {
-        Problem::new(
-            StatusCode::UPGRADE_REQUIRED,
-            "not-a-websocket",
-            format!("this address is a WebSocket: {}", rejection.body_text()),
-            "open it with new WebSocket(…), or read the state at the session's own address",
-        )
-    })?;
+    let upgrade = upgrade(&app, request).await?;
     let patience = app.limits.stalled_viewer;
-    Ok(upgrade.max_message_size(4096).on_upgrade(move |socket| async move {
+    Ok(upgrade.on_upgrade(move |socket| async move {
         let watcher = session.watch();
         let states = session.states();
         // The session may be deleted while it is watched.
@@ -69,14 +60,29 @@ async fn stream(State(app): State<App>, At(id): At<String>, request: Request) ->
     }))
 }
 
+/// Makes a socket of a request that asks for one.
+pub(super) async fn upgrade(app: &App, request: Request) -> Result<WebSocketUpgrade, Problem> {
+    let (mut parts, _) = request.into_parts();
+    let upgrade = WebSocketUpgrade::from_request_parts(&mut parts, app).await;
+    let upgrade = upgrade.map_err(|rejection: WebSocketUpgradeRejection| {
+        Problem::new(
+            StatusCode::UPGRADE_REQUIRED,
+            "not-a-websocket",
+            format!("this address is a WebSocket: {}", rejection.body_text()),
+            "open it with new WebSocket(…), or read the address above it",
+        )
+    })?;
+    Ok(upgrade.max_message_size(4096))
+}
+
 /// One open socket.
-struct Line {
-    socket: WebSocket,
-    patience: Duration,
+pub(super) struct Line {
+    pub socket: WebSocket,
+    pub patience: Duration,
 }
 
 /// The other side has gone, or takes nothing.
-struct Lost;
+pub(super) struct Lost;
 
 impl Line {
     async fn serve(mut self, mut watcher: Watcher, mut states: watch::Receiver<Arc<SessionState>>) {
@@ -120,19 +126,19 @@ impl Line {
         }
     }
 
-    async fn blocks(&mut self, blocks: Vec<axum::body::Bytes>) -> Result<(), Lost> {
+    pub async fn blocks(&mut self, blocks: Vec<axum::body::Bytes>) -> Result<(), Lost> {
         for block in blocks {
             self.send(Message::Binary(block)).await?;
         }
         Ok(())
     }
 
-    async fn tell(&mut self, notice: &Notice<'_>) -> Result<(), Lost> {
+    pub async fn tell(&mut self, notice: &Notice<'_>) -> Result<(), Lost> {
         let text = serde_json::to_string(notice).map_err(|_| Lost)?;
         self.send(Message::Text(text.into())).await
     }
 
-    async fn send(&mut self, message: Message) -> Result<(), Lost> {
+    pub async fn send(&mut self, message: Message) -> Result<(), Lost> {
         match timeout(self.patience, self.socket.send(message)).await {
             Ok(Ok(())) => Ok(()),
             Ok(Err(_)) | Err(_) => Err(Lost),

@@ -5,6 +5,7 @@ mod bench;
 mod check;
 mod csv;
 mod grade;
+mod import;
 mod lesson;
 mod paper;
 mod preview;
@@ -130,6 +131,13 @@ enum Command {
         after_help = "Examples:\n  triad paper\n  triad paper --bodies 5\n  triad paper --svg fig12.svg"
     )]
     Paper(paper::Paper),
+    /// Make a scene of a robot described in URDF, and tell what could not be carried over.
+    #[command(after_help = "Examples:\n  triad import arm.urdf --out arm.json\n  \
+        triad import gripper.urdf --with loops.json --out gripper.json\n\nA side-car closes loops and says how to \
+        start:\n  {\"positions\": {\"shoulder\": 0.5},\n   \"joints\": [{\"name\": \"closing\", \"type\": \
+        \"spherical\", \"body_i\": \"rod\", \"body_j\": \"ground\",\n               \"point_i\": [0, 0, 1], \
+        \"point_j\": [1, 0, 0]}]}\nBodies are links of the URDF, points and axes are given in their frames.")]
+    Import(import::Import),
     /// List the built-in scenes.
     Scenes,
     /// Grade a submission as the workbench would; nothing is kept.
@@ -243,6 +251,12 @@ struct Serve {
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
     #[arg(long, default_value = reports::FOLDER, value_name = "DIR")]
     reports: PathBuf,
+    /// Lecture rooms at a time.
+    #[arg(long, default_value_t = 16, value_name = "N")]
+    max_rooms: usize,
+    /// Followers of one lecture.
+    #[arg(long, default_value_t = 500, value_name = "N")]
+    max_followers: usize,
 }
 
 impl Default for Serve {
@@ -254,6 +268,8 @@ impl Default for Serve {
             max_sessions: 64,
             max_bodies: 500,
             reports: reports::FOLDER.into(),
+            max_rooms: 16,
+            max_followers: 500,
         }
     }
 }
@@ -333,6 +349,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Kinematics { scene, words } => analyses::kinematics(&scene, &words, json),
         Command::Assemble { scene, keep } => analyses::assemble(&scene, &keep, json),
         Command::Paper(options) => paper::paper(&options, json),
+        Command::Import(options) => import::import(&options, json),
         Command::Scenes => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
@@ -379,5 +396,6 @@ mod tests {
                 &default.reports
             )
         );
+        assert_eq!((serve.max_rooms, serve.max_followers), (default.max_rooms, default.max_followers));
     }
 }

@@ -153,7 +153,7 @@ impl Outputs {
     }
 }
 
-fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Problem {
+pub(super) fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Problem {
     Problem::new(
         StatusCode::INTERNAL_SERVER_ERROR,
         "unwritable-file",

@@ -16,7 +16,13 @@ use crate::store::Store;
 /// Serves until it is told to stop.
 pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
     let store = Store::open(&options.database)?;
-    let limits = Limits { sessions: options.max_sessions, bodies: options.max_bodies, ..Limits::default() };
+    let limits = Limits {
+        sessions: options.max_sessions,
+        bodies: options.max_bodies,
+        rooms: options.max_rooms,
+        followers: options.max_followers,
+        ..Limits::default()
+    };
     let app = App::new(course, store, limits).with_reports(&options.reports);
     let runtime =
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
@@ -41,10 +47,11 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     ));
     print_line(&format!("Submissions are kept in {}", options.database.display()));
     tokio::spawn(crate::api::keep_house(app.clone()));
-    let sessions = app.sessions.clone();
+    let (sessions, rooms) = (app.sessions.clone(), app.rooms.clone());
     let stop = async move {
         stopped().await;
         // Open streams end with their sessions; otherwise they would keep the server up.
+        rooms.clear();
         sessions.clear();
     };
     axum::serve(listener, crate::app(app)).with_graceful_shutdown(stop).await.map_err(Problem::internal)

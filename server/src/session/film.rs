@@ -12,7 +12,9 @@ use triad_engine::simulation::Simulation;
 
 use super::worker::BEAT;
 use crate::problem::Problem;
-use crate::stream::{Arrows, Camera, Cast, Hub, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Scale, Tie};
+use crate::stream::{
+    Arrows, Camera, Cast, Hub, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Scale, Tie,
+};
 
 /// Samples of one simulation, kept, and on their way to its watchers.
 pub(crate) struct Film {

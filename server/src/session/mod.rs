@@ -2,6 +2,7 @@
 
 mod change;
 mod film;
+mod past;
 mod registry;
 mod state;
 mod worker;
@@ -9,7 +10,7 @@ mod worker;
 pub use change::{Change, ParameterView, Pull, SceneView, Then};
 pub(crate) use film::{cast, sample};
 pub use registry::{Registry, bounded};
-pub use state::{BodyState, Links, SessionState, Source};
+pub use state::{BodyState, Drawing, Links, SessionState, Source};
 
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -19,18 +20,16 @@ use std::time::{Duration, Instant};
 use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
 use triad_engine::EngineError;
-use triad_engine::jacobian::Jacobian;
 use triad_engine::model::Model;
-use triad_engine::reaction::JointMultipliers;
-use triad_engine::reaction::report::{Convention, ReactionReport};
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
 use crate::limits::Limits;
 use crate::problem::Problem;
-use crate::stream::{Hub, Watcher};
+use crate::stream::{Arrows, Camera, Hub, Watcher};
 use change::as_it_runs;
 use film::Film;
+use past::Past;
 use worker::{Command, Reply, Signals, Worker};
 
 /// Commands that may wait for one session.
@@ -62,6 +61,8 @@ impl Session {
         let mut film =
             Film::new(&id, cast(&scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
         film.take(&mut simulation)?;
+        let mut past = Past::new(limits.recording_bytes / 4);
+        past.keep(&mut simulation);
         let signals = Arc::new(Signals::default());
         let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
         let extra = state::Extra {
@@ -73,7 +74,7 @@ impl Session {
             frames: 1,
             frames_encoded: 0,
             watchers: 0,
-            force_scale: film.force_scale(),
+            drawing: Drawing::of(&film),
             changes: 0,
             pull: None,
             error: None,
@@ -89,6 +90,7 @@ impl Session {
             pull: None,
             simulation,
             film,
+            past,
             signals: Arc::clone(&signals),
             state: sender,
             command_time: limits.command_time,
@@ -157,19 +159,23 @@ impl Session {
         self.ask(Command::Scene).await
     }
 
-    /// The Jacobian at the current time.
-    pub async fn jacobian(&self) -> Result<Jacobian, Problem> {
-        self.ask(Command::Jacobian).await
+    /// Asks something of the run as it is, or as it was at a time that it has passed.
+    pub async fn look<T: Send + 'static>(
+        &self,
+        at: Option<f64>,
+        tell: impl FnOnce(&mut Simulation) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        self.ask(|reply| Command::Look(at, Box::new(move |run| drop(reply.send(run.and_then(tell)))))).await
     }
 
-    /// The multipliers at the current time, joint by joint.
-    pub async fn multipliers(&self) -> Result<Vec<JointMultipliers>, Problem> {
-        self.ask(Command::Multipliers).await
+    /// Draws forces in another way, in every picture; `fit` takes their scale from the recording.
+    pub async fn draw(&self, arrows: Option<Arrows>, fit: bool) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Draw(arrows, fit, reply)).await
     }
 
-    /// The reactions at the current time, told in the given way.
-    pub async fn reactions(&self, convention: Convention) -> Result<ReactionReport, Problem> {
-        self.ask(|reply| Command::Reactions(convention, reply)).await
+    /// Looks at the mechanism from another side.
+    pub async fn look_from(&self, camera: Camera) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::LookFrom(camera, reply)).await
     }
 
     /// Watches the recording from its beginning.

@@ -5,7 +5,9 @@ use triad_engine::simulation::Simulation;
 use utoipa::ToSchema;
 
 use super::change::Pull;
+use super::film::Film;
 use crate::problem::{Problem, ProblemDocument};
+use crate::stream::{Arrows, Camera};
 
 /// Where a session's scene came from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
@@ -69,6 +71,35 @@ pub struct JointForce {
     pub moment: [f64; 3],
 }
 
+/// How forces are drawn in the viewer, for the page to do alike.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct Drawing {
+    /// Which, and how they are told.
+    #[serde(flatten)]
+    pub arrows: Arrows,
+    /// Length of a force's arrow, m/N.
+    pub force_scale: f64,
+    /// Length of a moment's arrow, m/(N m).
+    pub moment_scale: f64,
+    /// The longest arrow, m; what would be longer is drawn as two in a row.
+    pub longest: f64,
+    /// From where the mechanism is looked at.
+    pub camera: Camera,
+}
+
+impl Drawing {
+    pub(super) fn of(film: &Film) -> Self {
+        let (arrows, scale) = film.arrows();
+        Self {
+            arrows: arrows.clone(),
+            force_scale: scale.force,
+            moment_scale: scale.moment,
+            longest: scale.longest,
+            camera: film.camera(),
+        }
+    }
+}
+
 /// Scenes of more joints tell their forces only where they are asked for.
 const MOST_FORCES: usize = 64;
 
@@ -91,7 +122,11 @@ pub struct Links {
 impl Links {
     /// The links of session `id`.
     pub fn new(id: &str) -> Self {
-        let this = format!("/api/v1/sessions/{id}");
+        Self::below(format!("/api/v1/sessions/{id}"))
+    }
+
+    /// The links of a session that is seen at the address `this`.
+    pub fn below(this: String) -> Self {
         Self {
             stream: format!("{this}/stream"),
             jacobian: format!("{this}/jacobian"),
@@ -149,8 +184,8 @@ pub struct SessionState {
     pub frames_encoded: u64,
     /// How many watch the stream.
     pub watchers: usize,
-    /// Length of a reaction's arrow in the viewer, m/N.
-    pub force_scale: f64,
+    /// How forces are drawn.
+    pub drawing: Drawing,
     /// How often the scene was changed since the session began.
     pub changes: u64,
     /// The hand's spring, while a body is pulled.
@@ -182,7 +217,7 @@ pub(super) struct Extra {
     pub frames: u64,
     pub frames_encoded: u64,
     pub watchers: usize,
-    pub force_scale: f64,
+    pub drawing: Drawing,
     pub changes: u64,
     pub pull: Option<Pull>,
     pub error: Option<Problem>,
@@ -231,7 +266,7 @@ impl SessionState {
             frames: extra.frames,
             frames_encoded: extra.frames_encoded,
             watchers: extra.watchers,
-            force_scale: extra.force_scale,
+            drawing: extra.drawing.clone(),
             changes: extra.changes,
             pull: extra.pull.clone(),
             notes: simulation.notes().to_vec(),

@@ -7,16 +7,15 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
-use triad_engine::jacobian::Jacobian;
-use triad_engine::reaction::JointMultipliers;
-use triad_engine::reaction::report::{Convention, ReactionReport};
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
 use super::change::{Change, Pull, SceneView, Then, as_it_runs};
 use super::film::{Film, cast};
-use super::state::{Extra, SessionState, Source};
+use super::past::Past;
+use super::state::{Drawing, Extra, SessionState, Source};
 use crate::problem::Problem;
+use crate::stream::{Arrows, Camera};
 
 /// How often a playing session goes on: about thirty times a second.
 pub(super) const BEAT: Duration = Duration::from_millis(33);
@@ -25,7 +24,6 @@ pub(super) const BEAT: Duration = Duration::from_millis(33);
 const PIECE: u64 = 32;
 
 /// What a caller may ask for; the answer comes back through the sender.
-#[derive(Debug)]
 pub(super) enum Command {
     /// Take integrator steps.
     Steps(u32, Reply<Arc<SessionState>>),
@@ -43,18 +41,21 @@ pub(super) enum Command {
     Pull(Option<Pull>, Reply<Arc<SessionState>>),
     /// Tell the scene.
     Scene(Reply<SceneView>),
-    /// Tell the Jacobian.
-    Jacobian(Reply<Jacobian>),
-    /// Tell the multipliers.
-    Multipliers(Reply<Vec<JointMultipliers>>),
-    /// Tell the reactions in a stated way.
-    Reactions(Convention, Reply<ReactionReport>),
+    /// Show the run as it is, or as it was at a time, to somebody who tells what is wanted of it.
+    Look(Option<f64>, Teller),
+    /// Draw forces in another way; take their scale from the recording.
+    Draw(Option<Arrows>, bool, Reply<Arc<SessionState>>),
+    /// Look at the mechanism from another side.
+    LookFrom(Camera, Reply<Arc<SessionState>>),
     /// Somebody has come to watch.
     Watched,
 }
 
 /// Where an answer goes; the caller may have left.
 pub(super) type Reply<T> = oneshot::Sender<Result<T, Problem>>;
+
+/// Told of the run at the time that was asked for.
+pub(super) type Teller = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;
 
 /// Flags that reach a worker while it is busy.
 #[derive(Debug, Default)]
@@ -78,6 +79,7 @@ pub(super) struct Worker {
     pub pull: Option<Pull>,
     pub simulation: Simulation,
     pub film: Film,
+    pub past: Past,
     pub signals: Arc<Signals>,
     pub state: watch::Sender<Arc<SessionState>>,
     pub command_time: Duration,
@@ -144,7 +146,8 @@ impl Worker {
                 self.error = None;
                 self.simulation.reset();
                 self.film.restart();
-                let result = self.film.take(&mut self.simulation);
+                self.past.clear();
+                let result = self.record();
                 drop(reply.send(self.answer(result)));
             }
             Command::Change(change, reply) => {
@@ -156,10 +159,18 @@ impl Worker {
                 drop(reply.send(self.answer_to_change(result)));
             }
             Command::Scene(reply) => drop(reply.send(Ok(SceneView::new(&self.scene, &self.original)))),
-            Command::Jacobian(reply) => drop(reply.send(Ok(self.simulation.jacobian().clone()))),
-            Command::Multipliers(reply) => drop(reply.send(Ok(self.simulation.multipliers()))),
-            Command::Reactions(convention, reply) => {
-                drop(reply.send(self.simulation.reactions(convention).map_err(Problem::from)));
+            Command::Look(at, tell) => match at.filter(|at| *at < self.simulation.time()) {
+                None => tell(Ok(&mut self.simulation)),
+                Some(time) => tell(self.past.at(time, &self.simulation)),
+            },
+            Command::Draw(arrows, fit, reply) => {
+                let drawn = arrows.map_or(Ok(()), |arrows| self.film.draw(arrows));
+                let result = drawn.and_then(|()| if fit { self.film.fit(true) } else { Ok(()) });
+                drop(reply.send(self.answer(result)));
+            }
+            Command::LookFrom(camera, reply) => {
+                let result = self.film.look_from(camera);
+                drop(reply.send(self.answer(result)));
             }
             Command::Watched => {
                 let developed = self.film.develop();
@@ -181,21 +192,35 @@ impl Worker {
             Then::Restart => self.error = None,
             Then::Continue => self.hand_over(&mut next)?,
         }
-        self.simulation = next;
+        let before = std::mem::replace(&mut self.simulation, next);
         self.scene = scene;
         self.changes += 1;
         match then {
-            Then::Restart => self.film.restart_with(cast),
-            Then::Continue => self.film.follow(cast),
+            Then::Restart => {
+                self.film.restart_with(cast);
+                self.past.clear();
+            }
+            Then::Continue => {
+                self.film.follow(cast);
+                self.past.turn_page(before);
+            }
         }
         self.run_on();
-        self.film.take(&mut self.simulation)
+        self.record()
+    }
+
+    /// Keeps the present, if it is one of the moments that are kept.
+    fn record(&mut self) -> Result<(), Problem> {
+        if self.film.take(&mut self.simulation)? {
+            self.past.keep(&mut self.simulation);
+        }
+        Ok(())
     }
 
     fn pull(&mut self, pull: Option<Pull>) -> Result<(), Problem> {
         let mut next = self.assembled(&self.scene, pull.as_ref())?;
         self.hand_over(&mut next)?;
-        self.simulation = next;
+        self.past.turn_page(std::mem::replace(&mut self.simulation, next));
         self.pull = pull;
         self.run_on();
         Ok(())
@@ -256,7 +281,7 @@ impl Worker {
                 break;
             }
             self.simulation.step()?;
-            self.film.take(&mut self.simulation)?;
+            self.record()?;
             self.in_time(deadline)?;
         }
         Ok(())
@@ -275,7 +300,7 @@ impl Worker {
             // The next of the scene's output times; the slack keeps rounding from making one twice.
             let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
             if self.simulation.advance_towards(next.min(target), PIECE)? {
-                self.film.take(&mut self.simulation)?;
+                self.record()?;
             }
             self.in_time(deadline)?;
         }
@@ -316,6 +341,11 @@ impl Worker {
             self.play = None;
         }
         self.note(reached);
+        if self.simulation.finished() {
+            // The whole run is known: its scale is that of all of it.
+            let fitted = self.film.fit(false);
+            self.note(fitted);
+        }
         let developed = if self.play.is_some() { self.film.develop_in_turn() } else { self.film.develop() };
         self.note(developed);
         self.publish();
@@ -370,7 +400,7 @@ impl Worker {
             frames,
             frames_encoded,
             watchers: self.film.watchers(),
-            force_scale: self.film.force_scale(),
+            drawing: Drawing::of(&self.film),
             changes: self.changes,
             pull: self.pull.clone(),
             error: self.error.clone(),

@@ -1,7 +1,7 @@
 //! How forces are drawn: which of them, on which side, about which point, and how long.
 //!
-//! One scale for the whole scene. An arrow that would be longer than the longest is drawn as two in a row; a moment
-//! is an arrow with two heads about whose direction it turns.
+//! One scale for the whole scene. An arrow that would be longer than the longest is drawn as two in a row. A moment is
+//! three quarters of a circle that turns as it does; one that would be larger than the largest is drawn as two circles.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -63,17 +63,22 @@ pub enum Drawn {
 pub struct Scale {
     /// m/N.
     pub force: f64,
-    /// m/(N m).
+    /// Radius of a moment's circle, m/(N m).
     pub moment: f64,
-    /// The longest that is drawn, m.
+    /// The longest arrow that is drawn, m; a circle is at most half as large.
     pub longest: f64,
 }
 
 /// Forces at this part of a recording are drawn at their full length.
 const PERCENTILE: f64 = 0.95;
-/// That length, and the longest, beside the size of the mechanism.
+/// That length, the radius of such a moment, and the longest, beside the size of the mechanism.
 const FULL: f64 = 0.5;
+const FULL_CIRCLE: f64 = 0.22;
 const LONGEST: f64 = 0.8;
+/// Circles are not drawn smaller, beside the size of the mechanism: what turns could not be seen.
+const SMALLEST_CIRCLE: f64 = 0.06;
+/// Points on a circle.
+const POINTS: usize = 25;
 /// Beside the force of the same joint times the mechanism's size, a smaller moment is rounding.
 const NO_MOMENT: f64 = 1e-7;
 
@@ -81,7 +86,7 @@ impl Scale {
     /// Before anything is recorded: the weight of everything is drawn at full length.
     pub fn of_weight(weight: f64, size: f64) -> Self {
         let force = FULL * size / if weight > 0.0 { weight } else { 1.0 };
-        Self { force, moment: force / size.max(1e-9), longest: LONGEST * size }
+        Self { force, moment: FULL_CIRCLE / FULL * force / size.max(1e-9), longest: LONGEST * size }
     }
 
     /// From a recording; what it has none of keeps its scale.
@@ -95,8 +100,14 @@ impl Scale {
             );
             forces.extend(sample.weights.iter().copied().map(norm));
         }
-        let scaled = |sizes: Vec<f64>, old: f64| percentile(sizes).map_or(old, |full| FULL * size / full);
-        Self { force: scaled(forces, self.force), moment: scaled(moments, self.moment), ..self }
+        let scaled = |sizes: Vec<f64>, length: f64, old: f64| {
+            percentile(sizes).map_or(old, |full| length * size / full)
+        };
+        Self {
+            force: scaled(forces, FULL, self.force),
+            moment: scaled(moments, FULL_CIRCLE, self.moment),
+            ..self
+        }
     }
 
     /// Whether another scale differs so little that eyes would not see it.
@@ -114,7 +125,8 @@ fn percentile(mut sizes: Vec<f64>) -> Option<f64> {
     // The place is within the list because the part is below one.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let at = (PERCENTILE * sizes.len() as f64) as usize;
-    let (_, found, _) = sizes.select_nth_unstable_by(at.min(sizes.len() - 1), f64::total_cmp);
+    let at = at.min(sizes.len() - 1);
+    let (_, found, _) = sizes.select_nth_unstable_by(at, f64::total_cmp);
     Some(*found)
 }
 
@@ -123,7 +135,7 @@ fn percentile(mut sizes: Vec<f64>) -> Option<f64> {
 pub enum Kind {
     /// A joint's force.
     Reaction,
-    /// A joint's moment.
+    /// A joint's moment: the head of its circle.
     Moment,
     /// A body's weight.
     Weight,
@@ -142,12 +154,22 @@ pub struct Piece {
     pub vector: [f64; 3],
 }
 
+/// What is drawn of a joint at one instant.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Glyphs {
+    /// Arrows.
+    pub pieces: Vec<Piece>,
+    /// Circles of moments.
+    pub circles: Vec<Vec<[f64; 3]>>,
+}
+
 impl Arrows {
-    /// The arrows of a joint at one instant.
-    pub fn of_joint(&self, cast: &Cast, joint: usize, sample: &Sample) -> Vec<Piece> {
+    /// The glyphs of a joint at one instant.
+    pub fn of_joint(&self, cast: &Cast, joint: usize, sample: &Sample) -> Glyphs {
         let tie = &cast.joints[joint];
-        let Some(reaction) = sample.reactions.get(joint) else { return Vec::new() };
-        let Some((sign, body)) = self.side_of(tie, cast) else { return Vec::new() };
+        let mut glyphs = Glyphs::default();
+        let Some(reaction) = sample.reactions.get(joint) else { return glyphs };
+        let Some((sign, body)) = self.side_of(tie, cast) else { return glyphs };
         let force = times(reaction.force, sign);
         let mut moment = times(reaction.moment, sign);
         let mut at = reaction.at;
@@ -158,12 +180,11 @@ impl Arrows {
             at = center;
             is_moment = norm(moment) > NO_MOMENT * cast.size * norm(force).max(1e-300);
         }
-        let mut pieces = Vec::new();
-        arrow(&mut pieces, Kind::Reaction, at, times(force, cast.scale.force), cast.scale.longest);
+        arrow(&mut glyphs.pieces, Kind::Reaction, at, times(force, cast.scale.force), cast.scale.longest);
         if is_moment {
-            arrow(&mut pieces, Kind::Moment, at, times(moment, cast.scale.moment), cast.scale.longest);
+            circle(&mut glyphs, at, moment, cast);
         }
-        pieces
+        glyphs
     }
 
     /// The sign of a joint's force, and the body that it acts on; nothing if it is not drawn.
@@ -208,7 +229,36 @@ fn has_moment(reaction: &Reaction, size: f64) -> bool {
     norm(reaction.moment) > NO_MOMENT * size * norm(reaction.force).max(1e-300)
 }
 
-/// An arrow in pieces: two in a row where it would be too long, one head more for a moment.
+/// Three quarters of a circle about a moment's axis, with a head where it turns to.
+fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], cast: &Cast) {
+    let size = norm(moment);
+    let largest = 0.5 * cast.scale.longest;
+    let wanted = size * cast.scale.moment;
+    if !wanted.is_finite() || wanted < 1e-3 * largest {
+        return;
+    }
+    let axis = times(moment, 1.0 / size);
+    let across = if axis[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    let a = cross(axis, across);
+    let a = times(a, 1.0 / norm(a));
+    let b = cross(axis, a);
+    let on = |radius: f64, angle: f64| {
+        plus(at, plus(times(a, radius * angle.cos()), times(b, radius * angle.sin())))
+    };
+    let end = 1.5 * std::f64::consts::PI;
+    let around =
+        |radius: f64| (0..POINTS).map(|k| on(radius, end * k as f64 / (POINTS - 1) as f64)).collect();
+    let radius = wanted.clamp(SMALLEST_CIRCLE * cast.size, largest);
+    glyphs.circles.push(around(radius));
+    if wanted > largest {
+        glyphs.circles.push(around(0.85 * radius));
+    }
+    let forward = minus(times(b, end.cos()), times(a, end.sin()));
+    let vector = times(forward, 0.1 * cast.size);
+    glyphs.pieces.push(Piece { kind: Kind::Moment, from: on(radius, end), vector });
+}
+
+/// An arrow in pieces: two in a row where it would be too long.
 fn arrow(pieces: &mut Vec<Piece>, kind: Kind, from: [f64; 3], vector: [f64; 3], longest: f64) {
     let length = norm(vector);
     if !length.is_finite() || length < 1e-3 * longest {
@@ -219,9 +269,6 @@ fn arrow(pieces: &mut Vec<Piece>, kind: Kind, from: [f64; 3], vector: [f64; 3], 
         let drawn = times(vector, longest / length);
         pieces.push(Piece { kind, from, vector: times(drawn, 0.46) });
         last = (plus(from, times(drawn, 0.54)), times(drawn, 0.46));
-    }
-    if kind == Kind::Moment {
-        pieces.push(Piece { kind, from: last.0, vector: times(last.1, 0.8) });
     }
     pieces.push(Piece { kind, from: last.0, vector: last.1 });
 }
@@ -275,8 +322,12 @@ mod tests {
             reach: 1.0,
             scale: Scale { force: 0.01, moment: 0.1, longest: 0.8 },
         };
-        let reaction =
-            Reaction { at: [0.0; 3], force: [0.0, 25.0, 0.0], moment: [0.0, 0.0, 2.0], multipliers: Vec::new() };
+        let reaction = Reaction {
+            at: [0.0; 3],
+            force: [0.0, 25.0, 0.0],
+            moment: [0.0, 0.0, 2.0],
+            multipliers: Vec::new(),
+        };
         let sample = Sample {
             time: 0.0,
             poses: vec![Pose { position: [1.0, 0.0, 0.0], axes: AXES }],
@@ -295,20 +346,33 @@ mod tests {
         let (cast, sample) = hanging();
         let mut arrows = Arrows::default();
         let on_j = arrows.of_joint(&cast, 0, &sample);
-        assert_eq!(on_j[0], Piece { kind: Kind::Reaction, from: [0.0; 3], vector: [0.0, 0.25, 0.0] });
-        assert_eq!(on_j.len(), 3, "one arrow for the force, two heads for the moment: {on_j:?}");
+        assert_eq!(on_j.pieces[0], Piece { kind: Kind::Reaction, from: [0.0; 3], vector: [0.0, 0.25, 0.0] });
+        assert_eq!((on_j.pieces.len(), on_j.circles.len()), (2, 1), "an arrow, a circle and its head");
+        assert!(on_j.circles[0].iter().all(|p| (norm(*p) - 0.2).abs() < 1e-12 && p[2] == 0.0));
+        // It turns as the moment does: counter-clockwise about +z.
+        assert!(cross(on_j.circles[0][0], on_j.circles[0][1])[2] > 0.0);
         arrows.on = On::I;
-        assert_eq!(arrows.of_joint(&cast, 0, &sample)[0].vector, [0.0, -0.25, 0.0]);
-        // About the centre of mass: M + (at − c) × F = 2 − 25 N m, and that is too long to be drawn.
+        let on_i = arrows.of_joint(&cast, 0, &sample);
+        assert_eq!(on_i.pieces[0].vector, [0.0, -0.25, 0.0]);
+        assert!(cross(on_i.circles[0][0], on_i.circles[0][1])[2] < 0.0);
+        // About the centre of mass: M + (at − c) × F = 2 − 25 N m, and that is too large to be drawn.
         arrows = Arrows { about: Point::Center, ..Arrows::default() };
         let about = arrows.of_joint(&cast, 0, &sample);
-        assert_eq!(about[0].from, [1.0, 0.0, 0.0]);
-        let moments: Vec<_> = about.iter().filter(|piece| piece.kind == Kind::Moment).collect();
-        assert_eq!(moments.len(), 3, "two in a row, the last with two heads");
-        let tip = plus(moments[2].from, moments[2].vector);
-        assert!((tip[2] + 0.8).abs() < 1e-12, "{tip:?}");
+        assert_eq!(about.pieces[0].from, [1.0, 0.0, 0.0]);
+        assert_eq!(about.circles.len(), 2, "larger than drawn");
+        assert!((norm(minus(about.circles[0][0], [1.0, 0.0, 0.0])) - 0.4).abs() < 1e-12);
         arrows.drawn = Drawn::Joint("other".into());
-        assert!(arrows.of_joint(&cast, 0, &sample).is_empty());
+        assert_eq!(arrows.of_joint(&cast, 0, &sample), Glyphs::default());
+    }
+
+    #[test]
+    fn an_arrow_that_would_be_too_long_is_two_in_a_row() {
+        let (mut cast, sample) = hanging();
+        cast.scale.force = 1.0;
+        let pieces = Arrows::default().of_joint(&cast, 0, &sample).pieces;
+        let [first, second] = pieces[..2] else { panic!("two pieces: {pieces:?}") };
+        assert!((second.from[1] + second.vector[1] - 0.8).abs() < 1e-12, "the tip is at the longest length");
+        assert!(first.vector[1] < second.from[1], "with a gap between them");
     }
 
     #[test]
@@ -330,7 +394,7 @@ mod tests {
         samples[50].reactions[0].force = [0.0, 1e6, 0.0];
         let scale = cast.scale.fitted(samples.iter(), 1.0);
         assert!((scale.force - 0.5 / 25.0).abs() < 1e-12, "{scale:?}");
-        assert!((scale.moment - 0.5 / 2.0).abs() < 1e-12, "{scale:?}");
+        assert!((scale.moment - 0.22 / 2.0).abs() < 1e-12, "{scale:?}");
         assert!(scale.is_near(Scale { force: scale.force * 1.1, ..scale }) && !scale.is_near(cast.scale));
     }
 }

@@ -41,6 +41,10 @@ pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingS
             .with_labels([joint.name.as_str()])
             .with_show_labels(false);
         recording.log_static(path(&["world", "joints", &joint.name]), &arrow)?;
+        let circle = LineStrips3D::update_fields()
+            .with_colors([color_of(Kind::Moment)])
+            .with_radii([narrow(0.01 * cast.size)]);
+        recording.log_static(path(&["world", "joints", &joint.name, "moment"]), &circle)?;
         let names = joint.rows.iter().map(|row| format!("{} {row}", joint.name));
         let lines = SeriesLines::new().with_names(names);
         recording.log_static(path(&["plots", "multipliers", &joint.name]), &lines)?;

@@ -1,15 +1,16 @@
 //! Writes samples into a recording of the rerun viewer, in batches.
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::time::Duration;
 
 use rerun::sink::BinaryStreamStorage;
 use rerun::{
-    Arrows3D, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult, Scalars,
-    TimeColumn, Transform3D,
+    Arrows3D, EntityPath, LineStrips3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError,
+    RecordingStreamResult, Scalars, TimeColumn, Transform3D,
 };
 
-use super::arrows::{Arrows, Piece, Scale};
+use super::arrows::{Arrows, Glyphs, Piece, Scale};
 use super::cast::Cast;
 use super::geometry::{self, FREE_BODY, color_of, path, single};
 use super::layout::Camera;
@@ -41,6 +42,8 @@ pub struct Recorder {
     sink: Sink,
     cast: Cast,
     arrows: Arrows,
+    /// Entities of arrows that have something written.
+    used: HashSet<EntityPath>,
     encoded: u64,
 }
 
@@ -67,7 +70,7 @@ impl Recorder {
     fn start(recording: RecordingStream, sink: Sink, cast: Cast) -> Result<Self, RecordError> {
         layout::send(&recording, &cast, Camera::default())?;
         geometry::log_static(&recording, &cast)?;
-        Ok(Self { recording, sink, cast, arrows: Arrows::default(), encoded: 0 })
+        Ok(Self { recording, sink, cast, arrows: Arrows::default(), used: HashSet::new(), encoded: 0 })
     }
 
     /// How many samples have been encoded.
@@ -132,24 +135,55 @@ impl Recorder {
         Ok(layout::send(&self.recording, &self.cast, camera)?)
     }
 
-    fn write_arrows(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
+    fn write_arrows(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
         if samples.is_empty() {
             return Ok(());
         }
-        for (index, joint) in self.cast.joints.iter().enumerate() {
-            let entity = path(&["world", "joints", &joint.name]);
-            self.write_pieces(entity, samples, |sample| self.arrows.of_joint(&self.cast, index, sample))?;
+        for index in 0..self.cast.joints.len() {
+            let drawn: Vec<Glyphs> =
+                samples.iter().map(|sample| self.arrows.of_joint(&self.cast, index, sample)).collect();
+            let (pieces, circles) = drawn.into_iter().map(|glyphs| (glyphs.pieces, glyphs.circles)).unzip();
+            let name = self.cast.joints[index].name.clone();
+            self.write_pieces(path(&["world", "joints", &name]), samples, pieces)?;
+            self.write_circles(path(&["world", "joints", &name, "moment"]), samples, circles)?;
         }
-        self.write_pieces(FREE_BODY.into(), samples, |sample| self.arrows.of_body(&self.cast, sample))
+        let of_body = samples.iter().map(|sample| self.arrows.of_body(&self.cast, sample)).collect();
+        self.write_pieces(FREE_BODY.into(), samples, of_body)
+    }
+
+    /// Whether there is nothing to write of an entity: neither now, nor anything before that would stay.
+    fn is_idle<T>(&mut self, entity: &EntityPath, drawn: &[Vec<T>]) -> bool {
+        if drawn.iter().any(|of_sample| !of_sample.is_empty()) {
+            self.used.insert(entity.clone());
+        }
+        !self.used.contains(entity)
+    }
+
+    fn write_circles(
+        &mut self,
+        entity: EntityPath,
+        samples: &[Sample],
+        drawn: Vec<Vec<Vec<[f64; 3]>>>,
+    ) -> RecordingStreamResult<()> {
+        if self.is_idle(&entity, &drawn) {
+            return Ok(());
+        }
+        let counts: Vec<usize> = drawn.iter().map(Vec::len).collect();
+        let strips =
+            drawn.into_iter().flatten().map(|points| points.into_iter().map(single).collect::<Vec<_>>());
+        let columns = LineStrips3D::update_fields().with_strips(strips).columns(counts)?;
+        self.recording.send_columns(entity, [times(samples)], columns)
     }
 
     fn write_pieces(
-        &self,
+        &mut self,
         entity: EntityPath,
         samples: &[Sample],
-        pieces: impl Fn(&Sample) -> Vec<Piece>,
+        drawn: Vec<Vec<Piece>>,
     ) -> RecordingStreamResult<()> {
-        let drawn: Vec<Vec<Piece>> = samples.iter().map(pieces).collect();
+        if self.is_idle(&entity, &drawn) {
+            return Ok(());
+        }
         let counts: Vec<usize> = drawn.iter().map(Vec::len).collect();
         let all = || drawn.iter().flatten();
         let columns = Arrows3D::update_fields()

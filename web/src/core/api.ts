@@ -1,8 +1,8 @@
 // The one door to the server. Every failure becomes an ApiError that carries a Problem.
 import type { Numbers, SceneView, Then } from "./numbers";
 import type {
-  Answer, CheckReport, Jacobian, JointMultipliers, Lesson, LessonSummary, Problem, Scene,
-  Pull, Reactions, SceneSummary, SessionState, Verdict,
+  Answer, Board, Camera, CheckReport, Drawing, Jacobian, JointMultipliers, LeftOut, Lesson, LessonSummary, Problem, Scene,
+  Pull, Reactions, SceneSummary, SessionState, Symmetric, Tally, Verdict,
 } from "./types";
 
 const BASE = "/api/v1";
@@ -45,12 +45,13 @@ async function failure(response: Response): Promise<ApiError> {
   }
 }
 
-async function call<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
+async function call<T>(method: string, path: string, body?: unknown, signal?: AbortSignal, key?: string): Promise<T> {
   let response: Response;
   try {
     const headers: Record<string, string> = { accept: "application/json, application/problem+json" };
     if (body !== undefined) headers["content-type"] = "application/json";
-    response = await fetch(BASE + path, {
+    if (key !== undefined) headers.authorization = `Bearer ${key}`;
+    response = await fetch(path.startsWith("/api/") ? path : BASE + path, {
       method, headers, signal: signal ?? null,
       body: body === undefined ? null : typeof body === "string" ? body : JSON.stringify(body),
     });
@@ -69,6 +70,7 @@ async function call<T>(method: string, path: string, body?: unknown, signal?: Ab
 }
 
 const id = encodeURIComponent;
+const when = (at: number | undefined): string => (at === undefined ? "" : `?at=${at}`);
 
 /** Whose numbers: a student's name, or another seed. */
 const whose = (seed?: string): string => seed ? `?${new URLSearchParams({ seed })}` : "";
@@ -96,28 +98,45 @@ export const api = {
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
   analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", asked: { scene: unknown }) => call<T>("POST", `/analyses/${kind}`, asked),
+  importUrdf: (urdf: string, side: unknown) => call<{ scene: Scene; left_out: LeftOut[] }>("POST", "/import/urdf", side === undefined ? { urdf } : { urdf, with: side }),
+  sceneSchema: () => call<unknown>("GET", "/schema/scene"),
+
+  // What is asked of a run is asked at its address: a session's own, or a lecture room's.
   createSession: (source: SessionSource, change?: Numbers) => call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
-  sceneOf: (session: string) => call<SceneView>("GET", `/sessions/${id(session)}/scene`),
-  change: (session: string, numbers: Numbers, then?: Then) =>
-    call<SessionState>("POST", `/sessions/${id(session)}/parameters`, then ? { ...numbers, then } : numbers),
-  pull: (session: string, pull: Pull) => call<SessionState>("PUT", `/sessions/${id(session)}/pull`, pull),
-  release: (session: string) => call<SessionState>("DELETE", `/sessions/${id(session)}/pull`),
-  reactions: (session: string, asked: { on: string; about: string; in: string }) =>
-    call<Reactions>("GET", `/sessions/${id(session)}/reactions?${new URLSearchParams(asked)}`),
-  session: (session: string) => call<SessionState>("GET", `/sessions/${id(session)}`),
-  step: (session: string, by: { steps: number } | { seconds: number }) =>
-    call<SessionState>("POST", `/sessions/${id(session)}/step`, by),
-  play: (session: string, speed: number) => call<SessionState>("POST", `/sessions/${id(session)}/play`, { speed }),
-  pause: (session: string) => call<SessionState>("POST", `/sessions/${id(session)}/pause`),
-  reset: (session: string) => call<SessionState>("POST", `/sessions/${id(session)}/reset`),
-  jacobian: (session: string) => call<Jacobian>("GET", `/sessions/${id(session)}/jacobian`),
-  multipliers: (session: string) => call<JointMultipliers[]>("GET", `/sessions/${id(session)}/multipliers`),
+  state: (run: string) => call<SessionState>("GET", run),
+  sceneOf: (run: string) => call<SceneView>("GET", `${run}/scene`),
+  jacobian: (run: string, at?: number) => call<Jacobian>("GET", `${run}/jacobian${when(at)}`),
+  symmetric: (run: string, which: "augmented" | "schur", at?: number) => call<Symmetric>("GET", `${run}/${which}${when(at)}`),
+  multipliers: (run: string, at?: number) => call<JointMultipliers[]>("GET", `${run}/multipliers${when(at)}`),
+  reactions: (run: string, asked: { on: string; about: string; in: string }, at?: number) =>
+    call<Reactions>("GET", `${run}/reactions?${new URLSearchParams({ ...asked, ...(at === undefined ? {} : { at: String(at) }) })}`),
+  change: (run: string, numbers: Numbers, then?: Then) => call<SessionState>("POST", `${run}/parameters`, then ? { ...numbers, then } : numbers),
+  draw: (run: string, arrows: Pick<Drawing, "on" | "about" | "drawn"> | undefined, fit: boolean) => call<SessionState>("PUT", `${run}/drawing`, arrows ? { arrows, fit } : { fit }),
+  lookFrom: (run: string, from: Camera) => call<SessionState>("PUT", `${run}/camera`, { from }),
+  pull: (run: string, pull: Pull) => call<SessionState>("PUT", `${run}/pull`, pull),
+  release: (run: string) => call<SessionState>("DELETE", `${run}/pull`),
+  step: (run: string, by: { steps: number } | { seconds: number }) => call<SessionState>("POST", `${run}/step`, by),
+  play: (run: string, speed: number) => call<SessionState>("POST", `${run}/play`, { speed }),
+  pause: (run: string) => call<SessionState>("POST", `${run}/pause`),
+  reset: (run: string) => call<SessionState>("POST", `${run}/reset`),
   /** Sent while the page goes away, so nobody waits for the answer. */
-  dropSession: (session: string): void => {
-    void fetch(`${BASE}/sessions/${id(session)}`, { method: "DELETE", keepalive: true }).catch(() => undefined);
+  dropSession: (run: string): void => {
+    void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
-  streamUrl: (session: string): string => {
-    const url = new URL(`${BASE}/sessions/${id(session)}/stream`, location.href);
+
+  openRoom: (session: string) => call<{ code: string; key: string; page: string }>("POST", "/rooms", { session }),
+  room: (code: string, signal?: AbortSignal) => call<Board>("GET", `/rooms/${id(code)}`, undefined, signal),
+  closeRoom: (code: string, key: string) => call<void>("DELETE", `/rooms/${id(code)}`, undefined, undefined, key),
+  show: (code: string, key: string, what: { session?: string; view?: unknown }) => call<void>("PUT", `/rooms/${id(code)}/view`, what, undefined, key),
+  desk: (code: string, key: string) => call<{ followers: number; tally: Tally | null }>("GET", `/rooms/${id(code)}/desk`, undefined, undefined, key),
+  ask: (code: string, key: string, question: { text: string; choices: string[]; right: number | null }) => call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),
+  reveal: (code: string, key: string) => call<void>("POST", `/rooms/${id(code)}/reveal`, undefined, undefined, key),
+  forgetQuestion: (code: string, key: string) => call<void>("DELETE", `/rooms/${id(code)}/question`, undefined, undefined, key),
+  answer: (code: string, vote: { question: number; voter: string; choice: number }) => call<void>("POST", `/rooms/${id(code)}/answers`, vote),
+
+  /** The address of a stream, as the browser opens it. */
+  streamUrl: (path: string): string => {
+    const url = new URL(path, location.href);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     return url.href;
   },

@@ -5,9 +5,13 @@ import type { Numbers } from "./numbers";
 export interface Seen {
   numbers?: Numbers;
   time?: number;
+  /** The time lies behind the newest one. */
+  back?: boolean;
   joint?: string;
   panel?: string;
   picture?: "sketch" | "viewer";
+  /** From where the mechanism is looked at. */
+  camera?: string;
   /** Which forces are drawn: joint, all, none, or body:NAME. */
   drawn?: string;
   /** On which body, about which point, in which frame, such as j.joint.world. */
@@ -37,7 +41,7 @@ export async function unpack(text: string): Promise<Seen | undefined> {
     const raw = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(raw, (sign) => sign.charCodeAt(0));
     const json = new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), MOST_TEXT));
-    return checked(JSON.parse(json));
+    return seenOf(JSON.parse(json));
   } catch {
     return undefined;
   }
@@ -59,11 +63,12 @@ export async function asked(): Promise<Seen | null | undefined> {
 }
 
 /** Keeps what has the right type; a link may come from anybody. */
-function checked(value: unknown): Seen | undefined {
+export function seenOf(value: unknown): Seen | undefined {
   if (typeof value !== "object" || value === null || Array.isArray(value)) return undefined;
   const given = value as Record<string, unknown>;
   const seen: Seen = {};
-  for (const key of ["joint", "panel", "drawn", "told", "scene"] as const) if (typeof given[key] === "string") seen[key] = given[key];
+  for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const) if (typeof given[key] === "string") seen[key] = given[key];
+  if (given.back === true) seen.back = true;
   if (given.picture === "sketch" || given.picture === "viewer") seen.picture = given.picture;
   if (typeof given.time === "number" && Number.isFinite(given.time) && given.time >= 0) seen.time = given.time;
   const numbers = given.numbers as { values?: unknown; places?: unknown } | undefined;

@@ -133,6 +133,7 @@ export interface JointForce {
 
 export interface SessionState {
   id: string;
+  title: string;
   time: number;
   duration: number;
   playing: boolean;
@@ -150,8 +151,8 @@ export interface SessionState {
   finished: boolean;
   /** How often the scene was changed since the session began. */
   changes: number;
-  /** Length of a reaction's arrow in the viewer, m/N. */
-  force_scale: number;
+  /** How forces are drawn in every picture. */
+  drawing: Drawing;
   /** The hand's spring, while a body is pulled. */
   pull?: Pull | null;
   error?: Problem | null;
@@ -161,6 +162,63 @@ export interface SessionState {
   /** Empty for scenes of many joints. */
   forces: JointForce[];
   gravity: Vec3;
+  /** Where to ask for more; `self` is the address of what is seen, a session or a lecture room. */
+  links: { self: string; stream: string };
+}
+
+/** How forces are drawn: one scale for the whole scene. */
+export interface Drawing {
+  on: "i" | "j";
+  about: "joint" | "center";
+  drawn: ServerDrawn;
+  /** Length of a force's arrow, m/N. */
+  force_scale: number;
+  /** Radius of a moment's circle, m/(N m). */
+  moment_scale: number;
+  /** The longest arrow, m. */
+  longest: number;
+  camera: Camera;
+}
+
+export type ServerDrawn = "none" | "all" | { joint: string } | { body: string };
+export type Camera = "corner" | "front" | "side" | "above";
+
+/** What followers of a lecture are told beside the run. */
+export interface Board {
+  code: string;
+  title: string | null;
+  source: { lesson: string } | { builtin: string } | { scene: string } | null;
+  view: unknown;
+  question: RoomQuestion | null;
+}
+
+export interface RoomQuestion {
+  number: number;
+  text: string;
+  choices: string[];
+  result?: Tally;
+}
+
+export interface Tally {
+  number: number;
+  counts: number[];
+  right: number | null;
+  revealed: boolean;
+}
+
+/** A symmetric matrix: what stands on and below its diagonal. */
+export interface Symmetric {
+  time: number;
+  names: string[];
+  places: [number, number, number, "own" | "constant" | "changing" | "fill"][];
+  fill: number;
+}
+
+/** Something of an imported robot that could not be carried over. */
+export interface LeftOut {
+  line: number;
+  of: string;
+  what: string;
 }
 
 export interface Jacobian {
@@ -168,6 +226,10 @@ export interface Jacobian {
   columns: string[];
   /** [row, column, value, constant] */
   entries: [number, number, number, boolean][];
+  time: number;
+  rank: number;
+  /** Rows of which some say again what others say. */
+  redundant: { rows: number[]; dependent: number }[];
 }
 
 export interface JointMultipliers {

@@ -6,6 +6,7 @@ import type { CheckReport, Problem } from "../core/types";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { lineOf, locate } from "./pointer";
+import { suggestions } from "./suggest";
 
 const CHECK_AFTER_MS = 600;
 
@@ -16,7 +17,8 @@ export interface Editor {
   dispose: () => void;
 }
 
-export function sceneEditor(changed: (text: string) => void): Editor {
+/** `sound` is told of a text that the server has checked and can run. */
+export function sceneEditor(changed: (text: string) => void, sound: (text: string) => void): Editor {
   const area = h("textarea", {
     class: "code", spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-label": "Scene, JSON", rows: "24",
   });
@@ -57,6 +59,7 @@ export function sceneEditor(changed: (text: string) => void): Editor {
     try {
       const report = await api.check(text, asking.signal);
       result.replaceChildren(reportView(report));
+      sound(text);
     } catch (error) {
       if (asking.signal.aborted) return;
       if (error instanceof ApiError) {
@@ -80,7 +83,7 @@ export function sceneEditor(changed: (text: string) => void): Editor {
   });
 
   return {
-    root: h("div", { class: "editor" }, h("div", { class: "code-box" }, h("div", { class: "gutter-box" }, gutter), area), result),
+    root: h("div", { class: "editor" }, h("div", { class: "code-box" }, h("div", { class: "gutter-box" }, gutter), area, suggestions(area, () => area.dispatchEvent(new Event("input")))), result),
     text: () => area.value,
     set: (text) => {
       area.value = text;

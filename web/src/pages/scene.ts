@@ -29,14 +29,22 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
   const run = h("button", { type: "button", class: "button primary", onclick: () => runText() }, icon("play"), "Run this text");
   const restore = h("button", { type: "button", class: "button", hidden: true, onclick: () => undoEdits() }, "Undo all changes");
   const state = h("p", { class: "help", role: "status" });
+  let shownAs = "";
+  const preview = h("input", { type: "checkbox", id: "preview" });
+  preview.checked = true;
   const editor = sceneEditor((text) => {
     restore.hidden = text === original;
     state.textContent = text === original ? "" : "Changed, not run yet.";
     if (own) remember("scene-draft", text);
+  }, (text) => {
+    // What can run is shown at once, at its start; what is already shown stays.
+    if (!preview.checked || text === shownAs) return;
+    runText();
   });
   const side = h("article", { class: "reading is-editor" },
     h("header", { class: "lesson-head" }, h("p", { class: "lesson-kicker" }, h("a", { href: "/scenes" }, "Scenes")), title, about),
-    h("div", { class: "row wrap" }, run, restore, h("button", { type: "button", class: "button quiet", onclick: () => download() }, icon("save"), "Save the file"), state),
+    h("div", { class: "row wrap" }, run, restore, h("button", { type: "button", class: "button quiet", onclick: () => download() }, icon("save"), "Save the file"),
+      h("span", { class: "check-line" }, preview, h("label", { for: "preview" }, "Show it as I type")), state),
     editor.root);
   outlet.append(h("div", { class: "lesson is-scene" }, side, bench));
 
@@ -47,9 +55,9 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
   const runText = (seen?: Seen): void => {
     try {
       const scene = JSON.parse(editor.text()) as Scene;
+      shownAs = editor.text();
       state.textContent = "";
       open({ source: { scene }, scene, seen, own: { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) } });
-      bench.scrollIntoView({ block: "nearest" });
     } catch {
       state.textContent = "The text is not JSON yet: see the remark below it.";
     }
@@ -79,7 +87,8 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
         about.textContent = scene.description ?? "";
         setTitle(scene.title ?? name);
       }
-      editor.set(draft ?? original);
+      shownAs = draft ?? original;
+      editor.set(shownAs);
       restore.hidden = draft === null || draft === original;
       if (own) runText(seen);
       else open({ source: { builtin: name }, scene, seen });

@@ -4,6 +4,7 @@ import { h } from "../core/dom";
 import { recall } from "../core/prefs";
 import type { Page } from "../core/router";
 import type { SceneSummary } from "../core/types";
+import { urdfImport } from "../editor/import";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 
 export const OWN_SCENE = "own";
@@ -19,7 +20,8 @@ export function scenesPage(outlet: HTMLElement): Page {
     h("header", { class: "page-head" },
       h("h1", null, "Scenes"),
       h("p", { class: "lead" }, "Mechanisms without a lesson. Open one, run it, change its text and run it again."),
-      h("p", null, h("a", { class: "button", href: `/scenes/${OWN_SCENE}` }, recall("scene-draft") ? "Continue your own scene" : "Write your own scene"))),
+      h("p", null, h("a", { class: "button", href: `/scenes/${OWN_SCENE}` }, recall("scene-draft") ? "Continue your own scene" : "Write your own scene")),
+      urdfImport(`/scenes/${OWN_SCENE}`)),
     list));
 
   const load = async (): Promise<void> => {

@@ -8,6 +8,8 @@ const PATHS = {
   back: '<path d="M15.5 5v10l-6.8-5z" fill="currentColor"/><path d="M5.5 4.6v10.8"/>',
   reset: '<path d="M4.6 8.2A6 6 0 1 1 4 11"/><path d="M4.2 4.2v4.2h4.2"/>',
   live: '<path d="M4 5v10l6-5zM10 5v10l6-5z" fill="currentColor"/>',
+  loop: '<path d="M4 9.5V8a3 3 0 0 1 3-3h8.5M16 10.5V12a3 3 0 0 1-3 3H4.5"/><path d="m13 2.4 2.6 2.6L13 7.6M7 12.4 4.4 15 7 17.6"/>',
+  lecture: '<circle cx="10" cy="5.4" r="2.6"/><path d="M5 16v-2.4A3.6 3.6 0 0 1 8.6 10h2.8a3.6 3.6 0 0 1 3.6 3.6V16M2.4 16v-1.4M17.6 16v-1.4M3.4 11.4v.1M16.6 11.4v.1"/>',
   sun: '<circle cx="10" cy="10" r="3.4"/><path d="M10 2.4v2M10 15.6v2M2.4 10h2M15.6 10h2M4.6 4.6 6 6M14 14l1.4 1.4M15.4 4.6 14 6M6 14l-1.4 1.4"/>',
   moon: '<path d="M16 11.9A6.6 6.6 0 0 1 8.1 4a6.6 6.6 0 1 0 7.9 7.9z"/>',
   keys: '<rect x="2.5" y="5.5" width="15" height="9" rx="1.6"/><path d="M5.5 8.5h.1M8.5 8.5h.1M11.5 8.5h.1M14.5 8.5h.1M6.5 11.6h7"/>',

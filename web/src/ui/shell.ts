@@ -3,6 +3,7 @@ import { h } from "../core/dom";
 import { bind, shortcuts } from "../core/keys";
 import { onTheme, projector, student, theme, toggleProjector, toggleTheme } from "../core/prefs";
 import mark from "../mark.svg?raw";
+import { dialog } from "./dialog";
 import { icon } from "./icons";
 
 export function header(root: HTMLElement): void {
@@ -28,7 +29,7 @@ export function header(root: HTMLElement): void {
 
   root.append(
     h("a", { class: "brand", href: "/", "aria-label": "Triad, all lessons" }, brandMark, h("span", null, "Triad")),
-    h("nav", { "aria-label": "Main" }, h("a", { href: "/" }, "Lessons"), h("a", { href: "/scenes" }, "Scenes")),
+    h("nav", { "aria-label": "Main" }, h("a", { href: "/" }, "Lessons"), h("a", { href: "/scenes" }, "Scenes"), h("a", { href: "/room" }, "Join")),
     h("span", { class: "header-space" }),
     name, beamer, themeButton,
     h("button", { type: "button", class: "header-button square", "aria-label": "Keyboard and help", title: "Keyboard and help (?)", onclick: help }, icon("keys")));
@@ -40,20 +41,6 @@ function paintName(button: HTMLButtonElement): void {
   const who = student.get();
   button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, "Your name"));
   button.setAttribute("aria-label", who ? `${who}, change the name` : "Your name");
-}
-
-function dialog(title: string, ...children: HTMLElement[]): HTMLDialogElement {
-  const box = h("dialog", { class: "dialog", "aria-labelledby": "dialog-title" },
-    h("div", { class: "dialog-head" }, h("h2", { id: "dialog-title" }, title),
-      h("button", { type: "button", class: "header-button square", "aria-label": "Close", onclick: () => box.close() }, icon("close"))),
-    ...children);
-  box.addEventListener("close", () => box.remove());
-  box.addEventListener("click", (event) => {
-    if (event.target === box) box.close();
-  });
-  document.body.append(box);
-  box.showModal();
-  return box;
 }
 
 export function setStudent(name: string): void {

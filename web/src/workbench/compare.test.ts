@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { difference, plotSvg, resample, ticks } from "./compare";
+import { columnsOf, difference, plotSvg, resample, ticks } from "./compare";
 import { swung, turned, type ModeMotion, type Placed } from "./pose";
 import { norm } from "./vec";
 
@@ -32,5 +32,13 @@ describe("a mode", () => {
     const [quarter] = swung([body as unknown as Placed], [shape], Math.PI / 2, 0.5);
     expect(quarter?.position[2]).toBeCloseTo(0.5);
     expect(norm(turned([1, 2, 3], [0.3, -2, 1]))).toBeCloseTo(Math.sqrt(14));
+  });
+});
+
+describe("a reference file", () => {
+  it("is read with its names and remarks, and refused where it is no table", () => {
+    const read = columnsOf("# from a paper\ntime,bob.x,bob.y\ns,m,m\n0,1,2\n1,3,4\n");
+    expect(read).toEqual({ times: [0, 1], columns: [{ label: "bob.x", values: [1, 3] }, { label: "bob.y", values: [2, 4] }] });
+    expect(columnsOf("no table at all\n1\n2")).toBeUndefined();
   });
 });

@@ -1,10 +1,28 @@
 // Two runs laid over each other: the kept one is read at the times of the present one.
 
-export interface Kept {
-  name: string;
+export interface Columns {
   times: number[];
-  /** One list of values for each curve of the chart. */
-  values: number[][];
+  columns: { label: string; values: number[] }[];
+}
+
+/** A table of numbers as CSV: time first; a line of names before them, if there is one; # begins a remark. */
+export function columnsOf(text: string): Columns | undefined {
+  let names: string[] = [];
+  const rows: number[][] = [];
+  for (const line of text.split(/\r?\n/)) {
+    if (line.trim() === "" || line.startsWith("#")) continue;
+    const cells = line.split(/[,;\t]/).map((cell) => cell.trim());
+    const numbers = cells.map(Number);
+    if (cells.length > 1 && cells.every((cell) => cell !== "") && numbers.every(Number.isFinite)) rows.push(numbers);
+    else if (rows.length === 0 && names.length === 0) names = cells;
+  }
+  const width = rows[0]?.length ?? 0;
+  if (rows.length < 2 || width < 2 || rows.some((row) => row.length !== width)) return undefined;
+  rows.sort((a, b) => (a[0] ?? 0) - (b[0] ?? 0));
+  return {
+    times: rows.map((row) => row[0] ?? 0),
+    columns: Array.from({ length: width - 1 }, (_, k) => ({ label: names[k + 1] ?? "", values: rows.map((row) => row[k + 1] ?? NaN) })),
+  };
 }
 
 /** The kept values at other times: straight between two of them, none outside of the run. */

@@ -1,4 +1,4 @@
-// Values that are asked for only while somebody looks: one request at a time, newest time wins.
+// Values of the moment that is shown, asked for only while somebody looks: one request at a time, newest moment wins.
 import type { SessionState } from "../core/types";
 import type { Session } from "./session";
 
@@ -8,17 +8,19 @@ export interface Fetched {
   refresh: () => void;
 }
 
-export function fetched<T>(session: Session, ask: (id: string) => Promise<T>, show: (value: T, of: SessionState) => void, failed: (error: unknown) => void, asked: () => string = () => ""): Fetched {
+/** `ask` is given the run's address and the time, if it is not the present. */
+export function fetched<T>(session: Session, ask: (run: string, at: number | undefined) => Promise<T>, show: (value: T, of: SessionState) => void, failed: (error: unknown) => void, asked: () => string = () => ""): Fetched {
   let busy = false;
   let seen = "";
 
+  const keyOf = (state: SessionState): string => `${state.id}@${state.time}@${state.changes}@${session.reviewing}${asked()}`;
   const refresh = (): void => {
-    const state = session.latest;
+    const state = session.shown;
     if (!state || busy) return;
-    const key = `${state.id}@${state.time}@${state.changes}${asked()}`;
+    const key = keyOf(state);
     if (key === seen) return;
     busy = true;
-    ask(state.id)
+    ask(state.links.self, session.reviewing ? state.time : undefined)
       .then((value) => {
         seen = key;
         show(value, state);
@@ -30,13 +32,10 @@ export function fetched<T>(session: Session, ask: (id: string) => Promise<T>, sh
       .finally(() => {
         setTimeout(() => {
           busy = false;
-          refreshIfMoved(key);
+          const now = session.shown;
+          if (now && !session.moving && keyOf(now) !== key) refresh();
         }, PAUSE_MS);
       });
-  };
-  const refreshIfMoved = (key: string): void => {
-    const state = session.latest;
-    if (state && !state.playing && `${state.id}@${state.time}@${state.changes}${asked()}` !== key) refresh();
   };
   return { refresh };
 }

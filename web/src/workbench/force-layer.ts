@@ -2,17 +2,24 @@
 import { svg } from "../core/dom";
 import { num } from "../core/format";
 import type { SessionState, Vec3 } from "../core/types";
-import { arrows, ForceScale, roundDown, type Arrow } from "./force-model";
+import { arrows, roundDown, type Arrow } from "./force-model";
 import type { Session } from "./session";
 import { add, cross, norm, scale, unit } from "./vec";
 
-/** Length of the force at the 95th percentile, in units of the drawing, and the longest that is drawn. */
-const FULL = 120;
-const LONGEST = 180;
 const HEAD = 11;
-const TURN = 24;
+/** Circles of moments are not drawn smaller, in units of the drawing: what turns could not be seen. */
+const SMALLEST_CIRCLE = 18;
+/** About the length of the legend's bar. */
+const BAR = 120;
 /** About the width of a letter of a label, in units of the drawing. */
 const WIDE = 11;
+
+/** Lengths in units of the drawing: of a newton's arrow, of the radius of a newton metre's circle, of the longest arrow. */
+interface Sizes {
+  force: number;
+  moment: number;
+  longest: number;
+}
 
 type Project = (p: Vec3) => [number, number];
 
@@ -23,37 +30,32 @@ export interface ForceLayer {
 
 export function forceLayer(session: Session): ForceLayer {
   const root = svg("g", { class: "force-layer" });
-  let sizes: ForceScale | undefined;
-  session.on("scene", () => sizes?.forget());
-  session.on("fit", () => sizes?.fit(session.past.all));
-
   const update: ForceLayer["update"] = (state, project, perMetre) => {
-    const weight = state.bodies.reduce((sum, body) => sum + body.mass, 0) * norm(state.gravity);
-    sizes ??= new ForceScale(weight);
-    sizes.follow(session.past.all, session.latest?.finished === true && !session.reviewing);
     // Forces belong to the run, not to what an analysis shows in its place.
-    const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.told.on);
+    const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.told);
+    // The scale is that of the newest state at all times: one for the whole scene.
+    const drawing = session.latest?.drawing ?? state.drawing;
+    const sizes: Sizes = { force: drawing.force_scale * perMetre, moment: drawing.moment_scale * perMetre, longest: drawing.longest * perMetre };
     if (list.length === 0) {
       root.replaceChildren();
       return;
     }
-    const perNewton = FULL / sizes.full;
     // A drawing of a drawing: the arrow points where the force points in space, foreshortened like everything else.
-    const parts = list.flatMap((arrow) => draw(arrow, project, perNewton, perMetre, list.length <= 6));
-    root.replaceChildren(...parts, ...legend(perNewton));
+    const parts = list.flatMap((arrow) => draw(arrow, project, sizes, perMetre, list.length <= 6 || arrow.label === session.joint));
+    root.replaceChildren(...parts, ...legend(sizes.force));
   };
   return { root, update };
 }
 
-function draw(arrow: Arrow, project: Project, perNewton: number, perMetre: number, labels: boolean): SVGElement[] {
+function draw(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number, labels: boolean): SVGElement[] {
   const size = norm(arrow.force);
   const [x, y] = project(arrow.at);
   const parts: SVGElement[] = [];
-  const wanted = size * perNewton;
+  const wanted = size * sizes.force;
   let end: [number, number] = [x, y];
   if (wanted > 2) {
-    const capped = wanted > LONGEST;
-    const length = capped ? LONGEST : wanted;
+    const capped = wanted > sizes.longest;
+    const length = capped ? sizes.longest : wanted;
     const tip = project(add(arrow.at, scale(unit(arrow.force), length / perMetre)));
     const [dx, dy] = [tip[0] - x, tip[1] - y];
     const seen = Math.hypot(dx, dy);
@@ -67,7 +69,7 @@ function draw(arrow: Arrow, project: Project, perNewton: number, perMetre: numbe
       end = tip;
     }
   }
-  if (arrow.moment) parts.push(...turn(arrow, project, perMetre));
+  if (arrow.moment) parts.push(...turn(arrow, project, sizes, perMetre));
   if (labels) {
     const words = `${arrow.label} ${num(size, 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`;
     // Beside the tip, on the side where the words have room.
@@ -89,15 +91,18 @@ function cut(x: number, y: number, ux: number, uy: number, kind: string): SVGEle
   return svg("path", { class: `force-cut is-${kind}`, d: `${stroke(-3)}${stroke(4)}` });
 }
 
-/** Three quarters of a circle about the moment's axis, turning as it turns. Its size says nothing, its label does. */
-function turn(arrow: Arrow, project: Project, perMetre: number): SVGElement[] {
+/** Three quarters of a circle about the moment's axis, turning as it turns; two of them where it would be too large. */
+function turn(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number): SVGElement[] {
   const axis = unit(arrow.moment ?? [0, 0, 1]);
   const a = unit(cross(axis, Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
   const b = cross(axis, a);
-  const radius = TURN / perMetre;
-  const at = (angle: number): [number, number] => project(add(arrow.at, add(scale(a, radius * Math.cos(angle)), scale(b, radius * Math.sin(angle)))));
+  const wanted = norm(arrow.moment ?? [0, 0, 0]) * sizes.moment;
+  const largest = sizes.longest / 2;
+  const radius = Math.max(SMALLEST_CIRCLE, Math.min(largest, wanted)) / perMetre;
+  const at = (angle: number, r = radius): [number, number] => project(add(arrow.at, add(scale(a, r * Math.cos(angle)), scale(b, r * Math.sin(angle)))));
   const last = 1.5 * Math.PI;
-  const path = Array.from({ length: 25 }, (_, k) => at((k / 24) * last)).map(([x, y], k) => `${k === 0 ? "M" : "L"}${p(x)} ${p(y)}`).join("");
+  const around = (r: number): string => Array.from({ length: 25 }, (_, k) => at((k / 24) * last, r)).map(([x, y], k) => `${k === 0 ? "M" : "L"}${p(x)} ${p(y)}`).join("");
+  const path = wanted > largest ? around(radius) + around(0.8 * radius) : around(radius);
   const [tx, ty] = at(last);
   const [sx, sy] = at(last - 0.3);
   const seen = Math.hypot(tx - sx, ty - sy) || 1;
@@ -107,11 +112,11 @@ function turn(arrow: Arrow, project: Project, perMetre: number): SVGElement[] {
 }
 
 function legend(perNewton: number): SVGElement[] {
-  const newtons = roundDown(FULL / perNewton);
+  const newtons = roundDown(BAR / perNewton);
   const length = newtons * perNewton;
   const [x, y] = [18, 476];
   const text = svg("text", { class: "force-legend", x: p(x + length + 10), y: p(y + 6) });
-  text.textContent = `${num(newtons)} N   (crossed twice: longer than drawn)`;
+  text.textContent = `${num(newtons)} N`;
   return [svg("path", { class: "force-bar", d: `M${x} ${y - 6}V${y + 6}M${x} ${y}H${p(x + length)}M${p(x + length)} ${y - 6}V${y + 6}` }), text];
 }
 

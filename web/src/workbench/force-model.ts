@@ -18,12 +18,23 @@ export interface Arrow {
 /** Beside the largest force of its kind, less than this is rounding. */
 const NOTHING = 1e-7;
 
-export function arrows(state: SessionState, drawn: Drawn, joint: string | null, side: "i" | "j"): Arrow[] {
+/** The arrows of a state, as the server draws them too. */
+export function arrows(state: SessionState, drawn: Drawn, joint: string | null, told: { on: "i" | "j"; about: "joint" | "center" }): Arrow[] {
   if (drawn.what === "none") return [];
   if (drawn.what === "body") return freeBody(state, drawn.body).arrows;
-  const sign = side === "j" ? 1 : -1;
+  const sign = told.on === "j" ? 1 : -1;
   return state.forces.filter((entry) => drawn.what === "all" || entry.joint === joint)
-    .map((entry) => reaction(entry, sign));
+    .map((entry) => {
+      const arrow = reaction(entry, sign);
+      const body = told.about === "center" ? state.bodies.find((one) => one.name === (told.on === "j" ? entry.on : entry.by)) : undefined;
+      return body ? moved(arrow, body.position) : arrow;
+    });
+}
+
+/** The same force and moment told about another point. */
+function moved(arrow: Arrow, point: Vec3): Arrow {
+  const moment = momentAbout(arrow, point);
+  return { ...arrow, at: point, moment: norm(moment) > NOTHING * Math.max(1, norm(arrow.force)) ? moment : null };
 }
 
 function reaction(entry: JointForce, sign: number): Arrow {
@@ -61,53 +72,10 @@ export function freeBody(state: SessionState, name: string): FreeBody {
 /** Moment of an arrow about another point. */
 export const momentAbout = (arrow: Arrow, point: Vec3): Vec3 => add(arrow.moment ?? [0, 0, 0], cross(sub(arrow.at, point), arrow.force));
 
-/** The value below which the given part of the numbers lies. */
-export function percentile(values: number[], part: number): number {
-  const sorted = values.filter((value) => Number.isFinite(value)).sort((a, b) => a - b);
-  return sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))] ?? 0;
-}
-
 /** The nearest of 1, 2, 5, 10 … that is not larger. */
 export function roundDown(value: number): number {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value) + 1e-12);
   const lead = value / power;
   return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
-}
-
-/** So many states make a recording that a scale can be taken from. */
-const ENOUGH = 15;
-
-/** The one scale of a scene's forces. */
-export class ForceScale {
-  /** The force that is drawn at full length, N. */
-  full: number;
-  private fitted = false;
-
-  constructor(full: number) {
-    this.full = full > 0 ? full : 1;
-  }
-
-  /** Takes the scale from a recording: once when there is enough of it, again when a run is complete or on request. */
-  follow(states: readonly SessionState[], complete: boolean): boolean {
-    if (states.length < ENOUGH || (this.fitted && !complete)) return false;
-    return this.fit(states);
-  }
-
-  fit(states: readonly SessionState[]): boolean {
-    const sizes = states.flatMap((state) => [
-      ...state.forces.map((entry) => norm(entry.force)), ...state.bodies.map((body) => body.mass * norm(state.gravity)),
-    ]).filter((size) => size > 0);
-    const largest = percentile(sizes, 0.95);
-    if (!(largest > 0)) return false;
-    this.fitted = true;
-    if (this.full === largest) return false;
-    this.full = largest;
-    return true;
-  }
-
-  /** A run from the start with other numbers has other forces. */
-  forget(): void {
-    this.fitted = false;
-  }
 }

@@ -51,6 +51,13 @@ export class History {
     return this.states[at];
   }
 
+  /** The earliest state strictly after `time`. */
+  after(time: number): SessionState | undefined {
+    let at = this.indexAt(time);
+    if ((this.states[at]?.time ?? Infinity) <= time) at += 1;
+    return this.states[at];
+  }
+
   private indexAt(time: number): number {
     let low = 0;
     let high = this.states.length - 1;

@@ -4,12 +4,15 @@ import { recall, remember } from "../core/prefs";
 import { tabs } from "../ui/tabs";
 import { analysesTab } from "./analyses-tab";
 import { bodiesTab } from "./bodies-tab";
-import { jacobianTab } from "./jacobian-tab";
+import { matrixTab } from "./matrix-tab";
 import { multipliersTab } from "./multipliers-tab";
 import { parametersTab } from "./parameters-tab";
 import { plotsTab } from "./plots-tab";
 import type { Session } from "./session";
 import { stateTab } from "./state-tab";
+
+/** Panels that are nothing to somebody who only watches. */
+const STEERING = new Set(["parameters", "analyses"]);
 
 export interface InspectorTab {
   root: HTMLElement;
@@ -17,11 +20,11 @@ export interface InspectorTab {
   refresh: () => void;
 }
 
-export function inspector(session: Session, panelAsked?: string): { root: HTMLElement; current: () => string } {
+export function inspector(session: Session, panelAsked?: string): { root: HTMLElement; current: () => string; select: (key: string) => void } {
   const made: Record<string, InspectorTab> = {
     parameters: parametersTab(session),
     state: stateTab(session),
-    jacobian: jacobianTab(session),
+    jacobian: matrixTab(session),
     multipliers: multipliersTab(session),
     bodies: bodiesTab(session),
     plots: plotsTab(session),
@@ -36,9 +39,10 @@ export function inspector(session: Session, panelAsked?: string): { root: HTMLEl
     { key: "bodies", label: "Bodies", panel: panel("bodies") },
     { key: "plots", label: "Plots", panel: panel("plots") },
     { key: "analyses", label: "Analyses", panel: panel("analyses") },
-  ], panelAsked ?? recall("tab:inspector"), (key) => {
-    remember("tab:inspector", key);
+  ].filter((tab) => session.steers || !STEERING.has(tab.key)), panelAsked ?? recall("tab:inspector"), (key) => {
+    if (session.steers) remember("tab:inspector", key);
     made[key]?.refresh();
+    session.showPanel();
   });
 
   // A joint that was clicked in the viewer shows its force, unless its rows are being looked at.
@@ -54,7 +58,7 @@ export function inspector(session: Session, panelAsked?: string): { root: HTMLEl
     setTimeout(() => {
       waiting = false;
       made[bar.current()]?.refresh();
-    }, session.latest?.playing ? 100 : 0);
+    }, session.moving ? 100 : 0);
   });
-  return { root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root), current: bar.current };
+  return { root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root), current: bar.current, select: (key) => made[key] && bar.current() !== key ? bar.select(key) : undefined };
 }

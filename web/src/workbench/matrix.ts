@@ -1,5 +1,7 @@
 // Layout of a sparse matrix on paper: sizes, groups of names, which cell is under a point.
 
+import type { Jacobian, Symmetric } from "../core/types";
+
 export interface Group {
   name: string;
   from: number;
@@ -52,4 +54,51 @@ export function cellAt(grid: Layout, rows: number, columns: number, x: number, y
   const row = Math.floor((y - grid.top) / grid.cell);
   if (row < 0 || column < 0 || row >= rows || column >= columns) return undefined;
   return { row, column };
+}
+
+export type EntryKind = "own" | "constant" | "changing" | "fill";
+
+export interface Entry {
+  row: number;
+  column: number;
+  value: number;
+  kind: EntryKind;
+}
+
+/** A sparse matrix as it is drawn. */
+export interface Matrix {
+  rows: string[];
+  columns: string[];
+  entries: Entry[];
+  constantRows: boolean[];
+  /** Rows that belong to a set of which some are too many. */
+  redundant: Set<number>;
+  at: (row: number, column: number) => Entry | undefined;
+}
+
+function indexed(rows: string[], columns: string[], entries: Entry[], constantRows: boolean[], redundant: Set<number>): Matrix {
+  const places = new Map(entries.map((entry) => [entry.row * columns.length + entry.column, entry]));
+  return { rows, columns, entries, constantRows, redundant, at: (row, column) => places.get(row * columns.length + column) };
+}
+
+export function ofJacobian(jacobian: Jacobian): Matrix {
+  const entries = jacobian.entries.map(([row, column, value, constant]): Entry => ({ row, column, value, kind: constant ? "constant" : "changing" }));
+  return indexed(jacobian.rows, jacobian.columns, entries, constantRows(jacobian), new Set(jacobian.redundant.flatMap((set) => set.rows)));
+}
+
+/** Both halves of a symmetric matrix. */
+export function ofSymmetric(matrix: Symmetric): Matrix {
+  const entries = matrix.places.flatMap(([row, column, value, kind]): Entry[] => (row === column ? [{ row, column, value, kind }] : [{ row, column, value, kind }, { row: column, column: row, value, kind }]));
+  return indexed(matrix.names, matrix.names, entries, matrix.names.map(() => false), new Set());
+}
+
+/** A row is constant when none of its entries changes. */
+export function constantRows(jacobian: Jacobian): boolean[] {
+  const constant = new Array<boolean>(jacobian.rows.length).fill(true);
+  const filled = new Array<boolean>(jacobian.rows.length).fill(false);
+  for (const [row, , , fixed] of jacobian.entries) {
+    filled[row] = true;
+    if (!fixed) constant[row] = false;
+  }
+  return constant.map((yes, row) => yes && filled[row] === true);
 }

@@ -4,7 +4,7 @@ import { api } from "../core/api";
 import { h, setText } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { bind } from "../core/keys";
-import type { Component, JointForce, JointMultipliers, Reaction, Reactions, SessionState, Vec3 } from "../core/types";
+import type { Component, JointMultipliers, Reaction, Reactions, SessionState, Vec3 } from "../core/types";
 import { empty, problemNotice } from "../ui/notice";
 import { fetched } from "./fetched";
 import { freeBody, momentAbout, type Drawn } from "./force-model";
@@ -12,7 +12,6 @@ import type { InspectorTab } from "./inspector";
 import type { Session } from "./session";
 import type { Told } from "./told";
 import { norm } from "./vec";
-import { wrench } from "./wrench";
 
 interface Answer {
   multipliers: JointMultipliers[];
@@ -31,8 +30,8 @@ export function multipliersTab(session: Session): InspectorTab {
   const on = choice("Acting on", [["j", "second body"], ["i", "first body"]], (value) => session.tellAs({ on: value as Told["on"] }));
   const about = choice("Moment about", [["joint", "the joint"], ["center", "centre of mass"]], (value) => session.tellAs({ about: value as Told["about"] }));
   const frame = choice("Components in", [["world", "world frame"], ["joint", "joint’s axes"], ["body", "body axes"]], (value) => session.tellAs({ in: value as Told["in"] }));
-  const drawn = choice("Arrows in the sketch", [], (value) => session.draw(value.startsWith("body:") ? { what: "body", body: value.slice(5) } : { what: value as "none" | "joint" | "all" }));
-  const fit = h("button", { type: "button", class: "button quiet small", title: "Takes the length of the arrows from the recording so far", onclick: () => session.fitScale() }, "Fit the arrows");
+  const drawn = choice("Arrows", [], (value) => session.draw(value.startsWith("body:") ? { what: "body", body: value.slice(5) } : { what: value as "none" | "joint" | "all" }));
+  const fit = h("button", { type: "button", class: "button quiet small", hidden: !session.steers, title: "Takes the length of the arrows from the recording so far", onclick: () => session.fitScale() }, "Fit the arrows");
 
   const offer = (): void => {
     const bodies = session.latest?.bodies.map((body) => body.name) ?? [];
@@ -49,9 +48,8 @@ export function multipliersTab(session: Session): InspectorTab {
     if (!state) return;
     seenSelection = session.joint;
     const keep = heldFocus(list);
-    const cards = shownReactions(session, answer, of, state);
-    const earlier = session.reviewing && session.told.in === "joint" ? " The joint’s axes are known for the newest time only: these are components in the world frame." : "";
-    setText(when, `At ${seconds(session.reviewing ? state.time : (of?.time ?? state.time))}.${earlier}`);
+    const cards = shownReactions(answer);
+    setText(when, `At ${seconds(of?.time ?? state.time)}.`);
     list.replaceChildren(...(cards.length === 0
       ? [empty("No joints", "This scene has no joint, hence no multiplier that is a joint force.")]
       : cards.map((entry) => card(entry, session.joint === entry.joint, () => session.select(session.joint === entry.joint ? null : entry.joint)))));
@@ -60,15 +58,15 @@ export function multipliersTab(session: Session): InspectorTab {
     paintFreeBody(cutFree, state, session.drawn);
   };
 
-  const source = fetched(session, async (id): Promise<Answer> => {
+  const source = fetched(session, async (run, at): Promise<Answer> => {
     const { on: side, about: point, in: axes } = session.told;
-    const [multipliers, reactions] = await Promise.all([api.multipliers(id), api.reactions(id, { on: side, about: point, in: axes })]);
+    const [multipliers, reactions] = await Promise.all([api.multipliers(run, at), api.reactions(run, { on: side, about: point, in: axes }, at)]);
     return { multipliers, reactions };
   }, (value, state) => {
     answer = value;
     of = state;
     paint();
-  }, (error) => list.replaceChildren(problemNotice(error)), () => `${session.told.on}${session.told.about}${session.told.in}@${session.latest?.changes ?? 0}`);
+  }, (error) => list.replaceChildren(problemNotice(error)), () => `${session.told.on}${session.told.about}${session.told.in}`);
   session.on("told", () => {
     paint();
     source.refresh();
@@ -79,9 +77,9 @@ export function multipliersTab(session: Session): InspectorTab {
     root: h("div", { class: "stack" },
       h("div", { class: "switches" }, on.root, about.root, frame.root, drawn.root, fit), shared, cutFree, list, when),
     refresh: () => {
-      if (seenSelection !== session.joint || session.reviewing) {
+      if (seenSelection !== session.joint) {
         paint();
-        if (session.joint !== null && !session.latest?.playing) list.querySelector(".joint.is-selected")?.scrollIntoView({ block: "nearest" });
+        if (session.joint !== null && !session.moving) list.querySelector(".joint.is-selected")?.scrollIntoView({ block: "nearest" });
       }
       paintFreeBody(cutFree, session.shown, session.drawn);
       source.refresh();
@@ -95,29 +93,8 @@ interface Shown extends Reaction {
   rows: { label: string; value: number }[];
 }
 
-/** At the newest time the server's own words; for an earlier time the forces that were recorded with its state. */
-function shownReactions(session: Session, answer: Answer | undefined, of: SessionState | undefined, state: SessionState): Shown[] {
-  if (!answer) return [];
-  const rows = (joint: string): Shown["rows"] => answer.multipliers.find((entry) => entry.joint === joint)?.rows ?? [];
-  if (!session.reviewing || of?.id !== state.id) return answer.reactions.reactions.map((entry) => ({ ...entry, rows: rows(entry.joint) }));
-  return state.forces.map((entry) => ({ ...recorded(entry, state, session.told, answer.reactions), rows: [] }));
-}
-
-function recorded(entry: JointForce, state: SessionState, told: Told, known: Reactions): Reaction {
-  const first = state.bodies.find((body) => body.name === (told.on === "j" ? entry.on : entry.by));
-  const { force, moment } = wrench({ ...entry, rows: [], force_on_j: entry.force, moment_on_j: entry.moment, expressed_in: "world" }, first,
-    told.on, told.about === "center" ? "centre" : "joint", told.in === "body" ? "body" : "world");
-  const before = known.reactions.find((reaction) => reaction.joint === entry.joint);
-  const told3 = (value: Vec3, of: Component[] | undefined): [Component, Component, Component] =>
-    value.map((part, k) => ({ value: part, unique: of?.[k]?.unique ?? true })) as [Component, Component, Component];
-  const own = told.in === "body" && first;
-  return {
-    joint: entry.joint, driver: before?.driver ?? false,
-    on: told.on === "j" ? entry.on : entry.by, by: told.on === "j" ? entry.by : entry.on,
-    about: told.about === "center" ? "the centre of mass" : "the joint", about_at: told.about === "center" && first ? first.position : entry.at,
-    expressed_in: own ? `the frame of ${first.name}` : "the world", axes: own ? [first.u, first.v, first.w] : [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-    force: told3(force, before?.force), moment: told3(moment, before?.moment),
-  };
+function shownReactions(answer: Answer | undefined): Shown[] {
+  return (answer?.reactions.reactions ?? []).map((entry) => ({ ...entry, rows: answer?.multipliers.find((one) => one.joint === entry.joint)?.rows ?? [] }));
 }
 
 /** The cards are made anew as time goes on; whoever stands in one with the keyboard stays there. */

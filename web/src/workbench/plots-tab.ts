@@ -5,7 +5,7 @@ import { onTheme } from "../core/prefs";
 import type { SessionState } from "../core/types";
 import { empty } from "../ui/notice";
 import { liveTable } from "../ui/table";
-import { difference, plotSvg, resample, type Line } from "./compare";
+import { columnsOf, difference, plotSvg, resample, type Line } from "./compare";
 import type { InspectorTab } from "./inspector";
 import type { Session } from "./session";
 
@@ -16,6 +16,21 @@ type Plotter = typeof import("./plotter");
 const TABLE_ROWS = 25;
 const COLORS = ["--curve-1", "--curve-2", "--curve-3"];
 const DASHES = [[], [7, 4], [2, 3]];
+
+/** Curves that are laid over those of the run. */
+interface Overlay {
+  name: string;
+  short: string;
+  times: number[];
+  of: (curve: Curve, k: number) => number[] | undefined;
+}
+
+/** Whether a column such as "bob.x" or "bob x" is a curve such as "x" in the plot "Position of bob". */
+function isOf(column: string, plot: string, curve: string): boolean {
+  const parts = column.toLowerCase().split(/[\s._:]+/);
+  const body = parts.slice(0, -1).join(" ");
+  return parts.at(-1) === curve.toLowerCase() && (body === "" || plot.toLowerCase().replaceAll(/[._-]/g, " ").includes(body.replaceAll("-", " ")));
+}
 
 /** What tells a run from another: its numbers. */
 function runName(session: Session): string {
@@ -65,7 +80,8 @@ export function plotsTab(session: Session): InspectorTab {
   const mode = h("select", { class: "field compact", "aria-label": "Show both runs or their difference" }, h("option", { value: "both" }, "both runs"), h("option", { value: "difference" }, "difference"));
   const modeLabel = h("span", { hidden: true }, mode);
   const apartFrom = h("p", { class: "when", role: "status" });
-  let kept: { name: string; states: SessionState[] } | undefined;
+  let kept: Overlay | undefined;
+  let reference: Overlay | undefined;
   let available: Chart[] = [];
   let bodies = "";
   let plotter: Plotter | undefined;
@@ -107,29 +123,33 @@ export function plotsTab(session: Session): InspectorTab {
     }
     const lines = linesOf(shown, states);
     plotter.draw(canvas, {
-      key: `${shown.label}|${document.documentElement.dataset.theme ?? ""}|${kept?.name ?? ""}|${mode.value}`,
+      key: `${shown.label}|${document.documentElement.dataset.theme ?? ""}|${kept?.name ?? ""}|${reference?.name ?? ""}|${mode.value}`,
       log: shown.log === true && mode.value === "both", cursor: session.time,
       times: states.map((entry) => entry.time), curves: lines, seek: (time) => session.seek(time),
     });
   };
 
-  /** The curves of this run, those of the kept run, or what lies between them. */
+  /** The curves of this run, those that are laid over it, or what lies between them. */
   const linesOf = (shown: Chart, states: readonly SessionState[]): Line[] => {
     const times = states.map((entry) => entry.time);
-    const before = kept;
-    const largest: string[] = [];
+    const over = [kept, reference].filter((one) => one !== undefined);
+    const largest = over.map((): string[] => []);
     const lines = shown.curves.flatMap((curve, k): Line[] => {
       const color = COLORS[k % COLORS.length] ?? "--ink";
       const now = states.map(curve.of);
       const line = { label: curve.label, unit: curve.unit, values: now, color, dash: DASHES[k % DASHES.length] ?? [] };
-      if (!before) return [line];
-      const other = resample(before.states.map((entry) => entry.time), before.states.map(curve.of), times);
-      const apart = difference(now, other);
-      largest.push(`${curve.label} ${sci(apart.largest, 3)} ${curve.unit}`.trim());
-      return mode.value === "difference" ? [{ ...line, label: `${curve.label}, difference`, values: apart.values }]
-        : [{ ...line, dash: [] }, { ...line, label: `${curve.label}, kept`, values: other, dash: [3, 5] }];
+      const others = over.flatMap((one, at): Line[] => {
+        const values = one.of(curve, k);
+        if (!values) return [];
+        const other = resample(one.times, values, times);
+        const apart = difference(now, other);
+        largest[at]?.push(`${curve.label} ${sci(apart.largest, 3)} ${curve.unit}`.trim());
+        return [mode.value === "difference" ? { ...line, label: `${curve.label} less ${one.short}`, values: apart.values, dash: at === 0 ? [] : [8, 3] }
+          : { ...line, label: `${curve.label}, ${one.short}`, values: other, dash: at === 0 ? [3, 5] : [9, 4] }];
+      });
+      return mode.value === "difference" && others.length > 0 ? others : [others.length > 0 ? { ...line, dash: [] } : line, ...others];
     });
-    setText(apartFrom, before ? `Kept: ${before.name}. Largest difference: ${largest.join(", ")}.` : "");
+    setText(apartFrom, over.map((one, at) => `${one.name}: ${(largest[at]?.length ?? 0) > 0 ? `largest difference ${largest[at]?.join(", ")}` : "nothing of it belongs to this plot"}.`).join(" "));
     return lines;
   };
 
@@ -155,13 +175,41 @@ export function plotsTab(session: Session): InspectorTab {
     saveBlob(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }), fileName(shown.label, "csv"));
   });
   keep.addEventListener("click", () => {
-    kept = kept ? undefined : { name: runName(session), states: [...session.past.all] };
+    const states = [...session.past.all];
+    kept = kept ? undefined : { name: `Kept: ${runName(session)}`, short: "kept", times: states.map((entry) => entry.time), of: (curve) => states.map(curve.of) };
     setText(keep, kept ? "Drop the kept run" : "Keep this run");
-    modeLabel.hidden = !kept;
-    if (!kept) setText(apartFrom, "");
+    modeLabel.hidden = !kept && !reference;
     refresh();
   });
   mode.addEventListener("change", refresh);
+  const file = h("input", { type: "file", accept: ".csv,.txt", hidden: true, "aria-label": "CSV file of a reference" });
+  const lay = h("button", { type: "button", class: "button small", title: "A CSV file: time in the first column, values in the others, lines with # are remarks", onclick: () => {
+    if (reference) {
+      reference = undefined;
+      layChanged();
+    } else file.click();
+  } }, "Lay a reference over it");
+  const layChanged = (): void => {
+    setText(lay, reference ? "Drop the reference" : "Lay a reference over it");
+    modeLabel.hidden = !kept && !reference;
+    refresh();
+  };
+  file.addEventListener("change", () => {
+    const chosen = file.files?.[0];
+    file.value = "";
+    void chosen?.text().then((text) => {
+      const found = columnsOf(text);
+      if (!found) {
+        setText(apartFrom, `${chosen.name} has no table of numbers: write time in the first column and values in the others, separated by commas.`);
+        return;
+      }
+      // A column belongs to the curve of its name, such as bob.x or x; a file that names none of them is taken in its order.
+      const named = found.columns.some((column) => available.some((one) => one.curves.some((curve) => isOf(column.label, one.label, curve.label))));
+      reference = { name: chosen.name, short: "reference", times: found.times,
+        of: (curve, k) => (named ? found.columns.find((column) => isOf(column.label, chart()?.label ?? "", curve.label)) : found.columns[k])?.values };
+      layChanged();
+    });
+  });
   const saveSvg = (): void => {
     const shown = chart();
     if (!shown) return;
@@ -183,7 +231,7 @@ export function plotsTab(session: Session): InspectorTab {
   return {
     root: h("div", { class: "stack" },
       h("div", { class: "row between" }, h("label", { class: "switch" }, h("span", null, "Plot"), select),
-        h("span", { class: "row wrap tight" }, keep, modeLabel, h("span", { class: "help" }, "Save as"), save,
+        h("span", { class: "row wrap tight" }, keep, lay, file, modeLabel, h("span", { class: "help" }, "Save as"), save,
           h("button", { type: "button", class: "button quiet small", onclick: saveSvg }, "SVG"),
           h("button", { type: "button", class: "button quiet small", onclick: () => void savePng() }, "PNG"))),
       canvas, apartFrom, place, tableHolder),

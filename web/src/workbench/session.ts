@@ -1,93 +1,71 @@
-// One live simulation on the server, seen from the page: its state, its past, its connection.
+// One live simulation on the server, steered from the page.
 import { api, ApiError, type SessionSource } from "../core/api";
 import { announce } from "../core/dom";
-import { num, seconds } from "../core/format";
 import { between, isNone, none, tidy, type Numbers, type SceneView, type Then } from "../core/numbers";
-import type { Pull, SessionState } from "../core/types";
+import type { Camera, Drawing, Pull, SessionState } from "../core/types";
 import { banner } from "../ui/notice";
-import { History } from "./history";
-import { Teller, type Drawn, type Told } from "./told";
+import { Clock } from "./clock";
+import { Connection } from "./connection";
+import type { Drawn, Told } from "./told";
 
-/** Between two states of a running session, s. */
-const STATE_INTERVAL = 0.1;
-const RETRY_MS = [500, 1000, 2000, 4000, 8000];
-
-export class Session extends Teller {
-  /** The newest state that the server reported. */
-  latest: SessionState | undefined;
-  readonly past = new History();
-  speed = 1;
+export class Session extends Clock {
   /** Name of the selected joint. */
   joint: string | null = null;
   /** How reactions are told: on which body, about which point, in which frame. */
   told: Told = { on: "j", about: "joint", in: "world" };
   /** Which forces are drawn. */
-  drawn: Drawn = { what: "joint" };
-  /** What is shown instead of the run: the result of an analysis, at a moment of the wall clock in ms. */
-  pose: ((now: number) => SessionState) | undefined;
+  drawn: Drawn = { what: "all" };
+  camera: Camera = "corner";
   /** The scene as it runs, its parameters, and the author's. */
   view: SceneView | undefined;
   /** What differs from the author's scene. */
   numbers: Numbers;
   /** Numbers were changed, or a body was pulled, in the middle of this run: from its start it would go otherwise. */
   bent = false;
+  /** Whether this page steers the run; a follower of a lecture only watches. */
+  readonly steers: boolean = true;
+  protected readonly connection: Connection;
   private before: Numbers[] = [];
-  private seenChanges = -1;
+  private seenChanges = "";
   private waiters: (() => void)[] = [];
-  private cursor: number | null = null;
-  private cameAt = 0;
-  private socket: WebSocket | undefined;
-  private retry = 0;
-  private timer = 0;
-  private closed = false;
   private busy = false;
-  /** The page says that the connection is lost. */
-  private missed = false;
+  private redrawing: "idle" | "busy" | "again" = "idle";
+  private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all" });
 
   constructor(readonly source: SessionSource, start?: Numbers) {
     super();
     this.numbers = start ?? none();
+    this.connection = new Connection({
+      url: () => this.streamUrl(),
+      opened: () => this.emit("opened"),
+      blocks: (bytes) => this.emit("blocks", bytes),
+      text: (text) => this.read(JSON.parse(text) as { type?: string }),
+      comeBack: () => this.comeBack(),
+      gone: () => this.recreate(),
+    });
     addEventListener("pagehide", this.drop);
   }
 
-  /** What the page shows: the newest state, or the one under the cursor. */
-  get shown(): SessionState | undefined {
-    if (this.cursor === null) return this.latest;
-    return this.past.at(this.cursor) ?? this.latest;
-  }
-
-  /** True while the page looks at a time before the newest one. */
-  get reviewing(): boolean {
-    return this.cursor !== null;
-  }
-
-  /** The time under the cursor, s. */
-  get time(): number {
-    return this.cursor ?? this.latest?.time ?? 0;
-  }
-
-  /**
-   * The time to draw at, s. While time runs, states come ten times a second: the picture follows one
-   * interval behind and moves evenly between them.
-   */
-  get smoothTime(): number {
-    const state = this.latest;
-    if (!state?.playing || this.cursor !== null) return this.time;
-    const since = (performance.now() - this.cameAt) / 1000;
-    return state.time - state.speed * Math.max(0, STATE_INTERVAL - since);
+  /** Where this run is asked, once there is one. */
+  get address(): string | undefined {
+    return this.latest?.links.self;
   }
 
   async start(): Promise<void> {
     try {
       this.take(await this.create());
-      this.connect();
+      this.connection.open();
     } catch (error) {
       this.emit("problem", error);
     }
   }
 
-  private create(): Promise<SessionState> {
+  protected create(): Promise<SessionState> {
     return api.createSession(this.source, isNone(this.numbers) ? undefined : this.numbers);
+  }
+
+  protected streamUrl(): string | undefined {
+    return this.latest && api.streamUrl(this.latest.links.stream);
   }
 
   get canUndo(): boolean {
@@ -110,14 +88,14 @@ export class Session extends Teller {
 
   private async put(to: Numbers, then?: Then): Promise<boolean> {
     const view = this.view;
-    const id = this.latest?.id;
-    if (!view || !id) return false;
+    const run = this.address;
+    if (!view || !run) return false;
     let sent = none();
     await this.alone(async () => {
       sent = between(this.numbers, to, view);
       if (isNone(sent)) return;
-      this.cursor = null;
-      this.take(await api.change(id, sent, then));
+      this.toNewest();
+      this.take(await api.change(run, sent, then));
       this.numbers = tidy(to, view);
       this.bent = (this.latest?.time ?? 0) > 0;
     });
@@ -126,11 +104,11 @@ export class Session extends Teller {
 
   /** Pulls a body, or lets it go. */
   async pull(pull: Pull | null): Promise<void> {
-    const id = this.latest?.id;
-    if (!id) return;
+    const run = this.address;
+    if (!run) return;
     await this.alone(async () => {
-      this.cursor = null;
-      this.take(pull ? await api.pull(id, pull) : await api.release(id));
+      this.toNewest();
+      this.take(pull ? await api.pull(run, pull) : await api.release(run));
       this.bent = true;
     });
   }
@@ -153,14 +131,15 @@ export class Session extends Teller {
 
   private async readScene(): Promise<void> {
     const state = this.latest;
-    if (!state || state.changes === this.seenChanges) return;
-    this.seenChanges = state.changes;
+    const key = state && `${state.id}@${state.changes}@${state.title}`;
+    if (!key || key === this.seenChanges) return;
+    this.seenChanges = key;
     try {
-      this.view = await api.sceneOf(state.id);
+      this.view = await api.sceneOf(state.links.self);
       this.emit("scene");
     } catch {
       // The run goes on without its panel of numbers; the next change asks again.
-      this.seenChanges = -1;
+      this.seenChanges = "";
     }
   }
 
@@ -171,53 +150,64 @@ export class Session extends Teller {
   }
 
   play(): Promise<void> {
-    this.cursor = null;
     this.setPose(undefined);
-    const finished = this.latest?.finished === true;
-    return this.ask(async (id) => {
-      if (finished) {
-        this.past.clear();
-        await api.reset(id);
-      }
-      return api.play(id, this.speed);
-    });
+    const state = this.latest;
+    // What is recorded is shown again; only what is not is computed.
+    if (state && (this.reviewing || state.finished)) {
+      this.startReplay(this.cursor ?? 0);
+      return Promise.resolve();
+    }
+    return this.ask((run) => api.play(run, this.speed));
+  }
+
+  protected override replayEnded(): void {
+    if (this.latest?.finished) super.replayEnded();
+    else void this.play();
   }
 
   async pause(): Promise<void> {
-    await this.ask((id) => api.pause(id));
+    if (this.replaying) {
+      this.seek(this.time);
+      this.tell();
+      return;
+    }
+    await this.ask((run) => api.pause(run));
     this.tell();
   }
 
   toggle(): Promise<void> {
-    return this.latest?.playing ? this.pause() : this.play();
+    return this.moving ? this.pause() : this.play();
   }
 
   async step(by: { steps: number } | { seconds: number }): Promise<void> {
-    this.cursor = null;
-    await this.ask((id) => api.step(id, by));
+    this.toNewest();
+    await this.ask((run) => api.step(run, by));
     this.tell();
   }
 
+  /** One moment on: the next recorded one while looking back, one step of the integrator otherwise. */
+  async forward(): Promise<void> {
+    if (!this.onward()) await this.step({ steps: 1 });
+  }
+
   async reset(): Promise<void> {
-    this.cursor = null;
-    await this.ask(async (id) => {
-      const state = await api.reset(id);
+    this.toNewest();
+    await this.ask(async (run) => {
+      const state = await api.reset(run);
       this.past.clear();
       return state;
     });
     announce("Back at the start, time 0.");
   }
 
-  setSpeed(speed: number): void {
-    this.speed = speed;
-    if (this.latest?.playing) void this.ask((id) => api.play(id, speed));
+  protected toNewest(): void {
+    this.endReplay();
+    this.cursor = null;
   }
 
-  /** Looks at an earlier time without computing anything again. */
-  seek(time: number): void {
-    const newest = this.latest?.time ?? 0;
-    this.cursor = time >= newest ? null : Math.max(0, time);
-    this.emit("shown");
+  override setSpeed(speed: number): void {
+    super.setSpeed(speed);
+    if (this.latest?.playing && !this.reviewing) void this.ask((run) => api.play(run, speed));
   }
 
   /** Runs up to a time ahead, or looks back at an earlier one. */
@@ -233,53 +223,85 @@ export class Session extends Teller {
     if (time > from) await this.step({ seconds: Math.min(time, state.duration) - from });
   }
 
-  /** One recorded moment back. */
-  back(): void {
-    const before = this.past.before(this.time);
-    if (before) this.seek(before.time);
-  }
-
   /** Selects a joint in every view; null selects none. */
   select(joint: string | null): void {
     if (this.joint === joint) return;
     this.joint = joint;
     this.emit("selected");
+    if (this.drawn.what === "joint") void this.redraw(false);
   }
 
   /** Tells reactions in another way, in every view. */
   tellAs(change: Partial<Told>): void {
     this.told = { ...this.told, ...change };
     this.emit("told");
+    void this.redraw(false);
   }
 
   draw(drawn: Drawn): void {
     this.drawn = drawn;
     this.emit("told");
+    void this.redraw(false);
   }
 
-  setPose(pose: Session["pose"]): void {
-    if (this.pose === pose) return;
-    this.pose = pose;
-    this.emit("shown");
+  /** Another panel of the inspector is looked at. */
+  showPanel(): void {
+    this.emit("told");
   }
 
   fitScale(): void {
-    this.emit("fit");
+    void this.redraw(true);
+  }
+
+  lookFrom(camera: Camera): void {
+    this.camera = camera;
     this.emit("told");
+    const run = this.address;
+    if (run && this.steers) void this.ask(() => api.lookFrom(run, camera));
+  }
+
+  private arrows(): Pick<Drawing, "on" | "about" | "drawn"> {
+    const { told, drawn, joint } = this;
+    const which = drawn.what === "body" ? { body: drawn.body } : drawn.what !== "joint" ? drawn.what : joint === null ? "none" as const : { joint };
+    return { on: told.on, about: told.about, drawn: which };
+  }
+
+  /** Lets the server draw forces as the page tells them: one request at a time, the newest wish wins. */
+  private async redraw(fit: boolean): Promise<void> {
+    const run = this.address;
+    const arrows = this.arrows();
+    const wanted = JSON.stringify(arrows);
+    if (!run || !this.steers || (wanted === this.drawnAs && !fit)) return;
+    if (this.redrawing !== "idle") {
+      this.redrawing = "again";
+      return;
+    }
+    this.redrawing = "busy";
+    try {
+      const state = await api.draw(run, arrows, fit);
+      this.drawnAs = wanted;
+      if (this.latest && this.latest.id === state.id) this.latest = { ...this.latest, drawing: state.drawing };
+      this.emit("told");
+    } catch {
+      // The sketch and the tables tell it already; the next wish asks again.
+    } finally {
+      const again = (this.redrawing as string) === "again";
+      this.redrawing = "idle";
+      if (again) void this.redraw(false);
+    }
   }
 
   /** Opens the stream anew: the server sends the recording from its beginning. */
   resubscribe(): void {
-    if (this.closed || !this.latest) return;
-    this.connect();
+    if (this.latest) this.connection.open();
   }
 
-  private async ask(request: (id: string) => Promise<SessionState>): Promise<void> {
-    const id = this.latest?.id;
-    if (!id || this.busy) return;
+  protected async ask(request: (run: string) => Promise<SessionState>): Promise<void> {
+    const run = this.address;
+    if (!run || this.busy) return;
     this.busy = true;
     try {
-      this.take(await request(id));
+      this.take(await request(run));
     } catch (error) {
       if (error instanceof ApiError && error.gone) await this.recreate();
       else this.emit("problem", error);
@@ -288,88 +310,50 @@ export class Session extends Teller {
     }
   }
 
-  private take(state: SessionState): void {
+  protected take(state: SessionState): void {
     const before = this.latest;
     this.cameAt = performance.now();
-    if (before && state.id === before.id && state.time < before.time) {
+    if (before && (state.id !== before.id || state.title !== before.title || state.time < before.time)) {
       this.past.clear();
-      this.cursor = null;
+      this.toNewest();
       this.bent = false;
     }
     this.latest = state;
     this.past.add(state);
-    if (state.changes !== this.seenChanges && !this.busy) void this.readScene();
+    if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.busy) void this.readScene();
     this.emit("shown");
     if (state.error && !before?.error) this.emit("problem", state.error);
     if (state.finished && before && !before.finished) this.tell();
   }
 
-  private connect(): void {
-    const id = this.latest?.id;
-    if (!id || this.closed) return;
-    this.disconnect();
-    const socket = new WebSocket(api.streamUrl(id));
-    socket.binaryType = "arraybuffer";
-    this.socket = socket;
-    socket.onopen = () => {
-      this.retry = 0;
-      if (this.missed) banner(null);
-      this.missed = false;
-      this.emit("opened");
-    };
-    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
-      if (typeof event.data === "string") this.read(event.data);
-      else this.emit("blocks", new Uint8Array(event.data));
-    };
-    socket.onclose = () => {
-      if (this.socket === socket) this.lost();
-    };
-  }
-
-  private read(text: string): void {
-    const message = JSON.parse(text) as { type?: string } & SessionState;
+  protected read(message: { type?: string }): void {
     if (message.type === "reset") this.emit("opened");
-    if (message.type !== "state") return;
     // A step asked for by HTTP may overtake its own echo on the socket.
-    if (this.busy) return;
-    this.take(message);
+    if (message.type === "state" && !this.busy) this.take(message as unknown as SessionState);
   }
 
-  private lost(): void {
-    if (this.closed) return;
-    const wait = RETRY_MS[Math.min(this.retry, RETRY_MS.length - 1)] ?? 8000;
-    this.retry += 1;
-    if (this.retry > 1) {
-      this.missed = true;
-      banner("The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.", { label: "Try now", run: () => void this.comeBack() });
-    }
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.comeBack(), wait);
-  }
-
-  private async comeBack(): Promise<void> {
-    clearTimeout(this.timer);
-    const id = this.latest?.id;
-    if (!id || this.closed) return;
+  protected async comeBack(): Promise<"there" | "gone" | "silent"> {
+    const run = this.address;
+    if (!run) return "silent";
     try {
-      this.take(await api.session(id));
-      this.connect();
+      this.take(await api.state(run));
+      return "there";
     } catch (error) {
-      if (error instanceof ApiError && error.gone) await this.recreate();
-      else this.lost();
+      return error instanceof ApiError && error.gone ? "gone" : "silent";
     }
   }
 
   /** The server forgot the session (it expired, or the server restarted): a fresh one takes its place. */
-  private async recreate(): Promise<void> {
-    this.disconnect();
+  protected async recreate(): Promise<void> {
+    this.connection.close();
     this.past.clear();
-    this.cursor = null;
-    this.missed = false;
+    this.toNewest();
     try {
       this.latest = undefined;
+      this.drawnAs = "";
       this.take(await this.create());
-      this.connect();
+      this.connection.open();
+      void this.redraw(false);
       announce("The simulation had expired on the server and was started anew, at time 0.");
       banner("The simulation had expired on the server. A fresh one stands at time 0.", { label: "Fine", run: () => banner(null) });
     } catch (error) {
@@ -377,25 +361,9 @@ export class Session extends Teller {
     }
   }
 
-  private tell(): void {
-    const state = this.shown;
-    if (!state) return;
-    const lead = state.finished ? "The run is complete" : "Paused";
-    const body = state.bodies[0];
-    const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
-    announce(`${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`);
-  }
-
-  private disconnect(): void {
-    const socket = this.socket;
-    this.socket = undefined;
-    socket?.close();
-  }
-
-  private drop = (): void => {
-    this.closed = true;
-    clearTimeout(this.timer);
-    this.disconnect();
-    if (this.latest) api.dropSession(this.latest.id);
+  protected drop = (): void => {
+    this.connection.end();
+    this.endReplay();
+    if (this.address && this.steers) api.dropSession(this.address);
   };
 }

@@ -4,6 +4,7 @@ import { linkTo, LONGEST, type Seen } from "../core/link";
 import { isNone } from "../core/numbers";
 import { icon } from "../ui/icons";
 import { banner } from "../ui/notice";
+import type { Camera } from "../core/types";
 import type { Drawn } from "./force-model";
 import type { Session } from "./session";
 import type { Told } from "./told";
@@ -46,11 +47,11 @@ async function copy(shared: Shared): Promise<void> {
   }
 }
 
-function seenIn({ session, panel, picture, own }: Shared): Seen {
-  const { told, drawn } = session;
+export function seenIn({ session, panel, picture, own }: Shared): Seen {
+  const { told, drawn, camera } = session;
   const seen: Seen = {
     time: Number(session.time.toPrecision(12)), panel: panel(), picture: picture(),
-    told: `${told.on}.${told.about}.${told.in}`, drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what,
+    told: `${told.on}.${told.about}.${told.in}`, drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what, camera,
   };
   if (!isNone(session.numbers)) seen.numbers = session.numbers;
   if (session.joint !== null) seen.joint = session.joint;
@@ -60,6 +61,15 @@ function seenIn({ session, panel, picture, own }: Shared): Seen {
 
 /** Brings a session that has just started to what a link shows. */
 export async function restore(session: Session, seen: Seen): Promise<void> {
+  tell(session, seen);
+  if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera) session.lookFrom(seen.camera as Camera);
+  if (seen.time) await session.goTo(seen.time);
+}
+
+const CAMERAS: Camera[] = ["corner", "front", "side", "above"];
+
+/** Selects, tells and draws forces as somebody else does. */
+export function tell(session: Session, seen: Seen): void {
   if (seen.told) {
     const [on, about, frame] = seen.told.split(".");
     const told: Partial<Told> = {};
@@ -70,8 +80,7 @@ export async function restore(session: Session, seen: Seen): Promise<void> {
   }
   const drawn = drawnOf(seen.drawn);
   if (drawn) session.draw(drawn);
-  if (seen.joint && session.latest?.forces.some((entry) => entry.joint === seen.joint)) session.select(seen.joint);
-  if (seen.time) await session.goTo(seen.time);
+  session.select(seen.joint && session.latest?.forces.some((entry) => entry.joint === seen.joint) ? seen.joint : null);
 }
 
 export function drawnOf(text: string | undefined): Drawn | undefined {

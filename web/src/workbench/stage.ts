@@ -3,8 +3,10 @@ import { announce, h, setText } from "../core/dom";
 import { onTheme, recall, reducedMotion, remember } from "../core/prefs";
 import type { Scene } from "../core/types";
 import { icon } from "../ui/icons";
-import type { Session } from "./session";
+import { cameras } from "./cameras";
 import { forceLayer } from "./force-layer";
+import { legend } from "./legend";
+import type { Session } from "./session";
 import { dragging, pullLayer } from "./pull";
 import { sketch } from "./sketch";
 import { ViewerUnavailable } from "./unavailable";
@@ -20,13 +22,15 @@ export interface Stage {
 
 export function stage(session: Session, scene: Scene | undefined, picture?: "sketch" | "viewer"): Stage {
   const drawing = sketch(scene, [forceLayer(session), pullLayer(session)], (joint) => session.select(session.joint === joint ? null : joint));
-  dragging(session, drawing.root, drawing.grip, drawing.move);
+  if (session.steers) dragging(session, drawing.root, drawing.grip, drawing.move);
   const host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
   const said = h("span");
   const loading = h("div", { class: "stage-loading", hidden: true }, said, bar);
   const toggle = h("button", { type: "button", class: "button quiet small" });
-  const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, loading);
+  const scale = legend(session);
+  const sides = cameras(session);
+  const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, scale.root, loading);
 
   let viewer: ViewerHandle | undefined;
   let wanted = picture ? picture === "viewer" : recall("picture") !== "sketch" && !savesData();
@@ -39,6 +43,7 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
   let tickedAt = 0;
   let shownAt = 0;
   let frameCost = 0;
+  let held = 0;
   const waiting: Uint8Array[] = [];
 
   /** An analysis shows its result in the sketch, also where the 3-D view is open: that one shows the run. */
@@ -62,6 +67,7 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
       if (!swinging && !reducedMotion()) swing();
       return;
     }
+    scale.update();
     const time = session.smoothTime;
     const state = session.past.between(time) ?? session.shown;
     if (!state) return;
@@ -74,12 +80,13 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
   const tick = (now: number): void => {
     if (ticking) frameCost = Math.max(now - tickedAt, 0.9 * frameCost);
     tickedAt = now;
-    ticking = !gone && session.latest?.playing === true && !session.reviewing;
+    ticking = !gone && session.moving;
     draw();
     if (ticking) requestAnimationFrame(tick);
   };
   const paint = (): void => {
     const on = viewer !== undefined && wanted;
+    sides.root.hidden = !on || !session.steers;
     host.hidden = !on;
     drawing.root.toggleAttribute("inert", on);
     root.classList.toggle("has-viewer", on);
@@ -129,6 +136,15 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
     }
   };
 
+  const restart = (): void => {
+    if (!viewer) return;
+    viewer.close();
+    viewer = undefined;
+    held = 0;
+    host.replaceChildren();
+    void start();
+  };
+
   toggle.addEventListener("click", () => {
     wanted = !wanted;
     failed = false;
@@ -146,16 +162,19 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
   const undo = [
     session.on("opened", () => {
       waiting.length = 0;
-      viewer?.begin();
+      // A recording that is over stays in the viewer's memory: from time to time it starts afresh, from the cache.
+      if (held > MOST_HELD) restart();
+      else viewer?.begin();
     }),
     session.on("blocks", (block) => {
       if (!viewer) return;
+      held += block.byteLength;
       waiting.push(block);
       if (!ticking) draw();
     }),
     session.on("shown", () => {
       draw();
-      if (session.latest?.playing && !session.reviewing && !ticking && !reducedMotion()) requestAnimationFrame(tick);
+      if (session.moving && !ticking && !reducedMotion()) requestAnimationFrame(tick);
     }),
     session.on("told", draw),
     session.on("selected", draw),
@@ -168,28 +187,26 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
       draw();
     }),
     // The viewer takes its theme when it starts: it is started again, from the browser's cache.
-    onTheme(() => {
-      if (!viewer) return;
-      viewer.close();
-      viewer = undefined;
-      host.replaceChildren();
-      void start();
-    }),
+    onTheme(() => restart()),
   ];
   paint();
 
   return {
     root,
-    toggle,
+    toggle: h("span", { class: "row tight" }, sides.root, toggle),
     current: () => (wanted ? "viewer" : "sketch"),
     dispose: () => {
       gone = true;
       seen.disconnect();
+      sides.dispose();
       for (const step of undo) step();
       viewer?.close();
     },
   };
 }
+
+/** Bytes of recordings after which the viewer starts afresh: its memory is bounded, and it has no way to forget one. */
+const MOST_HELD = 150e6;
 
 /**
  * How long the viewer is left alone between two pictures, ms. Where a picture is slow to draw (no

@@ -47,7 +47,7 @@ export function stateTab(session: Session): InspectorTab {
     if (asked !== state.id && names?.length !== state.q.length) {
       asked = state.id;
       // Without names the coordinates are numbered.
-      api.jacobian(state.id).then((jacobian) => {
+      api.jacobian(state.links.self).then((jacobian) => {
         names = jacobian.columns;
         refresh();
       }).catch(() => undefined);

@@ -22,15 +22,15 @@ type Events = {
   scene: () => void;
   /** Forces are told or drawn in another way. */
   told: () => void;
-  /** The scale of the forces is to be taken from the recording anew. */
-  fit: () => void;
+  /** A lecture's presenter shows or asks something else. */
+  board: () => void;
   problem: (error: unknown) => void;
 };
 
 /** Tells whoever listens. */
 export class Teller {
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
-    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(), told: new Set(), fit: new Set(),
+    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(), told: new Set(), board: new Set(),
   };
 
   on<K extends keyof Events>(event: K, listener: Events[K]): () => void {

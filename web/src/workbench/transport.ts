@@ -18,7 +18,7 @@ export function transport(session: Session, plannedDuration: number | undefined,
     ...SPEEDS.map((value) => h("option", { value: String(value), selected: value === 1 }, `${value} ×`)));
 
   const stepTime = (): void => void session.step({ seconds: Number(stride.value) });
-  const stepOnce = (): void => void session.step({ steps: 1 });
+  const stepOnce = (): void => void session.forward();
   const changeSpeed = (by: number): void => {
     speed.selectedIndex = Math.max(0, Math.min(SPEEDS.length - 1, speed.selectedIndex + by));
     session.setSpeed(Number(speed.value));
@@ -46,6 +46,12 @@ export function transport(session: Session, plannedDuration: number | undefined,
   const until = h("span", { class: "clock-until" }, plannedDuration ? `of ${seconds(plannedDuration, 0)}` : "");
   const mode = h("span", { class: "clock-mode" });
 
+  const loop = h("button", { type: "button", class: "button quiet small icon-only", "aria-label": "Loop: show the run again and again", title: "Loop: show the run again and again (L)", "aria-pressed": "false", onclick: () => setLoop() }, icon("loop"));
+  const setLoop = (): void => {
+    session.loop = !session.loop;
+    loop.setAttribute("aria-pressed", String(session.loop));
+  };
+
   let playing: boolean | undefined;
   const paint = (): void => {
     const state = session.latest;
@@ -58,12 +64,12 @@ export function transport(session: Session, plannedDuration: number | undefined,
     slider.setAttribute("aria-valuetext", `${seconds(time)} of ${seconds(state.duration, 0)}, computed up to ${seconds(state.time)}`);
     if (document.activeElement !== clock) clock.value = fixedPlain(time, 3);
     setText(until, `of ${Number(state.duration.toFixed(3))} s`);
-    setText(mode, state.error ? "stopped" : state.finished ? "complete" : state.playing ? "running" : "paused");
-    live.hidden = !session.reviewing;
-    mode.hidden = session.reviewing;
+    setText(mode, session.replaying ? "replay" : state.error ? "stopped" : state.finished ? "complete" : state.playing ? "running" : "paused");
+    live.hidden = !session.reviewing || session.replaying;
+    mode.hidden = !live.hidden;
     back.disabled = time <= 0;
-    if (playing !== state.playing) {
-      playing = state.playing;
+    if (playing !== session.moving) {
+      playing = session.moving;
       const label = playing ? "Pause" : "Play";
       play.replaceChildren(icon(playing ? "pause" : "play"));
       play.setAttribute("aria-label", label);
@@ -74,7 +80,8 @@ export function transport(session: Session, plannedDuration: number | undefined,
 
   const release = bind([
     { keys: [" "], shown: "space", says: "Play or pause", run: () => void session.toggle() },
-    { keys: ["ArrowRight"], shown: "→", says: "One integrator step", run: stepOnce },
+    { keys: ["ArrowRight"], shown: "→", says: "One integrator step, or the next moment while looking back", run: stepOnce },
+    { keys: ["l", "L"], shown: "L", says: "Loop: show the run again and again", run: setLoop },
     { keys: ["ArrowLeft"], shown: "←", says: "Back to the moment before, without computing", run: () => session.back() },
     { keys: ["."], shown: ".", says: "Step by time", run: stepTime },
     { keys: ["+", "="], shown: "+", says: "Faster", run: () => changeSpeed(1) },
@@ -83,13 +90,13 @@ export function transport(session: Session, plannedDuration: number | undefined,
   ]);
 
   const root = h("div", { class: "transport", role: "group", "aria-label": "Run of the simulation" },
-    h("div", { class: "timeline-row" }, slider, more),
+    h("div", { class: "timeline-row" }, slider, loop, more),
     h("div", { class: "transport-row" },
       h("div", { class: "transport-group" },
         button("reset", "Reset to the start", "backspace", () => void session.reset()),
         back, play,
         button("step", "One integrator step", "→", stepOnce)),
-      h("div", { class: "transport-group joined" },
+      h("div", { class: "transport-group joined", hidden: !session.steers },
         button("skip", "Step by time", "full stop", stepTime), stride),
       h("p", { class: "clock-box" }, clock, " ", until, h("span", { class: "clock-slot" }, mode, live)),
       h("div", { class: "transport-group speed" }, speed)));

@@ -1,33 +1,15 @@
 import { describe, expect, it } from "vitest";
-import type { BodyFrame, JointMultipliers, SessionState, Vec3 } from "../core/types";
-import { arrows, ForceScale, freeBody, momentAbout, roundDown } from "./force-model";
+import type { BodyFrame, Drawing, SessionState, Vec3 } from "../core/types";
+import { arrows, freeBody, momentAbout, roundDown } from "./force-model";
 import { History } from "./history";
 import { cellAt, groups, layout } from "./matrix";
 import { axesOf, cross, norm, sub } from "./vec";
-import { wrench } from "./wrench";
 
 const body: BodyFrame = {
   name: "bob", position: [1, 0, 0], u: [0, 1, 0], v: [-1, 0, 0], w: [0, 0, 1], velocity: [0, 0, 0], angular_velocity: [0, 0, 0],
   acceleration: [0, 0, 0], mass: 1,
 };
-const joint: JointMultipliers = {
-  joint: "pin", rows: [], force_on_j: [0, 10, 0], moment_on_j: [0, 0, 1], at: [0, 0, 0], on: "bob", by: "ground", expressed_in: "world",
-};
-
-describe("wrench", () => {
-  it("is reversed on the other body", () => {
-    expect(wrench(joint, undefined, "i", "joint", "world")).toEqual({ force: [-0, -10, -0], moment: [-0, -0, -1] });
-  });
-  it("adds the arm about another point and keeps the force", () => {
-    const { force, moment } = wrench(joint, body, "j", "centre", "world");
-    expect(force).toEqual([0, 10, 0]);
-    expect(moment).toEqual([0, 0, 1 + cross([-1, 0, 0], [0, 10, 0])[2]]);
-  });
-  it("keeps its size in the body's axes", () => {
-    const { force } = wrench(joint, body, "j", "joint", "body");
-    expect(force).toEqual([10, 0, 0]);
-  });
-});
+const drawing: Drawing = { on: "j", about: "joint", drawn: "all", force_scale: 0.1, moment_scale: 0.1, longest: 1, camera: "corner" };
 
 describe("axesOf", () => {
   it("agrees between the three ways to state a turn", () => {
@@ -43,8 +25,8 @@ describe("axesOf", () => {
 });
 
 const state = (time: number, x: number): SessionState => ({
-  id: "a", time, duration: 10, playing: false, speed: 1, q: [], q_dot: [], energy: 0, energy_drift: 0, position_violation: 0,
-  velocity_violation: 0, steps: 0, rejected: 0, evaluations: 0, factorizations: 0, finished: false, changes: 0, force_scale: 0.1, forces: [], gravity: [0, 0, -9.81], bodies: [{ ...body, position: [x, 0, 0] as Vec3 }],
+  id: "a", title: "", links: { self: "", stream: "" }, time, duration: 10, playing: false, speed: 1, q: [], q_dot: [], energy: 0, energy_drift: 0, position_violation: 0,
+  velocity_violation: 0, steps: 0, rejected: 0, evaluations: 0, factorizations: 0, finished: false, changes: 0, drawing, forces: [], gravity: [0, 0, -9.81], bodies: [{ ...body, position: [x, 0, 0] as Vec3 }],
 });
 
 describe("History", () => {
@@ -89,17 +71,15 @@ describe("forces", () => {
     expect(list[1] && momentAbout(list[1], [1, 0, 0])).toEqual([0, 0, -9]);
   });
   it("are reversed on the first body", () => {
-    expect(arrows(hanging(), { what: "all" }, null, "i")[0]?.force).toEqual([-0, -10, -0]);
-    expect(arrows(hanging(), { what: "joint" }, "other", "j")).toEqual([]);
+    expect(arrows(hanging(), { what: "all" }, null, { on: "i", about: "joint" })[0]?.force).toEqual([-0, -10, -0]);
+    expect(arrows(hanging(), { what: "joint" }, "other", { on: "j", about: "joint" })).toEqual([]);
   });
-  it("keep one scale from frame to frame", () => {
-    const scale = new ForceScale(5);
-    const run = Array.from({ length: 100 }, (_, k) => ({ ...hanging(), gravity: [0, 0, 0] as Vec3, forces: [{ ...hanging().forces[0]!, force: [0, k + 1, 0] as Vec3 }] }));
-    expect(scale.follow(run.slice(0, 5), false)).toBe(false);
-    expect(scale.follow(run, false)).toBe(true);
-    expect(scale.full).toBe(96);
-    expect(scale.follow(run.slice(0, 50), false)).toBe(false);
-    expect(scale.follow(run.slice(0, 50), true)).toBe(true);
+  it("move to the centre of mass with the moment that this takes", () => {
+    const [arrow] = arrows(hanging(), { what: "all" }, null, { on: "j", about: "center" });
+    expect(arrow?.at).toEqual([1, 0, 0]);
+    expect(arrow?.moment).toEqual([0, 0, 1 + cross([-1, 0, 0], [0, 10, 0])[2]]);
+  });
+  it("have a legend of a round number", () => {
     expect(roundDown(96)).toBe(50);
     expect(roundDown(0.2)).toBeCloseTo(0.2);
   });

@@ -3,12 +3,13 @@ import type { SessionSource } from "../core/api";
 import { h } from "../core/dom";
 import type { Seen } from "../core/link";
 import type { Scene } from "../core/types";
-import { problemNotice } from "../ui/notice";
+import { desk } from "../lecture/presenter";
 import { inspector } from "./inspector";
 import { Session } from "./session";
-import { restore, shareButton } from "./share";
+import { restore, seenIn, shareButton } from "./share";
 import { stage } from "./stage";
 import { transport } from "./transport";
+import { trouble } from "./trouble";
 
 export interface BenchOptions {
   source: SessionSource;
@@ -22,25 +23,29 @@ export interface BenchOptions {
 /** Fills `root` and starts the run; the returned function ends both. */
 export function workbench(root: HTMLElement, options: BenchOptions): () => void {
   const session = new Session(options.source, options.seen?.numbers);
-  const trouble = h("div", { class: "trouble" });
-  const picture = stage(session, options.scene, options.seen?.picture);
-  const details = inspector(session, options.seen?.panel);
-  const share = shareButton({ session, panel: details.current, picture: picture.current, own: options.own });
-  const controls = transport(session, options.scene?.simulation?.duration, h("span", { class: "row tight" }, share, picture.toggle));
-
-  session.on("problem", (error) => {
-    trouble.replaceChildren(problemNotice(error, session.latest
-      ? [{ label: "Reset", run: () => { trouble.replaceChildren(); void session.reset(); } }]
-      : [{ label: "Try again", run: () => { trouble.replaceChildren(); void session.start(); } }]));
-  });
-  root.replaceChildren(picture.root, controls.root, trouble, details.root);
+  const made = bench(root, session, options);
   void session.start().then(async () => {
     if (options.seen && session.latest) await restore(session, options.seen);
   });
+  return made.dispose;
+}
 
-  return () => {
-    controls.dispose();
-    picture.dispose();
-    session.close();
+/** Picture, controls and inspector of a run that somebody else starts. */
+export function bench(root: HTMLElement, session: Session, options: Partial<BenchOptions>): { dispose: () => void; selectPanel: (key: string) => void } {
+  const picture = stage(session, options.scene, options.seen?.picture);
+  const details = inspector(session, options.seen?.panel);
+  const shared = { session, panel: details.current, picture: picture.current, own: options.own };
+  const lecture = session.steers ? desk(session, () => seenIn(shared)) : undefined;
+  const more = h("span", { class: "row tight" }, lecture?.button ?? null, session.steers ? shareButton(shared) : null, picture.toggle);
+  const controls = transport(session, options.scene?.simulation?.duration, more);
+  root.replaceChildren(picture.root, controls.root, ...(lecture ? [lecture.root] : []), trouble(session), details.root);
+  return {
+    selectPanel: details.select,
+    dispose: () => {
+      lecture?.dispose();
+      controls.dispose();
+      picture.dispose();
+      session.close();
+    },
   };
 }

@@ -1,8 +1,7 @@
-// The constraint Jacobian as a picture: filled where a value changes, framed where it is constant.
+// A sparse matrix as a picture: filled where a value changes, framed where it is constant, hatched where a factor fills.
 import { h } from "../core/dom";
 import { onTheme } from "../core/prefs";
-import type { Jacobian } from "../core/types";
-import { cellAt, groupOf, groups, layout, type Layout } from "./matrix";
+import { cellAt, groupOf, groups, layout, type Layout, type Matrix } from "./matrix";
 
 export interface Cell {
   row: number;
@@ -11,20 +10,19 @@ export interface Cell {
 
 export interface Picture {
   root: HTMLElement;
-  show: (jacobian: Jacobian, constantRows: boolean[], marked: string | null) => void;
+  show: (matrix: Matrix, marked: string | null) => void;
   dispose: () => void;
 }
 
 const KEYS: Record<string, [number, number]> = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 
-export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture {
+export function matrixPicture(read: (cell: Cell | undefined) => void): Picture {
   const canvas = h("canvas", {
     class: "matrix", tabindex: "0", "data-keys": "own", role: "application", "aria-roledescription": "matrix picture",
-    "aria-label": "Jacobian: arrow keys move from cell to cell, the value is read out below",
+    "aria-label": "Matrix: arrow keys move from cell to cell, the value is read out below",
   });
   const holder = h("div", { class: "matrix-holder" }, canvas);
-  let jacobian: Jacobian | undefined;
-  let constant: boolean[] = [];
+  let matrix: Matrix | undefined;
   let marked: string | null = null;
   let grid: Layout | undefined;
   let at: Cell | undefined;
@@ -32,8 +30,8 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
   const draw = (): void => {
     const context = canvas.getContext("2d");
     const room = holder.clientWidth;
-    if (!jacobian || !context || room === 0) return;
-    const { rows, columns, entries } = jacobian;
+    if (!matrix || !context || room === 0) return;
+    const { rows, columns, entries, constantRows, redundant } = matrix;
     grid = layout(rows.length, columns.length, room, room > 620);
     const sharp = devicePixelRatio || 1;
     canvas.width = Math.round(grid.width * sharp);
@@ -48,7 +46,7 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
 
     context.fillStyle = color("--surface-2");
     context.fillRect(left, top, cell * columns.length, cell * rows.length);
-    constant.forEach((yes, row) => {
+    constantRows.forEach((yes, row) => {
       if (!yes) return;
       context.fillStyle = color("--constant-band");
       context.fillRect(left, top + row * cell, cell * columns.length, cell);
@@ -56,12 +54,23 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
       context.fillRect(left - 5, top + row * cell + 1, 3, cell - 2);
     });
 
-    const largest = Math.max(1e-12, ...entries.map(([, , value]) => Math.abs(value)));
+    for (const row of redundant) {
+      context.fillStyle = color("--warn");
+      context.fillRect(left + cell * columns.length - 1, top + row * cell + 1, 3, cell - 2);
+    }
+
+    const largest = entries.reduce((most, entry) => Math.max(most, Math.abs(entry.value)), 1e-12);
     const gap = cell >= 8 ? 1.5 : 0.25;
-    for (const [row, column, value, fixed] of entries) {
+    for (const { row, column, value, kind } of entries) {
+      const fixed = kind === "constant";
       const x = left + column * cell + gap;
       const y = top + row * cell + gap;
       const size = cell - 2 * gap;
+      if (kind === "fill") {
+        context.fillStyle = color("--fill");
+        context.fillRect(x, y, size, size);
+        continue;
+      }
       if (value === 0) {
         context.strokeStyle = color("--ink-3");
         context.lineWidth = 1;
@@ -93,7 +102,7 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
     for (const group of groups(rows)) {
       const y = top + group.from * cell;
       line(context, 0, y, left + cell * columns.length, y);
-      if (group.name === marked) {
+      if (group.name === marked || group.name === `λ ${marked ?? ""}`) {
         context.lineWidth = 2;
         context.strokeStyle = color("--accent");
         context.strokeRect(1, y + 1, left + cell * columns.length - 1, group.count * cell - 2);
@@ -147,18 +156,18 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
     draw();
   };
   canvas.addEventListener("pointermove", (event) => {
-    if (!jacobian || !grid) return;
+    if (!matrix || !grid) return;
     const box = canvas.getBoundingClientRect();
-    moveTo(cellAt(grid, jacobian.rows.length, jacobian.columns.length, event.clientX - box.left, event.clientY - box.top));
+    moveTo(cellAt(grid, matrix.rows.length, matrix.columns.length, event.clientX - box.left, event.clientY - box.top));
   });
   canvas.addEventListener("pointerleave", () => moveTo(undefined));
   canvas.addEventListener("keydown", (event) => {
     const move = KEYS[event.key];
-    if (!move || !jacobian) return;
+    if (!move || !matrix) return;
     event.preventDefault();
     const from = at ?? { row: 0, column: 0 };
     const clamp = (value: number, most: number): number => Math.max(0, Math.min(most - 1, value));
-    moveTo(at ? { row: clamp(from.row + move[0], jacobian.rows.length), column: clamp(from.column + move[1], jacobian.columns.length) } : from);
+    moveTo(at ? { row: clamp(from.row + move[0], matrix.rows.length), column: clamp(from.column + move[1], matrix.columns.length) } : from);
   });
   const sized = new ResizeObserver(draw);
   sized.observe(holder);
@@ -166,10 +175,9 @@ export function jacobianPicture(read: (cell: Cell | undefined) => void): Picture
 
   return {
     root: holder,
-    show: (value, constantRows, mark) => {
+    show: (value, mark) => {
       marked = mark;
-      jacobian = value;
-      constant = constantRows;
+      matrix = value;
       draw();
     },
     dispose: () => {

@@ -1,0 +1,117 @@
+//! The stream of a lecture room, over a WebSocket.
+//!
+//! Text messages are JSON: `{"type":"room",…}` when the presenter shows or asks something else, `{"type":"state",…}` at
+//! most ten times a second, `{"type":"reset"}` when a recording begins (the viewer must forget the old one),
+//! `{"type":"closed"}` at the end. Binary messages are complete RRD blocks, if they were asked for with
+//! `?recording=true`. A follower that is slow misses states, never the newest one, and reads the recording on from
+//! where it is.
+
+use axum::extract::ws::Message;
+use axum::extract::{Query, Request, State};
+use axum::response::Response;
+use serde::Deserialize;
+use tokio::time::{MissedTickBehavior, interval};
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::At;
+use super::stream::{Line, Lost, Notice, PING_INTERVAL, upgrade};
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::room::{Seat, Stage};
+use crate::stream::{Delivery, Watcher};
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new().routes(routes!(follow))
+}
+
+/// What a follower wants.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Wish {
+    /// The recording for the 3-D view.
+    recording: bool,
+}
+
+/// Follow a lecture: a WebSocket of boards and states (text) and, if wanted, of RRD blocks (binary).
+#[utoipa::path(get, path = "/rooms/{code}/stream", tag = "rooms", params(("code" = String, Path),
+    ("recording" = Option<bool>, Query, description = "Send the recording for the 3-D view too")), responses(
+    (status = 101, description = "The socket is open"),
+    (status = 404, description = "No such room", body = ProblemDocument),
+    (status = 426, description = "The request is not a WebSocket's", body = ProblemDocument),
+    (status = 503, description = "The room is full", body = ProblemDocument)))]
+async fn follow(
+    State(app): State<App>,
+    At(code): At<String>,
+    Query(wish): Query<Wish>,
+    request: Request,
+) -> Result<Response, Problem> {
+    let room = app.rooms.get(&code)?;
+    let upgrade = upgrade(&app, request).await?;
+    let seat = room.join()?;
+    drop(room);
+    let patience = app.limits.stalled_viewer;
+    Ok(upgrade.on_upgrade(move |socket| async move {
+        // However it ends, the seat is given back.
+        drop(follow_on(Line { socket, patience }, seat, wish.recording).await);
+    }))
+}
+
+async fn follow_on(mut line: Line, mut seat: Seat, recording: bool) -> Result<(), Lost> {
+    let mut watcher: Option<Watcher> = None;
+    let mut ping = interval(PING_INTERVAL);
+    ping.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    seat.stage.mark_changed();
+    seat.board.mark_changed();
+    seat.state.mark_changed();
+    loop {
+        tokio::select! {
+            received = line.socket.recv() => match received {
+                // Nothing that a follower says here changes anything.
+                Some(Ok(message)) if !matches!(message, Message::Close(_)) => {}
+                _ => return Ok(()),
+            },
+            changed = seat.stage.changed() => {
+                let stage = changed.map(|()| seat.stage.borrow_and_update().clone()).unwrap_or(Stage::Closed);
+                watcher = match stage {
+                    Stage::Closed => {
+                        line.tell(&Notice::Closed).await?;
+                        return line.send(Message::Close(None)).await;
+                    }
+                    Stage::Session(session) if recording => {
+                        line.tell(&Notice::Reset).await?;
+                        Some(session.watch())
+                    }
+                    Stage::Session(_) | Stage::Empty => None,
+                };
+            },
+            changed = seat.board.changed() => {
+                if changed.is_ok() {
+                    let board = seat.board.borrow_and_update().clone();
+                    line.send(Message::Text(board)).await?;
+                }
+            },
+            changed = seat.state.changed() => {
+                let state = seat.state.borrow_and_update().clone();
+                if changed.is_ok() && !state.is_empty() {
+                    line.send(Message::Text(state)).await?;
+                }
+            },
+            delivery = next(&mut watcher) => match delivery {
+                Some(Delivery::Blocks(blocks)) => line.blocks(blocks).await?,
+                Some(Delivery::Restarted) => line.tell(&Notice::Reset).await?,
+                // The session is gone; the presenter may show another.
+                None => watcher = None,
+            },
+            _ = ping.tick() => line.send(Message::Ping(axum::body::Bytes::new())).await?,
+        }
+    }
+}
+
+/// What comes next in the recording; waits for ever where none is watched.
+async fn next(watcher: &mut Option<Watcher>) -> Option<Delivery> {
+    match watcher {
+        Some(watcher) => watcher.next().await,
+        None => std::future::pending().await,
+    }
+}

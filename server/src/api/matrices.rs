@@ -1,0 +1,172 @@
+//! Matrices of a live session: the Jacobian, the augmented matrix and S, with names, values and fill.
+
+use axum::extract::State;
+use axum::http::StatusCode;
+use serde::{Deserialize, Serialize};
+use triad_engine::check::dependent_sets;
+use triad_engine::matrices::{Part, Symmetric};
+use triad_engine::simulation::Simulation;
+use utoipa::ToSchema;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::{Asked, At};
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::session::Session;
+
+/// Rows of the largest matrix that is told in full.
+const MOST_ROWS: usize = 3_000;
+/// Its largest number of places.
+const MOST_PLACES: usize = 60_000;
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new().routes(routes!(jacobian)).routes(routes!(augmented)).routes(routes!(schur))
+}
+
+/// The time that something is wanted for.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct When {
+    /// One that the run has passed, s; the present if it is not given.
+    #[serde(default)]
+    pub at: Option<f64>,
+}
+
+/// The Jacobian of the constraints: a sparse matrix whose rows and columns have names.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct JacobianView {
+    /// Time, s.
+    time: f64,
+    /// What each row is: its joint or body, and the row.
+    rows: Vec<String>,
+    /// What each column is: its body, and the coordinate.
+    columns: Vec<String>,
+    /// Row, column, value, and whether the entry never changes; entries that are not listed are zero by structure.
+    #[schema(value_type = Vec<Vec<Object>>)]
+    entries: Vec<(usize, usize, f64, bool)>,
+    /// Rank near the start.
+    rank: usize,
+    /// Rows of which some say again what others say.
+    redundant: Vec<RedundantView>,
+}
+
+/// Rows of one form of which some say again what others say.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = RedundantSet)]
+struct RedundantView {
+    /// The rows, as indices.
+    rows: Vec<usize>,
+    /// How many of them are too many.
+    dependent: usize,
+}
+
+/// The Jacobian.
+#[utoipa::path(get, path = "/sessions/{id}/jacobian", tag = "sessions", params(("id" = String, Path),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    responses((status = 200, description = "Pattern and values", body = JacobianView),
+    (status = 422, description = "The state of that time is not kept", body = ProblemDocument)))]
+async fn jacobian(
+    State(app): State<App>,
+    At(id): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<JacobianView>, Problem> {
+    Ok(axum::Json(jacobian_of(&*app.sessions.get(&id)?, when.at).await?))
+}
+
+pub(super) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<JacobianView, Problem> {
+    session
+        .look(at, |run| {
+            let time = run.time();
+            let sets = dependent_sets(run.system(), run.rank());
+            let redundant = sets
+                .into_iter()
+                .map(|set| RedundantView { rows: set.equations.collect(), dependent: set.dependent })
+                .collect();
+            let system = run.system();
+            let freedoms = 6 * system.bodies.len() - run.rank().rank;
+            let rank = system.coordinates - freedoms;
+            let found = run.jacobian();
+            Ok(JacobianView {
+                time,
+                rows: found.rows.clone(),
+                columns: found.columns.clone(),
+                entries: found.entries.iter().map(|e| (e.row, e.column, e.value, e.constant)).collect(),
+                rank,
+                redundant,
+            })
+        })
+        .await
+}
+
+/// A symmetric matrix: what stands on and below its diagonal.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct SymmetricView {
+    /// Time, s.
+    time: f64,
+    /// What each row is, and each column alike.
+    names: Vec<String>,
+    /// Row, column, value, and what it is: `own`, `constant`, `changing` or `fill`.
+    #[schema(value_type = Vec<Vec<Object>>)]
+    places: Vec<(usize, usize, f64, Part)>,
+    /// Places on or below the diagonal that a factorization fills.
+    fill: usize,
+}
+
+/// The augmented matrix of the equations of motion, with the fill of eliminating coordinates first.
+#[utoipa::path(get, path = "/sessions/{id}/augmented", tag = "sessions", params(("id" = String, Path),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    responses((status = 200, description = "Pattern and values", body = SymmetricView),
+    (status = 422, description = "It is too large, or the state of that time is not kept", body = ProblemDocument)))]
+async fn augmented(
+    State(app): State<App>,
+    At(id): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<SymmetricView>, Problem> {
+    Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::augmented).await?))
+}
+
+/// The matrix S that the solver factors, in its order of elimination, with the fill of its factor.
+#[utoipa::path(get, path = "/sessions/{id}/schur", tag = "sessions", params(("id" = String, Path),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    responses((status = 200, description = "Pattern and values", body = SymmetricView),
+    (status = 422, description = "It is too large, or the state of that time is not kept", body = ProblemDocument)))]
+async fn schur(
+    State(app): State<App>,
+    At(id): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<SymmetricView>, Problem> {
+    Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::schur).await?))
+}
+
+pub(super) async fn symmetric_of(
+    session: &Session,
+    at: Option<f64>,
+    matrix: fn(&mut Simulation) -> Symmetric,
+) -> Result<SymmetricView, Problem> {
+    session
+        .look(at, move |run| {
+            let system = run.system();
+            let rows = system.coordinates + system.rigid_rows + system.equations;
+            if rows > MOST_ROWS {
+                return Err(too_large(&format!("{rows} rows, more than {MOST_ROWS}")));
+            }
+            let found = matrix(run);
+            if found.places.len() > MOST_PLACES {
+                return Err(too_large(&format!("{} places, more than {MOST_PLACES}", found.places.len())));
+            }
+            let fill = found.fill();
+            let places = found.places.iter().map(|p| (p.row, p.column, p.value, p.part)).collect();
+            Ok(SymmetricView { time: run.time(), names: found.names, places, fill })
+        })
+        .await
+}
+
+fn too_large(how: &str) -> Problem {
+    Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "matrix-too-large",
+        format!("the matrix is too large for a picture: it has {how}"),
+        "look at the Jacobian, or at a smaller mechanism of the same kind",
+    )
+}

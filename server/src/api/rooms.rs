@@ -1,0 +1,301 @@
+//! Lecture rooms: open, join, show, ask, answer, reveal, close.
+
+use std::sync::Arc;
+
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::IntoResponse;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use triad_engine::simulation::Simulation;
+use utoipa::ToSchema;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::extract::{Asked, At, Json};
+use super::matrices::{When, jacobian_of, symmetric_of};
+use super::reactions::{Wanted, multipliers_of, reactions_of};
+use crate::app::App;
+use crate::problem::{Problem, ProblemDocument};
+use crate::room::{Board, DeskView, NewQuestion, Room, Vote};
+
+pub(super) fn routes() -> OpenApiRouter<App> {
+    OpenApiRouter::new()
+        .routes(routes!(open))
+        .routes(routes!(board, close))
+        .routes(routes!(show))
+        .routes(routes!(desk))
+        .routes(routes!(ask, forget))
+        .routes(routes!(reveal))
+        .routes(routes!(answer))
+        .routes(routes!(scene))
+        .routes(routes!(jacobian))
+        .routes(routes!(augmented))
+        .routes(routes!(schur))
+        .routes(routes!(multipliers))
+        .routes(routes!(reactions))
+}
+
+/// The session that a lecture shows.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct NewRoom {
+    /// Its id; who knows it may show it.
+    session: String,
+}
+
+/// A room that was opened.
+#[derive(Debug, Serialize, ToSchema)]
+struct OpenedRoom {
+    /// What followers type to join.
+    code: String,
+    /// Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is told only here.
+    key: String,
+    /// Where followers go, below the server's address.
+    page: String,
+}
+
+/// Open a lecture room for a session.
+#[utoipa::path(post, path = "/rooms", tag = "rooms", request_body = NewRoom, responses(
+    (status = 201, description = "The room, and the presenter's key", body = OpenedRoom),
+    (status = 404, description = "No such session", body = ProblemDocument),
+    (status = 503, description = "All rooms are in use", body = ProblemDocument)))]
+async fn open(State(app): State<App>, Json(new): Json<NewRoom>) -> Result<impl IntoResponse, Problem> {
+    let room = app.rooms.open(app.sessions.get(&new.session)?, &app.limits)?;
+    let opened = OpenedRoom {
+        code: room.code.clone(),
+        key: room.key().to_owned(),
+        page: format!("/room/{}", room.code),
+    };
+    Ok((StatusCode::CREATED, axum::Json(opened)))
+}
+
+/// What is shown and asked in a room.
+#[utoipa::path(get, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 200, description = "What followers are told", body = Board),
+    (status = 404, description = "No such room", body = ProblemDocument)))]
+async fn board(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Board>, Problem> {
+    Ok(axum::Json(app.rooms.get(&code)?.board()))
+}
+
+/// End a lecture. For the presenter.
+#[utoipa::path(delete, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 204, description = "It is over"),
+    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+async fn close(
+    State(app): State<App>,
+    At(code): At<String>,
+    headers: HeaderMap,
+) -> Result<StatusCode, Problem> {
+    let room = led(&app, &code, &headers)?;
+    app.rooms.close(&room.code);
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// What the presenter shows.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+struct NewView {
+    /// Another session than before.
+    session: Option<String>,
+    /// Time, selection and panels in the page's own words.
+    #[schema(value_type = Option<Object>)]
+    view: Option<Value>,
+}
+
+/// Show something else. For the presenter.
+#[utoipa::path(put, path = "/rooms/{code}/view", tag = "rooms", params(("code" = String, Path)),
+    request_body = NewView, responses(
+    (status = 204, description = "Followers are being told"),
+    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+async fn show(
+    State(app): State<App>,
+    At(code): At<String>,
+    headers: HeaderMap,
+    Json(new): Json<NewView>,
+) -> Result<StatusCode, Problem> {
+    let room = led(&app, &code, &headers)?;
+    if let Some(session) = new.session {
+        room.stage(app.sessions.get(&session)?);
+    }
+    if let Some(view) = new.view {
+        room.show(view)?;
+    }
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// How many follow, and how the answers stand. For the presenter.
+#[utoipa::path(get, path = "/rooms/{code}/desk", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 200, description = "Followers and answers", body = DeskView),
+    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+async fn desk(
+    State(app): State<App>,
+    At(code): At<String>,
+    headers: HeaderMap,
+) -> Result<axum::Json<DeskView>, Problem> {
+    Ok(axum::Json(led(&app, &code, &headers)?.desk_view()))
+}
+
+/// Ask a question. For the presenter.
+#[utoipa::path(put, path = "/rooms/{code}/question", tag = "rooms", params(("code" = String, Path)),
+    request_body = NewQuestion, responses(
+    (status = 204, description = "It is asked"),
+    (status = 403, description = "The key is missing or wrong", body = ProblemDocument),
+    (status = 422, description = "The question was refused", body = ProblemDocument)))]
+async fn ask(
+    State(app): State<App>,
+    At(code): At<String>,
+    headers: HeaderMap,
+    Json(new): Json<NewQuestion>,
+) -> Result<StatusCode, Problem> {
+    led(&app, &code, &headers)?.ask(new)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Take the question away. For the presenter.
+#[utoipa::path(delete, path = "/rooms/{code}/question", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 204, description = "It is gone"),
+    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+async fn forget(
+    State(app): State<App>,
+    At(code): At<String>,
+    headers: HeaderMap,
+) -> Result<StatusCode, Problem> {
+    led(&app, &code, &headers)?.forget_question();
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Tell everybody how the answers stand and which is right. For the presenter.
+#[utoipa::path(post, path = "/rooms/{code}/reveal", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 204, description = "Everybody is told"),
+    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+async fn reveal(
+    State(app): State<App>,
+    At(code): At<String>,
+    headers: HeaderMap,
+) -> Result<StatusCode, Problem> {
+    led(&app, &code, &headers)?.reveal()?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Answer the question.
+#[utoipa::path(post, path = "/rooms/{code}/answers", tag = "rooms", params(("code" = String, Path)),
+    request_body = Vote, responses(
+    (status = 204, description = "It is counted"),
+    (status = 409, description = "There is no such question any more", body = ProblemDocument)))]
+async fn answer(
+    State(app): State<App>,
+    At(code): At<String>,
+    Json(vote): Json<Vote>,
+) -> Result<StatusCode, Problem> {
+    app.rooms.get(&code)?.vote(&vote)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// The room, for its presenter.
+fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Room>, Problem> {
+    let room = app.rooms.get(code)?;
+    let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
+    room.check_key(given.and_then(|value| value.strip_prefix("Bearer ")))?;
+    Ok(room)
+}
+
+/// The scene that is shown, as it is now.
+#[utoipa::path(get, path = "/rooms/{code}/scene", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 200, description = "As /sessions/{id}/scene", body = Object)))]
+async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Value>, Problem> {
+    let told =
+        app.rooms.get(&code)?.told("scene", |session| async move { as_json(session.scene().await?) }).await;
+    told.map(axum::Json)
+}
+
+/// The Jacobian of the session that is shown.
+#[utoipa::path(get, path = "/rooms/{code}/jacobian", tag = "rooms", params(("code" = String, Path),
+    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/jacobian", body = Object)))]
+async fn jacobian(
+    State(app): State<App>,
+    At(code): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<Value>, Problem> {
+    let what = format!("jacobian {:?}", when.at);
+    let told = app
+        .rooms
+        .get(&code)?
+        .told(&what, |session| async move { as_json(jacobian_of(&session, when.at).await?) })
+        .await;
+    told.map(axum::Json)
+}
+
+/// The augmented matrix of the session that is shown.
+#[utoipa::path(get, path = "/rooms/{code}/augmented", tag = "rooms", params(("code" = String, Path),
+    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/augmented", body = Object)))]
+async fn augmented(
+    State(app): State<App>,
+    At(code): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<Value>, Problem> {
+    symmetric(&app, &code, "augmented", when, Simulation::augmented).await
+}
+
+/// The matrix that the solver factors, of the session that is shown.
+#[utoipa::path(get, path = "/rooms/{code}/schur", tag = "rooms", params(("code" = String, Path),
+    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/schur", body = Object)))]
+async fn schur(
+    State(app): State<App>,
+    At(code): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<Value>, Problem> {
+    symmetric(&app, &code, "schur", when, Simulation::schur).await
+}
+
+async fn symmetric(
+    app: &App,
+    code: &str,
+    name: &str,
+    when: When,
+    matrix: fn(&mut Simulation) -> triad_engine::matrices::Symmetric,
+) -> Result<axum::Json<Value>, Problem> {
+    let what = format!("{name} {:?}", when.at);
+    let room = app.rooms.get(code)?;
+    let told = room
+        .told(&what, |session| async move { as_json(symmetric_of(&session, when.at, matrix).await?) })
+        .await;
+    told.map(axum::Json)
+}
+
+/// The multipliers of the session that is shown.
+#[utoipa::path(get, path = "/rooms/{code}/multipliers", tag = "rooms", params(("code" = String, Path),
+    ("at" = Option<f64>, Query)),
+    responses((status = 200, description = "As /sessions/{id}/multipliers", body = Object)))]
+async fn multipliers(
+    State(app): State<App>,
+    At(code): At<String>,
+    Asked(when): Asked<When>,
+) -> Result<axum::Json<Value>, Problem> {
+    let what = format!("multipliers {:?}", when.at);
+    let room = app.rooms.get(&code)?;
+    let told =
+        room.told(&what, |session| async move { as_json(multipliers_of(&session, when.at).await?) }).await;
+    told.map(axum::Json)
+}
+
+/// The reactions of the session that is shown.
+#[utoipa::path(get, path = "/rooms/{code}/reactions", tag = "rooms", params(("code" = String, Path),
+    ("on" = Option<String>, Query), ("about" = Option<String>, Query), ("in" = Option<String>, Query),
+    ("at" = Option<f64>, Query)),
+    responses((status = 200, description = "As /sessions/{id}/reactions", body = Object)))]
+async fn reactions(
+    State(app): State<App>,
+    At(code): At<String>,
+    Asked(wanted): Asked<Wanted>,
+) -> Result<axum::Json<Value>, Problem> {
+    let what = format!("reactions {wanted:?}");
+    let room = app.rooms.get(&code)?;
+    let told =
+        room.told(&what, |session| async move { as_json(reactions_of(&session, wanted).await?) }).await;
+    told.map(axum::Json)
+}
+
+fn as_json(told: impl Serialize) -> Result<Value, Problem> {
+    serde_json::to_value(told).map_err(Problem::internal)
+}

@@ -1,0 +1,60 @@
+//! `triad import`: a URDF as a scene.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use super::Outcome;
+use super::terminal::{print_json, print_line};
+use crate::problem::Problem;
+use crate::scenes;
+use crate::urdf::{self, SideCar};
+
+#[derive(Debug, Args)]
+pub(super) struct Import {
+    /// The robot's description.
+    urdf: PathBuf,
+    /// A side-car in JSON: joints that close loops, positions at the start, drivers, loads, settings.
+    #[arg(long, value_name = "SIDE.json")]
+    with: Option<PathBuf>,
+    /// Write the scene here; without it, to standard output.
+    #[arg(long, value_name = "SCENE.json")]
+    out: Option<PathBuf>,
+}
+
+/// Reads, converts, writes, and tells what was left out.
+pub(super) fn import(options: &Import, json: bool) -> Result<Outcome, Problem> {
+    let text = scenes::read(&options.urdf, urdf::MAX_TEXT as u64)?;
+    let side_car = match &options.with {
+        None => SideCar::default(),
+        Some(path) => crate::api::parse(scenes::read(path, urdf::MAX_TEXT as u64)?.as_bytes())?,
+    };
+    let imported = urdf::import(&text, &side_car)?;
+    let written = imported.scene.to_json();
+    // A robot that cannot be assembled is told now rather than at its first run.
+    let report = triad_engine::check::check(&imported.scene)?;
+    if json {
+        print_json(&json!({ "scene": imported.scene, "left_out": imported.left_out, "check": report }));
+    }
+    match &options.out {
+        Some(path) => {
+            std::fs::write(path, written + "\n").map_err(|error| super::run::unwritable(path, &error))?
+        }
+        None if json => {}
+        None => print_line(&written),
+    }
+    if !json {
+        eprintln!(
+            "{}: {} bodies, {} joints, {} degrees of freedom",
+            imported.scene.name,
+            imported.scene.bodies.len(),
+            imported.scene.joints.len(),
+            report.degrees_of_freedom
+        );
+        for left in &imported.left_out {
+            eprintln!("  line {}, {}: left out: {}", left.line, left.of, left.what);
+        }
+    }
+    Ok(Outcome::Done)
+}

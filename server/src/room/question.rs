@@ -1,0 +1,214 @@
+//! A quick question: asked, answered once a voter, revealed.
+
+use std::collections::HashMap;
+
+use axum::http::StatusCode;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::problem::Problem;
+
+/// Characters of a question, of a choice, and of a voter's name.
+const LONGEST_TEXT: usize = 400;
+const LONGEST_CHOICE: usize = 160;
+const LONGEST_VOTER: usize = 64;
+/// Choices of a question.
+const CHOICES: std::ops::RangeInclusive<usize> = 2..=8;
+
+/// A question to be asked.
+#[derive(Debug, Clone, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NewQuestion {
+    /// What is asked.
+    #[schema(example = "Which sign has Fx of the pin at this moment?")]
+    pub text: String,
+    /// What can be answered, two to eight choices.
+    pub choices: Vec<String>,
+    /// The choice that is right, as an index, if one is; told to nobody before the reveal.
+    #[serde(default)]
+    pub right: Option<usize>,
+}
+
+/// A follower's answer.
+#[derive(Debug, Clone, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Vote {
+    /// The question's number.
+    pub question: u64,
+    /// A name that the follower's browser made up: the same voter votes anew, not twice.
+    pub voter: String,
+    /// The choice, as an index.
+    pub choice: usize,
+}
+
+/// A question as everybody sees it.
+#[derive(Debug, Clone, Serialize, ToSchema)]
+#[schema(as = RoomQuestion)]
+pub struct QuestionView {
+    /// Its number.
+    pub number: u64,
+    /// What is asked.
+    pub text: String,
+    /// What can be answered.
+    pub choices: Vec<String>,
+    /// How the answers stand and which is right; nothing before the reveal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub result: Option<Tally>,
+}
+
+/// How the answers stand.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+#[schema(as = RoomTally)]
+pub struct Tally {
+    /// The question's number.
+    pub number: u64,
+    /// Answers for each choice.
+    pub counts: Vec<usize>,
+    /// The choice that is right.
+    pub right: Option<usize>,
+    /// Whether everybody has been told.
+    pub revealed: bool,
+}
+
+#[derive(Debug)]
+pub(super) struct Question {
+    number: u64,
+    asked: NewQuestion,
+    votes: HashMap<String, usize>,
+    most_votes: usize,
+    revealed: bool,
+}
+
+impl Question {
+    pub(super) fn new(number: u64, asked: NewQuestion, most_votes: usize) -> Result<Self, Problem> {
+        let wrong = |pointer: &str, detail: String| Err(refused(pointer, detail));
+        if asked.text.trim().is_empty() || asked.text.chars().count() > LONGEST_TEXT {
+            return wrong("/text", format!("the question must have 1 to {LONGEST_TEXT} characters"));
+        }
+        if !CHOICES.contains(&asked.choices.len()) {
+            return wrong("/choices", "a question has two to eight choices".to_owned());
+        }
+        for (index, choice) in asked.choices.iter().enumerate() {
+            if choice.trim().is_empty() || choice.chars().count() > LONGEST_CHOICE {
+                let detail = format!("a choice must have 1 to {LONGEST_CHOICE} characters");
+                return wrong(&format!("/choices/{index}"), detail);
+            }
+        }
+        if asked.right.is_some_and(|right| right >= asked.choices.len()) {
+            return wrong("/right", format!("right must be an index below {}", asked.choices.len()));
+        }
+        Ok(Self { number, asked, votes: HashMap::new(), most_votes, revealed: false })
+    }
+
+    pub(super) fn take(&mut self, vote: &Vote) -> Result<(), Problem> {
+        if vote.question != self.number || self.revealed {
+            return Err(Problem::new(
+                StatusCode::CONFLICT,
+                "question-over",
+                "this question no longer takes answers",
+                "answer the question that is asked now",
+            ));
+        }
+        if vote.choice >= self.asked.choices.len() {
+            let detail = format!("choice must be an index below {}", self.asked.choices.len());
+            return Err(refused("/choice", detail));
+        }
+        if vote.voter.is_empty() || vote.voter.len() > LONGEST_VOTER {
+            return Err(refused("/voter", format!("voter must have 1 to {LONGEST_VOTER} characters")));
+        }
+        if self.votes.len() >= self.most_votes && !self.votes.contains_key(&vote.voter) {
+            return Err(Problem::new(
+                StatusCode::SERVICE_UNAVAILABLE,
+                "too-many-answers",
+                format!("{} have answered, as many as this room takes", self.most_votes),
+                "watch the result; your answer was not counted",
+            ));
+        }
+        self.votes.insert(vote.voter.clone(), vote.choice);
+        Ok(())
+    }
+
+    pub(super) fn reveal(&mut self) {
+        self.revealed = true;
+    }
+
+    pub(super) fn tally(&self) -> Tally {
+        let mut counts = vec![0; self.asked.choices.len()];
+        for &choice in self.votes.values() {
+            counts[choice] += 1;
+        }
+        Tally { number: self.number, counts, right: self.asked.right, revealed: self.revealed }
+    }
+
+    pub(super) fn view(&self) -> QuestionView {
+        QuestionView {
+            number: self.number,
+            text: self.asked.text.clone(),
+            choices: self.asked.choices.clone(),
+            result: self.revealed.then(|| self.tally()),
+        }
+    }
+}
+
+fn refused(pointer: &str, detail: String) -> Problem {
+    let hint = "compare with the request's schema in /api/openapi.json";
+    Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-question", detail.clone(), hint)
+        .at(pointer, detail)
+}
+
+pub(super) fn none() -> Problem {
+    Problem::new(
+        StatusCode::CONFLICT,
+        "no-question",
+        "no question is asked in this room",
+        "the presenter asks one with PUT /api/v1/rooms/CODE/question",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn question() -> Question {
+        let asked = NewQuestion {
+            text: "Which sign has Fx?".into(),
+            choices: vec!["+".into(), "−".into(), "zero".into()],
+            right: Some(1),
+        };
+        Question::new(7, asked, 3).expect("a question")
+    }
+
+    fn vote(voter: &str, choice: usize) -> Vote {
+        Vote { question: 7, voter: voter.into(), choice }
+    }
+
+    #[test]
+    fn a_voter_counts_once_and_the_room_is_bounded() {
+        let mut asked = question();
+        for (voter, choice) in [("a", 0), ("a", 1), ("b", 1), ("c", 2)] {
+            asked.take(&vote(voter, choice)).expect("counts");
+        }
+        assert_eq!(asked.tally().counts, [0, 2, 1]);
+        assert_eq!(asked.take(&vote("d", 0)).map_err(|p| p.code()), Err("too-many-answers"));
+        assert_eq!(asked.take(&vote("a", 3)).map_err(|p| p.code()), Err("invalid-question"));
+        asked.take(&vote("a", 0)).expect("a change of mind");
+        assert_eq!(asked.tally().counts, [1, 1, 1]);
+    }
+
+    #[test]
+    fn nothing_of_the_result_is_told_before_the_reveal() {
+        let mut asked = question();
+        asked.take(&vote("a", 0)).expect("counts");
+        let before = serde_json::to_value(asked.view()).expect("JSON");
+        assert_eq!(
+            before.as_object().map(|all| all.keys().cloned().collect::<Vec<_>>()),
+            Some(vec!["choices".into(), "number".into(), "text".into()])
+        );
+        asked.reveal();
+        assert_eq!(
+            asked.view().result.map(|tally| (tally.counts, tally.right)),
+            Some((vec![1, 0, 0], Some(1)))
+        );
+        assert_eq!(asked.take(&vote("b", 0)).map_err(|p| p.code()), Err("question-over"));
+    }
+}

@@ -1,0 +1,104 @@
+//! All lecture rooms, bounded in number, closed when their presenter is gone.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use axum::http::StatusCode;
+
+use super::Room;
+use crate::limits::Limits;
+use crate::problem::Problem;
+use crate::session::Session;
+
+/// Signs of a code: none that is taken for another, no vowel that makes a word.
+const SIGNS: &[u8; 28] = b"BCDFGHJKLMNPQRSTVWXZ23456789";
+/// Signs in a code.
+const LENGTH: usize = 5;
+
+/// The rooms of one server.
+#[derive(Debug, Default)]
+pub struct Rooms {
+    open: Mutex<BTreeMap<String, Arc<Room>>>,
+}
+
+impl Rooms {
+    /// Opens a room for a session. Needs the async runtime.
+    pub fn open(&self, session: Arc<Session>, limits: &Limits) -> Result<Arc<Room>, Problem> {
+        self.expire(limits);
+        let mut open = self.lock();
+        if open.len() >= limits.rooms {
+            return Err(Problem::new(
+                StatusCode::SERVICE_UNAVAILABLE,
+                "too-many-rooms",
+                format!("all {} lecture rooms of this server are in use", limits.rooms),
+                "close a room that is no longer needed, or start the server with a larger --max-rooms",
+            ));
+        }
+        let code = std::iter::repeat_with(new_code).find(|code| !open.contains_key(code)).unwrap_or_default();
+        let room = Room::open(code.clone(), session, limits.followers);
+        open.insert(code, Arc::clone(&room));
+        Ok(room)
+    }
+
+    /// The room with that code, however it was typed.
+    pub fn get(&self, code: &str) -> Result<Arc<Room>, Problem> {
+        let code = code.trim().to_uppercase();
+        self.lock().get(&code).cloned().ok_or_else(|| {
+            Problem::new(
+                StatusCode::NOT_FOUND,
+                "unknown-room",
+                format!("there is no lecture room {code}"),
+                "check the code; the lecture may be over",
+            )
+        })
+    }
+
+    /// Closes a room.
+    pub fn close(&self, code: &str) {
+        if let Some(room) = self.lock().remove(code) {
+            room.close();
+        }
+    }
+
+    /// Closes rooms whose presenter has not been heard of for long, and those that are too old.
+    pub fn expire(&self, limits: &Limits) {
+        self.lock().retain(|_, room| {
+            let (silent, age) = room.ages();
+            let keep = silent < limits.room_idle && age < limits.room_life;
+            if !keep {
+                room.close();
+            }
+            keep
+        });
+    }
+
+    /// Closes all rooms.
+    pub fn clear(&self) {
+        for room in std::mem::take(&mut *self.lock()).into_values() {
+            room.close();
+        }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.lock().len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Room>>> {
+        self.open.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn new_code() -> String {
+    let random = uuid::Uuid::new_v4();
+    // The first bytes of a random UUID hold nothing else than chance.
+    random.as_bytes()[..LENGTH]
+        .iter()
+        .map(|byte| char::from(SIGNS[usize::from(*byte) % SIGNS.len()]))
+        .collect()
+}

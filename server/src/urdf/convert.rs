@@ -1,0 +1,392 @@
+//! From links and joints to bodies and joints of a scene.
+//!
+//! A link's frame is its body's frame. Links without mass that are fixed to another become part of it.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use nalgebra::{Isometry3, Vector3};
+use triad_engine::scene::{
+    AxisRows, Body, Coordinates, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
+};
+
+use super::read::{Geometry, Kind, Link, Robot, UrdfJoint, Visual};
+use super::{LeftOut, Root, SideCar, UrdfError};
+
+/// Friction reaches three quarters at this speed, m/s or rad/s.
+const SMOOTHING: f64 = 1e-2;
+
+/// A link in its place.
+struct Placed<'a> {
+    link: &'a Link,
+    /// Its frame in the world.
+    pose: Isometry3<f64>,
+    velocity: Vector3<f64>,
+    spin: Vector3<f64>,
+    /// The joint that carries it.
+    joint: Option<&'a UrdfJoint>,
+    /// The body that it is part of, and its frame in that of the body.
+    carrier: Carrier,
+}
+
+#[derive(Clone)]
+struct Carrier {
+    name: String,
+    frame: Isometry3<f64>,
+}
+
+pub(super) fn scene(
+    robot: &Robot,
+    side_car: &SideCar,
+    left_out: &mut Vec<LeftOut>,
+) -> Result<Scene, UrdfError> {
+    check_names(robot, side_car)?;
+    let placed = place(robot, side_car)?;
+    let mut scene = Scene {
+        name: slug(&robot.name),
+        title: robot.name.clone(),
+        description: "Imported from a URDF.".to_owned(),
+        gravity: side_car.gravity.unwrap_or([0.0, 0.0, -9.81]),
+        coordinates: Coordinates::default(),
+        bodies: Vec::new(),
+        joints: Vec::new(),
+        drivers: side_car.drivers.clone(),
+        loads: side_car.loads.clone(),
+        simulation: side_car.simulation.clone(),
+        parameters: Vec::new(),
+    };
+    for link in &placed {
+        add_body(&mut scene, link, left_out);
+    }
+    for link in &placed {
+        add_shapes(&mut scene, link, left_out);
+        add_joint(&mut scene, link, &placed, left_out);
+    }
+    add_gears(&mut scene, robot, left_out);
+    for joint in &side_car.joints {
+        scene.joints.push(closing(joint, &placed));
+    }
+    Ok(scene)
+}
+
+fn check_names(robot: &Robot, side_car: &SideCar) -> Result<(), UrdfError> {
+    let joints: Vec<String> = robot.joints.iter().map(|joint| joint.name.clone()).collect();
+    let mut links: Vec<String> = robot.links.iter().map(|link| link.name.clone()).collect();
+    links.push(GROUND.to_owned());
+    let known = |what: &'static str, names: &[String], name: &String| {
+        if names.contains(name) || name.is_empty() {
+            return Ok(());
+        }
+        Err(UrdfError::Unknown { what, name: name.clone(), known: names.to_vec() })
+    };
+    for name in side_car.positions.keys().chain(side_car.velocities.keys()) {
+        known("joint", &joints, name)?;
+    }
+    for joint in &side_car.joints {
+        known("link", &links, &joint.body_i)?;
+        known("link", &links, &joint.body_j)?;
+    }
+    Ok(())
+}
+
+/// Walks the tree from its root.
+fn place<'a>(robot: &'a Robot, side_car: &SideCar) -> Result<Vec<Placed<'a>>, UrdfError> {
+    let index: BTreeMap<&str, &Link> = robot.links.iter().map(|link| (link.name.as_str(), link)).collect();
+    let mut children: BTreeMap<&str, Vec<&UrdfJoint>> = BTreeMap::new();
+    let mut carried: BTreeMap<&str, &UrdfJoint> = BTreeMap::new();
+    for joint in &robot.joints {
+        for end in [&joint.parent, &joint.child] {
+            if !index.contains_key(end.as_str()) {
+                let what = format!("joint {} names link \"{end}\", which there is not", joint.name);
+                return Err(UrdfError::Wrong {
+                    line: joint.line,
+                    what,
+                    hint: "check the spelling of the link",
+                });
+            }
+        }
+        if let Some(other) = carried.insert(&joint.child, joint) {
+            let what =
+                format!("link {} is the child of joint {} and of {}", joint.child, other.name, joint.name);
+            let hint = "URDF describes a tree: close the loop by a joint of the side-car instead";
+            return Err(UrdfError::Wrong { line: joint.line, what, hint });
+        }
+        children.entry(&joint.parent).or_default().push(joint);
+    }
+    let roots: Vec<&Link> =
+        robot.links.iter().filter(|link| !carried.contains_key(link.name.as_str())).collect();
+    let [root] = roots[..] else {
+        let line = roots.get(1).map_or(1, |link| link.line);
+        let what = match roots.len() {
+            0 => "no link is the root: the joints make a ring".to_owned(),
+            n => format!("{n} links have no parent, among them {} and {}", roots[0].name, roots[1].name),
+        };
+        return Err(UrdfError::Wrong { line, what, hint: "every link but one must be the child of a joint" });
+    };
+    let mut placed: Vec<Placed> = Vec::with_capacity(robot.links.len());
+    let own = Carrier { name: root.name.clone(), frame: Isometry3::identity() };
+    let carrier = match side_car.root {
+        Root::Ground => Carrier { name: GROUND.to_owned(), ..own },
+        Root::Free if has_mass(root) => own,
+        Root::Free => return Err(without_mass(root)),
+    };
+    let rest = Vector3::zeros();
+    placed.push(Placed {
+        link: root,
+        pose: Isometry3::identity(),
+        velocity: rest,
+        spin: rest,
+        joint: None,
+        carrier,
+    });
+    let mut queue = VecDeque::from([0]);
+    while let Some(at) = queue.pop_front() {
+        let name = placed[at].link.name.clone();
+        for joint in children.get(name.as_str()).into_iter().flatten() {
+            let next = moved(&placed[at], joint, index[joint.child.as_str()], side_car)?;
+            queue.push_back(placed.len());
+            placed.push(next);
+        }
+    }
+    if placed.len() < robot.links.len() {
+        let lost = robot.joints.iter().find(|joint| !placed.iter().any(|p| p.link.name == joint.child));
+        let line = lost.map_or(1, |joint| joint.line);
+        let what = "these links hang on each other in a ring, not on the root".to_owned();
+        return Err(UrdfError::Wrong { line, what, hint: "close loops by joints of the side-car instead" });
+    }
+    Ok(placed)
+}
+
+/// The child of a joint, in its place.
+fn moved<'a>(
+    parent: &Placed<'a>,
+    joint: &'a UrdfJoint,
+    link: &'a Link,
+    side_car: &SideCar,
+) -> Result<Placed<'a>, UrdfError> {
+    let at = |values: &BTreeMap<String, f64>| values.get(&joint.name).copied().unwrap_or(0.0);
+    let (position, rate) = (at(&side_car.positions), at(&side_car.velocities));
+    let motion = match joint.kind {
+        Kind::Revolute => Isometry3::rotation(joint.axis * position),
+        Kind::Prismatic => Isometry3::translation_from(joint.axis * position),
+        Kind::Fixed | Kind::Floating | Kind::Planar => Isometry3::identity(),
+    };
+    let local = joint.origin * motion;
+    let pose = parent.pose * local;
+    let axis = parent.pose * (joint.origin * joint.axis);
+    let arm = pose.translation.vector - parent.pose.translation.vector;
+    let mut velocity = parent.velocity + parent.spin.cross(&arm);
+    let mut spin = parent.spin;
+    match joint.kind {
+        Kind::Revolute => spin += axis * rate,
+        Kind::Prismatic => velocity += axis * rate,
+        Kind::Fixed | Kind::Floating | Kind::Planar => {}
+    }
+    let fixed = joint.kind == Kind::Fixed;
+    let carrier = if fixed && (parent.carrier.name == GROUND || !has_mass(link)) {
+        Carrier { name: parent.carrier.name.clone(), frame: parent.carrier.frame * local }
+    } else if has_mass(link) {
+        Carrier { name: link.name.clone(), frame: Isometry3::identity() }
+    } else {
+        return Err(without_mass(link));
+    };
+    Ok(Placed { link, pose, velocity, spin, joint: Some(joint), carrier })
+}
+
+/// A shift as a motion.
+trait Shift {
+    fn translation_from(by: Vector3<f64>) -> Self;
+}
+
+impl Shift for Isometry3<f64> {
+    fn translation_from(by: Vector3<f64>) -> Self {
+        Self::translation(by.x, by.y, by.z)
+    }
+}
+
+fn has_mass(link: &Link) -> bool {
+    link.inertial.as_ref().is_some_and(|inertial| inertial.mass > 0.0)
+}
+
+fn without_mass(link: &Link) -> UrdfError {
+    UrdfError::Wrong {
+        line: link.line,
+        what: format!("link {} moves but has no mass", link.name),
+        hint: "give it an <inertial> with a mass above zero, or fix it to its parent",
+    }
+}
+
+fn add_body(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
+    let link = placed.link;
+    if placed.carrier.name != link.name {
+        if has_mass(link) {
+            let what = "it does not move: its mass has no meaning".to_owned();
+            left_out.push(LeftOut { line: link.line, of: format!("link {}", link.name), what });
+        }
+        return;
+    }
+    let Some(inertial) = &link.inertial else { return };
+    let tensor = inertial.tensor;
+    let row = |k: usize| [tensor[(k, 0)], tensor[(k, 1)], tensor[(k, 2)]];
+    let inertia = (tensor.abs().max() > 0.0).then(|| Inertia::Tensor([row(0), row(1), row(2)]));
+    let turn = placed.pose.rotation;
+    let orientation = (turn.angle() > 0.0).then(|| Orientation {
+        u: None,
+        v: None,
+        w: None,
+        quaternion: Some([turn.w, turn.i, turn.j, turn.k]),
+        axis: None,
+        angle: None,
+    });
+    scene.bodies.push(Body {
+        name: link.name.clone(),
+        mass: inertial.mass,
+        inertia,
+        center_of_mass: inertial.center.into(),
+        position: placed.pose.translation.vector.into(),
+        orientation,
+        velocity: placed.velocity.into(),
+        angular_velocity: placed.spin.into(),
+        coordinates: None,
+        shape: Vec::new(),
+    });
+}
+
+fn add_shapes(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
+    let Some(body) = scene.bodies.iter_mut().find(|body| body.name == placed.carrier.name) else { return };
+    for visual in &placed.link.shapes {
+        match shape(visual, &placed.carrier.frame) {
+            Some(shape) => body.shape.push(shape),
+            None => left_out.push(LeftOut {
+                line: visual.line,
+                of: format!("link {}", placed.link.name),
+                what: "<box> that is turned in its link: a scene's boxes lie along the axes of the body"
+                    .to_owned(),
+            }),
+        }
+    }
+}
+
+fn shape(visual: &Visual, frame: &Isometry3<f64>) -> Option<Shape> {
+    let at = frame * visual.origin;
+    let center: [f64; 3] = at.translation.vector.into();
+    match visual.geometry {
+        Geometry::Sphere(radius) => Some(Shape::Sphere { center, radius }),
+        Geometry::Cylinder { radius, length } => {
+            let half = at.rotation * Vector3::z() * (0.5 * length);
+            let [from, to] = [-half, half].map(|end| (at.translation.vector + end).into());
+            Some(Shape::Rod { from, to, radius })
+        }
+        Geometry::Box(size) => {
+            // Quarter turns only exchange the edges.
+            let turned = at.rotation.to_rotation_matrix().matrix().abs();
+            let quarter = turned.iter().all(|part| *part < 1e-6 || (part - 1.0).abs() < 1e-6);
+            quarter.then(|| Shape::Box { center, size: (turned.map(f64::round) * size).into() })
+        }
+    }
+}
+
+fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut Vec<LeftOut>) {
+    let Some(joint) = placed.joint else { return };
+    let Some(parent) = all.iter().find(|other| other.link.name == joint.parent) else { return };
+    if parent.carrier.name == placed.carrier.name {
+        return;
+    }
+    let kind = match joint.kind {
+        Kind::Revolute => JointKind::Revolute,
+        Kind::Prismatic => JointKind::Prismatic,
+        Kind::Fixed => JointKind::Fixed,
+        Kind::Planar => JointKind::Planar,
+        Kind::Floating => return,
+    };
+    let on_parent = parent.carrier.frame * joint.origin;
+    let mut written = Joint::between(&joint.name, kind, &parent.carrier.name, &placed.carrier.name);
+    written.point_i = Some(on_parent.translation.vector.into());
+    written.point_j = Some([0.0; 3]);
+    if kind != JointKind::Fixed {
+        // The motion of the joint leaves its axis as it is.
+        written.axis_i = Some((on_parent.rotation * joint.axis).into());
+        written.axis_j = Some(joint.axis.into());
+    }
+    if kind == JointKind::Revolute {
+        written.rows = Some(AxisRows::TwoCar);
+    }
+    scene.joints.push(written);
+    add_friction(scene, joint, left_out);
+}
+
+fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<LeftOut>) {
+    if joint.damping == 0.0 && joint.friction == 0.0 {
+        return;
+    }
+    let name = format!("{} friction", joint.name);
+    let friction = Friction { viscous: joint.damping, coulomb: joint.friction, smoothing: SMOOTHING };
+    let friction = Some(friction);
+    let of = joint.name.clone();
+    let load = match joint.kind {
+        Kind::Revolute => Load::Torsion {
+            name,
+            joint: of,
+            stiffness: 0.0,
+            free_angle: 0.0,
+            damping: 0.0,
+            torque: None,
+            friction,
+        },
+        Kind::Prismatic => Load::Slider {
+            name,
+            joint: of,
+            stiffness: 0.0,
+            free_length: 0.0,
+            damping: 0.0,
+            force: None,
+            friction,
+        },
+        Kind::Fixed | Kind::Floating | Kind::Planar => {
+            let what = "<dynamics>: friction has a word only for turning and sliding joints".to_owned();
+            left_out.push(LeftOut { line: joint.line, of: format!("joint {of}"), what });
+            return;
+        }
+    };
+    scene.loads.push(load);
+}
+
+/// Joints that follow others.
+fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<LeftOut>) {
+    for joint in &robot.joints {
+        let Some((leader, factor, _)) = &joint.mimic else { continue };
+        let turns = |name: &str| scene.joints.iter().any(|j| j.name == name && j.kind == JointKind::Revolute);
+        if turns(leader) && turns(&joint.name) {
+            let mut gear =
+                Joint::between(&format!("{} follows {leader}", joint.name), JointKind::Gear, "", "");
+            gear.joints = Some([leader.clone(), joint.name.clone()]);
+            gear.ratio = Some(*factor);
+            scene.joints.push(gear);
+        } else {
+            let what = format!("<mimic> of {leader}: only turning joints can follow each other");
+            left_out.push(LeftOut { line: joint.line, of: format!("joint {}", joint.name), what });
+        }
+    }
+}
+
+/// A joint of the side-car, whose links may be parts of bodies.
+fn closing(joint: &Joint, all: &[Placed]) -> Joint {
+    let mut joint = joint.clone();
+    let on_body = |name: &mut String, point: &mut Option<[f64; 3]>, axis: &mut Option<[f64; 3]>| {
+        let Some(placed) = all.iter().find(|placed| placed.link.name == *name) else { return };
+        *name = placed.carrier.name.clone();
+        let frame = placed.carrier.frame;
+        *point = point.map(|p| (frame * nalgebra::Point3::from(p)).into());
+        *axis = axis.map(|a| (frame * Vector3::from(a)).into());
+    };
+    on_body(&mut joint.body_i, &mut joint.point_i, &mut joint.axis_i);
+    on_body(&mut joint.body_j, &mut joint.point_j, &mut joint.axis_j);
+    joint
+}
+
+/// A name for files and addresses.
+fn slug(name: &str) -> String {
+    let plain: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
+    let parts: Vec<&str> = plain.split('-').filter(|part| !part.is_empty()).collect();
+    if parts.is_empty() { "robot".to_owned() } else { parts.join("-") }
+}

@@ -1,0 +1,281 @@
+//! From XML to links and joints; every number checked where it stands.
+
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::{LeftOut, MAX_LINKS, UrdfError};
+
+/// XML nodes that are read.
+const MAX_NODES: u32 = 400_000;
+
+#[derive(Debug)]
+pub(super) struct Robot {
+    pub name: String,
+    pub links: Vec<Link>,
+    pub joints: Vec<UrdfJoint>,
+}
+
+#[derive(Debug)]
+pub(super) struct Link {
+    pub line: u32,
+    pub name: String,
+    pub inertial: Option<Inertial>,
+    pub shapes: Vec<Visual>,
+}
+
+/// Mass and inertia in the frame of the link.
+#[derive(Debug)]
+pub(super) struct Inertial {
+    pub mass: f64,
+    pub center: Vector3<f64>,
+    pub tensor: Matrix3<f64>,
+}
+
+#[derive(Debug)]
+pub(super) struct Visual {
+    pub line: u32,
+    pub origin: Isometry3<f64>,
+    pub geometry: Geometry,
+}
+
+#[derive(Debug)]
+pub(super) enum Geometry {
+    Box(Vector3<f64>),
+    Sphere(f64),
+    Cylinder { radius: f64, length: f64 },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Revolute,
+    Prismatic,
+    Fixed,
+    Floating,
+    Planar,
+}
+
+#[derive(Debug)]
+pub(super) struct UrdfJoint {
+    pub line: u32,
+    pub name: String,
+    pub kind: Kind,
+    pub origin: Isometry3<f64>,
+    pub axis: Vector3<f64>,
+    pub parent: String,
+    pub child: String,
+    pub damping: f64,
+    pub friction: f64,
+    /// The joint that it follows, with factor and offset.
+    pub mimic: Option<(String, f64, f64)>,
+}
+
+pub(super) fn robot(text: &str, left_out: &mut Vec<LeftOut>) -> Result<Robot, UrdfError> {
+    let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options)
+        .map_err(|error| UrdfError::Xml { line: error.pos().row, cause: error.to_string() })?;
+    let root = document.root_element();
+    if !root.has_tag_name("robot") {
+        let what = format!("the root element is <{}>, not <robot>", root.tag_name().name());
+        return Err(wrong(root, what, "is this a URDF? SDF and MJCF are other formats"));
+    }
+    let mut robot =
+        Robot { name: attribute(root, "name")?.to_owned(), links: Vec::new(), joints: Vec::new() };
+    for node in root.children().filter(Node::is_element) {
+        match node.tag_name().name() {
+            "link" => robot.links.push(link(node, left_out)?),
+            "joint" => robot.joints.push(joint(node, left_out)?),
+            "material" => {}
+            other => left_out.push(LeftOut {
+                line: line(node),
+                of: "robot".to_owned(),
+                what: format!("<{other}> has no meaning for a scene"),
+            }),
+        }
+        if robot.links.len() > MAX_LINKS {
+            return Err(wrong(
+                node,
+                format!("the robot has more than {MAX_LINKS} links"),
+                "import a part of it",
+            ));
+        }
+    }
+    Ok(robot)
+}
+
+fn link(node: Node, left_out: &mut Vec<LeftOut>) -> Result<Link, UrdfError> {
+    let name = attribute(node, "name")?.to_owned();
+    let of = format!("link {name}");
+    let mut link = Link { line: line(node), name, inertial: None, shapes: Vec::new() };
+    for part in node.children().filter(Node::is_element) {
+        match part.tag_name().name() {
+            "inertial" => link.inertial = Some(inertial(part)?),
+            "visual" => link.shapes.extend(visual(part, &of, left_out)?),
+            "collision" => {}
+            other => {
+                let what = format!("<{other}> has no meaning for a scene");
+                left_out.push(LeftOut { line: line(part), of: of.clone(), what });
+            }
+        }
+    }
+    if node.children().any(|part| part.has_tag_name("collision")) {
+        let what = "<collision>: scenes have no contact between bodies".to_owned();
+        left_out.push(LeftOut { line: line(node), of, what });
+    }
+    Ok(link)
+}
+
+fn inertial(node: Node) -> Result<Inertial, UrdfError> {
+    let origin = origin(node)?;
+    let mass_node = child(node, "mass")?;
+    let mass = number(mass_node, "value")?;
+    let given = child(node, "inertia")?;
+    let [xx, xy, xz, yy, yz, zz] =
+        ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|name| optional(given, name, 0.0));
+    let (xx, xy, xz, yy, yz, zz) = (xx?, xy?, xz?, yy?, yz?, zz?);
+    let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let turn = origin.rotation.to_rotation_matrix();
+    Ok(Inertial { mass, center: origin.translation.vector, tensor: turn * own * turn.transpose() })
+}
+
+fn visual(node: Node, of: &str, left_out: &mut Vec<LeftOut>) -> Result<Option<Visual>, UrdfError> {
+    let geometry = child(node, "geometry")?;
+    let Some(shape) = geometry.children().find(Node::is_element) else {
+        return Err(wrong(
+            geometry,
+            "<geometry> is empty".to_owned(),
+            "put a box, cylinder or sphere into it",
+        ));
+    };
+    let geometry = match shape.tag_name().name() {
+        "box" => Geometry::Box(vector(shape, "size")?),
+        "sphere" => Geometry::Sphere(number(shape, "radius")?),
+        "cylinder" => {
+            Geometry::Cylinder { radius: number(shape, "radius")?, length: number(shape, "length")? }
+        }
+        other => {
+            let file = shape.attribute("filename").map(|name| format!(" {name}")).unwrap_or_default();
+            let what = format!("<{other}>{file}: it is drawn as bars between its joints");
+            left_out.push(LeftOut { line: line(shape), of: of.to_owned(), what });
+            return Ok(None);
+        }
+    };
+    Ok(Some(Visual { line: line(node), origin: origin(node)?, geometry }))
+}
+
+fn joint(node: Node, left_out: &mut Vec<LeftOut>) -> Result<UrdfJoint, UrdfError> {
+    let name = attribute(node, "name")?.to_owned();
+    let of = format!("joint {name}");
+    let kind = match attribute(node, "type")? {
+        "revolute" | "continuous" => Kind::Revolute,
+        "prismatic" => Kind::Prismatic,
+        "fixed" => Kind::Fixed,
+        "floating" => Kind::Floating,
+        "planar" => Kind::Planar,
+        other => {
+            let what = format!("{of} is of type \"{other}\"");
+            return Err(wrong(node, what, "use revolute, continuous, prismatic, fixed, floating or planar"));
+        }
+    };
+    let mut axis = Vector3::x();
+    let (mut damping, mut friction, mut mimic) = (0.0, 0.0, None);
+    for part in node.children().filter(Node::is_element) {
+        let mut leave = |what: &str| {
+            left_out.push(LeftOut { line: line(part), of: of.clone(), what: what.to_owned() });
+        };
+        match part.tag_name().name() {
+            "origin" | "parent" | "child" => {}
+            "axis" => axis = vector(part, "xyz")?,
+            "dynamics" => {
+                damping = optional(part, "damping", 0.0)?;
+                friction = optional(part, "friction", 0.0)?;
+            }
+            "mimic" => {
+                let factor = optional(part, "multiplier", 1.0)?;
+                mimic = Some((attribute(part, "joint")?.to_owned(), factor, optional(part, "offset", 0.0)?));
+            }
+            "limit" if kind == Kind::Fixed => {}
+            "limit" => leave("<limit>: the joint moves beyond its limits, and its effort is not bounded"),
+            other => leave(&format!("<{other}> has no meaning for a scene")),
+        }
+    }
+    if !matches!(kind, Kind::Fixed | Kind::Floating) && axis.norm() < 1e-9 {
+        return Err(wrong(
+            node,
+            format!("the axis of {of} has no direction"),
+            "give it an axis like \"0 0 1\"",
+        ));
+    }
+    let end = |which: &str| Ok::<_, UrdfError>(attribute(child(node, which)?, "link")?.to_owned());
+    Ok(UrdfJoint {
+        line: line(node),
+        kind,
+        origin: origin(node)?,
+        axis: axis.try_normalize(1e-12).unwrap_or_else(Vector3::x),
+        parent: end("parent")?,
+        child: end("child")?,
+        damping,
+        friction,
+        mimic,
+        name,
+    })
+}
+
+/// The frame of an element: xyz, then roll, pitch and yaw about fixed axes.
+fn origin(node: Node) -> Result<Isometry3<f64>, UrdfError> {
+    let Some(origin) = node.children().find(|part| part.has_tag_name("origin")) else {
+        return Ok(Isometry3::identity());
+    };
+    let or_zero = |name: &str| match origin.attribute(name) {
+        Some(_) => vector(origin, name),
+        None => Ok(Vector3::zeros()),
+    };
+    let (xyz, rpy) = (or_zero("xyz")?, or_zero("rpy")?);
+    Ok(Isometry3::from_parts(Translation3::from(xyz), UnitQuaternion::from_euler_angles(rpy.x, rpy.y, rpy.z)))
+}
+
+fn line(node: Node) -> u32 {
+    node.document().text_pos_at(node.range().start).row
+}
+
+fn wrong(node: Node, what: String, hint: &'static str) -> UrdfError {
+    UrdfError::Wrong { line: line(node), what, hint }
+}
+
+fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Result<Node<'a, 'd>, UrdfError> {
+    node.children().find(|part| part.has_tag_name(name)).ok_or_else(|| {
+        wrong(node, format!("<{}> has no <{name}>", node.tag_name().name()), "the URDF is not complete here")
+    })
+}
+
+fn attribute<'a>(node: Node<'a, '_>, name: &str) -> Result<&'a str, UrdfError> {
+    let missing = || {
+        let what = format!("<{}> has no attribute \"{name}\"", node.tag_name().name());
+        wrong(node, what, "the URDF is not complete here")
+    };
+    node.attribute(name).map(str::trim).filter(|text| !text.is_empty()).ok_or_else(missing)
+}
+
+fn number(node: Node, name: &str) -> Result<f64, UrdfError> {
+    let text = attribute(node, name)?;
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(wrong(node, format!("{name} is \"{text}\", not a number"), "write it like 0.25 or 1e-3")),
+    }
+}
+
+fn optional(node: Node, name: &str, otherwise: f64) -> Result<f64, UrdfError> {
+    if node.has_attribute(name) { number(node, name) } else { Ok(otherwise) }
+}
+
+fn vector(node: Node, name: &str) -> Result<Vector3<f64>, UrdfError> {
+    let text = attribute(node, name)?;
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|part| part.parse().ok()).collect();
+    match numbers[..] {
+        [x, y, z] if text.split_whitespace().count() == 3 && [x, y, z].iter().all(|n| n.is_finite()) => {
+            Ok(Vector3::new(x, y, z))
+        }
+        _ => {
+            Err(wrong(node, format!("{name} is \"{text}\", not three numbers"), "write them like \"0 0 1\""))
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Followers of a lecture on loopback sockets: what each receives, and when.
+
+use crate::program::Server;
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+/// A message of a WebSocket.
+#[derive(Debug)]
+pub enum Message {
+    /// JSON.
+    Text(Value),
+    /// A block of the recording, so many bytes.
+    Block(usize),
+    /// The other side closes.
+    Close,
+    /// Pings and the like.
+    Other,
+}
+
+/// As little of a WebSocket client as a follower needs.
+#[derive(Debug)]
+pub struct Follower {
+    reader: BufReader<TcpStream>,
+    /// Bytes received, heads of messages included.
+    pub bytes: usize,
+}
+
+impl Follower {
+    /// Joins a room.
+    pub fn join(address: &str, code: &str, recording: bool) -> Self {
+        let mut socket = TcpStream::connect(address).unwrap();
+        socket.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        write!(
+            socket,
+            "GET /api/v1/rooms/{code}/stream?recording={recording} HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\n\
+             Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+        )
+        .unwrap();
+        let mut reader = BufReader::new(socket);
+        let mut line = String::new();
+        reader.read_line(&mut line).unwrap();
+        assert!(line.contains("101"), "{line}");
+        while !line.trim().is_empty() {
+            line.clear();
+            reader.read_line(&mut line).unwrap();
+        }
+        Self { reader, bytes: 0 }
+    }
+
+    /// Waits for the next message.
+    pub fn read(&mut self) -> Message {
+        let mut head = [0_u8; 2];
+        self.reader.read_exact(&mut head).unwrap();
+        let mut long = [0_u8; 8];
+        let length = match head[1] {
+            126 => {
+                self.reader.read_exact(&mut long[6..]).unwrap();
+                self.bytes += 2;
+                u64::from_be_bytes(long)
+            }
+            127 => {
+                self.reader.read_exact(&mut long).unwrap();
+                self.bytes += 8;
+                u64::from_be_bytes(long)
+            }
+            short => u64::from(short),
+        };
+        let mut payload = vec![0; usize::try_from(length).unwrap()];
+        self.reader.read_exact(&mut payload).unwrap();
+        self.bytes += 2 + payload.len();
+        match head[0] & 15 {
+            1 => Message::Text(serde_json::from_slice(&payload).unwrap()),
+            2 => Message::Block(payload.len()),
+            8 => Message::Close,
+            _ => Message::Other,
+        }
+    }
+
+    /// Reads on until a text of that type satisfies `wanted`.
+    pub fn until(&mut self, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
+        loop {
+            match self.read() {
+                Message::Text(text) if text["type"] == kind && wanted(&text) => return text,
+                Message::Close => panic!("the stream was closed before {kind}"),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A lecture of a built-in scene.
+#[derive(Debug)]
+pub struct Lecture {
+    /// The session that is shown.
+    pub session: String,
+    /// What followers type.
+    pub code: String,
+    /// What shows that somebody is the presenter.
+    pub key: String,
+}
+
+impl Lecture {
+    /// Opens a room for a scene.
+    pub fn open(server: &Server, scene: &str) -> Self {
+        let session = server.post("/api/v1/sessions", &json!({ "builtin": scene })).json();
+        let session = session["id"].as_str().unwrap().to_owned();
+        let room = server.post("/api/v1/rooms", &json!({ "session": session })).json();
+        let text = |member: &str| room[member].as_str().unwrap().to_owned();
+        Self { session, code: text("code"), key: text("key") }
+    }
+
+    /// A request of the presenter.
+    pub fn lead(&self, server: &Server, method: &str, what: &str, body: &Value) -> crate::program::Reply {
+        let path = format!("/api/v1/rooms/{}/{what}", self.code);
+        let authorization = format!("Authorization: Bearer {}\r\n", self.key);
+        server.ask_with(method, path.trim_end_matches('/'), &authorization, Some(body.to_string().as_bytes()))
+    }
+}
+
+/// What one follower saw of a lecture.
+#[derive(Debug, Clone, Default)]
+pub struct Seen {
+    /// States.
+    pub states: usize,
+    /// Blocks of the recording.
+    pub blocks: usize,
+    /// Bytes, everything included.
+    pub bytes: usize,
+    /// How long each mark that the presenter set took to arrive.
+    pub delays: Vec<Duration>,
+    /// The newest time of the run that it was told, s.
+    pub time: f64,
+}
+
+/// Follows until `end`; marks carry the time at which they were set, counted from `start`.
+pub fn follow(mut follower: Follower, start: Instant, end: Instant) -> Seen {
+    let mut seen = Seen::default();
+    while Instant::now() < end {
+        match follower.read() {
+            Message::Text(text) if text["type"] == "state" => {
+                seen.states += 1;
+                seen.time = text["time"].as_f64().unwrap();
+            }
+            Message::Text(text) => {
+                if let Some(set) = text["view"]["mark"].as_f64() {
+                    seen.delays.push(start.elapsed().saturating_sub(Duration::from_secs_f64(set)));
+                }
+            }
+            Message::Block(_) => seen.blocks += 1,
+            Message::Close => break,
+            Message::Other => {}
+        }
+    }
+    seen.bytes = follower.bytes;
+    seen
+}

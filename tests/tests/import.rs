@@ -1,0 +1,86 @@
+//! Robots described in URDF: a small arm, its loop closed by a side-car, and what is wrong with others.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+
+use serde_json::{Value, json};
+use triad_tests::program::{Server, assert_problem, run, run_json};
+use triad_tests::root;
+
+fn data(name: &str) -> String {
+    root().join("tests/data").join(name).display().to_string()
+}
+
+#[test]
+fn an_arm_becomes_a_scene_that_runs_and_what_is_left_out_is_told_with_its_line() {
+    let (code, told) = run_json(&["import", &data("arm.urdf")]);
+    assert_eq!(code, 0, "{told:#}");
+    let names = |list: &Value| -> Vec<String> {
+        list.as_array().unwrap().iter().map(|entry| entry["name"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names(&told["scene"]["bodies"]), ["upper", "lower"], "the base is the ground, the tool a part");
+    assert_eq!(names(&told["scene"]["joints"]), ["shoulder", "elbow"]);
+    assert_eq!(told["check"]["degrees_of_freedom"], 2);
+    let left: Vec<(u64, &str)> = told["left_out"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|left| (left["line"].as_u64().unwrap(), left["of"].as_str().unwrap()))
+        .collect();
+    assert_eq!(left, [(9, "link upper"), (12, "joint shoulder"), (31, "robot")], "{:#}", told["left_out"]);
+    // The elbow stands 1 m above the shoulder, which stands 0.2 m above the ground.
+    let lower = &told["scene"]["bodies"][1];
+    let at: Vec<f64> = lower["position"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert!((at[0]).abs() < 1e-12 && (at[2] - 1.2).abs() < 1e-12, "{at:?}");
+    // Friction of the shoulder is a load.
+    assert_eq!(told["scene"]["loads"][0]["friction"]["viscous"], 0.5);
+}
+
+#[test]
+fn a_side_car_turns_joints_and_closes_a_loop_on_a_part_of_a_body() {
+    let folder = tempfile::tempdir().unwrap();
+    let side = folder.path().join("side.json");
+    // Turned by 90°, the upper arm lies along x: the elbow at (1, 0, 0.2), the tool's tip at (1, 0, 1.0).
+    let with = json!({
+        "positions": {"shoulder": std::f64::consts::FRAC_PI_2, "elbow": -std::f64::consts::FRAC_PI_2},
+        "joints": [{"name": "closing", "type": "spherical", "body_i": "tool", "point_i": [0, 0, 0],
+            "body_j": "ground", "point_j": [1.0, 0.0, 1.0]}]
+    });
+    std::fs::write(&side, with.to_string()).unwrap();
+    let out = folder.path().join("arm.json");
+    let done = run(&["import", &data("arm.urdf"), "--with", side.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let scene: Value = serde_json::from_str(&std::fs::read_to_string(&out).unwrap()).unwrap();
+    let closing = scene["joints"].as_array().unwrap().iter().find(|joint| joint["name"] == "closing").unwrap();
+    assert_eq!((&closing["body_i"], &closing["point_i"]), (&json!("lower"), &json!([0.0, 0.0, 0.8])));
+    let (code, report) = run_json(&["check", out.to_str().unwrap()]);
+    assert_eq!((code, &report["degrees_of_freedom"]), (0, &json!(0)), "{report:#}");
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let arm = std::fs::read_to_string(data("arm.urdf")).unwrap();
+    let import = |urdf: String, with: Value| {
+        let reply = server.post("/api/v1/import/urdf", &json!({ "urdf": urdf, "with": with }));
+        (reply.status, reply.json())
+    };
+    let (status, good) = import(arm.clone(), json!({}));
+    assert_eq!(status, 200, "{good:#}");
+    let cases = [
+        (arm.replace("<mass value=\"2\"/>", "<mass value=\"heavy\"/>"), "not-a-robot", "line=6"),
+        (arm.replace("type=\"continuous\"", "type=\"spherical\""), "not-a-robot", "line=17"),
+        (arm.replace("</robot>", ""), "not-xml", ""),
+        (arm.replace("<child link=\"lower\"/>", "<child link=\"upper\"/>"), "not-a-robot", "line=17"),
+        (arm.replace("<mass value=\"1\"/>", "<mass value=\"0\"/>"), "not-a-robot", "line=14"),
+    ];
+    for (urdf, code, place) in cases {
+        let (status, problem) = import(urdf, json!({}));
+        assert_eq!(status, 422, "{problem:#}");
+        assert_problem(&problem, code, place);
+    }
+    let (_, problem) = import(arm, json!({"positions": {"ellbow": 1.0}}));
+    assert_problem(&problem, "unknown-in-side-car", "");
+    assert!(problem["hint"].as_str().unwrap().contains("elbow"), "{problem:#}");
+    server.stop();
+}

@@ -1,0 +1,84 @@
+//! A lecture against the running program: many follow one simulation, and nobody can harm it.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+use triad_tests::lecture::{Follower, Lecture, follow};
+use triad_tests::program::Server;
+
+fn time(state: &Value) -> f64 {
+    state["time"].as_f64().unwrap()
+}
+
+#[test]
+fn many_follow_one_simulation_and_one_who_stalls_harms_nobody_and_catches_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let lecture = Lecture::open(&server, "spatial-double-pendulum");
+    let session = format!("/api/v1/sessions/{}", lecture.session);
+    // One reads nothing at all, one leaves at once, the others follow.
+    let mut stalled = Follower::join(&server.address, &lecture.code, true);
+    drop(Follower::join(&server.address, &lecture.code, true));
+    let crowd: Vec<Follower> =
+        (0..40).map(|_| Follower::join(&server.address, &lecture.code, true)).collect();
+    server.post(&format!("{session}/play"), &json!({"speed": 2}));
+    let (start, end) = (Instant::now(), Instant::now() + Duration::from_secs(2));
+    let watching: Vec<_> =
+        crowd.into_iter().map(|one| std::thread::spawn(move || follow(one, start, end))).collect();
+    let seen: Vec<_> = watching.into_iter().map(|thread| thread.join().unwrap()).collect();
+    for one in &seen {
+        assert!(one.states >= 3 && one.blocks >= 1 && one.time > 0.0, "{one:?}");
+    }
+    let paused = server.post(&format!("{session}/pause"), &json!({})).json();
+    assert_eq!(paused["frames"], paused["frames_encoded"], "encoded once, however many follow");
+    // The one who stalled, and one who comes again, are told the newest state.
+    let newest = time(&paused);
+    stalled.until("state", |state| time(state) == newest);
+    let mut again = Follower::join(&server.address, &lecture.code, false);
+    let state = again.until("state", |state| time(state) == newest);
+    assert!(!state.to_string().contains(&lecture.session), "the session's own name stays with the presenter");
+    // What the presenter looks at travels.
+    assert_eq!(lecture.lead(&server, "PUT", "view", &json!({"view": {"joint": "hinge"}})).status, 204);
+    again.until("room", |room| room["view"]["joint"] == "hinge");
+    let told = server.get(&format!("/api/v1/rooms/{}/jacobian", lecture.code)).json();
+    assert_eq!(told, server.get(&format!("{session}/jacobian")).json());
+    // The end.
+    assert_eq!(lecture.lead(&server, "DELETE", "", &json!({})).status, 204);
+    again.until("closed", |_| true);
+    assert_eq!(server.get(&format!("/api/v1/rooms/{}", lecture.code)).status, 404);
+    server.stop();
+}
+
+#[test]
+fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let lecture = Lecture::open(&server, "simple-pendulum");
+    let room = format!("/api/v1/rooms/{}", lecture.code);
+    let refused = server.post(&format!("{room}/reveal"), &json!({}));
+    assert_eq!((refused.status, refused.json()["code"].as_str()), (403, Some("not-the-presenter")));
+    let question = json!({"text": "Which sign has Fx?", "choices": ["+", "−"], "right": 1});
+    assert_eq!(server.ask("PUT", &format!("{room}/question"), Some(question.to_string().as_bytes())).status, 403);
+    assert_eq!(lecture.lead(&server, "PUT", "question", &question).status, 204);
+    let mut follower = Follower::join(&server.address, &lecture.code, false);
+    let asked = follower.until("room", |board| board["question"].is_object());
+    for (voter, choice) in [("a", 0), ("b", 1), ("a", 1), ("c", 0)] {
+        let vote = json!({"question": asked["question"]["number"], "voter": voter, "choice": choice});
+        assert_eq!(server.post(&format!("{room}/answers"), &vote).status, 204);
+    }
+    let told = server.get(&room).json();
+    for board in [&asked, &told] {
+        let members: Vec<&String> = board["question"].as_object().unwrap().keys().collect();
+        assert_eq!(members, ["choices", "number", "text"], "neither counts nor the right choice");
+    }
+    let desk = lecture.lead(&server, "GET", "desk", &Value::Null).json();
+    assert_eq!((&desk["tally"]["counts"], &desk["followers"]), (&json!([1, 2]), &json!(1)));
+    assert_eq!(server.get(&format!("{room}/desk")).status, 403);
+    assert_eq!(lecture.lead(&server, "POST", "reveal", &json!({})).status, 204);
+    let result = follower.until("room", |board| board["question"]["result"].is_object());
+    assert_eq!(result["question"]["result"], json!({"number": 1, "counts": [1, 2], "right": 1, "revealed": true}));
+    let late = json!({"question": 1, "voter": "d", "choice": 0});
+    assert_eq!(server.post(&format!("{room}/answers"), &late).status, 409);
+    server.stop();
+}

@@ -1,0 +1,147 @@
+// A lecture as a follower sees it: the presenter's run, mirrored, or looked around in on one's own.
+import { api, ApiError } from "../core/api";
+import { announce } from "../core/dom";
+import { seenOf } from "../core/link";
+import type { Board, SessionState } from "../core/types";
+import { Session } from "../workbench/session";
+import { tell } from "../workbench/share";
+
+export class Follower extends Session {
+  override readonly steers = false;
+  board: Board | undefined;
+  /** Looks around alone: time, selection and panels are one's own until one comes back. */
+  roaming = false;
+  over = false;
+  /** The 3-D view needs the recording; the sketch does without its bytes. */
+  recording = false;
+  /** What the presenter looks at changes the inspector's panel too. */
+  panel: ((key: string) => void) | undefined;
+
+  constructor(readonly code: string) {
+    super({ builtin: "" });
+  }
+
+  override start(): Promise<void> {
+    this.connection.open();
+    return Promise.resolve();
+  }
+
+  protected override streamUrl(): string {
+    return api.streamUrl(`/api/v1/rooms/${encodeURIComponent(this.code)}/stream${this.recording ? "?recording=true" : ""}`);
+  }
+
+  override resubscribe(): void {
+    this.recording = true;
+    this.connection.open();
+  }
+
+  /** Goes on alone from what is shown. */
+  roam(): void {
+    if (this.roaming) return;
+    this.roaming = true;
+    announce("You look around on your own. The lecture goes on; come back whenever you like.");
+    this.emit("board");
+  }
+
+  /** Comes back to what the presenter shows. */
+  comeBackToLecture(): void {
+    this.roaming = false;
+    this.toNewest();
+    this.mirror();
+    this.emit("board");
+    this.emit("shown");
+    announce("You see what the presenter shows.");
+  }
+
+  protected override read(message: { type?: string }): void {
+    if (message.type === "room") {
+      this.board = message as unknown as Board;
+      if (!this.roaming) this.mirror();
+      this.emit("board");
+    } else if (message.type === "closed") {
+      this.over = true;
+      this.connection.end();
+      this.emit("board");
+    } else super.read(message);
+  }
+
+  protected override take(state: SessionState): void {
+    const first = this.latest === undefined;
+    super.take(state);
+    if (first && !this.roaming) this.mirror();
+  }
+
+  private mirror(): void {
+    const seen = seenOf(this.board?.view);
+    if (!seen || !this.latest) return;
+    tell(this, seen);
+    if (seen.panel) this.panel?.(seen.panel);
+    // The presenter looks back: so does everybody. Otherwise the newest state is shown as it comes.
+    if (seen.back && seen.time !== undefined) super.seek(seen.time);
+    else {
+      this.toNewest();
+      this.emit("shown");
+    }
+  }
+
+  override seek(time: number): void {
+    this.roam();
+    super.seek(time);
+  }
+
+  override select(joint: string | null): void {
+    super.select(joint);
+  }
+
+  override play(): Promise<void> {
+    if (this.reviewing) this.startReplay(this.cursor ?? 0);
+    return Promise.resolve();
+  }
+
+  override pause(): Promise<void> {
+    this.seek(this.time);
+    // At the newest moment there is nothing to look back to: the picture stops here all the same.
+    this.cursor ??= this.latest?.time ?? 0;
+    this.emit("shown");
+    this.tell();
+    return Promise.resolve();
+  }
+
+  override step(): Promise<void> {
+    return Promise.resolve();
+  }
+
+  override async forward(): Promise<void> {
+    this.onward();
+  }
+
+  override reset(): Promise<void> {
+    this.seek(0);
+    return Promise.resolve();
+  }
+
+  override goTo(time: number): Promise<void> {
+    this.seek(time);
+    return Promise.resolve();
+  }
+
+  protected override replayEnded(): void {
+    this.emit("shown");
+  }
+
+  protected override async comeBack(): Promise<"there" | "gone" | "silent"> {
+    try {
+      this.board = await api.room(this.code);
+      return "there";
+    } catch (error) {
+      return error instanceof ApiError && error.gone ? "gone" : "silent";
+    }
+  }
+
+  protected override recreate(): Promise<void> {
+    this.over = true;
+    this.connection.end();
+    this.emit("board");
+    return Promise.resolve();
+  }
+}

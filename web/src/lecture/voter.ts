@@ -1,0 +1,59 @@
+// The quick question as a follower answers it, and as everybody sees its result.
+import { api } from "../core/api";
+import { h } from "../core/dom";
+import { recall, remember } from "../core/prefs";
+import type { RoomQuestion, Tally } from "../core/types";
+import { problemNotice } from "../ui/notice";
+
+/** A name made up once, so that whoever answers again changes the answer and does not vote twice. */
+function voter(): string {
+  const known = recall("voter");
+  if (known) return known;
+  const bytes = crypto.getRandomValues(new Uint8Array(12));
+  const made = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+  remember("voter", made);
+  return made;
+}
+
+export function ballot(code: string): { root: HTMLElement; show: (question: RoomQuestion | null) => void } {
+  const root = h("section", { class: "ballot", hidden: true, "aria-label": "Question", "aria-live": "polite" });
+  let shown = "";
+  let chosen: number | undefined;
+
+  const show = (question: RoomQuestion | null): void => {
+    const key = JSON.stringify(question);
+    if (key === shown) return;
+    if (!question || JSON.parse(shown || "null")?.number !== question.number) chosen = undefined;
+    shown = key;
+    root.hidden = !question;
+    if (!question) return;
+    if (question.result) {
+      root.replaceChildren(h("h2", null, question.text), histogram(question.choices, question.result, chosen));
+      return;
+    }
+    const said = h("p", { class: "help", role: "status" }, "Your answer can be changed until the result is shown.");
+    const buttons = question.choices.map((choice, k) => h("button", { type: "button", class: "button choice", "aria-pressed": String(chosen === k), onclick: () => {
+      api.answer(code, { question: question.number, voter: voter(), choice: k }).then(() => {
+        chosen = k;
+        buttons.forEach((button, at) => button.setAttribute("aria-pressed", String(at === k)));
+        said.textContent = `Counted: ${choice}. It can be changed until the result is shown.`;
+      }).catch((error: unknown) => said.replaceChildren(problemNotice(error)));
+    } }, choice));
+    root.replaceChildren(h("h2", null, question.text), h("div", { class: "row wrap" }, ...buttons), said);
+  };
+  return { root, show };
+}
+
+/** How the answers stand: bars with numbers, the right one marked by a word too. */
+export function histogram(choices: string[], tally: Tally, mine?: number): HTMLElement {
+  const all = tally.counts.reduce((sum, count) => sum + count, 0);
+  const most = Math.max(1, ...tally.counts);
+  return h("table", { class: "histogram" }, h("caption", null, `${all} ${all === 1 ? "answer" : "answers"}`), h("tbody", null, ...choices.map((choice, k) => {
+    const count = tally.counts[k] ?? 0;
+    const right = tally.right === k && tally.revealed;
+    return h("tr", { class: right ? "is-right" : "" },
+      h("th", { scope: "row" }, choice, right ? h("span", { class: "mark" }, " right") : null, mine === k ? h("span", { class: "mark" }, " yours") : null),
+      h("td", { class: "bar-cell" }, h("span", { class: "bar", style: `inline-size:${(100 * count) / most}%` })),
+      h("td", { class: "number" }, String(count)));
+  })));
+}
