@@ -13,7 +13,6 @@ use crate::error::EngineError;
 use crate::event::{self, Happening};
 use crate::integrate::{self, Integrator, Plant, Stop};
 use crate::jacobian::Jacobian;
-use crate::matrices::{self, Symmetric};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ModelBody};
 use crate::rank::{self, Rank};
@@ -499,21 +498,6 @@ impl Simulation {
         let jacobian = self.jacobian.get_or_insert_with(|| Jacobian::new(system, elimination));
         jacobian.refresh(system, elimination);
         jacobian
-    }
-
-    /// The augmented matrix of the equations of motion at the shown state.
-    pub fn augmented(&mut self) -> Symmetric {
-        self.mechanism.set_state(self.time, &self.shown);
-        matrices::augmented(&self.mechanism.system, &self.mechanism.elimination)
-    }
-
-    /// S, which the solver factors, at the shown state.
-    pub fn schur(&mut self) -> Symmetric {
-        let time = self.time;
-        self.without_counting(|mechanism, shown| {
-            mechanism.set_state(time, shown);
-            matrices::schur(&mechanism.system, &mut mechanism.elimination)
-        })
     }
 
     /// Accelerations q̈ at the shown state.

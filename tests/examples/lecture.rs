@@ -13,7 +13,8 @@ use triad_tests::program::Server;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let number = |at: usize, otherwise: u64| arguments.get(at).map_or(otherwise, |text| text.parse().unwrap());
+    let number =
+        |at: usize, otherwise: u64| arguments.get(at).map_or(otherwise, |text| text.parse().unwrap());
     let (followers, seconds) = (number(0, 200), number(1, 10));
     let scene = arguments.get(2).map_or("spatial-slider-crank", String::as_str);
     for recording in [true, false] {
@@ -49,7 +50,10 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
     let at = |part: f64| delays[((delays.len() - 1) as f64 * part) as usize].as_secs_f64() * 1e3;
     let mean = |of: fn(&Seen) -> usize| seen.iter().map(of).sum::<usize>() as f64 / seen.len() as f64;
     let wall = length.as_secs_f64();
-    println!("{scene}, {followers} followers, {wall} s, {}", if recording { "3-D view" } else { "sketch only" });
+    println!(
+        "{scene}, {followers} followers, {wall} s, {}",
+        if recording { "3-D view" } else { "sketch only" }
+    );
     println!("  joined in              {:.2} s", joining.as_secs_f64());
     println!("  states a second        {:.1}", mean(|one| one.states) / wall);
     println!("  blocks a second        {:.1}", mean(|one| one.blocks) / wall);
@@ -58,7 +62,12 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
         "  bytes a message        {:.0}",
         mean(|one| one.bytes) / mean(|one| one.states + one.blocks).max(1.0)
     );
-    println!("  delay of a mark        {:.1} ms median, {:.1} ms 95 %, {:.1} ms largest", at(0.5), at(0.95), at(1.0));
+    println!(
+        "  delay of a mark        {:.1} ms median, {:.1} ms 95 %, {:.1} ms largest",
+        at(0.5),
+        at(0.95),
+        at(1.0)
+    );
     println!("  server                 {:.0} % of one core, {memory:.0} MB", 100.0 * share);
     println!("  frames encoded         {} of {}", told["frames_encoded"], told["frames"]);
     server.stop();

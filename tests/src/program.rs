@@ -154,7 +154,8 @@ impl Server {
         let about = body.map_or(String::new(), |body| {
             format!("Content-Type: application/json\r\nContent-Length: {}\r\n", body.len())
         });
-        let head = format!("{method} {path} HTTP/1.0\r\nHost: {}\r\nAccept: */*\r\n{headers}{about}", self.address);
+        let head =
+            format!("{method} {path} HTTP/1.0\r\nHost: {}\r\nAccept: */*\r\n{headers}{about}", self.address);
         stream.write_all(format!("{head}\r\n").as_bytes()).unwrap();
         // A server that refuses a body need not read it to its end.
         let _ = stream.write_all(body.unwrap_or_default());

@@ -17,7 +17,11 @@ fn an_arm_becomes_a_scene_that_runs_and_what_is_left_out_is_told_with_its_line()
     let names = |list: &Value| -> Vec<String> {
         list.as_array().unwrap().iter().map(|entry| entry["name"].as_str().unwrap().to_owned()).collect()
     };
-    assert_eq!(names(&told["scene"]["bodies"]), ["upper", "lower"], "the base is the ground, the tool a part");
+    assert_eq!(
+        names(&told["scene"]["bodies"]),
+        ["upper", "lower"],
+        "the base is the ground, the tool a part"
+    );
     assert_eq!(names(&told["scene"]["joints"]), ["shoulder", "elbow"]);
     assert_eq!(told["check"]["degrees_of_freedom"], 2);
     let left: Vec<(u64, &str)> = told["left_out"]
@@ -47,10 +51,12 @@ fn a_side_car_turns_joints_and_closes_a_loop_on_a_part_of_a_body() {
     });
     std::fs::write(&side, with.to_string()).unwrap();
     let out = folder.path().join("arm.json");
-    let done = run(&["import", &data("arm.urdf"), "--with", side.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    let done =
+        run(&["import", &data("arm.urdf"), "--with", side.to_str().unwrap(), "--out", out.to_str().unwrap()]);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let scene: Value = serde_json::from_str(&std::fs::read_to_string(&out).unwrap()).unwrap();
-    let closing = scene["joints"].as_array().unwrap().iter().find(|joint| joint["name"] == "closing").unwrap();
+    let closing =
+        scene["joints"].as_array().unwrap().iter().find(|joint| joint["name"] == "closing").unwrap();
     assert_eq!((&closing["body_i"], &closing["point_i"]), (&json!("lower"), &json!([0.0, 0.0, 0.8])));
     let (code, report) = run_json(&["check", out.to_str().unwrap()]);
     assert_eq!((code, &report["degrees_of_freedom"]), (0, &json!(0)), "{report:#}");

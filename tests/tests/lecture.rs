@@ -59,7 +59,10 @@ fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal()
     let refused = server.post(&format!("{room}/reveal"), &json!({}));
     assert_eq!((refused.status, refused.json()["code"].as_str()), (403, Some("not-the-presenter")));
     let question = json!({"text": "Which sign has Fx?", "choices": ["+", "−"], "right": 1});
-    assert_eq!(server.ask("PUT", &format!("{room}/question"), Some(question.to_string().as_bytes())).status, 403);
+    assert_eq!(
+        server.ask("PUT", &format!("{room}/question"), Some(question.to_string().as_bytes())).status,
+        403
+    );
     assert_eq!(lecture.lead(&server, "PUT", "question", &question).status, 204);
     let mut follower = Follower::join(&server.address, &lecture.code, false);
     let asked = follower.until("room", |board| board["question"].is_object());
@@ -77,7 +80,10 @@ fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal()
     assert_eq!(server.get(&format!("{room}/desk")).status, 403);
     assert_eq!(lecture.lead(&server, "POST", "reveal", &json!({})).status, 204);
     let result = follower.until("room", |board| board["question"]["result"].is_object());
-    assert_eq!(result["question"]["result"], json!({"number": 1, "counts": [1, 2], "right": 1, "revealed": true}));
+    assert_eq!(
+        result["question"]["result"],
+        json!({"number": 1, "counts": [1, 2], "right": 1, "revealed": true})
+    );
     let late = json!({"question": 1, "voter": "d", "choice": 0});
     assert_eq!(server.post(&format!("{room}/answers"), &late).status, 409);
     server.stop();

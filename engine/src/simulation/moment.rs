@@ -1,6 +1,7 @@
 //! A state of a run, kept so that it can be looked at again after the run has gone on.
 
 use super::Simulation;
+use crate::matrices::{self, Symmetric};
 
 /// A state of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +43,21 @@ impl Simulation {
             angle.reference = *value;
         }
         Some(then)
+    }
+
+    /// The augmented matrix of the equations of motion at the shown state.
+    pub fn augmented(&mut self) -> Symmetric {
+        self.mechanism.set_state(self.time, &self.shown);
+        matrices::augmented(&self.mechanism.system, &self.mechanism.elimination)
+    }
+
+    /// S, which the solver factors, at the shown state.
+    pub fn schur(&mut self) -> Symmetric {
+        let time = self.time;
+        self.without_counting(|mechanism, shown| {
+            mechanism.set_state(time, shown);
+            matrices::schur(&mechanism.system, &mut mechanism.elimination)
+        })
     }
 }
 

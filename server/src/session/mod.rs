@@ -1,6 +1,7 @@
 //! Live simulations: each in a thread of its own, all of them in one bounded registry.
 
 mod change;
+mod command;
 mod film;
 mod past;
 mod registry;
@@ -28,9 +29,10 @@ use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::stream::{Arrows, Camera, Hub, Watcher};
 use change::as_it_runs;
+use command::{Command, Reply, Signals};
 use film::Film;
 use past::Past;
-use worker::{Command, Reply, Signals, Worker};
+use worker::Worker;
 
 /// Commands that may wait for one session.
 const QUEUE: usize = 32;

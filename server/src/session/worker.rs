@@ -1,70 +1,27 @@
 //! The thread that owns a session's simulation: it waits for commands, and lets time run while the session plays.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
-use tokio::sync::{oneshot, watch};
+use tokio::sync::watch;
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
 use super::change::{Change, Pull, SceneView, Then, as_it_runs};
+use super::command::{Command, Signals};
 use super::film::{Film, cast};
 use super::past::Past;
 use super::state::{Drawing, Extra, SessionState, Source};
 use crate::problem::Problem;
-use crate::stream::{Arrows, Camera};
 
 /// How often a playing session goes on: about thirty times a second.
 pub(super) const BEAT: Duration = Duration::from_millis(33);
 
 /// Integrator steps between two looks at the clock and at what callers want.
 const PIECE: u64 = 32;
-
-/// What a caller may ask for; the answer comes back through the sender.
-pub(super) enum Command {
-    /// Take integrator steps.
-    Steps(u32, Reply<Arc<SessionState>>),
-    /// Let simulated seconds pass.
-    Seconds(f64, Reply<Arc<SessionState>>),
-    /// Let time run at so many simulated seconds a second.
-    Play(f64, Reply<Arc<SessionState>>),
-    /// Stop time.
-    Pause(Reply<Arc<SessionState>>),
-    /// Go back to the start.
-    Reset(Reply<Arc<SessionState>>),
-    /// Change numbers of the scene.
-    Change(Change, Reply<Arc<SessionState>>),
-    /// Pull a body by the hand, or let it go.
-    Pull(Option<Pull>, Reply<Arc<SessionState>>),
-    /// Tell the scene.
-    Scene(Reply<SceneView>),
-    /// Show the run as it is, or as it was at a time, to somebody who tells what is wanted of it.
-    Look(Option<f64>, Teller),
-    /// Draw forces in another way; take their scale from the recording.
-    Draw(Option<Arrows>, bool, Reply<Arc<SessionState>>),
-    /// Look at the mechanism from another side.
-    LookFrom(Camera, Reply<Arc<SessionState>>),
-    /// Somebody has come to watch.
-    Watched,
-}
-
-/// Where an answer goes; the caller may have left.
-pub(super) type Reply<T> = oneshot::Sender<Result<T, Problem>>;
-
-/// Told of the run at the time that was asked for.
-pub(super) type Teller = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;
-
-/// Flags that reach a worker while it is busy.
-#[derive(Debug, Default)]
-pub(super) struct Signals {
-    /// Leave off what you are doing, the next command is urgent.
-    pub interrupt: AtomicBool,
-    /// The session is closed.
-    pub closed: AtomicBool,
-}
 
 /// A session's simulation with all that belongs to it.
 pub(super) struct Worker {
