@@ -251,3 +251,13 @@ fn a_rough_start_is_assembled_around_what_is_kept() {
     let error = assemble(&scene, &["crank".to_owned(), "rocker".to_owned()]).unwrap_err();
     assert_eq!(error.code(), "cannot-pin");
 }
+
+#[test]
+fn a_mechanism_that_its_drivers_hold_rests_where_it_is_and_has_no_modes() {
+    let scene = driven("spatial-slider-crank", "A", Motion::Ramp { start: 0.0, rate: 0.0 });
+    let rest = equilibrium(&scene).unwrap();
+    assert_eq!((rest.iterations, rest.stable), (0, Some(true)));
+    let held = modes(&scene, About::Equilibrium).unwrap();
+    assert_eq!((held.freedoms, held.modes.len()), (0, 0));
+    assert!(held.notes.iter().any(|note| note.contains("nothing can vibrate")), "{:?}", held.notes);
+}

@@ -4,7 +4,7 @@ use super::{AnalysisError, Stage};
 use crate::reaction::report::{Convention, ReactionReport, report};
 use crate::scene::Scene;
 use crate::simulation::BodyFrame;
-use nalgebra::SymmetricEigen;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
 /// Most steps of the search.
@@ -42,6 +42,15 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium, AnalysisError> {
     find(&mut stage)
 }
 
+/// Eigenvalues and eigenvectors of the symmetric part; none where nothing can move.
+fn eigen(matrix: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    if matrix.is_empty() {
+        return (DVector::zeros(0), DMatrix::zeros(0, 0));
+    }
+    let eigen = SymmetricEigen::new((matrix + matrix.transpose()) * 0.5);
+    (eigen.eigenvalues, eigen.eigenvectors)
+}
+
 /// Moves a stage to equilibrium.
 pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     stage.rest();
@@ -55,12 +64,12 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         stage.accelerate();
         let multipliers = stage.mechanism.elimination.solver_multipliers().to_vec();
         let stiffness = stage.stiffness(&basis, &multipliers);
-        let eigen = SymmetricEigen::new((&stiffness + stiffness.transpose()) * 0.5);
-        let stiffest = eigen.eigenvalues.amax();
+        let (stiffnesses, motions) = eigen(&stiffness);
+        let stiffest = stiffnesses.amax();
         if residual <= BALANCED * force.amax().max(f64::MIN_POSITIVE) {
             stage.rest();
             stage.accelerate();
-            let least = eigen.eigenvalues.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+            let least = stiffnesses.iter().fold(f64::INFINITY, |a, b| a.min(*b));
             let clear = least.abs() > 1e-7 * stiffest;
             let mechanism = &stage.mechanism;
             let reactions =
@@ -75,11 +84,11 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
             });
         }
         let floor = (1e-9 * stiffest).max(f64::MIN_POSITIVE);
-        let mut step = eigen.eigenvectors.tr_mul(&along);
-        for (x, stiffness) in step.iter_mut().zip(eigen.eigenvalues.iter()) {
+        let mut step = motions.tr_mul(&along);
+        for (x, stiffness) in step.iter_mut().zip(stiffnesses.iter()) {
             *x /= stiffness.abs().max(floor);
         }
-        let step = eigen.eigenvectors * step;
+        let step = motions * step;
         let size = step.norm();
         let scale = if size > LARGEST * length { LARGEST * length / size } else { 1.0 };
         let there = stage.moved(&(basis * step), scale);

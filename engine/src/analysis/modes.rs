@@ -79,6 +79,10 @@ pub fn modes(scene: &Scene, about: About) -> Result<Modes, AnalysisError> {
     stage.rest();
     let basis = stage.tangent();
     let freedoms = basis.ncols();
+    if freedoms == 0 {
+        notes.push("joints and drivers leave no freedom: nothing can vibrate".to_owned());
+        return Ok(Modes { freedoms, modes: Vec::new(), bodies: stage.frames(), notes });
+    }
     stage.rest();
     let force = stage.forces();
     let left = basis.tr_mul(&force).amax();

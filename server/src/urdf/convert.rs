@@ -53,6 +53,7 @@ pub(super) fn scene(
         loads: side_car.loads.clone(),
         simulation: side_car.simulation.clone(),
         parameters: Vec::new(),
+        events: Vec::new(),
     };
     for link in &placed {
         add_body(&mut scene, link, left_out);

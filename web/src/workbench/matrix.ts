@@ -10,6 +10,10 @@ export interface Group {
 
 /** Names such as "pin: x" or "bob.u_x" share what stands before the separator. */
 export function groupOf(name: string): { group: string; rest: string } {
+  if (name.startsWith("λ ")) {
+    const of = groupOf(name.slice(2));
+    return { ...of, group: `λ ${of.group}` };
+  }
   const match = /^(.+?)(?::\s*|\s+·\s+|\.|\/|\s+)(.+)$/.exec(name);
   return match ? { group: match[1] ?? name, rest: match[2] ?? "" } : { group: name, rest: "" };
 }

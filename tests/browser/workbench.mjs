@@ -1,0 +1,291 @@
+// The workbench as people use it beside lesson 2's mouse. Started by tests/tests/browser.rs:
+//   node workbench.mjs http://127.0.0.1:PORT PICTURE_FOLDER
+// By keyboard alone from the course to the grade; looking back, files, link; a lecture with a follower on a phone;
+// what helps when something is gone; and axe on every view.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const [address, pictures] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium", headless: true,
+  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
+});
+const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
+const complaints = [];
+
+/** A browser of its own that shows the sketch: what is tested here needs no 3-D. */
+async function visitor(name, size = { width: 1280, height: 900 }, more = {}) {
+  const context = await browser.newContext({ viewport: size, bypassCSP: true, permissions: ["clipboard-read", "clipboard-write"], ...more });
+  await context.addInitScript(() => localStorage.setItem("triad:picture", "sketch"));
+  const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
+  page.on("pageerror", (error) => complaints.push(`${name}: ${error}`));
+  return page;
+}
+
+async function noSeriousFaults(page, view) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  const serious = violations.filter((fault) => ["serious", "critical"].includes(fault.impact));
+  assert.deepEqual(serious.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" "))]), [], `axe on ${view}`);
+}
+const clock = (page) => page.locator(".clock").evaluate((field) => Number(field.value));
+async function until(page, what, read, good) {
+  const end = performance.now() + 60_000;
+  let last;
+  while (performance.now() < end) {
+    last = await read();
+    if (good(last)) return last;
+    await page.waitForTimeout(100);
+  }
+  await page.screenshot({ path: join(pictures, "workbench-failed.png") });
+  throw new Error(`${what}: still ${JSON.stringify(last)}`);
+}
+/** Walks with Tab until the focus satisfies a CSS selector. */
+async function tabTo(page, selector, key = "Tab") {
+  for (let steps = 0; steps < 150; steps += 1) {
+    await page.keyboard.press(key);
+    if (await page.evaluate((wanted) => document.activeElement?.matches(wanted) === true, selector)) return;
+  }
+  throw new Error(`no way by ${key} to ${selector}`);
+}
+
+async function byKeyboard() {
+  const page = await visitor("keyboard", undefined, { reducedMotion: "reduce" });
+  await page.goto(`${address}/`);
+  await page.getByRole("link", { name: /pendulum/i }).first().waitFor();
+  await noSeriousFaults(page, "the course");
+  await tabTo(page, "a[href='/lessons/simple-pendulum']");
+  await page.keyboard.press("Enter");
+  await page.getByRole("heading", { name: /pendulum/i, level: 1 }).waitFor();
+  await until(page, "the clock starts", () => clock(page), (time) => time === 0);
+  await page.keyboard.press(".");
+  await until(page, "a full stop steps by time", () => clock(page), (time) => time >= 0.099);
+  await page.keyboard.press("ArrowRight");
+  const stepped = await until(page, "→ steps", () => clock(page), (time) => time > 0.1);
+  await page.keyboard.press("ArrowLeft");
+  await until(page, "← goes back", () => clock(page), (time) => time < stepped);
+  await page.keyboard.press("ArrowRight");
+  await until(page, "→ comes back to what is recorded", () => clock(page), (time) => time === stepped);
+  await page.keyboard.press(" ");
+  await until(page, "space plays", () => clock(page), (time) => time > stepped + 0.2);
+  await page.keyboard.press(" ");
+  await until(page, "a pause is told", () => page.locator("#announce").innerText(), (text) => /^Paused at/.test(text));
+  await page.keyboard.press("f");
+  await page.keyboard.press("?");
+  await page.getByRole("dialog").getByText("Forces: selected joint").waitFor();
+  await noSeriousFaults(page, "the help");
+  await page.keyboard.press("Escape");
+  await noSeriousFaults(page, "lesson 2");
+  await tabTo(page, "#student");
+  await page.keyboard.type("Grace Hopper");
+  const unit = async (id, value) => {
+    if (await page.locator(`#q-${id}-unit`).count() === 0) return;
+    await tabTo(page, `#q-${id}-unit`);
+    await page.keyboard.type(value);
+  };
+  for (const [id, value, in_] of [["independent-rows", "11", ""], ["tension-bottom", "29.43", "N"], ["period", "2.368", "s"]]) {
+    await tabTo(page, `#q-${id}-value`);
+    await page.keyboard.type(value);
+    if (in_) await unit(id, in_);
+  }
+  for (const [axis, value] of [["x", "-14.21"], ["y", "-10.90"], ["z", "0"]]) {
+    await tabTo(page, `#q-force-on-ground-${axis}`);
+    await page.keyboard.type(value);
+  }
+  await unit("force-on-ground", "N");
+  await tabTo(page, "input[type=radio]");
+  for (let k = 0; k < 6 && !(await page.locator("#q-sign-of-lambda-b").isChecked()); k += 1) await page.keyboard.press("ArrowDown");
+  await tabTo(page, "button.primary");
+  await page.keyboard.press("Enter");
+  await page.getByRole("heading", { name: "Your submissions (1)" }).waitFor();
+  assert.match(await page.locator(".history-entry").first().innerText(), /12 of 12/);
+  say("lesson 2 from the course to the grade, by keyboard alone");
+  await page.context().close();
+}
+
+async function lookingBack() {
+  const page = await visitor("looking back");
+  await page.goto(`${address}/scenes/n-four-bar:2`);
+  await until(page, "the run starts", () => clock(page), (time) => time === 0);
+  for (const goal of [0.1, 0.2, 0.3]) {
+    await page.getByRole("button", { name: "Step by time" }).click();
+    await until(page, "a step", () => clock(page), (time) => time >= goal - 1e-9);
+  }
+  await page.getByRole("tab", { name: "Reactions" }).click();
+  const force = () => page.locator(".joint .data td.strong").first().innerText();
+  const newest = await until(page, "reactions", force, (text) => / N$/.test(text));
+  await page.locator(".timeline").fill("0.1");
+  const then = await until(page, "reactions of then", force, (text) => text !== newest);
+  await page.getByText("At 0.100 s.").waitFor();
+  await page.getByRole("tab", { name: "Jacobian" }).click();
+  await page.getByText(/rank 59.*at 0\.100 s/).waitFor();
+  await page.getByText(/Too many:/).waitFor();
+  for (const which of ["augmented", "schur"]) {
+    await page.locator("select:has(option[value=schur])").selectOption(which);
+    await page.getByText(/more by fill, at 0\.100 s/).waitFor();
+    await noSeriousFaults(page, `the ${which} matrix`);
+  }
+  // One link opens the same elsewhere.
+  await page.getByRole("button", { name: "Copy a link to this view" }).click();
+  const link = await until(page, "the link", () => page.evaluate(() => navigator.clipboard.readText()), (text) => text.includes("show="));
+  const other = await visitor("link");
+  await other.goto(link);
+  await until(other, "the link's time", () => clock(other), (time) => time === 0.1);
+  assert.equal(await other.getByRole("tab", { name: "Jacobian" }).getAttribute("aria-selected"), "true");
+  await other.getByRole("tab", { name: "Reactions" }).click();
+  await until(other, "the same reaction", force, (text) => text === then);
+  await other.context().close();
+  // Files.
+  await page.getByRole("tab", { name: "Plots" }).click();
+  for (const [kind, start] of [["CSV", "time,"], ["SVG", "<svg"], ["PNG", "\u0089PNG"]]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: kind, exact: true }).click()]);
+    assert(readFileSync(await download.path(), "latin1").startsWith(start), `${kind} is one`);
+  }
+  await noSeriousFaults(page, "the plots");
+  await page.screenshot({ path: join(pictures, "workbench-plots.png") });
+  say("looked back, opened a link, saved files");
+  await page.context().close();
+}
+
+async function lecture() {
+  const desk = await visitor("presenter");
+  await desk.goto(`${address}/scenes/spatial-double-pendulum`);
+  await until(desk, "the run starts", () => clock(desk), (time) => time === 0);
+  await desk.getByRole("button", { name: /Lecture: let others/ }).click();
+  const code = await desk.locator(".invite-code").innerText();
+  await desk.locator(".qr").waitFor();
+  await noSeriousFaults(desk, "the invitation");
+  await desk.screenshot({ path: join(pictures, "workbench-invite.png") });
+  await desk.keyboard.press("Escape");
+  const phone = await visitor("follower", { width: 390, height: 844 });
+  await phone.goto(`${address}/room`);
+  await phone.getByLabel("Code of the room").fill(code.toLowerCase());
+  await phone.getByRole("button", { name: "Join", exact: true }).click();
+  await phone.getByRole("heading", { level: 1, name: /pendulum/i }).waitFor();
+  await desk.getByRole("button", { name: "Step by time" }).click();
+  await until(phone, "the presenter's clock travels", () => clock(phone), (time) => time >= 0.099);
+  await desk.getByRole("tab", { name: "Reactions" }).click();
+  await desk.locator(".joint-select").first().click();
+  await phone.locator(".joint.is-selected").waitFor();
+  await desk.getByRole("button", { name: "Ask a question" }).click();
+  await desk.getByLabel(/Number of the right choice/).fill("2");
+  await desk.getByRole("button", { name: "Ask", exact: true }).click();
+  await phone.getByRole("button", { name: "negative" }).click();
+  await until(desk, "the histogram is live", () => desk.locator(".desk .histogram caption").innerText(), (text) => text === "1 answer");
+  assert.equal(await phone.locator(".histogram").count(), 0, "followers see no result before the reveal");
+  await noSeriousFaults(phone, "the question");
+  await desk.getByRole("button", { name: "Reveal" }).click();
+  await phone.locator(".histogram .is-right").waitFor();
+  await desk.locator(".timeline").fill("0.04");
+  await until(phone, "looking back travels", () => clock(phone), (time) => time === 0.04);
+  await phone.locator(".timeline").fill("0.02");
+  await until(phone, "roaming", () => phone.locator(".room-head .lead").innerText(), (text) => /on your own/.test(text));
+  await phone.getByRole("button", { name: "Back to the lecture" }).click();
+  await until(phone, "back with the presenter", () => clock(phone), (time) => time === 0.04);
+  await phone.screenshot({ path: join(pictures, "workbench-follower.png"), fullPage: true });
+  const width = await phone.evaluate(() => document.documentElement.scrollWidth);
+  assert(width <= 390, `the follower's page is ${width} px wide`);
+  await desk.getByRole("button", { name: "End the lecture" }).click();
+  await phone.getByText("The lecture is over.", { exact: false }).waitFor();
+  say("a lecture: clock, selection, question, reveal, roaming, the end");
+  await desk.context().close();
+  await phone.context().close();
+}
+
+async function trouble() {
+  const page = await visitor("trouble");
+  let session = "";
+  page.on("response", (reply) => {
+    if (reply.url().endsWith("/api/v1/sessions") && reply.request().method() === "POST") void reply.json().then((state) => { session = state.links?.self ?? session; });
+  });
+  await page.goto(`${address}/scenes/simple-pendulum`);
+  await until(page, "the run starts", () => session, (link) => link !== "");
+  // The session expires.
+  const first = session;
+  await page.evaluate((link) => fetch(link, { method: "DELETE" }), first);
+  await page.getByText("The simulation had expired on the server.").first().waitFor();
+  assert.notEqual(session, first, "a fresh session took its place");
+  // The server is gone, and comes back.
+  await page.context().route("**/api/**", (route) => route.abort());
+  await page.evaluate(() => undefined);
+  const second = session;
+  await page.context().unroute("**/api/**");
+  await page.evaluate((link) => fetch(link, { method: "DELETE" }), second);
+  await page.context().route("**/api/**", (route) => route.abort());
+  await page.getByText("The connection to the server is lost.", { exact: false }).waitFor();
+  await page.screenshot({ path: join(pictures, "workbench-server-gone.png") });
+  await page.context().unroute("**/api/**");
+  await page.getByRole("button", { name: "Try now" }).click();
+  await page.getByText("The simulation had expired on the server.").first().waitFor();
+  say("an expired session and a lost server are told and mended");
+  // A run that cannot go on: the slider is driven farther than its rod is long.
+  const scene = await page.evaluate(async () => (await fetch("/api/v1/scenes/spatial-slider-crank")).json());
+  scene.drivers = [{ type: "slide", name: "push", joint: "D", motion: { kind: "ramp", start: 0.2, rate: 1 } }];
+  await page.evaluate((text) => localStorage.setItem("triad:scene-draft", text), JSON.stringify(scene));
+  await page.goto(`${address}/scenes/own`);
+  const outcome = page.locator(".trouble .notice, .check .notice").first();
+  await until(page, "the run starts or is refused", async () => (await outcome.count()) > 0 || (await page.locator(".clock").count()) > 0, Boolean);
+  await page.locator(".clock").waitFor();
+  await page.locator(".clock").fill("2");
+  await page.locator(".clock").press("Enter");
+  await page.locator(".trouble .notice-title").waitFor();
+  assert(await page.locator(".trouble .notice-hint").count() > 0, "it says what to try");
+  await noSeriousFaults(page, "a run that stopped");
+  await page.screenshot({ path: join(pictures, "workbench-stopped.png") });
+  await page.locator(".trouble").getByRole("button", { name: "Reset to the start" }).click();
+  await until(page, "the notice goes", () => page.locator(".trouble .notice").count(), (count) => count === 0);
+  say("a run that stopped says why and what to try");
+  await page.context().close();
+  // The 3-D view cannot be loaded: the sketch stays.
+  const blocked = await visitor("no viewer");
+  await blocked.context().addInitScript(() => localStorage.setItem("triad:picture", "viewer"));
+  await blocked.context().route("**/*.wasm", (route) => route.abort());
+  await blocked.goto(`${address}/scenes/simple-pendulum`);
+  await blocked.getByText("The sketch and the tables show the same run.", { exact: false }).first().waitFor();
+  await blocked.locator("svg.sketch").waitFor();
+  say("without the 3-D view the sketch stays");
+  await blocked.context().close();
+}
+
+async function editing() {
+  const page = await visitor("editor");
+  await page.goto(`${address}/scenes`);
+  await page.getByText("Import a robot (URDF)").click();
+  await page.locator("#urdf-file").setInputFiles({ name: "arm.urdf", mimeType: "text/xml", buffer: readFileSync(new URL("../data/arm.urdf", import.meta.url)) });
+  await page.getByRole("button", { name: "Import", exact: true }).click();
+  await page.getByText("What could not be carried over:").waitFor();
+  await noSeriousFaults(page, "the scenes");
+  await page.getByRole("button", { name: "Open as your own scene" }).click();
+  await page.getByText("It has 2 degrees of freedom.").waitFor();
+  const area = page.locator("textarea.code");
+  await area.evaluate((field) => { const at = field.value.indexOf('"mass"'); field.focus(); field.setSelectionRange(at, at); });
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.type('"coo');
+  await page.locator(".suggest li").first().waitFor();
+  await page.keyboard.press("Enter");
+  await page.keyboard.type('"re');
+  await page.locator(".suggest li").first().waitFor();
+  await page.keyboard.press("Enter");
+  await page.keyboard.type(",");
+  assert.match(await area.inputValue(), /"coordinates": "reduced",\s+"mass"/);
+  await until(page, "degrees of freedom while typing", () => page.locator(".report .figure", { hasText: "Coordinates" }).innerText(), (text) => /21/.test(text));
+  await area.evaluate((field) => { field.value = field.value.replace('"mass": 2', '"mass": -2'); field.dispatchEvent(new Event("input")); });
+  await page.locator(".gutter .is-marked").waitFor();
+  await noSeriousFaults(page, "the editor");
+  say("a robot imported, completion, freedoms while typing, an error at its place");
+  await page.context().close();
+}
+
+try {
+  for (const part of [byKeyboard, lookingBack, lecture, editing, trouble]) await part();
+  assert.deepEqual(complaints, [], "errors in the pages");
+} finally {
+  await browser.close();
+}
