@@ -1,10 +1,12 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
-//! result after a restart of the server. What it saw is kept in `tests/output/`.
+//! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble. What it saw is
+//! kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use std::path::Path;
 use std::process::Command;
+use std::sync::Mutex;
 use triad_tests::program::Server;
 use triad_tests::root;
 
@@ -21,6 +23,9 @@ fn must(what: &str, command: &mut Command) -> String {
 
 /// Installs what is missing: Debian's Chromium (as root), and the driver from `tests/browser/package-lock.json`.
 fn prepare(folder: &Path) {
+    // Two tests at once must not install twice.
+    static TURN: Mutex<()> = Mutex::new(());
+    let _turn = TURN.lock().unwrap();
     if !Path::new(CHROMIUM).exists() {
         let user = must("who runs this", Command::new("id").arg("-u"));
         assert_eq!(
@@ -67,4 +72,21 @@ fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
     server.stop();
     let server = Server::start_at(home.path(), &port);
     visit("later", &server);
+}
+
+#[test]
+fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_in_trouble() {
+    let folder = root().join("tests/browser");
+    prepare(&folder);
+    let home = tempfile::tempdir().unwrap();
+    let server = Server::start(home.path());
+    let said = must(
+        "the browser",
+        Command::new("node")
+            .args(["workbench.mjs", &format!("http://{}", server.address)])
+            .arg(root().join("tests/output"))
+            .current_dir(&folder),
+    );
+    println!("{said}");
+    server.stop();
 }
