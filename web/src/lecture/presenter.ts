@@ -2,7 +2,6 @@
 import { api, ApiError } from "../core/api";
 import { announce, h, setText } from "../core/dom";
 import type { Seen } from "../core/link";
-import { recall, remember } from "../core/prefs";
 import type { Tally } from "../core/types";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
@@ -19,9 +18,21 @@ interface Room {
   key: string;
 }
 
+/** The room belongs to this tab: it goes on after a reload and on the next lesson, but no other tab leads it. */
+const STORED = "triad:room";
+
+function keep(room: Room | undefined): void {
+  try {
+    if (room) sessionStorage.setItem(STORED, JSON.stringify(room));
+    else sessionStorage.removeItem(STORED);
+  } catch {
+    // Without storage the lecture ends with the page.
+  }
+}
+
 function remembered(): Room | undefined {
   try {
-    const room = JSON.parse(recall("room") ?? "null") as Room | null;
+    const room = JSON.parse(sessionStorage.getItem(STORED) ?? "null") as Room | null;
     return room && typeof room.code === "string" && typeof room.key === "string" ? room : undefined;
   } catch {
     return undefined;
@@ -67,7 +78,7 @@ export function desk(session: Session, seen: () => Seen): Desk {
   };
   const forget = (): void => {
     room = undefined;
-    remember("room", null);
+    keep(undefined);
     paint();
   };
   const attempt = async (run: (room: Room) => Promise<void>): Promise<void> => {
@@ -87,7 +98,7 @@ export function desk(session: Session, seen: () => Seen): Desk {
     try {
       const opened = await api.openRoom(id);
       room = { code: opened.code, key: opened.key };
-      remember("room", JSON.stringify(room));
+      keep(room);
       sent = "";
       shown = id;
       paint();
