@@ -4,7 +4,7 @@
 //! cargo run --release -p triad-tests --example lecture -- [FOLLOWERS] [SECONDS] [SCENE]
 //! ```
 
-#![allow(clippy::unwrap_used)] // a measurement that cannot go on says so
+#![allow(clippy::unwrap_used, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a measurement, not a product
 
 use serde_json::json;
 use std::time::{Duration, Instant};
