@@ -1,10 +1,9 @@
 //! A scene that runs: time, state, steps, and what can be asked of them.
 
 mod explain;
-
-pub use explain::LeftOut;
 mod moment;
 
+pub use explain::LeftOut;
 pub use moment::Moment;
 
 use crate::balance;
