@@ -6,9 +6,11 @@
 //! directors, orthonormal or not, and for full and reduced bodies alike.
 
 mod factor;
+mod increment;
 mod right_side;
 mod state;
 
+pub use increment::Residual;
 pub use state::BodyState;
 
 use crate::angle::AngleState;

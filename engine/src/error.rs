@@ -1,6 +1,7 @@
 //! What can go wrong between a text and a finished run.
 
 use crate::catalogue::CatalogueError;
+use crate::integrate::Stop;
 use crate::model::ModelError;
 use crate::scene::SceneError;
 use crate::uniqueness::UniquenessError;
@@ -67,6 +68,24 @@ pub enum EngineError {
         /// Time, s.
         time: f64,
     },
+    /// The equations of an implicit step cannot be solved.
+    #[error(
+        "the integration stops at t = {time:.6} s: the equations of a step of {step:.1e} s cannot be solved"
+    )]
+    NoConvergence {
+        /// Time, s.
+        time: f64,
+        /// The step that was tried, s.
+        step: f64,
+    },
+    /// There are no independent coordinates to integrate.
+    #[error(
+        "at t = {time:.6} s no independent coordinates can be chosen: nothing is free to move, or a singular position leaves open what is"
+    )]
+    Undetermined {
+        /// Time, s.
+        time: f64,
+    },
     /// The constraints can no longer be satisfied.
     #[error(
         "the run stops at t = {time:.6} s: joint \"{joint}\" is open by {violation:.3e} of the mechanism's size{}",
@@ -111,6 +130,17 @@ fn contradiction(with: &[String]) -> String {
     format!(", and with it {}", names.join(", "))
 }
 
+impl From<Stop> for EngineError {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::StepTooSmall { time, step } => Self::StepTooSmall { time, step },
+            Stop::NotFinite { time } => Self::Diverged { time },
+            Stop::NoConvergence { time, step } => Self::NoConvergence { time, step },
+            Stop::Undetermined { time } => Self::Undetermined { time },
+        }
+    }
+}
+
 impl EngineError {
     /// Stable name of the kind of error.
     pub fn code(&self) -> &'static str {
@@ -128,6 +158,8 @@ impl EngineError {
             Self::StartTooFar { .. } => "start-too-far",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
+            Self::NoConvergence { .. } => "no-convergence",
+            Self::Undetermined { .. } => "undetermined-motion",
             Self::ConstraintsLost { .. } => "constraints-lost",
             Self::StepLimit { .. } => "step-limit",
             Self::TimeOutside { .. } => "time-outside-run",
@@ -178,6 +210,16 @@ impl EngineError {
             Self::StepTooSmall { .. } | Self::Diverged { .. } => {
                 "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
                  joint that locks or a body that is far too light."
+                    .to_owned()
+            }
+            Self::NoConvergence { .. } => {
+                "Tighten the tolerance, which shortens the steps; through singular positions use taylor or dop853 with \
+                 projection."
+                    .to_owned()
+            }
+            Self::Undetermined { .. } => {
+                "Use projection as the stabilization, with taylor or dop853; a mechanism whose drivers prescribe all of \
+                 its motion has nothing to integrate: see `triad kinematics`."
                     .to_owned()
             }
             Self::ConstraintsLost { .. } => {

@@ -57,6 +57,8 @@ pub mod series;
 
 pub mod rank;
 
+pub mod tangent;
+
 pub mod uniqueness;
 
 pub mod reaction;
@@ -70,8 +72,11 @@ pub mod mechanism;
 pub mod balance;
 
 pub mod event;
+pub mod passage;
 
 pub mod simulation;
+
+pub mod verify;
 
 pub mod check;
 

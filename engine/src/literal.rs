@@ -5,10 +5,12 @@
 //! check of it, the way to the multipliers of the rigid-body rows, and what `triad paper` integrates.
 
 mod independent;
+mod normal;
 mod rigid;
 mod sparse_lu;
 
 pub use independent::{independent_rows, left_null_space};
+pub use normal::{Normal, RankOne, RightSides};
 pub use rigid::{RigidMultipliers, rigid_multipliers};
 pub use sparse_lu::{Columns, SparseLu};
 

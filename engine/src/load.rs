@@ -117,37 +117,84 @@ impl Load {
                 let moment = in_world(at, *body, *frame, moment.at(t)[0]);
                 forces.add_moment(*body, &moment, &at.bodies[*body].q);
             }
-            Self::Spring { from, to, element } => {
+            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+                if let Some((x, rate)) = self.coordinate(at) {
+                    self.push(at, element.value(x, rate, t), forces);
+                }
+            }
+        }
+    }
+
+    /// The length, angle or displacement that it acts along, and its rate. A spring of no length has no direction to
+    /// pull in.
+    fn coordinate(&self, at: &Elimination) -> Option<(f64, f64)> {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => None,
+            Self::Spring { from, to, .. } => {
                 let between = at.feature_value(*to) - at.feature_value(*from);
                 let rate = at.feature_rate(*to) - at.feature_rate(*from);
-                let length = between.norm();
-                // A spring of no length has no direction to pull in.
-                let Some(direction) = between.try_normalize(f64::MIN_POSITIVE) else { return };
-                let force = direction * element.value(length, direction.dot(&rate), t);
-                forces.add_at_feature(*to, &force);
-                forces.add_at_feature(*from, &-force);
+                let direction = between.try_normalize(f64::MIN_POSITIVE)?;
+                Some((between.norm(), direction.dot(&rate)))
             }
-            Self::Torsion { angle, bodies, element } => {
-                let state = &at.angles[*angle];
-                let axis = at.feature_value(at.angle_axis(*angle));
-                let moment = axis * element.value(state.value, state.rate, t);
+            Self::Torsion { angle, .. } => Some((at.angles[*angle].value, at.angles[*angle].rate)),
+            Self::Slider { axis, between, .. } => {
+                let s = at.feature_value(*axis);
+                let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
+                Some((s.dot(&d), s.dot(&rate) + at.feature_rate(*axis).dot(&d)))
+            }
+        }
+    }
+
+    /// Adds the generalized force of a force or moment `value` along its coordinate: the gradient of the coordinate
+    /// times that.
+    fn push(&self, at: &Elimination, value: f64, forces: &mut Forces) {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => {}
+            Self::Spring { from, to, .. } => {
+                let between = at.feature_value(*to) - at.feature_value(*from);
+                let Some(direction) = between.try_normalize(f64::MIN_POSITIVE) else { return };
+                forces.add_at_feature(*to, &(direction * value));
+                forces.add_at_feature(*from, &(direction * -value));
+            }
+            Self::Torsion { angle, bodies, .. } => {
+                let moment = at.feature_value(at.angle_axis(*angle)) * value;
                 for (body, sign) in [(bodies[0], -1.0), (bodies[1], 1.0)] {
                     if let BodyRef::Moving(index) = body {
                         forces.add_moment(index, &(moment * sign), &at.bodies[index].q);
                     }
                 }
             }
-            Self::Slider { axis, between, element } => {
+            Self::Slider { axis, between, .. } => {
                 let s = at.feature_value(*axis);
-                let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
-                let speed = s.dot(&rate) + at.feature_rate(*axis).dot(&d);
-                let value = element.value(s.dot(&d), speed, t);
-                // The generalized force of the displacement s · d is the transpose of its gradient.
+                let d = between.of(|f| at.feature_value(f));
                 forces.add_at_feature(between.plus, &(s * value));
                 if let Some(minus) = between.minus {
                     forces.add_at_feature(minus, &(s * -value));
                 }
                 forces.add_at_feature(*axis, &(d * value));
+            }
+        }
+    }
+
+    /// Adds the generalized force of a unit force or moment along its coordinate, and returns its stiffness −∂f/∂x and
+    /// its damping −∂f/∂ẋ; `None` for a load without a law. Positions and velocities must be in place.
+    pub fn linearized(&self, at: &Elimination, forces: &mut Forces) -> Option<(f64, f64)> {
+        let (Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. }) =
+            self
+        else {
+            return None;
+        };
+        let (_, rate) = self.coordinate(at)?;
+        self.push(at, 1.0, forces);
+        Some((element.stiffness, element.slope(rate)))
+    }
+
+    /// The greatest damping −∂f/∂ẋ that its law has at any speed.
+    pub fn steepest_damping(&self) -> f64 {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => 0.0,
+            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+                element.slope(0.0)
             }
         }
     }
@@ -213,6 +260,15 @@ impl Element {
     /// Force or moment in the direction of growing x.
     fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
         self.without_spring(rate, t) - self.stiffness * (x - self.free)
+    }
+
+    /// −∂f/∂ẋ.
+    fn slope(&self, rate: f64) -> f64 {
+        let friction = self.friction.map_or(0.0, |friction| {
+            let tanh = (rate / friction.smoothing).tanh();
+            friction.viscous + friction.coulomb / friction.smoothing * (1.0 - tanh * tanh)
+        });
+        self.damping + friction
     }
 
     /// The same without the spring.

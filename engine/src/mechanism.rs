@@ -130,8 +130,8 @@ impl Mechanism {
 
     fn baumgarte(&self) -> (f64, f64) {
         match self.system.model.settings.stabilization {
-            Stabilization::Projection => (0.0, 0.0),
             Stabilization::Baumgarte { alpha, beta } => (alpha, beta),
+            _ => (0.0, 0.0),
         }
     }
 }

@@ -151,9 +151,20 @@ fn check_settings(settings: &Settings) -> Result<(), ModelError> {
     range("duration", settings.duration, 0.0, 1e6)?;
     range("every", settings.every, 1e-6, 1e6)?;
     range("tolerance", settings.tolerance, 1e-14, 1e-1)?;
-    if let Stabilization::Baumgarte { alpha, beta } = settings.stabilization {
-        range("stabilization/alpha", alpha, 0.0, 1e6)?;
-        range("stabilization/beta", beta, 0.0, 1e6)?;
+    if let Some(step) = settings.step {
+        range("step", step, 1e-9, 1e3)?;
     }
-    Ok(())
+    match settings.stabilization {
+        Stabilization::Projection | Stabilization::Partitioning => Ok(()),
+        Stabilization::Baumgarte { alpha, beta } => {
+            range("stabilization/alpha", alpha, 0.0, 1e6)?;
+            range("stabilization/beta", beta, 0.0, 1e6)
+        }
+        Stabilization::Penalty { alpha, omega, mu } => {
+            range("stabilization/alpha", alpha, 1e-3, 1e15)?;
+            range("stabilization/omega", omega, 0.0, 1e6)?;
+            range("stabilization/mu", mu, 0.0, 1e3)
+        }
+        Stabilization::AugmentedLagrangian { alpha } => range("stabilization/alpha", alpha, 1e-3, 1e15),
+    }
 }

@@ -108,6 +108,15 @@ impl Scene {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 
+    /// A number that tells scenes apart, to say which one a result belongs to: FNV-1a of its JSON, 64 bits in
+    /// hexadecimal digits.
+    pub fn fingerprint(&self) -> String {
+        let hash = self.to_json().bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        format!("{hash:016x}")
+    }
+
     fn check_sizes(&self) -> Result<(), SceneError> {
         let lists = [
             ("bodies", self.bodies.len(), MAX_BODIES),

@@ -1,90 +1,29 @@
 //! A scene that runs: time, state, steps, and what can be asked of them.
 
+mod ask;
 mod explain;
+mod frame;
+mod happening;
 mod moment;
+mod summary;
 
 pub use explain::LeftOut;
+pub use frame::{BodyFrame, Frame};
 pub use moment::Moment;
+pub use summary::Summary;
 
 use crate::balance;
 use crate::elimination::Counters;
 use crate::error::EngineError;
-use crate::event::{self, Happening};
-use crate::integrate::{self, Integrator, Plant, Stop};
+use crate::event::Happening;
+use crate::integrate::{self, Integrator};
 use crate::jacobian::Jacobian;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ModelBody};
+use crate::passage::{Passage, Watch};
 use crate::rank::{self, Rank};
-use crate::reaction::report::{Convention, ReactionReport, report};
-use crate::reaction::{self, JointMultipliers};
 use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
-use crate::trust;
-use nalgebra::Vector3;
-use serde::Serialize;
-
-/// A body at one moment, in the world frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct BodyFrame {
-    /// Centre of mass, m.
-    pub position: [f64; 3],
-    /// Director u, a principal axis.
-    pub u: [f64; 3],
-    /// Director v.
-    pub v: [f64; 3],
-    /// Director w.
-    pub w: [f64; 3],
-    /// Velocity of the centre of mass, m/s.
-    pub velocity: [f64; 3],
-    /// Angular velocity, rad/s.
-    pub angular_velocity: [f64; 3],
-}
-
-/// All bodies at one moment.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Frame {
-    /// Time, s.
-    pub time: f64,
-    /// The bodies, in the scene's order.
-    pub bodies: Vec<BodyFrame>,
-}
-
-/// What a run has cost and how far it can be trusted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Summary {
-    /// Time, s.
-    pub time: f64,
-    /// Kinetic plus potential energy, J.
-    pub energy: f64,
-    /// Work of drivers and of loads without potential since the start, J.
-    pub work: f64,
-    /// Energy less that of the start and the work since, J: zero but for errors.
-    pub energy_drift: f64,
-    /// Largest |Φ|.
-    pub position_violation: f64,
-    /// Largest |Φ̇|.
-    pub velocity_violation: f64,
-    /// Accepted steps.
-    pub steps: u64,
-    /// Rejected steps.
-    pub rejected: u64,
-    /// Size of the last step, s.
-    pub step_size: f64,
-    /// Evaluations of the accelerations.
-    pub evaluations: u64,
-    /// Factorizations.
-    pub factorizations: u64,
-    /// Back-solves.
-    pub solves: u64,
-    /// Projections onto the constraints.
-    pub projections: u64,
-    /// The integrator at work.
-    pub integrator: IntegratorKind,
-    /// Why it is this one.
-    pub reason: String,
-    /// Whether the end of the run is reached.
-    pub finished: bool,
-}
 
 /// A scene that runs.
 #[derive(Clone, Debug)]
@@ -115,6 +54,8 @@ pub struct Simulation {
     /// Made when first asked for.
     jacobian: Option<Jacobian>,
     counted: explain::Counted,
+    /// Looks out for singular positions.
+    watch: Watch,
 }
 
 impl Simulation {
@@ -144,9 +85,11 @@ impl Simulation {
         mechanism.elimination.counters = Counters::default();
         mechanism.set_state(0.0, &start);
         let start_energy = mechanism.elimination.energy(&mechanism.system);
-        let (kind, reason) = integrate::choose(&mechanism, &start);
+        let (kind, reason) = integrate::choose(&mut mechanism, &start);
+        mechanism.elimination.counters = Counters::default();
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
+        let watch = Watch::new(&mechanism.system, &rank);
         let exchanges_energy = balance::exchanges_energy(&mechanism.system);
         let looks = exchanges_energy || !mechanism.system.watches.is_empty();
         let scratch = vec![0.0; if looks { 4 * n } else { 0 }];
@@ -170,6 +113,7 @@ impl Simulation {
             end,
             jacobian: None,
             counted: explain::Counted::default(),
+            watch,
         }
         .watching())
     }
@@ -219,35 +163,6 @@ impl Simulation {
         self.time >= self.end
     }
 
-    /// Events up to the shown time, in the order of time.
-    pub fn events(&self) -> &[Happening] {
-        let count = self.happened.partition_point(|h| h.time <= self.time);
-        &self.happened[..count]
-    }
-
-    /// Forgets what has happened; numbers that events look at are counted from the start of the integrator on, whose
-    /// state must be in place.
-    fn watching(mut self) -> Self {
-        self.watch_anew();
-        self
-    }
-
-    fn watch_anew(&mut self) {
-        self.happened.clear();
-        self.end = self.duration();
-        let Mechanism { system, elimination, .. } = &mut self.mechanism;
-        if system.watches.is_empty() {
-            return;
-        }
-        elimination.set_time(system, self.integrator.time());
-        let (q, q_dot) = self.integrator.state().split_at(system.coordinates);
-        elimination.place(system, q);
-        elimination.set_velocity(system, q_dot);
-        for watch in &mut system.watches {
-            watch.begin(elimination);
-        }
-    }
-
     /// Goes on from where another run of the same scene stands, whose numbers may differ: bodies keep their places
     /// and velocities as far as the constraints allow. Counters and energies are counted from here. Returns what was
     /// corrected, in words.
@@ -276,6 +191,7 @@ impl Simulation {
         self.mechanism.projections = 0;
         self.counted = explain::Counted::default();
         self.work = 0.0;
+        self.watch.forget();
         self.mechanism.set_state(time, y);
         self.start_energy = self.mechanism.elimination.energy(&self.mechanism.system);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
@@ -347,15 +263,13 @@ impl Simulation {
             return Err(EngineError::StepLimit { time: self.integrator.time(), steps: self.step_limit });
         }
         self.work += self.work_of_last_step(self.integrator.time());
-        self.integrator.step(&mut self.mechanism, end).map_err(|stop| match stop {
-            Stop::StepTooSmall { time, step } => EngineError::StepTooSmall { time, step },
-            Stop::NotFinite { time } => EngineError::Diverged { time },
-        })?;
+        self.integrator.step(&mut self.mechanism, end)?;
         let skip = self.model().settings.skip;
         if !(skip.checks && self.integrator.proves_constraints()) {
             self.counted.checks += 1;
             self.mechanism.check(self.integrator.time(), self.integrator.state())?;
         }
+        self.watch.step(&mut self.mechanism, &mut self.integrator);
         self.look_for_events();
         if !skip.reports {
             self.report_step();
@@ -374,27 +288,9 @@ impl Simulation {
         self.counted.reports += 1;
     }
 
-    /// Finds what has happened in the last step.
-    fn look_for_events(&mut self) {
-        if self.mechanism.system.watches.is_empty() {
-            return;
-        }
-        let Self { mechanism, integrator, scratch, happened, .. } = self;
-        let (before, end) = (happened.len(), integrator.time());
-        let step = (end - integrator.last_step(), end);
-        let mut watches = std::mem::take(&mut mechanism.system.watches);
-        let state = &mut scratch[..integrator.state().len()];
-        let see = |t: f64, watch: &event::Watch| {
-            integrator.interpolate(mechanism, t, state);
-            mechanism.set_state(t, state);
-            watch.look(&mechanism.elimination)
-        };
-        event::find(&mut watches, step, see, happened);
-        mechanism.system.watches = watches;
-        if let Some(last) = happened[before..].iter().position(|h| h.stop) {
-            happened.truncate(before + last + 1);
-            self.end = happened[before + last].time;
-        }
+    /// Singular positions passed since the start.
+    pub fn passages(&self) -> &[Passage] {
+        self.watch.passages()
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t, J.
@@ -403,8 +299,8 @@ impl Simulation {
         if !self.exchanges_energy || t <= start {
             return 0.0;
         }
-        if let Integrator::Taylor(series) = &self.integrator {
-            return series.work_to(t);
+        if let Some(work) = self.integrator.work_to(t) {
+            return work;
         }
         let counters = self.mechanism.elimination.counters;
         let Self { mechanism, integrator, scratch, .. } = self;
@@ -421,61 +317,6 @@ impl Simulation {
         self.integrator.time()
     }
 
-    /// How far the shown state is from its constraints, each row relative to its size.
-    pub fn opening(&mut self) -> trust::Opening {
-        self.mechanism.set_state(self.time, &self.shown);
-        trust::opening(&self.mechanism.system, &self.mechanism.elimination)
-    }
-
-    /// Bodies at the shown state.
-    pub fn frame(&mut self) -> Frame {
-        self.mechanism.set_state(self.time, &self.shown);
-        let bodies = self.mechanism.elimination.bodies.iter().map(|state| {
-            let e = state.q.e;
-            // ω = ½ Σ e_k × ė_k — eq. (6.4).
-            let omega: Vector3<f64> =
-                (0..3).map(|k| e[k].cross(&state.q_dot.e[k])).sum::<Vector3<f64>>() * 0.5;
-            BodyFrame {
-                position: state.q.r.into(),
-                u: e[0].into(),
-                v: e[1].into(),
-                w: e[2].into(),
-                velocity: state.q_dot.r.into(),
-                angular_velocity: omega.into(),
-            }
-        });
-        Frame { time: self.time, bodies: bodies.collect() }
-    }
-
-    /// Cost and trust at the shown state.
-    pub fn summary(&mut self) -> Summary {
-        let work = self.work + self.work_of_last_step(self.time);
-        self.mechanism.set_state(self.time, &self.shown);
-        let elimination = &self.mechanism.elimination;
-        let energy = elimination.energy(&self.mechanism.system);
-        let (position_violation, velocity_violation) = elimination.violation(&self.mechanism.system);
-        let (counters, projections) = self.integrator.work(&self.mechanism);
-        let steps = self.integrator.steps();
-        Summary {
-            time: self.time,
-            energy,
-            work,
-            energy_drift: energy - self.start_energy - work,
-            position_violation,
-            velocity_violation,
-            steps: steps.accepted,
-            rejected: steps.rejected,
-            step_size: self.integrator.last_step(),
-            evaluations: counters.evaluations,
-            factorizations: counters.factorizations,
-            solves: counters.solves,
-            projections,
-            integrator: self.kind,
-            reason: self.reason.clone(),
-            finished: self.finished(),
-        }
-    }
-
     /// A run that starts where this one stands, all velocities reversed: without drivers and losses it goes the same
     /// way back.
     #[must_use]
@@ -488,63 +329,5 @@ impl Simulation {
         back.mechanism.set_state(0.0, &back.start);
         back.start_energy = back.mechanism.elimination.energy(&back.mechanism.system);
         back
-    }
-
-    /// The Jacobian Φ_q at the shown state, rigid-body rows first.
-    pub fn jacobian(&mut self) -> &Jacobian {
-        self.mechanism.set_state(self.time, &self.shown);
-        let Mechanism { system, elimination, .. } = &self.mechanism;
-        let jacobian = self.jacobian.get_or_insert_with(|| Jacobian::new(system, elimination));
-        jacobian.refresh(system, elimination);
-        jacobian
-    }
-
-    /// Accelerations q̈ at the shown state.
-    pub fn accelerations(&mut self) -> Vec<f64> {
-        let time = self.time;
-        self.without_counting(|mechanism, shown| {
-            let mut rate = vec![0.0; shown.len()];
-            mechanism.rate(time, shown, &mut rate);
-            rate.split_off(mechanism.system.coordinates)
-        })
-    }
-
-    /// Accelerations of the centres of mass at the shown state, in the world, m/s².
-    pub fn mass_accelerations(&mut self) -> Vec<[f64; 3]> {
-        let q_ddot = self.accelerations();
-        self.system().bodies.iter().map(|body| body.layout.position(&q_ddot).r.into()).collect()
-    }
-
-    /// Multipliers λ and reactions of each joint at the shown state.
-    pub fn multipliers(&mut self) -> Vec<JointMultipliers> {
-        self.accelerations();
-        reaction::multipliers(&self.mechanism.system, &self.mechanism.elimination)
-    }
-
-    /// The same, read off the series of the last step where the integrator has them: without an evaluation, and as exact
-    /// as the tolerance makes the accelerations. For pictures of many moments.
-    pub fn multipliers_between_steps(&mut self) -> Vec<JointMultipliers> {
-        self.mechanism.set_state(self.time, &self.shown);
-        if let Integrator::Taylor(series) = &self.integrator
-            && series.give_multipliers(&mut self.mechanism, self.time)
-        {
-            return reaction::multipliers(&self.mechanism.system, &self.mechanism.elimination);
-        }
-        self.multipliers()
-    }
-
-    /// Reactions of joints and drivers at the shown state, with what is unique about them.
-    pub fn reactions(&mut self, convention: Convention) -> Result<ReactionReport, EngineError> {
-        self.accelerations();
-        let Mechanism { system, elimination, .. } = &self.mechanism;
-        Ok(report(system, elimination, self.time, convention)?)
-    }
-
-    /// What is asked out of curiosity must not change the counters of the run.
-    fn without_counting<T>(&mut self, ask: impl FnOnce(&mut Mechanism, &[f64]) -> T) -> T {
-        let counters = self.mechanism.elimination.counters;
-        let answer = ask(&mut self.mechanism, &self.shown);
-        self.mechanism.elimination.counters = counters;
-        answer
     }
 }

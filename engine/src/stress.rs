@@ -46,6 +46,8 @@ pub struct Treatment {
     pub integrator: Option<IntegratorKind>,
     /// What keeps the constraints satisfied, if not what the scene says.
     pub stabilization: Option<Stabilization>,
+    /// Steps after which a run is stopped, if fewer than the case allows.
+    pub most_steps: Option<u64>,
 }
 
 impl Treatment {
@@ -130,13 +132,29 @@ impl Entry {
 
 /// All cases, in the order of the report.
 pub fn cases() -> Vec<Case> {
-    [singular::CASES, redundant::CASES, scales::CASES, stiff::CASES, long::CASES, large::CASES, starts::CASES]
-        .concat()
+    [
+        singular::CASES,
+        redundant::CASES,
+        scales::CASES,
+        stiff::CASES,
+        long::CASES,
+        large::CASES,
+        starts::CASES,
+        treatments::CASES,
+    ]
+    .concat()
 }
 
-/// Which treatment survives what: the singular and the long cases under each integrator and stabilization.
+/// Which treatment survives what: each integrator and each stabilization with its name.
 pub fn comparison() -> Vec<(String, Treatment)> {
     treatments::all()
+}
+
+/// The cases on which treatments are compared.
+pub fn compared() -> Vec<Case> {
+    let all = cases();
+    let named = |name: &&str| all.iter().find(|case| case.name == *name).copied();
+    treatments::COMPARED.iter().filter_map(named).collect()
 }
 
 /// Runs a case. A panic is caught and counts as wrong.

@@ -44,14 +44,16 @@ const SHARE: f64 = 0.05;
 
 /// A relative |Φ| above which a run with projection has lost its constraints.
 const LOST: f64 = 1e-6;
-/// The same with Baumgarte's stabilization, which keeps a bounded violation by design.
+/// The same with Baumgarte's stabilization or penalties, which keep a bounded violation by design.
 const LOST_BY_FEEDBACK: f64 = 0.1;
 
 /// Refuses positions in place that are off the constraints: they are no result.
 pub fn check(system: &System, at: &Elimination, time: f64) -> Result<(), EngineError> {
     let limit = match system.model.settings.stabilization {
-        Stabilization::Projection => LOST,
-        Stabilization::Baumgarte { .. } => LOST_BY_FEEDBACK,
+        Stabilization::Projection
+        | Stabilization::Partitioning
+        | Stabilization::AugmentedLagrangian { .. } => LOST,
+        Stabilization::Baumgarte { .. } | Stabilization::Penalty { .. } => LOST_BY_FEEDBACK,
     };
     if relative(system, at) <= limit {
         return Ok(());

@@ -2,16 +2,13 @@
 
 use super::{AnalysisError, MAX_BODIES};
 use crate::lift::Lift;
-use crate::literal::left_null_space;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::scene::Scene;
 use crate::simulation::BodyFrame;
 use crate::system::System;
+use crate::tangent;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
-
-/// A row of unit length of which less than this is across the others depends on them.
-const DEPENDENT: f64 = 1e-9;
 
 /// A mechanism held at one position.
 #[derive(Clone, Debug)]
@@ -66,34 +63,9 @@ impl Stage {
     /// An orthonormal basis of small motions, lengths of arc measured with the mechanism's length: columns of
     /// (v, ω) body by body.
     pub fn tangent(&mut self) -> DMatrix<f64> {
-        let length = self.mechanism.system.length;
         let Mechanism { system, elimination, .. } = &mut self.mechanism;
         elimination.place(system, &self.q);
-        elimination.linearize(system);
-        // Aᵀ with columns of unit length; A ξ = 0 does not mind.
-        let mut a = DMatrix::zeros(6 * system.bodies.len(), system.solver_rows);
-        for (index, incidence) in system.incidences.iter().enumerate() {
-            let first = system.groups[incidence.group].solver.start;
-            for (k, row) in elimination.rows_on(system, index).chunks_exact(6).enumerate() {
-                for c in 0..6 {
-                    let scale = if c < 3 { 1.0 } else { 1.0 / length };
-                    a[(6 * incidence.body + c, first + k)] = row[c] * scale;
-                }
-            }
-        }
-        for mut column in a.column_iter_mut() {
-            let norm = column.norm();
-            if norm > 0.0 {
-                column /= norm;
-            }
-        }
-        let mut basis = left_null_space(&a, DEPENDENT);
-        for (row, mut values) in basis.row_iter_mut().enumerate() {
-            if row % 6 >= 3 {
-                values /= length;
-            }
-        }
-        basis
+        tangent::twists(system, elimination)
     }
 
     /// Resultant force and moment about the centre of mass of all loads, body by body, at the state in place.

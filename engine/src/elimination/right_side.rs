@@ -138,7 +138,7 @@ pub(super) fn gram(entry: impl Fn(usize, usize) -> f64) -> Matrix3<f64> {
 
 /// ë_l = ½ Σ_k Γ_kl eᵏ with the dual basis eᵏ of the directors — eq. (7.1). For a reduced body only u and v have
 /// rows, and ẅ follows from w = u × v; `extra` adds its velocity term.
-fn particular_directors(
+pub(super) fn particular_directors(
     coordinates: Coordinates,
     q: &Lift,
     gamma: &Matrix3<f64>,

@@ -102,6 +102,10 @@ impl Elimination {
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
             state.q = body.layout.position(q);
         }
+        self.place_features(system);
+    }
+
+    pub(super) fn place_features(&mut self, system: &System) {
         for (state, feature) in self.features[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {
                 let q = &self.bodies[body].q;
@@ -133,6 +137,10 @@ impl Elimination {
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
             state.q_dot = body.layout.velocity(&state.q, q_dot);
         }
+        self.set_feature_rates(system);
+    }
+
+    pub(super) fn set_feature_rates(&mut self, system: &System) {
         for (state, feature) in self.features[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {
                 let q_dot = &self.bodies[body].q_dot;

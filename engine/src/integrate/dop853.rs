@@ -1,246 +1,220 @@
-//! DOP853: explicit Runge-Kutta of order 8 with error estimates of orders 5 and 3 and dense output of order 7
-//! (Dormand and Prince; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, section II.5).
+//! Coefficients of DOP853 — Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993),
+//! section II.5 and the program published with it; the pair of orders 8(5,3) is by Dormand and Prince, the dense
+//! output of order 7 by Hairer and Wanner. The order test of the integrator checks them.
 
-use super::dop853_coefficients::{A, C, D, E3, E5, EXTENDED, STAGES};
-use super::{Plant, Steps, Stop, combine, weighted_norm};
+use super::tableau::{Estimate, Tableau};
 
-/// Safety factor of the step control, and the least and greatest change of the step.
-const SAFETY: f64 = 0.9;
-const LEAST: f64 = 0.333;
-const GREATEST: f64 = 6.0;
+/// Explicit Runge-Kutta of order 8 with error estimates of orders 5 and 3 and dense output of order 7.
+pub const DOP853: Tableau = Tableau {
+    order: 8,
+    stages: 12,
+    reuses_last: false,
+    nodes: &C,
+    rows: &A,
+    estimate: Estimate::Pair { fifth: E5, third: E3 },
+    dense: &D,
+    change: (0.333, 6.0),
+};
 
-/// The integrator and its last step.
-#[derive(Clone, Debug)]
-pub struct Dop853 {
-    tolerance: f64,
-    /// End of the last accepted step.
-    t: f64,
-    y: Vec<f64>,
-    rate: Vec<f64>,
-    /// Size of the next step.
-    h: f64,
-    /// The last accepted step: its start, size, first state and stages.
-    t_old: f64,
-    h_old: f64,
-    y_old: Vec<f64>,
-    k: Vec<Vec<f64>>,
-    trial: Vec<f64>,
-    dense: Vec<Vec<f64>>,
-    dense_ready: bool,
-    /// Steps so far.
-    pub steps: Steps,
-}
+/// Stages of a step with dense output: the first stage of the next step and three more.
+const EXTENDED: usize = 16;
 
-impl Dop853 {
-    /// Order of the method.
-    pub const ORDER: u32 = 8;
+/// Nonzero coefficients a_ij of stage i, as (j, a_ij).
+const A: [&[(usize, f64)]; EXTENDED] = [
+    &[],
+    &[(0, 0.052_600_151_958_767_73)],
+    &[(0, 0.019_725_056_984_537_9), (1, 0.059_175_170_953_613_7)],
+    &[(0, 0.029_587_585_476_806_85), (2, 0.088_762_756_430_420_54)],
+    &[(0, 0.241_365_134_159_266_7), (2, -0.884_549_479_328_286_1), (3, 0.924_834_003_261_792)],
+    &[(0, 0.037_037_037_037_037_035), (3, 0.170_828_608_729_473_86), (4, 0.125_467_687_566_822_42)],
+    &[(0, 0.037_109_375), (3, 0.170_252_211_019_544_05), (4, 0.060_216_538_980_455_96), (5, -0.017_578_125)],
+    &[
+        (0, 0.037_092_000_118_504_79),
+        (3, 0.170_383_925_712_239_98),
+        (4, 0.107_262_030_446_373_28),
+        (5, -0.015_319_437_748_624_402),
+        (6, 0.008_273_789_163_814_023),
+    ],
+    &[
+        (0, 0.624_110_958_716_075_7),
+        (3, -3.360_892_629_446_941_4),
+        (4, -0.868_219_346_841_726),
+        (5, 27.592_099_699_446_71),
+        (6, 20.154_067_550_477_894),
+        (7, -43.489_884_181_069_96),
+    ],
+    &[
+        (0, 0.477_662_536_438_264_34),
+        (3, -2.488_114_619_971_667_7),
+        (4, -0.590_290_826_836_843),
+        (5, 21.230_051_448_181_193),
+        (6, 15.279_233_632_882_423),
+        (7, -33.288_210_968_984_86),
+        (8, -0.020_331_201_708_508_627),
+    ],
+    &[
+        (0, -0.937_142_430_085_987_3),
+        (3, 5.186_372_428_844_064),
+        (4, 1.091_437_348_996_729_5),
+        (5, -8.149_787_010_746_927),
+        (6, -18.520_065_659_996_96),
+        (7, 22.739_487_099_350_505),
+        (8, 2.493_605_552_679_652_3),
+        (9, -3.046_764_471_898_219_6),
+    ],
+    &[
+        (0, 2.273_310_147_516_538),
+        (3, -10.534_495_466_737_25),
+        (4, -2.000_872_058_224_862_5),
+        (5, -17.958_931_863_118_8),
+        (6, 27.948_884_529_419_96),
+        (7, -2.858_998_277_135_023_5),
+        (8, -8.872_856_933_530_63),
+        (9, 12.360_567_175_794_303),
+        (10, 0.643_392_746_015_763_6),
+    ],
+    &[
+        (0, 0.054_293_734_116_568_765),
+        (5, 4.450_312_892_752_409),
+        (6, 1.891_517_899_314_500_3),
+        (7, -5.801_203_960_010_585),
+        (8, 0.311_164_366_957_819_9),
+        (9, -0.152_160_949_662_516_1),
+        (10, 0.201_365_400_804_030_34),
+        (11, 0.044_710_615_727_772_59),
+    ],
+    &[
+        (0, 0.056_167_502_283_047_954),
+        (6, 0.253_500_210_216_624_83),
+        (7, -0.246_239_037_470_802_5),
+        (8, -0.124_191_423_263_816_37),
+        (9, 0.153_291_798_278_765_68),
+        (10, 0.008_201_052_295_634_69),
+        (11, 0.007_567_897_660_545_699),
+        (12, -0.008_298),
+    ],
+    &[
+        (0, 0.031_834_648_163_502_14),
+        (5, 0.028_300_909_672_366_776),
+        (6, 0.053_541_988_307_438_566),
+        (7, -0.054_923_748_571_390_99),
+        (10, -0.000_108_347_328_697_249_32),
+        (11, 0.000_382_571_090_835_658_4),
+        (12, -0.000_340_465_008_687_404_56),
+        (13, 0.141_312_443_674_632_5),
+    ],
+    &[
+        (0, -0.428_896_301_583_791_94),
+        (5, -4.697_621_415_361_164),
+        (6, 7.683_421_196_062_599),
+        (7, 4.068_989_818_397_11),
+        (8, 0.356_727_187_455_281_1),
+        (12, -0.001_399_024_165_159_014_5),
+        (13, 2.947_514_789_152_772_4),
+        (14, -9.150_958_472_179_87),
+    ],
+];
 
-    /// Starts at (t, y), with relative and absolute tolerance `tolerance`.
-    pub fn new(plant: &mut impl Plant, t: f64, y: &[f64], tolerance: f64) -> Self {
-        let n = y.len();
-        let mut integrator = Self {
-            tolerance,
-            t,
-            y: y.to_vec(),
-            rate: vec![0.0; n],
-            h: 0.0,
-            t_old: t,
-            h_old: 0.0,
-            y_old: y.to_vec(),
-            k: vec![vec![0.0; n]; EXTENDED],
-            trial: vec![0.0; n],
-            dense: vec![vec![0.0; n]; 7],
-            dense_ready: false,
-            steps: Steps::default(),
-        };
-        plant.rate(t, y, &mut integrator.rate);
-        integrator.h = integrator.first_step(plant);
-        integrator
-    }
+/// Error estimate of order 3.
+const E3: &[(usize, f64)] = &[
+    (0, -0.189_800_754_072_407_62),
+    (5, 4.450_312_892_752_409),
+    (6, 1.891_517_899_314_500_3),
+    (7, -5.801_203_960_010_585),
+    (8, -0.422_682_321_323_791_9),
+    (9, -0.152_160_949_662_516_1),
+    (10, 0.201_365_400_804_030_34),
+    (11, 0.022_651_792_198_360_82),
+];
 
-    /// End of the last step.
-    pub fn time(&self) -> f64 {
-        self.t
-    }
+/// Error estimate of order 5.
+const E5: &[(usize, f64)] = &[
+    (0, 0.013_120_044_994_194_88),
+    (5, -1.225_156_446_376_204_4),
+    (6, -0.495_758_949_657_250_2),
+    (7, 1.664_377_182_454_986_4),
+    (8, -0.350_328_848_749_973_66),
+    (9, 0.334_179_118_713_017_5),
+    (10, 0.081_923_206_485_115_71),
+    (11, -0.022_355_307_863_886_294),
+];
 
-    /// State at the end of the last step.
-    pub fn state(&self) -> &[f64] {
-        &self.y
-    }
+/// Times of the stages within the step.
+const C: [f64; EXTENDED] = [
+    0.0,
+    0.052_600_151_958_767_73,
+    0.078_900_227_938_151_6,
+    0.118_350_341_907_227_4,
+    0.281_649_658_092_772_6,
+    0.333_333_333_333_333_3,
+    0.25,
+    0.307_692_307_692_307_7,
+    0.651_282_051_282_051_3,
+    0.6,
+    0.857_142_857_142_857_1,
+    1.0,
+    1.0,
+    0.1,
+    0.2,
+    0.777_777_777_777_777_8,
+];
 
-    /// Size of the last accepted step, s.
-    pub fn last_step(&self) -> f64 {
-        self.h_old
-    }
-
-    /// The first step of Hairer's `hinit`: from the sizes of y, ẏ and a difference quotient of ẏ.
-    fn first_step(&mut self, plant: &mut impl Plant) -> f64 {
-        let (y, f) = (&self.y, &self.rate);
-        let d0 = weighted_norm(y.iter().copied(), y, y, self.tolerance);
-        let d1 = weighted_norm(f.iter().copied(), y, y, self.tolerance);
-        let h0 = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
-        for (x, (y, f)) in self.trial.iter_mut().zip(y.iter().zip(f)) {
-            *x = y + h0 * f;
-        }
-        plant.rate(self.t + h0, &self.trial, &mut self.k[1]);
-        let change = self.k[1].iter().zip(f).map(|(a, b)| a - b);
-        let d2 = weighted_norm(change, y, y, self.tolerance) / h0;
-        let largest = d1.max(d2);
-        let h1 = if largest <= 1e-15 { (h0 * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / 8.0) };
-        h1.min(100.0 * h0)
-    }
-
-    /// Takes one accepted step, not beyond `end`.
-    pub fn step(&mut self, plant: &mut impl Plant, end: f64) -> Result<(), Stop> {
-        let mut rejected = false;
-        loop {
-            // Stretch a step that would leave a sliver before the end.
-            let left = end - self.t;
-            let h = if 1.01 * self.h >= left { left } else { self.h };
-            if h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && left > h {
-                return Err(Stop::StepTooSmall { time: self.t, step: h });
-            }
-            let error = self.attempt(plant, h);
-            if error < 1.0 {
-                let grown = (SAFETY * error.max(1e-12).powf(-1.0 / 8.0)).clamp(LEAST, GREATEST);
-                let next = h * if rejected { grown.min(1.0) } else { grown };
-                self.accept(plant, h, end);
-                // A step that was cut to meet the end says nothing about the next one.
-                self.h = if h < self.h { self.h.max(next) } else { next };
-                return Ok(());
-            }
-            if error.is_finite() {
-                self.h = h * (SAFETY * error.powf(-1.0 / 8.0)).max(LEAST);
-            } else if h > 1e-10 * (1.0 + self.t.abs()) {
-                self.h = 0.1 * h;
-            } else {
-                return Err(Stop::NotFinite { time: self.t });
-            }
-            rejected = true;
-            self.steps.rejected += 1;
-        }
-    }
-
-    /// All stages of a step of size h; returns its error relative to the tolerance.
-    fn attempt(&mut self, plant: &mut impl Plant, h: f64) -> f64 {
-        self.k[0].copy_from_slice(&self.rate);
-        for stage in 1..STAGES {
-            combine(&mut self.trial, &self.y, h, A[stage], &self.k);
-            plant.rate(self.t + C[stage] * h, &self.trial, &mut self.k[stage]);
-        }
-        combine(&mut self.trial, &self.y, h, A[STAGES], &self.k);
-        let estimate = |weights: &[(usize, f64)]| {
-            let sum = |i: usize| weights.iter().map(|&(j, e)| e * self.k[j][i]).sum::<f64>();
-            let n = self.y.len();
-            weighted_norm((0..n).map(sum), &self.y, &self.trial, self.tolerance)
-        };
-        let (e5, e3) = (estimate(E5), estimate(E3));
-        if e5 == 0.0 && e3 == 0.0 { 0.0 } else { h * e5 * e5 / (e5 * e5 + 0.01 * e3 * e3).sqrt() }
-    }
-
-    fn accept(&mut self, plant: &mut impl Plant, h: f64, end: f64) {
-        self.t_old = self.t;
-        self.h_old = h;
-        self.y_old.copy_from_slice(&self.y);
-        self.y.copy_from_slice(&self.trial);
-        self.t = if h == end - self.t { end } else { self.t + h };
-        plant.rate(self.t, &self.y, &mut self.rate);
-        plant.settle(self.t, &mut self.y, &mut self.rate);
-        self.dense_ready = false;
-        self.steps.accepted += 1;
-    }
-
-    /// Writes y(t) within the last step, to order 7. Three evaluations, once for each step that is asked.
-    pub fn interpolate(&mut self, plant: &mut impl Plant, t: f64, out: &mut [f64]) {
-        if t >= self.t || self.h_old == 0.0 {
-            out.copy_from_slice(&self.y);
-            return;
-        }
-        if !self.dense_ready {
-            self.prepare_dense(plant);
-        }
-        let x = ((t - self.t_old) / self.h_old).clamp(0.0, 1.0);
-        for (i, out) in out.iter_mut().enumerate() {
-            let mut sum = 0.0;
-            for (power, coefficient) in self.dense.iter().rev().enumerate() {
-                sum = (sum + coefficient[i]) * if power % 2 == 0 { x } else { 1.0 - x };
-            }
-            *out = self.y_old[i] + sum;
-        }
-    }
-
-    fn prepare_dense(&mut self, plant: &mut impl Plant) {
-        let h = self.h_old;
-        self.k[STAGES].copy_from_slice(&self.rate);
-        for stage in STAGES + 1..EXTENDED {
-            combine(&mut self.trial, &self.y_old, h, A[stage], &self.k);
-            plant.rate(self.t_old + C[stage] * h, &self.trial, &mut self.k[stage]);
-        }
-        for i in 0..self.y.len() {
-            let change = self.y[i] - self.y_old[i];
-            self.dense[0][i] = change;
-            self.dense[1][i] = h * self.k[0][i] - change;
-            self.dense[2][i] = 2.0 * change - h * (self.k[STAGES][i] + self.k[0][i]);
-            for (row, weights) in D.iter().enumerate() {
-                self.dense[3 + row][i] = h * weights.iter().map(|&(j, d)| d * self.k[j][i]).sum::<f64>();
-            }
-        }
-        self.dense_ready = true;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// ẏ = (y₂, −y₁ + t): y = (sin t + t, cos t + 1) from (0, 2).
-    struct Oscillator;
-
-    impl Plant for Oscillator {
-        fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
-            rate[0] = y[1];
-            rate[1] = -y[0] + t;
-        }
-        fn settle(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
-    }
-
-    fn fixed_step(h: f64) -> Dop853 {
-        let mut integrator = Dop853::new(&mut Oscillator, 0.0, &[0.0, 2.0], 1e6);
-        while integrator.t < 2.0 - 1e-9 {
-            integrator.h = h;
-            integrator.attempt(&mut Oscillator, h);
-            integrator.accept(&mut Oscillator, h, 1e9);
-        }
-        integrator
-    }
-
-    #[test]
-    fn has_order_eight_and_dense_output_of_order_seven() {
-        let end = |h: f64| (fixed_step(h).y[0] - (2f64.sin() + 2.0)).abs();
-        let order = (end(0.5) / end(0.125)).log2() / 2.0;
-        assert!((order - 8.0).abs() < 0.3, "{order}");
-        let inside = |h: f64| {
-            let mut integrator = fixed_step(h);
-            let mut worst: f64 = 0.0;
-            for part in 1..20 {
-                let t = 2.0 - h * f64::from(part) / 20.0;
-                let mut y = [0.0; 2];
-                integrator.interpolate(&mut Oscillator, t, &mut y);
-                worst = worst.max((y[0] - t.sin() - t).abs());
-            }
-            worst
-        };
-        let order = (inside(0.5) / inside(0.25)).log2();
-        assert!((7.0..9.0).contains(&order), "{order}");
-    }
-
-    #[test]
-    fn meets_the_end_exactly() {
-        let mut integrator = Dop853::new(&mut Oscillator, 0.0, &[0.0, 2.0], 1e-10);
-        while integrator.time() < 3.0 {
-            integrator.step(&mut Oscillator, 3.0).unwrap();
-        }
-        assert_eq!(integrator.time(), 3.0);
-        assert!((integrator.state()[0] - 3f64.sin() - 3.0).abs() < 1e-9);
-    }
-}
+/// Dense output: the four highest coefficients, from all extended stages.
+const D: [&[(usize, f64)]; 4] = [
+    &[
+        (0, -8.428_938_276_109_013),
+        (5, 0.566_714_953_519_377_7),
+        (6, -3.068_949_945_949_891_7),
+        (7, 2.384_667_656_512_07),
+        (8, 2.117_034_582_445_028),
+        (9, -0.871_391_583_777_973),
+        (10, 2.240_437_430_260_788_3),
+        (11, 0.631_578_778_769_468_8),
+        (12, -0.088_990_336_451_333_31),
+        (13, 18.148_505_520_854_727),
+        (14, -9.194_632_392_478_356),
+        (15, -4.436_036_387_594_894),
+    ],
+    &[
+        (0, 10.427_508_642_579_134),
+        (5, 242.283_491_775_258_17),
+        (6, 165.200_451_717_270_28),
+        (7, -374.546_754_722_690_2),
+        (8, -22.113_666_853_125_306),
+        (9, 7.733_432_668_472_264),
+        (10, -30.674_084_731_089_398),
+        (11, -9.332_130_526_430_229),
+        (12, 15.697_238_121_770_845),
+        (13, -31.139_403_219_565_178),
+        (14, -9.352_924_358_844_48),
+        (15, 35.816_841_486_394_08),
+    ],
+    &[
+        (0, 19.985_053_242_002_433),
+        (5, -387.037_308_749_351_8),
+        (6, -189.178_138_195_167_58),
+        (7, 527.808_159_205_423_6),
+        (8, -11.573_902_539_959_63),
+        (9, 6.881_232_694_696_3),
+        (10, -1.000_605_096_691_083_8),
+        (11, 0.777_713_779_805_344_3),
+        (12, -2.778_205_752_353_508),
+        (13, -60.196_695_231_264_12),
+        (14, 84.320_405_506_677_16),
+        (15, 11.992_291_136_182_79),
+    ],
+    &[
+        (0, -25.693_933_462_703_75),
+        (5, -154.189_748_690_236_43),
+        (6, -231.529_379_176_045_5),
+        (7, 357.639_117_910_614_1),
+        (8, 93.405_324_183_624_32),
+        (9, -37.458_323_136_451_63),
+        (10, 104.099_649_508_962_3),
+        (11, 29.840_293_426_660_5),
+        (12, -43.533_456_590_011_14),
+        (13, 96.324_553_959_188_28),
+        (14, -39.177_261_675_615_44),
+        (15, -149.726_836_257_985_64),
+    ],
+];

@@ -1,29 +1,56 @@
 //! The integrator of a run: which one, why, and one face for all of them.
 
-use super::{Dop853, Dopri5, Steps, Stop, Taylor};
+use super::chart::Choice;
+use super::in_chart::{InChart, Method};
+use super::stepper::Halted;
+use super::taylor::Saved;
+use super::{
+    Augmented, DOP853, DOPRI5, Explicit, Penalty, Plant, Radau, Rattle, Stepper, Steps, Stop, Strength,
+    Taylor, stiffness,
+};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
 use crate::scene::{IntegratorKind, Stabilization};
 use crate::system::System;
 
 /// An integrator at work.
-#[derive(Clone, Debug)]
-pub enum Integrator {
-    /// Explicit Runge-Kutta of order 8.
-    Dop853(Box<Dop853>),
-    /// Explicit Runge-Kutta of order 5.
-    Dopri5(Box<Dopri5>),
-    /// Taylor series.
-    Taylor(Box<Taylor>),
+#[derive(Debug)]
+pub struct Integrator(Box<dyn Stepper>);
+
+impl Clone for Integrator {
+    fn clone(&self) -> Self {
+        Self(self.0.boxed())
+    }
 }
 
 /// The integrator that a scene asks for, or the best one for it, and the reason.
 ///
-/// y is the state at time 0, which must be in place in the mechanism.
-pub fn choose(mechanism: &Mechanism, y: &[f64]) -> (IntegratorKind, String) {
+/// y is the state at time 0.
+pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) {
     let settings = &mechanism.system.model.settings;
-    let baumgarte = settings.stabilization != Stabilization::Projection;
-    let obstacle = baumgarte.then(|| "Baumgarte's stabilization belongs to Runge-Kutta methods".to_owned());
+    let treatment = settings.stabilization;
+    let own_choice = settings.integrator == IntegratorKind::Auto && settings.step.is_none();
+    if own_choice
+        && matches!(treatment, Stabilization::Projection | Stabilization::Partitioning)
+        && let Some(why) = stiffness(mechanism, 0.0, y)
+    {
+        return (IntegratorKind::Radau, why);
+    }
+    mechanism.set_state(0.0, y);
+    let settings = &mechanism.system.model.settings;
+    if let Stabilization::AugmentedLagrangian { .. } = treatment {
+        let why = match settings.integrator {
+            IntegratorKind::Auto | IntegratorKind::Trapezoidal => String::new(),
+            asked => format!("{} was asked for, but ", asked.word()),
+        };
+        let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
+        return (IntegratorKind::Trapezoidal, why);
+    }
+    let obstacle = if treatment != Stabilization::Projection {
+        Some(format!("{} belongs to Runge-Kutta methods", treatment.word()))
+    } else {
+        settings.step.map(|_| "its steps have no fixed size".to_owned())
+    };
     let System { curves, targets, loads, .. } = &mechanism.system;
     let prescribed = !(curves.is_empty() && targets.is_empty() && loads.is_empty());
     let crowded =
@@ -47,106 +74,157 @@ pub fn choose(mechanism: &Mechanism, y: &[f64]) -> (IntegratorKind, String) {
         (IntegratorKind::Taylor, Some(obstacle)) => {
             (IntegratorKind::Dop853, format!("taylor was asked for, but {obstacle}"))
         }
-        (asked, _) => (asked, "the scene asks for it".to_owned()),
+        (asked, _) => match own_constraints(asked, treatment) {
+            Some(why) => (IntegratorKind::Dop853, format!("{} was asked for, but {why}", asked.word())),
+            None => (asked, "the scene asks for it".to_owned()),
+        },
+    }
+}
+
+/// Why an integrator that has its own way with constraints cannot do with another one.
+fn own_constraints(asked: IntegratorKind, treatment: Stabilization) -> Option<&'static str> {
+    use Stabilization::{Partitioning, Projection};
+    match (asked, treatment) {
+        (IntegratorKind::Radau, Projection | Partitioning) | (IntegratorKind::Rattle, Projection) => None,
+        (IntegratorKind::Radau | IntegratorKind::Rattle, _) => Some(
+            "it satisfies the constraints at each step by itself, and leaves nothing for another treatment",
+        ),
+        (IntegratorKind::Trapezoidal, _) => Some("it is the partner of the augmented Lagrangian alone"),
+        _ => None,
     }
 }
 
 impl Integrator {
-    /// Starts an integrator of the given kind (not `Auto`) at (t, y).
+    /// Starts an integrator of the given kind (not `Auto`) at (t, y). One that cannot start says so at its first step.
     pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
-        let tolerance = mechanism.system.model.settings.tolerance;
-        match kind {
-            IntegratorKind::Taylor | IntegratorKind::Auto => {
-                Self::Taylor(Box::new(Taylor::new(mechanism, t, y, tolerance)))
-            }
-            IntegratorKind::Dop853 => Self::Dop853(Box::new(Dop853::new(mechanism, t, y, tolerance))),
-            IntegratorKind::Dopri5 => Self::Dopri5(Box::new(Dopri5::new(mechanism, t, y, tolerance))),
-        }
+        let started = start(kind, mechanism, t, y);
+        Self(started.unwrap_or_else(|stop| Box::new(Halted { t, y: y.to_vec(), stop })))
     }
 
     /// End of the last step.
     pub fn time(&self) -> f64 {
-        match self {
-            Self::Dop853(i) => i.time(),
-            Self::Dopri5(i) => i.time(),
-            Self::Taylor(i) => i.time(),
-        }
+        self.0.time()
     }
 
     /// State at the end of the last step.
     pub fn state(&self) -> &[f64] {
-        match self {
-            Self::Dop853(i) => i.state(),
-            Self::Dopri5(i) => i.state(),
-            Self::Taylor(i) => i.state(),
-        }
+        self.0.state()
     }
 
     /// Size of the last accepted step, s.
     pub fn last_step(&self) -> f64 {
-        match self {
-            Self::Dop853(i) => i.last_step(),
-            Self::Dopri5(i) => i.last_step(),
-            Self::Taylor(i) => i.last_step(),
-        }
+        self.0.last_step()
     }
 
     /// Steps so far.
     pub fn steps(&self) -> Steps {
-        match self {
-            Self::Dop853(i) => i.steps,
-            Self::Dopri5(i) => i.steps,
-            Self::Taylor(i) => i.steps,
-        }
+        self.0.steps()
     }
 
     /// Whether the last step has shown by itself that the constraints hold at its end.
     pub fn proves_constraints(&mut self) -> bool {
-        match self {
-            Self::Dop853(_) | Self::Dopri5(_) => false,
-            Self::Taylor(i) => i.proves_constraints(),
-        }
+        self.0.proves_constraints()
+    }
+
+    /// What has been left out so far, where the method knows.
+    pub fn saved(&self) -> Option<Saved> {
+        self.0.saved()
     }
 
     /// Work done and projections made, including those that the mechanism counts.
     pub fn work(&self, mechanism: &Mechanism) -> (Counters, u64) {
         let counted = mechanism.elimination.counters;
-        match self {
-            Self::Dop853(_) | Self::Dopri5(_) => (counted, mechanism.projections),
-            Self::Taylor(i) => {
-                let own = i.counters();
-                let sum = Counters {
-                    evaluations: counted.evaluations + own.evaluations,
-                    factorizations: counted.factorizations + own.factorizations,
-                    solves: counted.solves + own.solves,
-                };
-                (sum, mechanism.projections + i.projections)
-            }
-        }
+        let (own, projections) = self.0.own_work();
+        let sum = Counters {
+            evaluations: counted.evaluations + own.evaluations,
+            factorizations: counted.factorizations + own.factorizations,
+            solves: counted.solves + own.solves,
+        };
+        (sum, mechanism.projections + projections)
+    }
+
+    /// Smallest relative pivot that a factorization of the last step met.
+    pub fn smallest_pivot(&self, mechanism: &Mechanism) -> f64 {
+        self.0.smallest_pivot(mechanism)
+    }
+
+    /// Work of drivers and of loads without potential from the start of the last step to time t within it, J, where the
+    /// method knows it.
+    pub fn work_to(&self, t: f64) -> Option<f64> {
+        self.0.work_to(t)
+    }
+
+    /// Gives the mechanism, which stands at time t within the last step, the multipliers of that moment. Tells whether the
+    /// method has them.
+    pub fn give_multipliers(&self, mechanism: &mut Mechanism, t: f64) -> bool {
+        self.0.give_multipliers(mechanism, t)
     }
 
     /// Takes one accepted step, not beyond `end`.
     pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
-        match self {
-            Self::Dop853(i) => i.step(mechanism, end),
-            Self::Dopri5(i) => i.step(mechanism, end),
-            Self::Taylor(i) => {
-                i.step(&mechanism.system, end)?;
-                if !mechanism.system.angles.is_empty() {
-                    mechanism.set_state(i.time(), i.state());
-                    mechanism.elimination.keep_turns();
-                }
-                Ok(())
-            }
-        }
+        self.0.step(mechanism, end)
     }
 
     /// Writes y(t) within the last step.
     pub fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        match self {
-            Self::Dop853(i) => i.interpolate(mechanism, t, y),
-            Self::Dopri5(i) => i.interpolate(t, y),
-            Self::Taylor(i) => i.interpolate(&mechanism.system, t, y),
-        }
+        self.0.interpolate(mechanism, t, y);
     }
+}
+
+fn start(
+    kind: IntegratorKind,
+    mechanism: &mut Mechanism,
+    t: f64,
+    y: &[f64],
+) -> Result<Box<dyn Stepper>, Stop> {
+    let settings = &mechanism.system.model.settings;
+    let (tolerance, end, step) = (settings.tolerance, settings.duration, settings.step);
+    let treatment = settings.stabilization;
+    let tolerance = match treatment {
+        Stabilization::Penalty { alpha, omega, mu } => {
+            tolerance.max(Strength { alpha, omega, mu }.least_tolerance())
+        }
+        _ => tolerance,
+    };
+    let explicit = move |mut plant: &mut dyn Plant, y: &[f64]| {
+        let tableau = if kind == IntegratorKind::Dop853 { &DOP853 } else { &DOPRI5 };
+        match (kind, step) {
+            (_, Some(h)) => Explicit::with_step(tableau, &mut plant, t, y, h),
+            (IntegratorKind::Ode45, None) => Explicit::ode45(&mut plant, t, y, tolerance, end),
+            (_, None) => Explicit::new(tableau, &mut plant, t, y, tolerance),
+        }
+    };
+    let radau = move |mut plant: &mut dyn Plant, x: &[f64]| match step {
+        Some(h) => Radau::with_step(&mut plant, t, x, tolerance, h),
+        None => Radau::new(&mut plant, t, x, tolerance),
+    };
+    Ok(match (kind, treatment) {
+        (IntegratorKind::Taylor | IntegratorKind::Auto, _) => {
+            Box::new(Taylor::new(mechanism, t, y, tolerance))
+        }
+        (IntegratorKind::Rattle, _) => Box::new(Rattle::new(mechanism, t, y, step)),
+        (_, Stabilization::AugmentedLagrangian { alpha }) => {
+            Box::new(Augmented::new(mechanism, t, y, alpha, step))
+        }
+        (IntegratorKind::Radau, Stabilization::Partitioning) => {
+            in_chart(Choice::Partition, mechanism, t, y, radau)?
+        }
+        (IntegratorKind::Radau, _) => in_chart(Choice::Tangent, mechanism, t, y, radau)?,
+        (_, Stabilization::Partitioning) => in_chart(Choice::Partition, mechanism, t, y, explicit)?,
+        (_, Stabilization::Penalty { alpha, omega, mu }) => {
+            let strength = Strength { alpha, omega, mu };
+            Box::new(Penalty::new(mechanism, t, y, strength, explicit))
+        }
+        _ => Box::new(explicit(mechanism, y)),
+    })
+}
+
+fn in_chart<M: Method>(
+    choice: Choice,
+    mechanism: &mut Mechanism,
+    t: f64,
+    y: &[f64],
+    start: impl FnOnce(&mut dyn Plant, &[f64]) -> M,
+) -> Result<Box<dyn Stepper>, Stop> {
+    Ok(Box::new(InChart::new(choice, mechanism, t, y, start)?))
 }

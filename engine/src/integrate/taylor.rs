@@ -152,6 +152,11 @@ impl Taylor {
         saved
     }
 
+    /// Smallest relative pivot at the start of the last step.
+    pub fn smallest_pivot(&self) -> f64 {
+        self.islands.iter().map(Island::smallest_pivot).fold(f64::INFINITY, f64::min)
+    }
+
     /// Takes one step, not beyond `end`: the part that is farthest behind goes on.
     pub fn step(&mut self, system: &System, end: f64) -> Result<(), Stop> {
         let behind = self.islands.iter_mut().min_by(|a, b| a.time().total_cmp(&b.time()));

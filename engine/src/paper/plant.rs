@@ -4,6 +4,7 @@ use super::{Case, PaperError, scene};
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::error::EngineError;
+use crate::integrate::Plant;
 use crate::jacobian::Jacobian;
 use crate::literal::{Columns, DEPENDENT, Literal, SparseLu, for_mass_entries, force, independent_rows};
 use crate::model::Model;
@@ -163,4 +164,14 @@ impl PaperPlant {
         }
         right
     }
+}
+
+impl Plant for PaperPlant {
+    fn rate(&mut self, _: f64, y: &[f64], rate: &mut [f64]) {
+        if !Self::rate(self, y, rate) {
+            rate.fill(f64::NAN);
+        }
+    }
+
+    fn settle(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
 }

@@ -20,6 +20,9 @@ pub struct Settings {
     /// What is left out because nothing depends on it.
     #[serde(skip_serializing_if = "Skip::is_everything")]
     pub skip: Skip,
+    /// Size of the steps, s: fixed, instead of chosen by the tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
 }
 
 impl Default for Settings {
@@ -31,6 +34,7 @@ impl Default for Settings {
             tolerance: 1e-9,
             stabilization: Stabilization::default(),
             skip: Skip::default(),
+            step: None,
         }
     }
 }
@@ -49,6 +53,42 @@ pub enum IntegratorKind {
     Dop853,
     /// Explicit Runge-Kutta of order 5 by Dormand and Prince, with dense output of order 4.
     Dopri5,
+    /// The same with the step control of MATLAB's ode45: relative tolerance as given, absolute tolerance a thousandth of
+    /// it, so 1e-3 for MATLAB's defaults.
+    Ode45,
+    /// Radau IIA of order 5, implicit, in independent coordinates: for stiff springs, dampers and friction. Dense output
+    /// of order 3.
+    Radau,
+    /// RATTLE, composed symmetrically to order 6, with steps of one size: energy and momentum of conservative mechanisms
+    /// stay within bounds however long the run. Dense output of order 5.
+    Rattle,
+    /// Implicit trapezoidal rule of order 2: the partner of the augmented Lagrangian, which brings it along.
+    Trapezoidal,
+}
+
+impl IntegratorKind {
+    /// All but `auto`.
+    pub const ALL: [Self; 7] =
+        [Self::Taylor, Self::Dop853, Self::Dopri5, Self::Ode45, Self::Radau, Self::Rattle, Self::Trapezoidal];
+
+    /// The word for it in a scene.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Taylor => "taylor",
+            Self::Dop853 => "dop853",
+            Self::Dopri5 => "dopri5",
+            Self::Ode45 => "ode45",
+            Self::Radau => "radau",
+            Self::Rattle => "rattle",
+            Self::Trapezoidal => "trapezoidal",
+        }
+    }
+
+    /// The integrator of that name.
+    pub fn named(word: &str) -> Option<Self> {
+        [Self::Auto].into_iter().chain(Self::ALL).find(|kind| kind.word() == word)
+    }
 }
 
 /// What keeps the constraints satisfied during a run.
@@ -65,6 +105,70 @@ pub enum Stabilization {
         /// β, 1/s.
         beta: f64,
     },
+    /// Coordinate partitioning: only as many coordinates as there are degrees of freedom are integrated, chosen by
+    /// pivoting; the others follow from the constraints at every stage.
+    Partitioning,
+    /// Penalty: instead of multipliers, each row has a mass, a damper and a spring against its violation,
+    /// λ = α (Φ̈ + 2 Ω μ Φ̇ + Ω² Φ).
+    Penalty {
+        /// α, kg: how many times the masses of the mechanism. Violations shrink with 1/α.
+        #[serde(default = "penalty_alpha")]
+        alpha: f64,
+        /// Ω, rad/s.
+        #[serde(default = "penalty_omega")]
+        omega: f64,
+        /// μ, 1 for critical damping.
+        #[serde(default = "penalty_mu")]
+        mu: f64,
+    },
+    /// Augmented Lagrangian of index 3 with projections of velocity and acceleration; it is integrated by the implicit
+    /// trapezoidal rule.
+    AugmentedLagrangian {
+        /// α, N/m: the penalty with which the multipliers are augmented.
+        #[serde(default = "augmented_alpha")]
+        alpha: f64,
+    },
+}
+
+fn penalty_alpha() -> f64 {
+    1e7
+}
+
+fn penalty_omega() -> f64 {
+    10.0
+}
+
+fn penalty_mu() -> f64 {
+    1.0
+}
+
+fn augmented_alpha() -> f64 {
+    1e9
+}
+
+impl Stabilization {
+    /// The word for it in a scene.
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Self::Projection => "projection",
+            Self::Baumgarte { .. } => "baumgarte",
+            Self::Partitioning => "partitioning",
+            Self::Penalty { .. } => "penalty",
+            Self::AugmentedLagrangian { .. } => "augmented-lagrangian",
+        }
+    }
+
+    /// The treatment of that name with its usual strength.
+    pub fn named(word: &str) -> Option<Self> {
+        let all = [
+            Self::Projection,
+            Self::Baumgarte { alpha: 10.0, beta: 10.0 },
+            Self::Partitioning,
+            Self::Penalty { alpha: penalty_alpha(), omega: penalty_omega(), mu: penalty_mu() },
+            Self::AugmentedLagrangian { alpha: augmented_alpha() },
+        ];
+        all.into_iter().find(|treatment| treatment.word() == word)
+    }
 }
 
 /// What is left out because nothing depends on it. Every word is true unless it is switched off; then the run takes

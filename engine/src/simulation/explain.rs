@@ -1,7 +1,6 @@
 //! What a run has left out, and what that saved.
 
 use super::Simulation;
-use crate::integrate::Integrator;
 use serde::Serialize;
 
 /// Something that a run leaves out unless it is switched off.
@@ -36,10 +35,7 @@ impl Simulation {
         let skip = self.model().settings.skip;
         let bodies = self.model().bodies.len() as u64;
         let steps = self.integrator.steps().accepted;
-        let saved = match &self.integrator {
-            Integrator::Taylor(series) => Some(series.saved()),
-            _ => None,
-        };
+        let saved = self.integrator.saved();
         let entry = |word, on, saved: u64, of: u64, what: String| {
             let what =
                 if of == 0 { "this integrator knows nothing to leave out here".to_owned() } else { what };

@@ -114,9 +114,14 @@ fn four_bars(treatment: &Treatment, quick: bool) -> Outcome {
         if quick { (vec![1, 2, 5, 12], 10.0) } else { ((1..=40).collect(), 100.0) };
     counts
         .into_iter()
-        .map(|n| against_pendulum(windows(n, 0.0, 1.0), n, (0.0, 1.0), seconds, treatment))
+        .map(|n| against_windows(n, seconds, treatment))
         .reduce(Outcome::and)
         .unwrap_or_else(|| Outcome::nothing(Verdict::Wrong, "nothing was run".to_owned()))
+}
+
+/// So many windows from the upright for so long.
+pub(super) fn against_windows(count: usize, seconds: f64, treatment: &Treatment) -> Outcome {
+    against_pendulum(windows(count, 0.0, 1.0), count, (0.0, 1.0), seconds, treatment)
 }
 
 fn horizontal(treatment: &Treatment, _: bool) -> Outcome {

@@ -22,6 +22,7 @@ pub struct Trial<'a> {
     poor: f64,
     samples: u32,
     steps: u64,
+    most_steps: u64,
     conserves: Option<(f64, f64)>,
 }
 
@@ -37,6 +38,7 @@ impl<'a> Trial<'a> {
             poor: 0.0,
             samples: 40,
             steps: STEPS,
+            most_steps: treatment.most_steps.unwrap_or(u64::MAX),
             conserves: None,
         }
     }
@@ -93,7 +95,7 @@ impl<'a> Trial<'a> {
     }
 
     fn watch(mut self, mut simulation: Simulation) -> Outcome {
-        simulation.set_step_limit(self.steps);
+        simulation.set_step_limit(self.steps.min(self.most_steps));
         let mut outcome = Outcome::nothing(Verdict::Survived, String::new());
         outcome.reference = std::mem::take(&mut self.reference);
         let (mut drift, mut kinetic) = (0.0f64, f64::MIN_POSITIVE);

@@ -3,9 +3,11 @@
 mod analyses;
 mod bench;
 mod check;
+mod choice;
 mod csv;
 mod grade;
 mod import;
+mod interrupt;
 mod lesson;
 mod paper;
 mod preview;
@@ -19,6 +21,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+use triad_engine::scene::{IntegratorKind, Stabilization};
 
 use crate::problem::Problem;
 use crate::reports;
@@ -164,7 +167,7 @@ enum Command {
     Bench(bench::Bench),
     /// Try to break the engine: singular positions, redundancy, extreme scales, random mechanisms, each judged.
     #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
-        triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html")]
+        triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html\n  triad stress --treatments --svg treatments.svg")]
     Stress(stress::Stress),
     /// Print a JSON Schema, for editors: of a scene, or of an author's file.
     #[command(
@@ -293,6 +296,25 @@ struct Run {
     /// Tell what was left out because nothing depends on it, and what that saved.
     #[arg(long)]
     explain: bool,
+    /// Integrator, instead of the scene's: auto, taylor, dop853, dopri5, ode45, radau, rattle.
+    #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
+    integrator: Option<IntegratorKind>,
+    /// What keeps the constraints, instead of the scene's: projection, baumgarte, partitioning, penalty,
+    /// augmented-lagrangian; each with its usual strength.
+    #[arg(long, value_name = "NAME", value_parser = choice::treatment)]
+    treatment: Option<Stabilization>,
+    /// Steps of one size, in seconds, instead of steps by the tolerance.
+    #[arg(long, value_name = "S")]
+    step: Option<f64>,
+    /// Estimate the error by a second solution, by another method or at a tighter tolerance.
+    #[arg(long)]
+    verify: bool,
+    /// Stop after so many integrator steps; what was reached is kept.
+    #[arg(long, value_name = "N")]
+    most_steps: Option<u64>,
+    /// Stop after so many seconds of computing; what was reached is kept.
+    #[arg(long, value_name = "S")]
+    most_seconds: Option<f64>,
     /// Write positions, velocities and reactions as CSV (`-` for standard output).
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,

@@ -1,13 +1,17 @@
 //! `triad run`.
 
 use std::path::Path;
+use std::time::Instant;
 
 use axum::http::StatusCode;
 use serde_json::json;
 use triad_engine::scene::{Scene, Skip};
 use triad_engine::simulation::{LeftOut, Simulation, Summary};
+use triad_engine::verify::{Verification, Verifier};
+use triad_engine::{EngineError, VERSION};
 
 use super::csv::Table;
+use super::interrupt::Interrupt;
 use super::terminal::{Progress, print_json, print_line, progress};
 use super::{Outcome, Run};
 use crate::problem::Problem;
@@ -24,9 +28,15 @@ const MOST_OUTPUTS: f64 = 1e7;
 pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
     let scene = scene(options)?;
     let mut simulation = Simulation::new(&scene)?;
+    if let Some(steps) = options.most_steps {
+        simulation.set_step_limit(steps);
+    }
+    let mut verifier = options.verify.then(|| Verifier::new(&scene, &mut simulation)).transpose()?;
     let mut outputs = Outputs::open(options, &scene, &mut simulation)?;
     let bar = progress(&scene.name, simulation.duration(), json);
-    let stopped = advance(&mut simulation, &mut outputs, scene.simulation.every, &bar);
+    let bounds = Bounds::new(options);
+    let stopped =
+        advance(&mut simulation, verifier.as_mut(), &mut outputs, scene.simulation.every, &bounds, &bar);
     drop(bar);
     // What was reached before an error is kept.
     outputs.finish()?;
@@ -35,7 +45,8 @@ pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
         Err(Stop::Engine(problem)) => Some(problem),
         Err(Stop::Output(problem)) => return Err(problem),
     };
-    report(&scene, &mut simulation, options, stopped.as_ref(), json);
+    let verified = verifier.as_ref().map(Verifier::found);
+    report(&scene, &mut simulation, options, (stopped.as_ref(), verified), json);
     Ok(if stopped.is_none() { Outcome::Done } else { Outcome::No })
 }
 
@@ -52,6 +63,9 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
             *on = false;
         }
     }
+    simulation.integrator = options.integrator.unwrap_or(simulation.integrator);
+    simulation.stabilization = options.treatment.unwrap_or(simulation.stabilization);
+    simulation.step = options.step.or(simulation.step);
     let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
     if writes && outputs > MOST_OUTPUTS {
@@ -73,22 +87,81 @@ enum Stop {
     Output(Problem),
 }
 
+/// Integrator steps between two looks at the clock and at the keyboard.
+const PIECE: u64 = 64;
+
+/// What ends a run before its end.
+struct Bounds {
+    interrupt: Interrupt,
+    started: Instant,
+    seconds: Option<f64>,
+}
+
+impl Bounds {
+    fn new(options: &Run) -> Self {
+        Self { interrupt: Interrupt::listen(), started: Instant::now(), seconds: options.most_seconds }
+    }
+
+    /// Why the run must not go on, at time t.
+    fn reached(&self, t: f64) -> Result<(), Stop> {
+        let stop = |code, why: String| {
+            let hint = "what was reached is kept; the same command without the bound goes to the end";
+            Err(Stop::Engine(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, code, why, hint)))
+        };
+        if self.interrupt.asked() {
+            return stop("cancelled", format!("the run was cancelled at t = {t:.6} s"));
+        }
+        match self.seconds {
+            Some(seconds) if self.started.elapsed().as_secs_f64() > seconds => {
+                stop("time-limit", format!("the run stops at t = {t:.6} s: its {seconds} s are used up"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 fn advance(
     simulation: &mut Simulation,
+    mut verifier: Option<&mut Verifier>,
     outputs: &mut Outputs,
     every: f64,
+    bounds: &Bounds,
     bar: &Progress,
 ) -> Result<(), Stop> {
+    let engine = |error: EngineError| Stop::Engine(error.into());
     outputs.write(simulation).map_err(Stop::Output)?;
     let mut index = 0_u64;
     while !simulation.finished() {
         index += 1;
         let time = (index as f64 * every).min(simulation.duration());
-        simulation.advance_to(time).map_err(|error| Stop::Engine(error.into()))?;
+        if let Err(stop) = to(simulation, time, bounds) {
+            // The last good state is an output too.
+            let reached = simulation.reached();
+            let good = !matches!(&stop, Stop::Engine(problem) if problem.code() == "constraints-lost");
+            if good && reached > simulation.time() && simulation.advance_to(reached).is_ok() {
+                outputs.write(simulation).map_err(Stop::Output)?;
+            }
+            return Err(stop);
+        }
+        if let Some(verifier) = verifier.as_deref_mut() {
+            while !verifier.compare(simulation, PIECE).map_err(engine)? {
+                bounds.reached(simulation.time())?;
+            }
+        }
         outputs.write(simulation).map_err(Stop::Output)?;
         bar.reached(time);
     }
     Ok(())
+}
+
+/// Goes on to a time, in pieces.
+fn to(simulation: &mut Simulation, time: f64, bounds: &Bounds) -> Result<(), Stop> {
+    loop {
+        bounds.reached(simulation.reached())?;
+        if simulation.advance_towards(time, PIECE).map_err(|error| Stop::Engine(error.into()))? {
+            return Ok(());
+        }
+    }
 }
 
 /// Where a run goes.
@@ -180,7 +253,13 @@ fn output_failed(error: &impl std::fmt::Display) -> Problem {
     )
 }
 
-fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Option<&Problem>, json: bool) {
+fn report(
+    scene: &Scene,
+    simulation: &mut Simulation,
+    options: &Run,
+    (stopped, verified): (Option<&Problem>, Option<&Verification>),
+    json: bool,
+) {
     let summary = simulation.summary();
     let left_out = options.explain.then(|| simulation.left_out());
     if json {
@@ -191,6 +270,8 @@ fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Op
             "events": simulation.events(),
             "notes": simulation.notes(),
             "left_out": left_out,
+            "verified": verified,
+            "repeat": { "engine": VERSION, "fingerprint": scene.fingerprint() },
             "stopped": stopped.map(Problem::document),
         }));
         return;
@@ -198,7 +279,7 @@ fn report(scene: &Scene, simulation: &mut Simulation, options: &Run, stopped: Op
     // A table on standard output must stay a table.
     let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
     let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
-    for line in lines(scene, &summary, simulation.notes()) {
+    for line in lines(scene, &summary, verified, simulation.notes()) {
         say(&line);
     }
     for event in simulation.events() {
@@ -224,7 +305,7 @@ fn explanation(left: &LeftOut) -> String {
     format!("  left out: {:<10} {switch}  {}", left.word, left.what)
 }
 
-fn lines(scene: &Scene, s: &Summary, notes: &[String]) -> Vec<String> {
+fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<String> {
     let mut lines = vec![
         format!("{}: {} s of {} s", scene.name, s.time, scene.simulation.duration),
         format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
@@ -241,6 +322,26 @@ fn lines(scene: &Scene, s: &Summary, notes: &[String]) -> Vec<String> {
             s.evaluations, s.factorizations, s.solves, s.projections
         ),
     ];
+    lines.push(format!("  integrator             {}: {}", s.integrator.word(), s.reason));
+    if let Some((first, last)) = s.passages.first().zip(s.passages.last()) {
+        let (count, joints) = (s.passages.len(), first.joints.join(", "));
+        let times = if count == 1 {
+            format!("at {:.6} s", first.time)
+        } else {
+            format!("{count} times, first at {:.6} s, last at {:.6} s", first.time, last.time)
+        };
+        lines.push(format!("  singular positions     passed {times}, at {joints}"));
+    }
+    if let Some(v) = verified {
+        let (by, tolerance) = (v.integrator.word(), v.tolerance);
+        lines.push(format!(
+            "  error estimate         {:.2e} m, {:.2e} rad ({by} at {tolerance:.0e}, {} times compared)",
+            v.position, v.turn, v.compared
+        ));
+        let bodies =
+            v.bodies.iter().map(|b| format!("    {:<20} {:.2e} m, {:.2e} rad", b.body, b.position, b.turn));
+        lines.extend(bodies);
+    }
     lines.extend(notes.iter().map(|note| format!("  note                   {note}")));
     lines
 }

@@ -1,6 +1,7 @@
 //! `triad stress`: tries to break the engine, and says what became of each attempt.
 
 mod page;
+mod picture;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -37,6 +38,16 @@ pub(super) struct Stress {
     /// Run each case with every integrator and every stabilization, to see which survives what.
     #[arg(long)]
     compare: bool,
+    /// Only compare treatments: every integrator, and Baumgarte's stabilization from weak to strong, penalties,
+    /// augmented Lagrangian and partitioning, on the cases that tell them apart; about a minute.
+    #[arg(long)]
+    treatments: bool,
+    /// With --treatments: draw the comparison.
+    #[arg(long, value_name = "FILE.svg", requires = "treatments")]
+    svg: Option<PathBuf>,
+    /// With --treatments: write the comparison as a table with reasons.
+    #[arg(long, value_name = "FILE.md", requires = "treatments")]
+    markdown: Option<PathBuf>,
     /// Write the report as a page.
     #[arg(long, value_name = "FILE.html")]
     html: Option<PathBuf>,
@@ -67,6 +78,9 @@ struct Column {
 
 /// Runs the suite.
 pub(super) fn stress(options: &Stress, json: bool) -> Result<Outcome, Problem> {
+    if options.treatments {
+        return treatments(options, json);
+    }
     let cases = chosen(options)?;
     let seeds = seeds(options);
     let bar = progress("stress", (cases.len() as u64 + seeds.1 - seeds.0) as f64, json);
@@ -93,17 +107,54 @@ pub(super) fn stress(options: &Stress, json: bool) -> Result<Outcome, Problem> {
         comparison: if options.compare { compare(&cases, json) } else { Vec::new() },
     };
     if let Some(file) = &options.html {
-        std::fs::write(file, page::render(&report)).map_err(|error| {
-            Problem::new(
-                StatusCode::INTERNAL_SERVER_ERROR,
-                "unreadable-file",
-                format!("{}: {error}", file.display()),
-                "give a file in a folder that may be written to",
-            )
-        })?;
+        write(file, &page::render(&report))?;
     }
     tell(&report, options, json);
     Ok(if report.unexpected.is_empty() { Outcome::Done } else { Outcome::No })
+}
+
+/// Compares treatments alone.
+fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
+    let cases: Vec<Case> = stress::compared()
+        .into_iter()
+        .filter(|case| options.case.as_deref().is_none_or(|wanted| case.name.contains(wanted)))
+        .collect();
+    let columns = compare(&cases, json);
+    if let Some(file) = &options.svg {
+        write(file, &picture::svg(&columns))?;
+    }
+    if let Some(file) = &options.markdown {
+        let name = options.svg.as_deref().and_then(|svg| svg.file_name()).unwrap_or_default();
+        write(file, &picture::markdown(&columns, &name.to_string_lossy()))?;
+    }
+    if json {
+        print_json(&columns);
+        return Ok(Outcome::Done);
+    }
+    for column in &columns {
+        for entry in &column.entries {
+            let outcome = &entry.outcome;
+            let error =
+                outcome.error.or(outcome.energy_drift).map_or_else(String::new, |e| format!("{e:.1e}"));
+            let verdict = word(outcome.verdict);
+            print_line(&format!(
+                "{verdict:9} {:30} {:22} {error:>8} {:>7} steps  {}",
+                column.treatment, entry.case, outcome.steps, outcome.reason
+            ));
+        }
+    }
+    Ok(Outcome::Done)
+}
+
+fn write(file: &std::path::Path, text: &str) -> Result<(), Problem> {
+    std::fs::write(file, text).map_err(|error| {
+        Problem::new(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "unwritable-file",
+            format!("{}: {error}", file.display()),
+            "give a file in a folder that may be written to",
+        )
+    })
 }
 
 fn chosen(options: &Stress) -> Result<Vec<Case>, Problem> {

@@ -5,7 +5,8 @@ import { at, leaves, type Then } from "../core/numbers";
 import type { Session } from "./session";
 
 const MOST_ROWS = 120;
-const INTEGRATORS = [["auto", "Chosen by the engine"], ["taylor", "Taylor series"], ["dop853", "Dormand and Prince, order 8"], ["dopri5", "Dormand and Prince, order 5"]];
+const INTEGRATORS = [["auto", "Chosen by the engine"], ["taylor", "Taylor series"], ["dop853", "Dormand and Prince, order 8"], ["dopri5", "Dormand and Prince, order 5"], ["ode45", "Step control of MATLAB's ode45"], ["radau", "Radau IIA, order 5: stiff"], ["rattle", "RATTLE, order 6: long runs"]];
+const TREATMENTS: Record<string, Record<string, unknown>> = { projection: { kind: "projection" }, baumgarte: { kind: "baumgarte", alpha: 10, beta: 10 }, partitioning: { kind: "partitioning" }, penalty: { kind: "penalty", alpha: 1e7, omega: 10, mu: 1 }, "augmented-lagrangian": { kind: "augmented-lagrangian", alpha: 1e9 } };
 
 type Set = (pointer: string, value: unknown, then: Then) => void;
 
@@ -25,8 +26,8 @@ export function expertPanel(session: Session, set: Set): { root: HTMLElement; re
     choices.replaceChildren(
       choice("Integrator", INTEGRATORS, String(at(scene, "/simulation/integrator")), (value) => set("/simulation/integrator", value, after())),
       choice("Coordinates", [["full", "12 a body (full)"], ["reduced", "9 a body (reduced)"], ["shared", "shared at revolute joints"]], String(at(scene, "/coordinates")), (value) => set("/coordinates", value, "restart")),
-      choice("Constraints kept by", [["projection", "projection"], ["baumgarte", "Baumgarte"]], String(at(scene, "/simulation/stabilization/kind")),
-        (value) => set("/simulation/stabilization", value === "projection" ? { kind: "projection" } : { kind: "baumgarte", alpha: 10, beta: 10 }, after())));
+      choice("Constraints kept by", [["projection", "projection"], ["baumgarte", "Baumgarte"], ["partitioning", "partitioning of the coordinates"], ["penalty", "penalties"], ["augmented-lagrangian", "augmented Lagrangian"]], String(at(scene, "/simulation/stabilization/kind")),
+        (value) => set("/simulation/stabilization", TREATMENTS[value] ?? { kind: "projection" }, after())));
     const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
     const all = leaves(scene).filter((leaf) => words.every((word) => leaf.label.toLowerCase().includes(word)));
     body.replaceChildren(...all.slice(0, MOST_ROWS).map((leaf) => {

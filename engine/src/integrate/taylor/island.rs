@@ -132,6 +132,11 @@ impl Island {
         matches!(self.engine, Engine::NarrowPlanar(_) | Engine::WidePlanar(_))
     }
 
+    /// Smallest relative pivot at the start of the last step.
+    pub fn smallest_pivot(&self) -> f64 {
+        with!(&self.engine, s => s.smallest_pivot)
+    }
+
     /// Work done so far.
     pub fn counters(&self) -> Counters {
         with!(&self.engine, s => s.counters)

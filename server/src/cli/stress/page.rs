@@ -131,6 +131,6 @@ fn comparison(page: &mut String, report: &Report) {
     page.push_str("</table></div>");
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

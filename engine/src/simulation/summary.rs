@@ -1,0 +1,84 @@
+//! What a run has cost and how far it can be trusted.
+
+use super::Simulation;
+use crate::passage::Passage;
+use crate::scene::IntegratorKind;
+use crate::trust;
+use serde::Serialize;
+
+/// What a run has cost and how far it can be trusted.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Time, s.
+    pub time: f64,
+    /// Kinetic plus potential energy, J.
+    pub energy: f64,
+    /// Work of drivers and of loads without potential since the start, J.
+    pub work: f64,
+    /// Energy less that of the start and the work since, J: zero but for errors.
+    pub energy_drift: f64,
+    /// Largest |Φ|.
+    pub position_violation: f64,
+    /// Largest |Φ̇|.
+    pub velocity_violation: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Size of the last step, s.
+    pub step_size: f64,
+    /// Evaluations of the accelerations.
+    pub evaluations: u64,
+    /// Factorizations.
+    pub factorizations: u64,
+    /// Back-solves.
+    pub solves: u64,
+    /// Projections onto the constraints.
+    pub projections: u64,
+    /// The integrator at work.
+    pub integrator: IntegratorKind,
+    /// Why it is this one.
+    pub reason: String,
+    /// Singular positions passed, where the mobility jumps for a moment.
+    pub passages: Vec<Passage>,
+    /// Whether the end of the run is reached.
+    pub finished: bool,
+}
+
+impl Simulation {
+    /// How far the shown state is from its constraints, each row relative to its size.
+    pub fn opening(&mut self) -> trust::Opening {
+        self.mechanism.set_state(self.time, &self.shown);
+        trust::opening(&self.mechanism.system, &self.mechanism.elimination)
+    }
+
+    /// Cost and trust at the shown state.
+    pub fn summary(&mut self) -> Summary {
+        let work = self.work + self.work_of_last_step(self.time);
+        self.mechanism.set_state(self.time, &self.shown);
+        let elimination = &self.mechanism.elimination;
+        let energy = elimination.energy(&self.mechanism.system);
+        let (position_violation, velocity_violation) = elimination.violation(&self.mechanism.system);
+        let (counters, projections) = self.integrator.work(&self.mechanism);
+        let steps = self.integrator.steps();
+        Summary {
+            time: self.time,
+            energy,
+            work,
+            energy_drift: energy - self.start_energy - work,
+            position_violation,
+            velocity_violation,
+            steps: steps.accepted,
+            rejected: steps.rejected,
+            step_size: self.integrator.last_step(),
+            evaluations: counters.evaluations,
+            factorizations: counters.factorizations,
+            solves: counters.solves,
+            projections,
+            integrator: self.kind,
+            reason: self.reason.clone(),
+            passages: self.watch.passages().to_vec(),
+            finished: self.finished(),
+        }
+    }
+}

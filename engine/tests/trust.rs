@@ -1,0 +1,106 @@
+//! What a run says about itself: singular positions it passed, and how far it can be trusted.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use triad_engine::catalogue;
+use triad_engine::scene::IntegratorKind;
+use triad_engine::simulation::Simulation;
+use triad_engine::verify::Verifier;
+
+/// Times at which θ̈ = κ sin θ from θ = 0 with the rate 1 passes odd multiples of π/2: classical Runge-Kutta with
+/// steps of 0.1 ms, and linear interpolation between them.
+fn horizontal_times(kappa: f64, end: f64) -> Vec<f64> {
+    let (mut angle, mut rate, h) = (0.0f64, 1.0f64, 1e-4);
+    let mut times = Vec::new();
+    let mut step = 0.0;
+    while step * h < end {
+        let f = |a: f64| kappa * a.sin();
+        let (a1, r1) = (rate, f(angle));
+        let (a2, r2) = (rate + 0.5 * h * r1, f(angle + 0.5 * h * a1));
+        let (a3, r3) = (rate + 0.5 * h * r2, f(angle + 0.5 * h * a2));
+        let (a4, r4) = (rate + h * r3, f(angle + h * a3));
+        let next = angle + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0;
+        rate += h * (r1 + 2.0 * r2 + 2.0 * r3 + r4) / 6.0;
+        let (before, after) = (angle.cos(), next.cos());
+        if before * after < 0.0 {
+            times.push((step + before / (before - after)) * h);
+        }
+        angle = next;
+        step += 1.0;
+    }
+    times
+}
+
+#[test]
+fn singular_passages_are_told_with_their_times_and_joints() {
+    for (windows, tolerance) in [(1.0f64, 1e-9), (2.0, 1e-9), (2.0, 1e-5), (5.0, 1e-8)] {
+        let kappa = 9.81 * 3.0 * (3.0 * windows + 1.0) / (2.0 * (4.0 * windows + 1.0));
+        let exact = horizontal_times(kappa, 10.0);
+        assert!(exact.len() >= 9);
+        for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+            let mut scene = catalogue::scene(&format!("n-four-bar:{windows}")).unwrap();
+            scene.simulation.integrator = integrator;
+            scene.simulation.tolerance = tolerance;
+            let mut run = Simulation::new(&scene).unwrap();
+            run.advance_to(10.0).unwrap();
+            let found = run.summary().passages;
+            let times: Vec<f64> = found.iter().map(|p| p.time).collect();
+            assert_eq!(times.len(), exact.len(), "{windows} {integrator:?}: {times:?} instead of {exact:?}");
+            for (found, exact) in found.iter().zip(&exact) {
+                let bound = 1e-5 + 1e3 * tolerance;
+                assert!((found.time - exact).abs() < bound, "{} instead of {exact}", found.time);
+                assert!(!found.joints.is_empty());
+            }
+        }
+    }
+}
+
+#[test]
+fn regular_runs_tell_of_no_passage() {
+    for name in ["simple-pendulum", "spatial-double-pendulum", "spatial-chain:5", "spatial-slider-crank"] {
+        for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+            let mut scene = catalogue::scene(name).unwrap();
+            scene.simulation.integrator = integrator;
+            scene.simulation.duration = 2.0;
+            let mut run = Simulation::new(&scene).unwrap();
+            run.advance_to(2.0).unwrap();
+            assert!(run.passages().is_empty(), "{name} {integrator:?}: {:?}", run.passages());
+        }
+    }
+}
+
+#[test]
+fn a_second_solution_estimates_the_error_of_a_run() {
+    // The error of a loose run is known from a tight one, and the estimate must be of its size.
+    for (name, integrator) in
+        [("n-four-bar:2", IntegratorKind::Taylor), ("spatial-double-pendulum", IntegratorKind::Dopri5)]
+    {
+        let mut scene = catalogue::scene(name).unwrap();
+        scene.simulation.duration = 4.0;
+        scene.simulation.integrator = integrator;
+        scene.simulation.tolerance = 1e-6;
+        let mut exact = scene.clone();
+        exact.simulation.tolerance = 1e-12;
+        exact.simulation.integrator = IntegratorKind::Dop853;
+        let mut exact = Simulation::new(&exact).unwrap();
+        let mut run = Simulation::new(&scene).unwrap();
+        let mut verifier = Verifier::new(&scene, &mut run).unwrap();
+        let mut error = 0.0f64;
+        for step in 1..=40 {
+            let time = f64::from(step) * 0.1;
+            run.advance_to(time).unwrap();
+            exact.advance_to(time).unwrap();
+            // In pieces, as a caller does who must be able to stop.
+            while !verifier.compare(&mut run, 3).unwrap() {}
+            for (a, b) in run.frame().bodies.iter().zip(&exact.frame().bodies) {
+                let apart = (0..3).map(|k| (a.position[k] - b.position[k]).powi(2)).sum::<f64>().sqrt();
+                error = error.max(apart);
+            }
+        }
+        let found = verifier.found();
+        println!("{name}: {error:.2e}, estimated {:.2e} by {:?}", found.position, found.integrator);
+        assert_eq!(found.compared, 40);
+        assert!(found.position > 0.5 * error && found.position < 2.0 * error, "{error:.2e} {found:?}");
+        assert_eq!(found.bodies.len(), scene.bodies.len());
+    }
+}
