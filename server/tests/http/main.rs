@@ -7,8 +7,10 @@ mod bad_input;
 mod changes;
 mod document;
 mod lessons;
+mod secrets;
 mod sessions;
 mod streams;
+mod variants;
 
 use axum::Router;
 use axum::body::{Body, Bytes, to_bytes};
