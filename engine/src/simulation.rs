@@ -56,6 +56,8 @@ pub struct Simulation {
     counted: explain::Counted,
     /// Looks out for singular positions.
     watch: Watch,
+    /// Whether singular passages are looked for.
+    watches_passages: bool,
 }
 
 impl Simulation {
@@ -114,6 +116,7 @@ impl Simulation {
             jacobian: None,
             counted: explain::Counted::default(),
             watch,
+            watches_passages: false,
         }
         .watching())
     }
@@ -269,7 +272,9 @@ impl Simulation {
             self.counted.checks += 1;
             self.mechanism.check(self.integrator.time(), self.integrator.state())?;
         }
-        self.watch.step(&mut self.mechanism, &mut self.integrator);
+        if self.watches_passages {
+            self.watch.step(&mut self.mechanism, &mut self.integrator);
+        }
         self.look_for_events();
         if !skip.reports {
             self.report_step();
@@ -286,6 +291,11 @@ impl Simulation {
         self.jacobian();
         (self.time, self.shown) = shown;
         self.counted.reports += 1;
+    }
+
+    /// From now on looks for singular positions that are passed: one more factorization a step, or more near one.
+    pub fn watch_passages(&mut self) {
+        self.watches_passages = true;
     }
 
     /// Singular positions passed since the start.

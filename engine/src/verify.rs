@@ -6,7 +6,7 @@ use crate::simulation::Simulation;
 use serde::Serialize;
 
 /// How much tighter the tolerance of the second solution is, and the least there is.
-const TIGHTER: f64 = 0.01;
+const TIGHTER: f64 = 1e-3;
 const TIGHTEST: f64 = 1e-13;
 
 /// Largest difference of a body between the two solutions so far.

@@ -195,8 +195,12 @@ fn consistent(mechanism: &mut Mechanism, scene: &Scene, random: &mut Random) -> 
         let mut y = vec![0.0; 2 * n];
         let (q, q_dot) = y.split_at_mut(n);
         mechanism.system.start(q, q_dot);
-        q.iter_mut().for_each(|x| *x += short(random, 0.2 * length));
-        q_dot.iter_mut().for_each(|x| *x += short(random, 2.0 * length));
+        for x in &mut *q {
+            *x += short(random, 0.2 * length);
+        }
+        for x in &mut *q_dot {
+            *x += short(random, 2.0 * length);
+        }
         if mechanism.assemble_at(t, &mut y).is_ok() {
             let q_dot = y.split_off(n);
             return Ok(State { t, q: y, q_dot });

@@ -83,7 +83,7 @@ pub(crate) fn in_degrees(scene: &Scene) -> Scene {
     for driver in &mut scene.drivers {
         match driver {
             Driver::Angle { motion, .. } | Driver::AngleCosine { motion, .. } => {
-                *motion = scaled(motion, factor)
+                *motion = scaled(motion, factor);
             }
             Driver::AngleToWorld { motion, reference, .. } => {
                 *motion = scaled(motion, factor);

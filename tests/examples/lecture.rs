@@ -41,7 +41,7 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
         assert_eq!(lecture.lead(&server, "PUT", "view", &view).status, 204);
         std::thread::sleep(Duration::from_millis(250));
     }
-    let share = (server.processor_time() - busy).as_secs_f64() / began.elapsed().as_secs_f64();
+    let share = server.processor_time().saturating_sub(busy).as_secs_f64() / began.elapsed().as_secs_f64();
     let memory = server.memory();
     let seen: Vec<Seen> = watching.into_iter().map(|thread| thread.join().unwrap()).collect();
     let told = server.get(&session).json();

@@ -40,11 +40,13 @@ pub struct Augmented {
     t_old: f64,
     h_old: f64,
     equations: Normal,
-    /// Stiffness and damping of the loads with the gradients of their coordinates.
-    laws: Vec<(f64, f64, Vec<(usize, f64)>)>,
+    laws: Vec<Law>,
     /// Steps so far.
     pub steps: Steps,
 }
+
+/// Stiffness and damping of a load with the gradient of its coordinate.
+type Law = (f64, f64, Vec<(usize, f64)>);
 
 impl Augmented {
     /// Order of the trapezoidal rule.
@@ -194,7 +196,9 @@ impl Augmented {
                 let mut out = equations.mass_product(x);
                 for RankOne { weight, vector } in &tangents {
                     let along: f64 = vector.iter().map(|(i, g)| g * x[*i]).sum();
-                    vector.iter().for_each(|(i, g)| out[*i] += weight * along * g);
+                    for (i, g) in vector {
+                        out[*i] += weight * along * g;
+                    }
                 }
                 out
             };

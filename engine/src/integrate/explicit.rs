@@ -192,7 +192,7 @@ impl Explicit {
         let mut untouched = true;
         let error = loop {
             self.attempt(plant, h);
-            let error = h * control.error(&self.k, &self.y, &self.trial);
+            let error = h * Matlab::error(&self.k, &self.y, &self.trial);
             if error <= control.relative {
                 break error;
             }

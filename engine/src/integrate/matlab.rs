@@ -35,7 +35,7 @@ impl Matlab {
     }
 
     /// max |Σ E_j k_j| / max(|y|, |y'|, threshold).
-    pub fn error(&self, k: &[Vec<f64>], y: &[f64], y_new: &[f64]) -> f64 {
+    pub fn error(k: &[Vec<f64>], y: &[f64], y_new: &[f64]) -> f64 {
         let mut largest = 0.0f64;
         for i in 0..y.len() {
             let error: f64 = E.iter().map(|&(j, e)| e * k[j][i]).sum();

@@ -46,10 +46,10 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
     }
-    let obstacle = if treatment != Stabilization::Projection {
-        Some(format!("{} belongs to Runge-Kutta methods", treatment.word()))
-    } else {
+    let obstacle = if treatment == Stabilization::Projection {
         settings.step.map(|_| "its steps have no fixed size".to_owned())
+    } else {
+        Some(format!("{} belongs to Runge-Kutta methods", treatment.word()))
     };
     let System { curves, targets, loads, .. } = &mechanism.system;
     let prescribed = !(curves.is_empty() && targets.is_empty() && loads.is_empty());

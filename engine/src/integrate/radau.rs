@@ -5,6 +5,8 @@
 //! Newton's method then have the size of η alone. Their matrices come from differences of f and are kept from step to
 //! step as long as Newton's method converges well.
 
+#![allow(clippy::excessive_precision, reason = "the numbers stand as they were published")]
+
 use super::{Plant, Steps, Stop, resolution, weighted_norm};
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
@@ -293,7 +295,7 @@ impl Radau {
             if iteration > 0 {
                 rate = size / last;
                 self.contraction = if iteration == 1 { rate } else { (rate * self.contraction).sqrt() };
-                if !(rate < 0.99) {
+                if rate.is_nan() || rate >= 0.99 {
                     // Rounding keeps small corrections from shrinking.
                     return (size <= enough).then_some(iteration + 1);
                 }
@@ -472,7 +474,7 @@ mod tests {
 
     fn end(h: f64) -> f64 {
         let mut integrator = Radau::with_step(&mut Pendulum, 0.0, &[1.0, 0.0], 1e-13, h);
-        for _ in 0..(2.0 / h).round() as usize {
+        while integrator.time() < 2.0 - 0.5 * h {
             integrator.step(&mut Pendulum, 1e9).unwrap();
         }
         integrator.state()[0]
@@ -494,6 +496,7 @@ mod tests {
         }
         let expected = (10.0f64).cos() + 1e-4 * 10f64.sin();
         assert!((integrator.state()[0] - expected).abs() < 1e-7, "{:?}", integrator.state());
-        assert!(integrator.steps.accepted < 400, "{:?}", integrator.steps);
+        // The estimate is of order three: steps of about 1e-8 to the power 1/4 each.
+        assert!(integrator.steps.accepted < 600, "{:?}", integrator.steps);
     }
 }

@@ -5,6 +5,8 @@
 //! It works in the lifted coordinates of all bodies, where the mass matrix is constant. Steps have one size: energy
 //! then oscillates within bounds and does not drift, however long the run.
 
+#![allow(clippy::excessive_precision, reason = "the numbers stand as they were published")]
+
 use super::{DOP853, Explicit, Stepper, Steps, Stop, resolution};
 use crate::elimination::{Elimination, Residual};
 use crate::integrate::Plant;

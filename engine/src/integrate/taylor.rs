@@ -175,7 +175,9 @@ impl Taylor {
         self.t = self.islands.iter().map(Island::time).fold(f64::INFINITY, f64::min);
         if self.islands.len() > 1 {
             let Self { islands, t, y, .. } = self;
-            islands.iter().for_each(|island| island.interpolate(system, *t, y));
+            for island in islands {
+                island.interpolate(system, *t, y);
+            }
         }
         Ok(())
     }

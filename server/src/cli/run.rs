@@ -28,6 +28,7 @@ const MOST_OUTPUTS: f64 = 1e7;
 pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
     let scene = scene(options)?;
     let mut simulation = Simulation::new(&scene)?;
+    simulation.watch_passages();
     if let Some(steps) = options.most_steps {
         simulation.set_step_limit(steps);
     }
