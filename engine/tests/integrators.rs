@@ -216,7 +216,7 @@ fn an_integrator_that_a_treatment_does_not_know_is_replaced_with_the_reason() {
 }
 
 /// A mass on a guide with a load along it, at 0.01 m from rest.
-fn guided(load: serde_json::Value, speed: f64, duration: f64, integrator: &str) -> Scene {
+fn guided(load: &serde_json::Value, speed: f64, duration: f64, integrator: &str) -> Scene {
     let scene = serde_json::json!({
         "name": "guided",
         "gravity": [0.0, 0.0, 0.0],
@@ -246,7 +246,7 @@ fn stiff_loads_cost_few_steps_and_auto_knows_them() {
         (friction, 1.0, 1.0, 0.25 + 0.01, 1e-6),
     ];
     for (load, speed, duration, travel, bound) in cases {
-        let scene = guided(load.clone(), speed, duration, "auto");
+        let scene = guided(&load, speed, duration, "auto");
         let (frame, mut run) = end(&scene);
         let summary = run.summary();
         println!(
@@ -259,6 +259,6 @@ fn stiff_loads_cost_few_steps_and_auto_knows_them() {
         assert!((x - travel).abs() < bound, "{x} instead of {travel}");
     }
     // Mild loads are left to the others.
-    let mild = Simulation::new(&guided(spring(100.0, 1.0), 0.0, 1.0, "auto")).unwrap().summary();
+    let mild = Simulation::new(&guided(&spring(100.0, 1.0), 0.0, 1.0, "auto")).unwrap().summary();
     assert_eq!(mild.integrator, IntegratorKind::Taylor);
 }
