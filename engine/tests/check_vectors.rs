@@ -205,7 +205,7 @@ fn single_bodies_accelerate_as_the_check_vectors_say() {
         at.accelerate(&system, &case.q, &case.qdot, (0.0, 0.0), &mut acceleration);
         let close = |found: &[f64], expected: &[f64], what: &str| {
             let error = (DVector::from_column_slice(found) - DVector::from_column_slice(expected)).amax();
-            assert!(error < 1e-11, "{} {what}: off by {error}", case.body);
+            assert!(error < 1e-12, "{} {what}: off by {error}", case.body);
         };
         close(&acceleration, &case.qddot, "q̈");
         let literal = Literal::new(&system, &at);
@@ -320,9 +320,11 @@ fn mechanisms_start_as_the_check_vectors_say() {
         at.accelerate(&system, &case.q, &case.qdot, (0.0, 0.0), &mut acceleration);
         let rank = independent_rows(&dense(&Jacobian::new(&system, &at)), 1e-9).len();
         assert_eq!(rank, case.rank, "{} {}", case.model, case.kind);
+        // Rounding goes with the largest acceleration: 45,000 for the directors of the spinning top.
+        let scale = case.qddot.iter().fold(1.0f64, |a, x| a.max(x.abs()));
         for (k, (found, expected)) in acceleration.iter().zip(&case.qddot).enumerate() {
-            let error = (found - expected).abs() / (1.0 + expected.abs());
-            assert!(error < 1e-10, "{} {} q̈[{k}]: {found} {expected}", case.model, case.kind);
+            let error = (found - expected).abs() / scale;
+            assert!(error < 5e-12, "{} {} q̈[{k}]: {found} {expected}", case.model, case.kind);
         }
         assert!((at.energy(&system) - case.energy).abs() < 1e-9, "{}", case.model);
     }
