@@ -11,7 +11,7 @@ use crate::system::System;
 use serde::Serialize;
 
 /// A step is looked at inside if its pivot falls below this part of the largest one seen.
-const NEAR: f64 = 0.4;
+const NEAR: f64 = 0.8;
 /// The root of the pivot falls and rises linearly. A step is searched if that is less inside than at both ends, or at one
 /// end than this part of the mean of both.
 const SUSPICIOUS_END: f64 = 0.5;

@@ -12,8 +12,7 @@ use crate::model::{BodyRef, ModelJoint};
 use crate::motion::{Curve, VectorCurve};
 use crate::row::{Difference, Form, Target};
 use crate::scene::{JointKind, LoadFrame};
-use crate::series::{Planar, Series};
-use crate::system::{Body, Row, System};
+use crate::system::{Anchor, Body, Row, System};
 use nalgebra::{Matrix3, Vector3};
 
 /// Directions are the same, and components are nothing, within this.
@@ -167,8 +166,8 @@ impl Plane {
         }
         turn_features(&mut flat, &turned);
         turn_loads(&mut flat, &turned);
-        set_inertia(&mut flat);
         keep_rows(&mut flat)?;
+        set_inertia(&mut flat);
         Ok(flat)
     }
 }
@@ -185,7 +184,8 @@ fn set_inertia(flat: &mut System) {
         let inertia = body.principal.dot(&normal.component_mul(&normal));
         body.ibar = Vector3::new(inertia, 0.0, 0.0);
         let scale = body.mass * arm * arm;
-        let lacks = inertia < LACKING * scale || inertia == 0.0;
+        let about_anchor = body.anchor.map_or(0.0, |anchor| body.mass * anchor.local.xy().norm_squared());
+        let lacks = inertia + about_anchor < LACKING * scale || inertia + about_anchor == 0.0;
         let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
         body.lent = if lacks { LENT * scale } else { 0.0 };
     }
@@ -200,6 +200,9 @@ fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
         let first = flat.rows.len();
         let mut size = 0;
         for mut row in kept(flat, &rows[group.forms.clone()], &group.name)? {
+            if hang(flat, &row.form) {
+                continue;
+            }
             row.solver = flat.solver_rows + size;
             row.local = size;
             size += independent(&row.form);
@@ -217,12 +220,20 @@ fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
     Ok(())
 }
 
-/// Whether rows of a reduced system depend on others, a little away from the state y.
-pub fn is_redundant(flat: &System, t: f64, y: &[f64]) -> bool {
-    let turns = vec![0.0; flat.angles.len()];
-    let mut series = Series::<4, Planar<4>>::planar(flat, 2, true, &turns);
-    series.place(flat, t, y);
-    series.depends_nearby(flat.length)
+/// Hangs a body on the ground by a point that is held there: one point each, and fixed ones only.
+fn hang(flat: &mut System, form: &Form) -> bool {
+    let &Form::Coincidence { a, b } = form else { return false };
+    let [a, b] = [a, b].map(|f| flat.features[f]);
+    let (body, own, ground) = match (a.body, b.body) {
+        (BodyRef::Moving(body), BodyRef::Ground) => (body, a, b),
+        (BodyRef::Ground, BodyRef::Moving(body)) => (body, b, a),
+        _ => return false,
+    };
+    let free = flat.bodies[body].anchor.is_none() && own.curve.is_none() && ground.curve.is_none();
+    if free {
+        flat.bodies[body].anchor = Some(Anchor { local: own.local, ground: ground.local });
+    }
+    free
 }
 
 /// Features along the director of their body, or in the frame of the plane.

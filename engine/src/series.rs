@@ -57,6 +57,17 @@ const ROUNDING: f64 = 1e-15;
 /// The least tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const LEAST_TOLERANCE_REDUNDANT: f64 = 1e-11;
 
+/// What becomes of rows that depend on others at every state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Dependent {
+    /// There are none.
+    None,
+    /// They are left out.
+    LeftOut,
+    /// S is regularized: motions are prescribed, which may contradict each other.
+    Shifted,
+}
+
 /// The series of all bodies and multipliers, and the state that they are expanded about.
 #[derive(Clone, Debug)]
 pub struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
@@ -89,7 +100,7 @@ pub struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     /// Coefficients of λ, order by order.
     lambda: Vec<f64>,
     correction: Vec<f64>,
-    redundant: bool,
+    dependent: Dependent,
     regularized: bool,
     lends: bool,
     /// Smallest relative pivot at the point of expansion.
@@ -155,7 +166,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             schur: Schur::new(system, &place, L, B::TWIST),
             lambda: vec![0.0; system.solver_rows * stride],
             correction: vec![0.0; system.solver_rows],
-            redundant,
+            dependent: if redundant { Dependent::Shifted } else { Dependent::None },
             regularized: false,
             lends: system.lends_inertia(),
             smallest_pivot: f64::INFINITY,
@@ -176,6 +187,22 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Builds and factors S at the point of expansion.
     #[inline(always)]
     fn linearize_here(&mut self) {
+        self.set_up();
+        self.regularized = self.dependent == Dependent::Shifted;
+        let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
+        let mut pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, epsilon);
+        self.counters.factorizations += 1;
+        if !self.regularized && pivots.smallest < NEAR_SINGULAR {
+            self.regularized = true;
+            pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, REGULARIZATION);
+            self.counters.factorizations += 1;
+        }
+        self.smallest_pivot = pivots.smallest;
+    }
+
+    /// Values of features, inertia and mobilities at the point of expansion.
+    #[inline(always)]
+    fn set_up(&mut self) {
         self.place_values();
         self.rows.turn_common_vectors(&self.values);
         self.rows.store_factors(0, &self.values);
@@ -186,16 +213,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 self.mobility[slot] = bundle.half_mobility(&self.slots[slot], &state[0]);
             }
         }
-        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
-        let mut pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, epsilon);
-        self.regularized = self.redundant;
-        self.counters.factorizations += 1;
-        if !self.redundant && pivots.smallest < NEAR_SINGULAR {
-            pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, REGULARIZATION);
-            self.regularized = true;
-            self.counters.factorizations += 1;
-        }
-        self.smallest_pivot = pivots.smallest;
     }
 
     #[inline(always)]
@@ -326,6 +343,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
+        if rows == 0 && !self.lends {
+            return;
+        }
         self.set_ground(false);
         let (mut first, mut last) = (0.0, f64::INFINITY);
         for pass in 0..=refinements {

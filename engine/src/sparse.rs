@@ -52,6 +52,8 @@ struct Column {
     diagonal: usize,
     below: Range<usize>,
     updates: Range<usize>,
+    /// Rows that depend on others at every state.
+    dependent: usize,
 }
 
 /// A block below the diagonal.
@@ -88,6 +90,8 @@ pub struct BlockCholesky {
     factors: Vec<f64>,
     /// Diagonal of S before the factorization.
     diagonal: Vec<f64>,
+    /// A diagonal block, where rows that depend on others are looked for.
+    scratch: Vec<f64>,
 }
 
 impl BlockCholesky {
@@ -121,6 +125,7 @@ impl BlockCholesky {
             values: Vec::new(),
             factors: Vec::new(),
             diagonal: vec![0.0; sizes.iter().sum()],
+            scratch: vec![0.0; sizes.iter().map(|size| size * size).max().unwrap_or(0)],
         };
         factor.lay_out(sizes, &start, &order, &fill);
         factor.write_updates();
@@ -141,7 +146,14 @@ impl BlockCholesky {
                 next += sizes[i] * size;
             }
             let below = first..self.below.len();
-            self.columns.push(Column { size, start: start[block], diagonal, below, updates: 0..0 });
+            self.columns.push(Column {
+                size,
+                start: start[block],
+                diagonal,
+                below,
+                updates: 0..0,
+                dependent: 0,
+            });
         }
         self.values = vec![0.0; next];
         self.factors = vec![0.0; next];
@@ -213,7 +225,24 @@ impl BlockCholesky {
         self.columns.len() + self.below.len()
     }
 
-    /// Factors S + ε diag(S); S is used up.
+    /// Finds out how many rows of each block depend on others, at a state that stands for all; S is used up. Returns how
+    /// many there are. [`Self::factor`] then leaves as many out, those that say least beside the others of their block.
+    pub fn find_dependent(&mut self, skip: f64) -> usize {
+        self.columns.iter_mut().for_each(|column| column.dependent = 0);
+        let mut rows = Vec::new();
+        self.factor(0.0, skip, |row, relative| {
+            if relative <= skip {
+                rows.push(row);
+            }
+        });
+        for column in &mut self.columns {
+            let own = column.start..column.start + column.size;
+            column.dependent = rows.iter().filter(|row| own.contains(row)).count();
+        }
+        rows.len()
+    }
+
+    /// Factors S + ε diag(S), or without ε the rows of S that do not depend on others; S is used up.
     ///
     /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops
     /// its row. `visit` sees each relative pivot with its scalar row.
@@ -235,7 +264,12 @@ impl BlockCholesky {
             }
         }
         for place in 0..self.columns.len() {
-            let size = self.columns[place].size;
+            let Column { size, start, diagonal, dependent, .. } = self.columns[place];
+            if dependent > 0 && epsilon == 0.0 {
+                let block = &mut self.scratch[..size * size];
+                block.copy_from_slice(&self.values[diagonal..diagonal + size * size]);
+                wide::leave_out(dependent, block, &mut self.diagonal[start..start + size]);
+            }
             by_size!(
                 size,
                 N => self.factor_column::<N>(place, skip, &mut note),

@@ -33,6 +33,26 @@ pub struct Body {
     pub layout: Layout,
     /// How it stands in the plane, in a system that has been reduced to one.
     pub posture: Option<Posture>,
+    /// The point by which it hangs on the ground, in a system that has been reduced to a plane: that joint's rows are
+    /// eliminated with the rigid-body rows — eq. (7.10).
+    pub anchor: Option<Anchor>,
+}
+
+/// A point of a body that a joint holds at a point of the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// The point of the body, in its own frame.
+    pub local: Vector3<f64>,
+    /// The point of the ground.
+    pub ground: Vector3<f64>,
+}
+
+impl Body {
+    /// What a force at the centre of mass moves it by: nothing if it hangs on the ground, where the moment about the anchor
+    /// tells all.
+    pub fn free_inverse_mass(&self) -> f64 {
+        if self.anchor.is_some() { 0.0 } else { 1.0 / self.mass }
+    }
 }
 
 /// The rows of one joint or driver.
@@ -233,6 +253,7 @@ impl System {
                 coordinates: body.coordinates,
                 layout: layouts[index],
                 posture: None,
+                anchor: None,
             });
             self.coordinates += layouts[index].size();
             self.rigid_rows += layouts[index].rigid_rows().count();

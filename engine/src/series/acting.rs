@@ -1,7 +1,7 @@
 //! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers; and
 //! the power of what drivers and loads bring in — eq. (11.8).
 
-use super::{Bodies, Series};
+use super::{Bodies, Dependent, Series};
 use crate::elimination::Elimination;
 use crate::system::System;
 
@@ -61,7 +61,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// that moment from the series up to order `order` of Q. Not where rows are redundant: which of all multipliers that fit
     /// are smallest changes within a step.
     pub fn give_multipliers(&self, system: &System, tau: f64, order: usize, to: &mut Elimination) -> bool {
-        if self.redundant || order < 2 {
+        if self.dependent != Dependent::None || order < 2 {
             return false;
         }
         let rows = self.correction.len();

@@ -114,7 +114,7 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     /// No moment.
     fn no_moment() -> Self::Moment;
     /// Right-hand sides that correct positions.
-    fn position_correction(q: &Self::Lifted) -> Self::Rigid;
+    fn position_correction(&self, q: &Self::Lifted) -> Self::Rigid;
     /// Right-hand sides that correct velocities.
-    fn velocity_correction(q: &Self::Lifted, q_dot: &Self::Lifted) -> Self::Rigid;
+    fn velocity_correction(&self, q: &Self::Lifted, q_dot: &Self::Lifted) -> Self::Rigid;
 }

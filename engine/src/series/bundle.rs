@@ -361,7 +361,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn position_correction(q: &Lifted<L>) -> [Lane<L>; 6] {
+    fn position_correction(&self, q: &Lifted<L>) -> [Lane<L>; 6] {
         let mut gamma = symmetric(q, q);
         for (k, entry) in gamma.iter_mut().enumerate() {
             for x in entry {
@@ -372,7 +372,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn velocity_correction(q: &Lifted<L>, q_dot: &Lifted<L>) -> [Lane<L>; 6] {
+    fn velocity_correction(&self, q: &Lifted<L>, q_dot: &Lifted<L>) -> [Lane<L>; 6] {
         symmetric(q, q_dot).map(|entry| entry.map(|x| -x))
     }
 

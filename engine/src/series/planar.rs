@@ -23,14 +23,21 @@ pub struct Planar<const L: usize> {
     /// How each body stands in the plane, and the plane itself.
     postures: [Posture; L],
     height: Lane<L>,
+    mass: Lane<L>,
+    /// 1/m, or zero for a body that hangs on the ground by a point: then 1, that point in the body's frame, and on the ground.
     inverse_mass: Lane<L>,
+    hangs: Lane<L>,
+    anchor: Pair<L>,
+    ground: Pair<L>,
+    /// From the centre of mass to the anchor, at the point of expansion.
+    arm: Pair<L>,
     inertia: Lane<L>,
     lent: Lane<L>,
     weight: Pair<L>,
     /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
     dual: Pair<L>,
     particular: Pair<L>,
-    /// 1 / I_g and its root, lent inertia included.
+    /// 1 / I_g and its root, about the anchor where there is one, lent inertia included.
     inverse: Lane<L>,
     root: Lane<L>,
     force: [Pair<L>; 2],
@@ -50,13 +57,28 @@ fn each<const L: usize>(of: impl Fn(usize) -> f64) -> Lane<L> {
     out
 }
 
+/// a z + b J z.
+#[inline(always)]
+fn turned<const L: usize>([a, b]: &Pair<L>, z: &Pair<L>) -> Pair<L> {
+    [each(|l| a[l] * z[0][l] - b[l] * z[1][l]), each(|l| a[l] * z[1][l] + b[l] * z[0][l])]
+}
+
+#[inline(always)]
+fn cross<const L: usize>(a: &Pair<L>, b: &Pair<L>) -> Lane<L> {
+    each(|l| a[0][l] * b[1][l] - a[1][l] * b[0][l])
+}
+
 impl<const L: usize> Planar<L> {
-    /// Turns the bodies by the angular acceleration of a moment. z̈ is made anew of ω̇: where inertia is lent, its large
-    /// parts must not leave their rounding in z · z̈.
+    /// Adds what a force at the centre of mass and a moment about it do. z̈ is made anew of ω̇: where inertia is lent, its
+    /// large parts must not leave their rounding in z · z̈.
     #[inline(always)]
-    fn turn(&mut self, z: &Pair<L>, moment: &Lane<L>) {
+    fn turn(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
+        let about_anchor = cross(&self.arm, force);
         for l in 0..L {
-            self.omega[l] += self.inverse[l] * moment[l];
+            let omega = self.inverse[l] * (moment[l] - about_anchor[l]);
+            self.omega[l] += omega;
+            self.solution[0][0][l] += self.inverse_mass[l] * force[0][l] + omega * self.arm[1][l];
+            self.solution[0][1][l] += self.inverse_mass[l] * force[1][l] - omega * self.arm[0][l];
             self.solution[1][0][l] = self.particular[0][l] - self.omega[l] * z[1][l];
             self.solution[1][1][l] = self.particular[1][l] + self.omega[l] * z[0][l];
         }
@@ -65,7 +87,8 @@ impl<const L: usize> Planar<L> {
 
 impl<const L: usize> Bodies<L> for Planar<L> {
     type Lifted = [Pair<L>; 2];
-    type Rigid = Lane<L>;
+    /// Of z · z = 1, and of what holds an anchor.
+    type Rigid = (Lane<L>, Pair<L>);
     type Moment = Lane<L>;
     type Directors = Pair<L>;
     type Mobility = Pair<L>;
@@ -79,7 +102,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             slots,
             postures: [Posture::default(); L],
             height: [0.0; L],
+            mass: [1.0; L],
             inverse_mass: [1.0; L],
+            hangs: [0.0; L],
+            anchor: zeros,
+            ground: zeros,
+            arm: zeros,
             inertia: [1.0; L],
             lent: [0.0; L],
             weight: zeros,
@@ -96,7 +124,15 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
-        self.inverse_mass[lane] = 1.0 / body.mass;
+        self.mass[lane] = body.mass;
+        self.inverse_mass[lane] = body.free_inverse_mass();
+        if let Some(anchor) = body.anchor {
+            self.hangs[lane] = 1.0;
+            for c in 0..2 {
+                self.anchor[c][lane] = anchor.local[c];
+                self.ground[c][lane] = anchor.ground[c];
+            }
+        }
         self.inertia[lane] = body.ibar[0];
         self.lent[lane] = body.lent;
         for c in 0..2 {
@@ -221,22 +257,26 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn linearize(&mut self, q: &[Pair<L>; 2]) {
         let z = &q[1];
+        self.arm = turned(&self.anchor, z);
         for l in 0..L {
             let square = z[0][l] * z[0][l] + z[1][l] * z[1][l];
             let half = 0.5 / square;
             self.dual[0][l] = half * z[0][l];
             self.dual[1][l] = half * z[1][l];
-            self.inverse[l] = 1.0 / (self.inertia[l] * square + self.lent[l]);
+            let [x, y] = self.arm.map(|s| s[l]);
+            let about_anchor = self.mass[l] * (x * x + y * y);
+            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_anchor + self.lent[l]);
             self.root[l] = self.inverse[l].sqrt();
         }
     }
 
     #[inline(always)]
     fn half_mobility(&self, slot: &Slot<L>, q: &[Pair<L>; 2]) -> Pair<L> {
-        let (z, [a, b, _], root) = (&q[1], &slot.local, &self.root);
+        let [a, b, _] = slot.local;
+        let ([x, y], [from_x, from_y], root) = (turned(&[a, b], &q[1]), &self.arm, &self.root);
         [
-            each(|l| -root[l] * (a[l] * z[1][l] + b[l] * z[0][l])),
-            each(|l| root[l] * (a[l] * z[0][l] - b[l] * z[1][l])),
+            each(|l| root[l] * (slot.point[l] * from_y[l] - y[l])),
+            each(|l| root[l] * (x[l] - slot.point[l] * from_x[l])),
         ]
     }
 
@@ -292,7 +332,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn begin(&mut self, q: &[Pair<L>; 2], gamma: &Lane<L>, mut moment: Lane<L>) {
+    fn begin(&mut self, q: &[Pair<L>; 2], (gamma, held): &Self::Rigid, mut moment: Lane<L>) {
         let z = &q[1];
         for l in 0..L {
             self.particular[0][l] = gamma[l] * self.dual[0][l];
@@ -301,31 +341,33 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             moment[l] += self.moment[l] + z[0][l] * p[1] - z[1][l] * p[0];
             self.omega[l] = 0.0;
             self.returned[l] = 0.0;
-            self.solution[0][0][l] = self.inverse_mass[l] * self.force[0][0][l];
-            self.solution[0][1][l] = self.inverse_mass[l] * self.force[0][1][l];
         }
-        self.turn(z, &moment);
+        // The anchor stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the anchor.
+        let particular = turned(&self.anchor, &self.particular);
+        self.solution[0] = [0, 1].map(|c| each(|l| held[c][l] - particular[c][l]));
+        let force: Pair<L> =
+            [0, 1].map(|c| each(|l| self.force[0][c][l] - self.mass[l] * self.solution[0][c][l]));
+        self.turn(z, &force, &moment);
     }
 
     #[inline(always)]
     fn apply(&mut self, q: &[Pair<L>; 2], force: &[Pair<L>; 2]) {
         let z = &q[1];
-        let moment = each(|l| z[0][l] * force[1][1][l] - z[1][l] * force[1][0][l]);
+        let moment = cross(z, &force[1]);
         for c in 0..2 {
             for l in 0..L {
-                self.solution[0][c][l] += self.inverse_mass[l] * force[0][c][l];
                 self.force[0][c][l] += force[0][c][l];
                 self.force[1][c][l] += force[1][c][l];
             }
         }
-        self.turn(z, &moment);
+        self.turn(z, &force[0], &moment);
     }
 
     #[inline(always)]
     fn return_lent(&mut self, q: &[Pair<L>; 2]) {
         let moment = each(|l| self.lent[l] * (self.omega[l] - self.returned[l]));
         self.returned = self.omega;
-        self.turn(&q[1], &moment);
+        self.turn(&q[1], &[[0.0; L]; 2], &moment);
     }
 
     #[inline(always)]
@@ -335,11 +377,20 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn director_forces(&self) -> Pair<L> {
-        [0, 1].map(|c| each(|l| self.force[1][c][l] - self.inertia[l] * self.solution[1][c][l]))
+        let held: Pair<L> =
+            [0, 1].map(|c| each(|l| self.mass[l] * self.solution[0][c][l] - self.force[0][c][l]));
+        // Along z and J z, as in [`Bodies::pull_back`].
+        let [a, b] = &self.anchor;
+        let pulled: Pair<L> = [
+            each(|l| a[l] * held[0][l] + b[l] * held[1][l]),
+            each(|l| a[l] * held[1][l] - b[l] * held[0][l]),
+        ];
+        [0, 1]
+            .map(|c| each(|l| self.force[1][c][l] + pulled[c][l] - self.inertia[l] * self.solution[1][c][l]))
     }
 
     #[inline(always)]
-    fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Lane<L> {
+    fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
         let mut sum = [0.0; L];
         let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
         for ([_, a], [_, b]) in heads.zip(tails).take((n - 1) / 2) {
@@ -354,7 +405,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
                 sum[l] += z[0][l] * z[0][l] + z[1][l] * z[1][l];
             }
         }
-        each(|l| -kappa * sum[l])
+        (each(|l| -kappa * sum[l]), [[0.0; L]; 2])
     }
 
     #[inline(always)]
@@ -374,14 +425,19 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn position_correction(q: &[Pair<L>; 2]) -> Lane<L> {
-        let z = &q[1];
-        each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l]))
+    fn position_correction(&self, q: &[Pair<L>; 2]) -> Self::Rigid {
+        let [r, z] = q;
+        let arm = turned(&self.anchor, z);
+        let open: Pair<L> =
+            [0, 1].map(|c| each(|l| self.hangs[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
+        (each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l])), open)
     }
 
     #[inline(always)]
-    fn velocity_correction(q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Lane<L> {
-        let (z, rate) = (&q[1], &q_dot[1]);
-        each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l]))
+    fn velocity_correction(&self, q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Self::Rigid {
+        let (z, [r_rate, rate]) = (&q[1], q_dot);
+        let arm = turned(&self.anchor, rate);
+        let open: Pair<L> = [0, 1].map(|c| each(|l| -self.hangs[l] * (r_rate[c][l] + arm[c][l])));
+        (each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l])), open)
     }
 }

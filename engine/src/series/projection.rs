@@ -1,8 +1,10 @@
 //! Corrections of the state at the end of a step, onto the constraints — eq. (10.2).
 
 use super::lanes::largest;
-use super::{Bodies, Series};
+use super::{Bodies, Dependent, Series};
 
+/// A relative pivot below this belongs to a row that depends on others.
+const DEPENDENT: f64 = 1e-10;
 /// How far the rank is taken away from a state, relative to the size of the mechanism.
 const AWAY: f64 = 0.03;
 
@@ -16,7 +18,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.angles.place(&self.values);
         self.angles.set_violation(&self.values, &mut self.rows.extra);
         self.prescribed.demand(0, 1.0, &mut self.rows.extra);
-        self.correct(0, |state| B::position_correction(&state[0]))
+        self.correct(0, |bundle, state| bundle.position_correction(&state[0]))
     }
 
     /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the factor at hand.
@@ -33,14 +35,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
         self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
         self.prescribed.demand(1, 1.0, &mut self.rows.extra);
-        self.correct(1, |state| B::velocity_correction(&state[0], &state[1]))
+        self.correct(1, |bundle, state| bundle.velocity_correction(&state[0], &state[1]))
     }
 
     #[inline(always)]
-    fn correct(&mut self, which: usize, gamma: impl Fn(&[B::Lifted; 2]) -> B::Rigid) -> f64 {
+    fn correct(&mut self, which: usize, gamma: impl Fn(&B, &[B::Lifted; 2]) -> B::Rigid) -> f64 {
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.clear_force();
-            bundle.begin(&state[0], &gamma(state), B::no_moment());
+            let gamma = gamma(bundle, state);
+            bundle.begin(&state[0], &gamma, B::no_moment());
         }
         self.prescribed.hold();
         // The multipliers of a correction mean nothing; the highest order has room for them.
@@ -57,9 +60,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         moved
     }
 
-    /// Whether rows depend on others a little away from the state, along an admissible velocity without symmetry. The
-    /// state is left elsewhere.
-    pub fn depends_nearby(&mut self, length: f64) -> bool {
+    /// Finds the rows that depend on others everywhere, which the factorization then leaves out: those that do a little away
+    /// from the state, along an admissible velocity without symmetry. Tells whether there are any. S is left to be factored.
+    pub fn find_dependent(&mut self, length: f64) -> bool {
+        let state = self.state.clone();
         self.linearize();
         let velocities = self.state.iter_mut().flat_map(|[_, rate]| B::lanes_mut(rate).as_flattened_mut());
         for (i, v) in velocities.enumerate() {
@@ -83,8 +87,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 }
             }
         }
-        self.redundant = false;
-        self.linearize();
-        self.regularized
+        self.set_up();
+        self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
+        self.dependent = match (self.schur.factor.find_dependent(DEPENDENT), self.prescribed.is_empty()) {
+            (0, _) => Dependent::None,
+            (_, true) => Dependent::LeftOut,
+            (_, false) => Dependent::Shifted,
+        };
+        self.state = state;
+        self.dependent != Dependent::None
     }
 }

@@ -58,7 +58,7 @@ struct Target {
     lane: usize,
     sign: f64,
     slot: Slot,
-    /// σ/m, which is the same at every state.
+    /// σ/m, which is the same at every state; zero for a body that hangs on the ground.
     constant: f64,
 }
 
@@ -114,7 +114,7 @@ impl Schur {
                         let mut slots = [a.place.slot, b.place.slot];
                         slots.sort_unstable();
                         let slot = Slot { offset: slot.offset, transposed };
-                        let constant = sign / system.bodies[body].mass;
+                        let constant = sign * system.bodies[body].free_inverse_mass();
                         let target = Target { lane: a.place.lane, sign, slot, constant };
                         pairs.entry(slots).or_default().push(target);
                         continue;
@@ -176,6 +176,18 @@ impl Schur {
         mobility: &[B::Mobility],
         epsilon: f64,
     ) -> Pivots {
+        self.assemble::<L, B>(rows, angles, mobility);
+        self.factor.factor(epsilon, 0.0, |_, _| {})
+    }
+
+    /// Builds S.
+    #[inline(always)]
+    pub fn assemble<const L: usize, B: Bodies<L>>(
+        &mut self,
+        rows: &Rows<L>,
+        angles: &Angles,
+        mobility: &[B::Mobility],
+    ) {
         self.set_terms::<L, B>(rows, angles, mobility);
         self.factor.values_mut().copy_from_slice(&self.base);
         if B::TWIST == 3 {
@@ -185,7 +197,6 @@ impl Schur {
             self.add_pairs::<L, 3, B>(mobility);
             self.multiply::<6>();
         }
-        self.factor.factor(epsilon, 0.0, |_, _| {})
     }
 
     /// H. Rows of common points have a part that never changes: it is written once.
@@ -369,14 +380,14 @@ fn terms(system: &System, place: &[Place], lanes: usize, twist: usize) -> Vec<Te
             }
             let incidence = &system.incidences[place_of];
             let point = system.features[feature].point;
-            let mass = system.bodies[incidence.body].mass;
+            let inverse_mass = system.bodies[incidence.body].free_inverse_mass();
             terms.push(Term {
                 incidence: place_of,
                 at: incidence.offset / 6 * twist + twist * row.local,
                 place: place[feature],
                 gradient,
                 sign,
-                translation: if point { 1.0 / mass.sqrt() } else { 0.0 },
+                translation: if point { inverse_mass.sqrt() } else { 0.0 },
             });
         };
         match row.form {

@@ -1,7 +1,7 @@
 //! One step of the series: expand, choose how far the terms reach, move there, and project.
 
 use super::lanes::largest;
-use super::{Bodies, Series};
+use super::{Bodies, Dependent, Series};
 use pulp::{Arch, Simd, WithSimd};
 
 /// A correction of positions above this part of the tolerance calls for a new factor.
@@ -141,7 +141,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 // A comparison that is false for NaN as well.
                 if moved <= FAR * plan.tolerance || rejected == MOST_REJECTED {
                     self.correct_velocities();
-                    let (finite, proven) = (self.is_finite(), closed && !self.regularized);
+                    // Rows that are left out are measured.
+                    let proven = closed && !self.regularized && self.dependent == Dependent::None;
+                    let finite = self.is_finite();
                     return Taken { h, time, at_break: time == end, order, rejected, finite, proven };
                 }
             }

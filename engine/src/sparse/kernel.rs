@@ -1,7 +1,8 @@
 //! Dense kernels of the block factorization, compiled for the sizes that joints have.
 
-/// Inverse of a symmetric block, of which the lower triangle is read, by L D Lᵀ. `reference` is the diagonal of S;
-/// `visit` sees each pivot relative to it, and one not above `skip` drops its row.
+/// Inverse of a symmetric block, of which the lower triangle is read, by L D Lᵀ. `reference` is the diagonal of S, or
+/// infinite for rows that are left out; `visit` sees each other pivot relative to it, and one not above `skip` drops its
+/// row.
 #[inline(always)]
 pub fn invert<const N: usize>(
     block: &[[f64; N]; N],
@@ -24,6 +25,10 @@ pub fn invert<const N: usize>(
             pivot -= row[k] * l[i][k];
         }
         let relative = if reference[i] == 0.0 { 0.0 } else { pivot / reference[i] };
+        if reference[i] == f64::INFINITY {
+            reciprocal[i] = 0.0;
+            continue;
+        }
         visit(i, relative);
         // A comparison that lets NaN through, so that it is not mistaken for a dependent row.
         reciprocal[i] = if relative <= skip { 0.0 } else { 1.0 / pivot };

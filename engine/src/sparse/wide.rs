@@ -1,7 +1,35 @@
 //! The kernels for blocks wider than those that are compiled one by one: the same, with lengths known only at run time.
 
+/// Marks in the diagonal of S, as infinite, so many rows of a symmetric block as say least beside the others: the last
+/// ones of an elimination whose pivots are the largest, relative to that diagonal. The block is used up.
+pub fn leave_out(count: usize, block: &mut [f64], reference: &mut [f64]) {
+    let n = reference.len();
+    for _ in count..n {
+        let size = |i: usize| if reference[i] > 0.0 { block[i * n + i] / reference[i] } else { 0.0 };
+        let pivot = (0..n).max_by(|&i, &k| size(i).total_cmp(&size(k))).unwrap_or(0);
+        let scale = if size(pivot) > 0.0 { 1.0 / block[pivot * n + pivot] } else { 0.0 };
+        for i in (0..n).filter(|&i| i != pivot) {
+            let factor = block[i.max(pivot) * n + i.min(pivot)] * scale;
+            for k in (0..=i).filter(|&k| k != pivot) {
+                block[i * n + k] -= factor * block[k.max(pivot) * n + k.min(pivot)];
+            }
+        }
+        for i in 0..n {
+            block[i.max(pivot) * n + i.min(pivot)] = 0.0;
+        }
+        // Done with, and never the largest again.
+        block[pivot * n + pivot] = f64::NEG_INFINITY;
+    }
+    for i in 0..n {
+        if block[i * n + i] != f64::NEG_INFINITY {
+            reference[i] = f64::INFINITY;
+        }
+    }
+}
+
 /// Replaces a symmetric n × n block, of which the lower triangle is read, by its inverse, by L D Lᵀ. `reference` is the
-/// diagonal of S; `visit` sees each pivot relative to it, and one not above `skip` drops its row.
+/// diagonal of S, or infinite for rows that are left out; `visit` sees each other pivot relative to it, and one not above
+/// `skip` drops its row.
 pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, mut visit: impl FnMut(usize, f64)) {
     for i in 0..n {
         for k in 0..i {
@@ -14,6 +42,10 @@ pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, mut vis
             let row = block[i * n + k];
             block[i * n + k] = row * block[k * n + k];
             pivot -= row * block[i * n + k];
+        }
+        if reference[i] == f64::INFINITY {
+            block[i * n + i] = 0.0;
+            continue;
         }
         let relative = if reference[i] == 0.0 { 0.0 } else { pivot / reference[i] };
         visit(i, relative);

@@ -75,8 +75,6 @@ impl Island {
         let q = &y[..whole.coordinates];
         let plane = if skip.planar { plane::recognize(system, q).ok() } else { None };
         let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
-        let redundant = flat.as_ref().map_or(redundant, |flat| plane::is_redundant(flat, t, y));
-        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
         let order = order_for(tolerance, flat.is_some());
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
         let mut engine = match (&flat, system.bodies.len()) {
@@ -85,11 +83,14 @@ impl Island {
             (Some(flat), 1) => Engine::NarrowPlanar(Box::new(Series::planar(flat, order, redundant, turns))),
             (Some(flat), _) => Engine::WidePlanar(Box::new(Series::planar(flat, order, redundant, turns))),
         };
-        with!(&mut engine, s => {
+        let redundant = with!(&mut engine, s => {
             s.keep_constants(skip.constants);
             s.place(system, t, y);
+            let redundant = (flat.is_some() || redundant) && s.find_dependent(system.length);
             s.linearize();
+            redundant
         });
+        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies) = (system.length, system.bodies.len());
         Self {
             part,
