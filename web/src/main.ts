@@ -17,6 +17,7 @@ if (head && main) {
   startRouter(main, [
     { pattern: /^\/$/, open: homePage },
     { pattern: /^\/lessons\/([^/]+)$/, open: lessonPage },
+    { pattern: /^\/lessons\/([^/]+)\/scene$/, open: lazily("Scene", () => import("./pages/scene").then((page) => page.lessonScenePage)) },
     { pattern: /^\/room$/, open: lazily("Join a lecture", () => import("./pages/room").then((page) => page.joinPage)) },
     { pattern: /^\/room\/([^/]+)$/, open: lazily("Lecture", () => import("./pages/room").then((page) => page.roomPage)) },
     { pattern: /^\/scenes$/, open: lazily("Scenes", () => import("./pages/scenes").then((page) => page.scenesPage)) },

@@ -8,10 +8,11 @@ const WORDS: Record<VerdictKind, { word: string; mark: IconName }> = {
   right: { word: "Right", mark: "check" },
   wrong: { word: "Not yet", mark: "cross" },
   blank: { word: "No answer", mark: "dash" },
-  invalid: { word: "Cannot be read", mark: "warn" },
+  invalid: { word: "Sent back", mark: "warn" },
 };
 
 const SAID = new Set(["Right.", "Not right.", "Not answered."]);
+const UNKNOWN_SLIP = "This slip is not one that we know. Go through your steps once more, or open a hint.";
 
 export function verdictLine(result: QuestionVerdict): HTMLElement {
   const { word, mark } = WORDS[result.verdict] ?? WORDS.invalid;
@@ -19,6 +20,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   // The heading says it already.
   const first = text.firstElementChild;
   if (first && SAID.has(first.textContent ?? "")) first.remove();
+  if (result.verdict === "wrong" && !text.textContent) text.append(h("p", null, UNKNOWN_SLIP));
   return h("div", { class: `verdict is-${result.verdict}` },
     h("p", { class: "verdict-head" }, icon(mark), h("strong", null, word),
       h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`)),
@@ -29,7 +31,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
 export function verdictSummary(verdict: Verdict): HTMLElement {
   const score = `${points(verdict.earned)} of ${points(verdict.possible)} points`;
   const [cls, mark, title, text]: [string, IconName, string, string] = !verdict.gradable
-    ? ["is-invalid", "warn", "Nothing was graded", "Some answers could not be read. This did not use up an attempt: correct them and check again."]
+    ? ["is-invalid", "warn", "Not counted yet", "An answer was sent back, so nothing is stored and no attempt is used. Put it right and check again."]
     : verdict.passed
       ? ["is-right", "check", `Passed: ${score}`, "The result is stored. You can still change an answer and check again."]
       : ["is-wrong", "dash", `${score} so far`, "Read the remarks at the questions, change what needs it, and check again."];

@@ -8,6 +8,7 @@ import type { Lesson, LessonSummary, Scene } from "../core/types";
 import { askedView } from "../ui/asked";
 import { problemNotice, skeleton } from "../ui/notice";
 import { exerciseSection } from "../exercise/exercise";
+import { steps } from "./steps";
 
 const MATHS_PATIENCE_MS = 350;
 
@@ -40,7 +41,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       await setMaths(exercise);
       if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
       await afterPaint();
-      void showNeighbours(exercise, slug, leaving.signal);
+      void showNeighbours(text, exercise, slug, leaving.signal);
       if (leaving.signal.aborted) return;
       await openBench(lesson);
     } catch (error) {
@@ -81,17 +82,21 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   };
 }
 
-/** Where to go on: the lessons before and after this one. */
-async function showNeighbours(place: HTMLElement, slug: string, signal: AbortSignal): Promise<void> {
+/** Where to go on: the lessons before and after this one. What to read before gets its title. */
+async function showNeighbours(text: HTMLElement, place: HTMLElement, slug: string, signal: AbortSignal): Promise<void> {
   const lessons = await api.lessons(signal).catch(() => []);
   const at = lessons.findIndex((lesson) => lesson.slug === slug);
   if (signal.aborted || at < 0) return;
+  for (const before of text.querySelectorAll<HTMLAnchorElement>(".before a")) {
+    const named = lessons.find((lesson) => before.pathname === `/lessons/${lesson.slug}`);
+    if (named) before.textContent = named.title;
+  }
   const link = (which: string, lesson: LessonSummary | undefined): HTMLElement | null => lesson
     ? h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, h("span", null, which), h("b", null, lesson.title)) : null;
   place.append(h("nav", { class: "neighbours", "aria-label": "Other lessons" }, link("Lesson before", lessons[at - 1]), link("Next lesson", lessons[at + 1])));
 }
 
-function sceneOf(lesson: Lesson, signal: AbortSignal): Promise<Scene | undefined> {
+export function sceneOf(lesson: Lesson, signal: AbortSignal): Promise<Scene | undefined> {
   if (typeof lesson.scene === "object") return Promise.resolve(lesson.scene);
   return api.scene(lesson.scene, signal).catch(() => undefined);
 }
@@ -129,17 +134,9 @@ function showText(place: HTMLElement, lesson: Lesson): void {
     ...steps(lesson));
 }
 
-/** Predict, run, check, explain. */
-function steps(lesson: Lesson): HTMLElement[] {
-  if (!lesson.steps?.length) return [];
-  const items = lesson.steps.map((step) =>
-    authored(h("li", null), `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`));
-  return [h("section", { class: "prose steps" }, h("h2", null, "Work with the mechanism"), h("ol", null, ...items))];
-}
-
 function joined(slugs: string[]): (HTMLElement | string)[] {
   return slugs.flatMap((slug, at) => [
-    ...(at > 0 ? [", "] : []),
+    ...(at > 0 ? ["; "] : []),
     /^[a-z0-9-]+$/.test(slug) ? h("a", { href: `/lessons/${slug}` }, slug.replaceAll("-", " ")) : slug,
   ]);
 }

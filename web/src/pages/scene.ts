@@ -2,7 +2,7 @@
 import { api, ApiError } from "../core/api";
 import { h } from "../core/dom";
 import type { Seen } from "../core/link";
-import { recall, remember } from "../core/prefs";
+import { recall, remember, student } from "../core/prefs";
 import { setTitle, type Page } from "../core/router";
 import type { Scene } from "../core/types";
 import { sceneEditor } from "../editor/editor";
@@ -11,14 +11,32 @@ import { askedView } from "../ui/asked";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { workbench, type BenchOptions } from "../workbench/workbench";
-import { benchPlaceholder } from "./lesson";
+import { benchPlaceholder, sceneOf } from "./lesson";
 import { OWN_SCENE } from "./scenes";
 
 const STARTING_SCENE = "simple-pendulum";
 
+/** A built-in scene, a lesson's, or one that a student writes. */
+interface Subject {
+  name: string;
+  own: boolean;
+  /** Slug of the lesson whose scene it is. */
+  lesson?: string;
+}
+
 export function scenePage(outlet: HTMLElement, params: string[]): Page {
   const name = params[0] ?? "";
-  const own = name === OWN_SCENE;
+  return openScene(outlet, { name, own: name === OWN_SCENE });
+}
+
+/** The scene of a lesson as text, with the student's own numbers in it. */
+export function lessonScenePage(outlet: HTMLElement, params: string[]): Page {
+  const lesson = params[0] ?? "";
+  return openScene(outlet, { name: lesson, own: false, lesson });
+}
+
+function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
+  const draftKey = lesson ? `scene-draft:${lesson}` as const : own ? "scene-draft" as const : null;
   const leaving = new AbortController();
   let endRun: (() => void) | undefined;
   let original = "";
@@ -35,14 +53,16 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
   const editor = sceneEditor((text) => {
     restore.hidden = text === original;
     state.textContent = text === original ? "" : "Changed, not run yet.";
-    if (own) remember("scene-draft", text);
+    if (draftKey) remember(draftKey, text);
   }, (text) => {
     // What can run is shown at once, at its start; what is already shown stays.
     if (!preview.checked || text === shownAs) return;
     runText();
   });
   const side = h("article", { class: "reading is-editor" },
-    h("header", { class: "lesson-head" }, h("p", { class: "lesson-kicker" }, h("a", { href: "/scenes" }, "Scenes")), title, about),
+    h("header", { class: "lesson-head" },
+      h("p", { class: "lesson-kicker" }, lesson ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, "Back to the lesson") : h("a", { href: "/scenes" }, "Scenes")),
+      title, about),
     h("div", { class: "row wrap" }, run, restore, h("button", { type: "button", class: "button quiet", onclick: () => download() }, icon("save"), "Save the file"),
       h("span", { class: "check-line" }, preview, h("label", { for: "preview" }, "Show it as I type")), state),
     editor.root);
@@ -66,7 +86,7 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
     editor.set(original);
     restore.hidden = true;
     state.textContent = "";
-    if (own) remember("scene-draft", null);
+    if (draftKey) remember(draftKey, null);
   };
   const download = (): void => {
     const link = h("a", { href: URL.createObjectURL(new Blob([editor.text()], { type: "application/json" })), download: `${own ? "scene" : name.replaceAll(":", "-")}.json` });
@@ -76,10 +96,10 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
 
   const load = async (): Promise<void> => {
     try {
-      const scene = await api.scene(own ? STARTING_SCENE : name, leaving.signal);
+      const scene = lesson ? await lessonScene(lesson, leaving.signal) : await api.scene(own ? STARTING_SCENE : name, leaving.signal);
       original = pretty(scene);
       const seen = await askedView();
-      const draft = own ? (shownText(seen) ?? recall("scene-draft")) : null;
+      const draft = draftKey ? ((own ? shownText(seen) : null) ?? recall(draftKey)) : null;
       if (own) {
         about.textContent = "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
       } else {
@@ -90,7 +110,7 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
       shownAs = draft ?? original;
       editor.set(shownAs);
       restore.hidden = draft === null || draft === original;
-      if (own) runText(seen);
+      if (draftKey) runText(seen);
       else open({ source: { builtin: name }, scene, seen });
     } catch (error) {
       if (leaving.signal.aborted) return;
@@ -111,6 +131,12 @@ export function scenePage(outlet: HTMLElement, params: string[]): Page {
       endRun?.();
     },
   };
+}
+
+async function lessonScene(slug: string, signal: AbortSignal): Promise<Scene> {
+  const scene = await sceneOf(await api.lesson(slug, student.get(), signal), signal);
+  if (!scene) throw new Error("The scene of this lesson could not be fetched.");
+  return scene;
 }
 
 /** The scene of a link, written as a person would. What stands in this browser's own draft stays there until it is edited. */

@@ -11,6 +11,8 @@ const HEAD = 11;
 const SMALLEST_CIRCLE = 18;
 /** About the length of the legend's bar. */
 const BAR = 120;
+/** What would be drawn shorter than this is rounding, and is called zero. */
+const NOTHING = 1e-6;
 /** About the width of a letter of a label, in units of the drawing. */
 const WIDE = 11;
 
@@ -71,7 +73,7 @@ function draw(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number, la
   }
   if (arrow.moment) parts.push(...turn(arrow, project, sizes, perMetre));
   if (labels) {
-    const words = `${arrow.label} ${num(size, 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`;
+    const words = `${arrow.label} ${num(wanted < NOTHING ? 0 : size, 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`;
     // Beside the tip, on the side where the words have room.
     const room = WIDE * words.length;
     const right = end[0] >= x ? end[0] + room < 790 : end[0] - room < 10;

@@ -1,0 +1,39 @@
+// Predict, run, check, explain: what the student says is kept in this browser, and a prediction is shown again at the check.
+import { authored, h, setText } from "../core/dom";
+import { recall, remember } from "../core/prefs";
+import type { Lesson } from "../core/types";
+
+const LONGEST = 2000;
+const ASKED: Record<string, string> = { predict: "Your prediction", explain: "In your own words" };
+
+export function steps(lesson: Lesson): HTMLElement[] {
+  if (!lesson.steps?.length) return [];
+  const again = h("p", { class: "step-again" });
+  const items = lesson.steps.map((step, at) => {
+    const item = authored(h("li", null), `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`);
+    const asked = ASKED[step.kind];
+    if (asked) item.append(said(`said:${lesson.slug}:${at}`, asked, step.kind === "predict" ? again : null));
+    if (step.kind === "check") item.append(again);
+    return item;
+  });
+  return [h("section", { class: "prose steps" },
+    h("h2", null, "Work with the mechanism"),
+    h("p", { class: "help" }, "What you write here is for you: it stays in this browser and is not graded."),
+    h("ol", null, ...items),
+    h("p", { class: "help" }, "For what has no slider: ", h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}/scene` }, "open the scene as text"), "."))];
+}
+
+function said(key: `said:${string}`, label: string, again: HTMLElement | null): HTMLElement {
+  const area = h("textarea", { class: "field", rows: "2", maxlength: String(LONGEST), "aria-label": label, placeholder: label });
+  const show = (): void => {
+    const words = area.value.trim();
+    if (again) setText(again, words ? `You predicted: ${words}` : "");
+  };
+  area.value = recall(key) ?? "";
+  area.addEventListener("input", () => {
+    remember(key, area.value.trim() ? area.value : null);
+    show();
+  });
+  show();
+  return area;
+}
