@@ -165,6 +165,11 @@ async function later() {
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   await picture("phone");
   assert(width <= 390, `the page is ${width} px wide on a screen of 390 px`);
+  await page.goto(`${address}/scenes/heavy-top`);
+  await page.locator(".has-viewer").waitFor({ state: "attached", timeout: 120_000 });
+  await page.waitForTimeout(2_000);
+  const place = await page.evaluate(() => [scrollY, document.activeElement?.tagName]);
+  assert.deepEqual(place, [0, "BODY"], "the viewer starts below the text and takes neither the place nor the focus");
   say("the results are there after the restart");
 }
 

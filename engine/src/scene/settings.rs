@@ -130,19 +130,19 @@ pub enum Stabilization {
     },
 }
 
-fn penalty_alpha() -> f64 {
+const fn penalty_alpha() -> f64 {
     1e7
 }
 
-fn penalty_omega() -> f64 {
+const fn penalty_omega() -> f64 {
     10.0
 }
 
-fn penalty_mu() -> f64 {
+const fn penalty_mu() -> f64 {
     1.0
 }
 
-fn augmented_alpha() -> f64 {
+const fn augmented_alpha() -> f64 {
     1e9
 }
 
@@ -158,16 +158,18 @@ impl Stabilization {
         }
     }
 
+    /// All of them, each with its usual strength.
+    pub const ALL: [Self; 5] = [
+        Self::Projection,
+        Self::Baumgarte { alpha: 10.0, beta: 10.0 },
+        Self::Partitioning,
+        Self::Penalty { alpha: penalty_alpha(), omega: penalty_omega(), mu: penalty_mu() },
+        Self::AugmentedLagrangian { alpha: augmented_alpha() },
+    ];
+
     /// The treatment of that name with its usual strength.
     pub fn named(word: &str) -> Option<Self> {
-        let all = [
-            Self::Projection,
-            Self::Baumgarte { alpha: 10.0, beta: 10.0 },
-            Self::Partitioning,
-            Self::Penalty { alpha: penalty_alpha(), omega: penalty_omega(), mu: penalty_mu() },
-            Self::AugmentedLagrangian { alpha: augmented_alpha() },
-        ];
-        all.into_iter().find(|treatment| treatment.word() == word)
+        Self::ALL.into_iter().find(|treatment| treatment.word() == word)
     }
 }
 

@@ -89,7 +89,7 @@ fn prepare(
     let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
     for (index, &method) in plan.methods.iter().enumerate() {
         progress(index as f64 / plan.methods.len() as f64);
-        for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(method.integrator, t)) {
+        for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(case, method, t)) {
             scene.coordinates = method.coordinates;
             scene.simulation.integrator = method.integrator;
             scene.simulation.stabilization = method.treatment;

@@ -7,10 +7,12 @@
 mod measure;
 mod plan;
 mod plot;
+mod raster;
 mod reference;
 mod report;
 
 pub use measure::{Measured, measure};
 pub use plan::{Case, Method, Plan, Wish};
 pub use plot::svg;
+pub use raster::{RasterError, png};
 pub use report::{by_scene, csv, html, table};

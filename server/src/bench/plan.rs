@@ -13,6 +13,8 @@ pub struct Case {
     pub duration: f64,
     /// Where its reference comes from.
     pub truth: Truth,
+    /// Whether it is run by the methods only whose work grows no faster than the number of bodies.
+    pub large: bool,
 }
 
 /// The source of a reference.
@@ -104,11 +106,11 @@ fn four_bar(windows: f64) -> f64 {
 
 fn windows(scene: &'static str, count: f64) -> Case {
     let truth = Truth::Angle { kappa: four_bar(count), start: 0.0, rate: 1.0, arm: 0.5 };
-    Case { scene, duration: 10.0, truth }
+    Case { scene, duration: 10.0, truth, large: count > 4.0 }
 }
 
 fn converged(scene: &'static str, duration: f64) -> Case {
-    Case { scene, duration, truth: Truth::Converged }
+    Case { scene, duration, truth: Truth::Converged, large: scene == "spatial-chain:100" }
 }
 
 fn method(integrator: IntegratorKind) -> Method {
@@ -116,17 +118,23 @@ fn method(integrator: IntegratorKind) -> Method {
 }
 
 impl Plan {
-    /// The whole sweep: all integrators, and the other kinds of bodies with the two best.
+    /// The whole sweep: all integrators, the other treatments with one of them, and the other kinds of bodies with the
+    /// two best.
     pub fn full() -> Self {
-        use IntegratorKind::{Auto, Dop853, Dopri5, Taylor};
+        use IntegratorKind::{Auto, Dop853, Taylor, Trapezoidal};
         let pendulum =
             Truth::Angle { kappa: GRAVITY, start: -std::f64::consts::FRAC_PI_2, rate: 0.0, arm: 1.0 };
+        // The augmented Lagrangian brings its own integrator along.
+        let treatments = Stabilization::ALL.into_iter().skip(1).map(|treatment| Method {
+            treatment,
+            ..method(if treatment.word() == "augmented-lagrangian" { Trapezoidal } else { Dop853 })
+        });
         let others = [Coordinates::Reduced, Coordinates::Shared]
             .into_iter()
             .flat_map(|coordinates| [Taylor, Dop853].map(|i| Method { coordinates, ..method(i) }));
         Self {
             cases: vec![
-                Case { scene: "simple-pendulum", duration: 10.0, truth: pendulum },
+                Case { scene: "simple-pendulum", duration: 10.0, truth: pendulum, large: false },
                 windows("n-four-bar:2", 2.0),
                 windows("n-four-bar:10", 10.0),
                 windows("n-four-bar:40", 40.0),
@@ -137,7 +145,13 @@ impl Plan {
                 converged("spatial-chain:10", 2.0),
                 converged("spatial-chain:100", 2.0),
             ],
-            methods: [Auto, Taylor, Dop853, Dopri5].map(method).into_iter().chain(others).collect(),
+            methods: [Auto]
+                .into_iter()
+                .chain(IntegratorKind::ALL)
+                .map(method)
+                .chain(treatments)
+                .chain(others)
+                .collect(),
             tolerances: vec![1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11],
             seconds: 240.0,
             repeats: 21,
@@ -149,7 +163,9 @@ impl Plan {
         let mut plan = Self::full();
         plan.cases
             .retain(|case| !["spatial-chain:100", "n-four-bar:40", "n-four-bar:10"].contains(&case.scene));
-        plan.methods.retain(|m| m.coordinates == Coordinates::default());
+        let few =
+            [IntegratorKind::Auto, IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Dopri5];
+        plan.methods.retain(|m| few.map(method).contains(m));
         plan.tolerances = vec![1e-4, 1e-6, 1e-8, 1e-10];
         plan.seconds = 20.0;
         plan.repeats = 9;
@@ -189,9 +205,18 @@ impl Plan {
         self
     }
 
-    /// Whether an integrator is worth its time at a tolerance: a method of order 5 is not at tight ones.
-    pub fn worth(integrator: IntegratorKind, tolerance: f64) -> bool {
-        integrator != IntegratorKind::Dopri5 || tolerance > 1e-8
+    /// Whether a run is worth its time: a method of low order is not at tight tolerances, and neither is one whose work
+    /// grows with the cube of the number of bodies in a large scene.
+    pub fn worth(case: &Case, method: Method, tolerance: f64) -> bool {
+        use IntegratorKind::{Auto, Dop853, Dopri5, Ode45, Radau, Rattle, Taylor, Trapezoidal};
+        let (linear, tightest) = match method.integrator {
+            Auto | Taylor | Dop853 => (true, 0.0),
+            Dopri5 | Ode45 => (true, 1e-8),
+            Radau | Rattle => (false, 1e-9),
+            Trapezoidal => (false, 1e-5),
+        };
+        let linear = linear && method.treatment == Stabilization::default();
+        tolerance > 0.99 * tightest && (linear || !case.large)
     }
 }
 

@@ -9,7 +9,7 @@ use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
 
 use super::Outcome;
 use super::terminal::{print_line, progress};
-use crate::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
+use crate::bench::{Plan, RasterError, Wish, by_scene, csv, html, measure, png, svg, table};
 use crate::problem::Problem;
 use crate::reports;
 
@@ -34,7 +34,7 @@ pub(super) struct Bench {
     /// Tolerances.
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',')]
     tolerances: Vec<f64>,
-    /// The folder for bench.csv, bench.html and the plots as SVG; made if it is not there. The workbench
+    /// The folder for bench.csv, bench.html and the plots as SVG and PNG; made if it is not there. The workbench
     /// shows what is in its own folder at /bench.
     #[arg(long, default_value = reports::FOLDER, value_name = "DIR")]
     out: PathBuf,
@@ -80,10 +80,22 @@ pub(super) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
     write(reports::BENCH, html(&runs).as_bytes())?;
     write("bench.csv", csv(&runs).as_bytes())?;
     for (scene, runs) in by_scene(&runs) {
-        write(&format!("bench-{}.svg", scene.replace(':', "-")), svg(scene, &runs).as_bytes())?;
+        let (name, drawing) = (scene.replace(':', "-"), svg(scene, &runs));
+        write(&format!("bench-{name}.svg"), drawing.as_bytes())?;
+        let picture = png(&drawing).map_err(|error| undrawable(scene, &error))?;
+        write(&format!("bench-{name}.png"), &picture)?;
     }
     print_line(&format!("written: bench.html, bench.csv and the plots, in {}", folder.display()));
     Ok(Outcome::Done)
+}
+
+fn undrawable(scene: &str, error: &RasterError) -> Problem {
+    Problem::new(
+        StatusCode::INTERNAL_SERVER_ERROR,
+        "undrawable-plot",
+        format!("the plot of {scene} cannot be made: {error}"),
+        "the plot as SVG and the tables are there; please report this",
+    )
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Problem {

@@ -19,6 +19,8 @@ pub struct Arrows {
     pub about: Point,
     /// Which of them.
     pub drawn: Drawn,
+    /// The joint that is marked, because somebody selected it or its rows.
+    pub marked: Option<String>,
 }
 
 /// The body that is acted on.
@@ -77,6 +79,8 @@ const FULL_CIRCLE: f64 = 0.22;
 const LONGEST: f64 = 0.8;
 /// Circles are not drawn smaller, beside the size of the mechanism: what turns could not be seen.
 const SMALLEST_CIRCLE: f64 = 0.06;
+/// Radius of the rings about a marked joint, beside the size of the mechanism.
+const RING: f64 = 0.14;
 /// Points on a circle.
 const POINTS: usize = 25;
 /// Beside the force of the same joint times the mechanism's size, a smaller moment is rounding.
@@ -164,6 +168,29 @@ pub struct Glyphs {
 }
 
 impl Arrows {
+    /// Whether the forces are drawn alike, whatever is marked.
+    pub fn draw_as(&self, other: &Self) -> bool {
+        (self.on, self.about, &self.drawn) == (other.on, other.about, &other.drawn)
+    }
+
+    /// Three rings about the marked joint, wide enough to be seen around the bodies that meet there.
+    pub fn mark(&self, cast: &Cast, sample: &Sample) -> Vec<Vec<[f64; 3]>> {
+        let marked = self.marked.as_ref();
+        let joint = marked.and_then(|name| cast.joints.iter().position(|tie| tie.name == *name));
+        let Some(reaction) = joint.and_then(|joint| sample.reactions.get(joint)) else { return Vec::new() };
+        let ring = |axis: usize| {
+            let turned = |k: usize| {
+                let (sin, cos) = (std::f64::consts::TAU * k as f64 / (POINTS - 1) as f64).sin_cos();
+                let mut at = reaction.at;
+                at[(axis + 1) % 3] += RING * cast.size * cos;
+                at[(axis + 2) % 3] += RING * cast.size * sin;
+                at
+            };
+            (0..POINTS).map(turned).collect()
+        };
+        (0..3).map(ring).collect()
+    }
+
     /// The glyphs of a joint at one instant.
     pub fn of_joint(&self, cast: &Cast, joint: usize, sample: &Sample) -> Glyphs {
         let tie = &cast.joints[joint];
@@ -298,6 +325,19 @@ mod tests {
     use super::super::cast::Actor;
     use super::super::sample::Pose;
     use super::*;
+
+    #[test]
+    fn rings_are_about_the_marked_joint_and_about_no_other() {
+        let (cast, sample) = hanging();
+        let marked = Arrows { marked: Some("pin".into()), ..Arrows::default() };
+        let rings = marked.mark(&cast, &sample);
+        assert_eq!(rings.len(), 3);
+        for point in rings.iter().flatten() {
+            assert!((norm(minus(*point, sample.reactions[0].at)) - RING * cast.size).abs() < 1e-12);
+        }
+        assert!(Arrows::default().mark(&cast, &sample).is_empty());
+        assert!(Arrows { marked: Some("no joint".into()), ..marked }.mark(&cast, &sample).is_empty());
+    }
 
     const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 

@@ -12,7 +12,7 @@ use rerun::{
 
 use super::arrows::{Arrows, Glyphs, Piece, Scale};
 use super::cast::Cast;
-use super::geometry::{self, FREE_BODY, color_of, path, single};
+use super::geometry::{self, FREE_BODY, MARK, color_of, path, single};
 use super::layout::Camera;
 use super::sample::Sample;
 use super::{APPLICATION, TIMELINE, layout};
@@ -86,6 +86,7 @@ impl Recorder {
         self.write_bodies(samples)?;
         self.write_joints(samples)?;
         self.write_arrows(samples)?;
+        self.write_mark(samples)?;
         self.write_series("plots/energy", samples, |s| [s.energy])?;
         self.write_series("plots/violation", samples, |s| [s.position_violation, s.velocity_violation])?;
         self.encoded += samples.len() as u64;
@@ -122,11 +123,15 @@ impl Recorder {
         Ok(())
     }
 
-    /// Draws forces in another way, also those that were drawn already: what is written last counts.
+    /// Draws forces and the mark in another way, also those that were drawn already: what is written last counts.
     pub fn redraw(&mut self, arrows: Arrows, scale: Scale, samples: &[Sample]) -> Result<(), RecordError> {
+        let alike = self.arrows.draw_as(&arrows) && self.cast.scale == scale;
         self.cast.scale = scale;
         self.arrows = arrows;
-        self.write_arrows(samples)?;
+        if !alike {
+            self.write_arrows(samples)?;
+        }
+        self.write_mark(samples)?;
         Ok(())
     }
 
@@ -151,6 +156,11 @@ impl Recorder {
         self.write_pieces(FREE_BODY.into(), samples, of_body)
     }
 
+    fn write_mark(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
+        let drawn = samples.iter().map(|sample| self.arrows.mark(&self.cast, sample)).collect();
+        self.write_circles(MARK.into(), samples, drawn)
+    }
+
     /// Whether there is nothing to write of an entity: neither now, nor anything before that would stay.
     fn is_idle<T>(&mut self, entity: &EntityPath, drawn: &[Vec<T>]) -> bool {
         if drawn.iter().any(|of_sample| !of_sample.is_empty()) {
@@ -165,7 +175,7 @@ impl Recorder {
         samples: &[Sample],
         drawn: Vec<Vec<Vec<[f64; 3]>>>,
     ) -> RecordingStreamResult<()> {
-        if self.is_idle(&entity, &drawn) {
+        if samples.is_empty() || self.is_idle(&entity, &drawn) {
             return Ok(());
         }
         let counts: Vec<usize> = drawn.iter().map(Vec::len).collect();

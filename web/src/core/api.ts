@@ -111,7 +111,7 @@ export const api = {
   reactions: (run: string, asked: { on: string; about: string; in: string }, at?: number) =>
     call<Reactions>("GET", `${run}/reactions?${new URLSearchParams({ ...asked, ...(at === undefined ? {} : { at: String(at) }) })}`),
   change: (run: string, numbers: Numbers, then?: Then) => call<SessionState>("POST", `${run}/parameters`, then ? { ...numbers, then } : numbers),
-  draw: (run: string, arrows: Pick<Drawing, "on" | "about" | "drawn"> | undefined, fit: boolean) => call<SessionState>("PUT", `${run}/drawing`, arrows ? { arrows, fit } : { fit }),
+  draw: (run: string, arrows: Pick<Drawing, "on" | "about" | "drawn" | "marked"> | undefined, fit: boolean) => call<SessionState>("PUT", `${run}/drawing`, arrows ? { arrows, fit } : { fit }),
   lookFrom: (run: string, from: Camera) => call<SessionState>("PUT", `${run}/camera`, { from }),
   pull: (run: string, pull: Pull) => call<SessionState>("PUT", `${run}/pull`, pull),
   release: (run: string) => call<SessionState>("DELETE", `${run}/pull`),

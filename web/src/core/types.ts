@@ -171,6 +171,8 @@ export interface Drawing {
   on: "i" | "j";
   about: "joint" | "center";
   drawn: ServerDrawn;
+  /** The joint that is marked in the 3-D view. */
+  marked: string | null;
   /** Length of a force's arrow, m/N. */
   force_scale: number;
   /** Radius of a moment's circle, m/(N m). */

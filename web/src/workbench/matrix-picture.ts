@@ -16,10 +16,11 @@ export interface Picture {
 
 const KEYS: Record<string, [number, number]> = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 
-export function matrixPicture(read: (cell: Cell | undefined) => void): Picture {
+/** `read` hears of the cell that is pointed at, `choose` of a row that is clicked or entered. */
+export function matrixPicture(read: (cell: Cell | undefined) => void, choose: (row: number) => void): Picture {
   const canvas = h("canvas", {
     class: "matrix", tabindex: "0", "data-keys": "own", role: "application", "aria-roledescription": "matrix picture",
-    "aria-label": "Matrix: arrow keys move from cell to cell, the value is read out below",
+    "aria-label": "Matrix: arrow keys move from cell to cell, the value is read out below; Enter selects the joint of a row",
   });
   const holder = h("div", { class: "matrix-holder" }, canvas);
   let matrix: Matrix | undefined;
@@ -160,9 +161,16 @@ export function matrixPicture(read: (cell: Cell | undefined) => void): Picture {
     const box = canvas.getBoundingClientRect();
     moveTo(cellAt(grid, matrix.rows.length, matrix.columns.length, event.clientX - box.left, event.clientY - box.top));
   });
+  canvas.addEventListener("click", () => {
+    if (at) choose(at.row);
+  });
   canvas.addEventListener("pointerleave", () => moveTo(undefined));
   canvas.addEventListener("keydown", (event) => {
     const move = KEYS[event.key];
+    if (event.key === "Enter" && at) {
+      event.preventDefault();
+      choose(at.row);
+    }
     if (!move || !matrix) return;
     event.preventDefault();
     const from = at ?? { row: 0, column: 0 };

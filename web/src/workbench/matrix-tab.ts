@@ -7,7 +7,7 @@ import { empty, problemNotice } from "../ui/notice";
 import { liveTable } from "../ui/table";
 import { fetched } from "./fetched";
 import type { InspectorTab } from "./inspector";
-import { constantRows, ofJacobian, ofSymmetric, type Matrix } from "./matrix";
+import { constantRows, groupOf, ofJacobian, ofSymmetric, type Matrix } from "./matrix";
 import { matrixPicture, type Cell } from "./matrix-picture";
 import type { Session } from "./session";
 
@@ -35,6 +35,9 @@ export function matrixTab(session: Session): InspectorTab {
   const picture = matrixPicture((at) => {
     cell = at;
     read();
+  }, (row) => {
+    const joint = jointOf(session, matrix?.rows[row] ?? "");
+    if (joint) session.select(session.joint === joint ? null : joint);
   });
   const table = liveTable("Entries that are not zero by structure", "Row", [
     { label: "Column", number: false }, { label: "Value", number: true }, { label: "Kind", number: false },
@@ -44,7 +47,7 @@ export function matrixTab(session: Session): InspectorTab {
 
   const read = (): void => {
     if (!matrix || !cell) {
-      readout.replaceChildren("Point at a cell, or walk with the arrow keys.");
+      readout.replaceChildren("Point at a cell, or walk with the arrow keys. A click, or Enter, marks the joint that the row belongs to, here and in the view.");
       return;
     }
     const [row, column] = [matrix.rows[cell.row] ?? "", matrix.columns[cell.column] ?? ""];
@@ -98,6 +101,12 @@ export function matrixTab(session: Session): InspectorTab {
       source.refresh();
     },
   };
+}
+
+/** The joint that a row of Φ_q, or a multiplier, belongs to. */
+function jointOf(session: Session, row: string): string | undefined {
+  const group = groupOf(row).group.replace(/^λ /, "");
+  return session.latest?.forces.find((entry) => entry.joint === group)?.joint;
 }
 
 const KINDS = { own: "changes with q", constant: "constant", changing: "changes with q", fill: "zero here, filled in the factor" };

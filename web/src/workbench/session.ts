@@ -30,7 +30,7 @@ export class Session extends Clock {
   private waiters: (() => void)[] = [];
   private busy = false;
   private redrawing: "idle" | "busy" | "again" = "idle";
-  private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all" });
+  private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all", marked: null });
 
   constructor(readonly source: SessionSource, start?: Numbers) {
     super();
@@ -228,7 +228,7 @@ export class Session extends Clock {
     if (this.joint === joint) return;
     this.joint = joint;
     this.emit("selected");
-    if (this.drawn.what === "joint") void this.redraw(false);
+    void this.redraw(false);
   }
 
   /** Tells reactions in another way, in every view. */
@@ -260,10 +260,10 @@ export class Session extends Clock {
     if (run && this.steers) void this.ask(() => api.lookFrom(run, camera));
   }
 
-  private arrows(): Pick<Drawing, "on" | "about" | "drawn"> {
+  private arrows(): Pick<Drawing, "on" | "about" | "drawn" | "marked"> {
     const { told, drawn, joint } = this;
     const which = drawn.what === "body" ? { body: drawn.body } : drawn.what !== "joint" ? drawn.what : joint === null ? "none" as const : { joint };
-    return { on: told.on, about: told.about, drawn: which };
+    return { on: told.on, about: told.about, drawn: which, marked: joint };
   }
 
   /** Lets the server draw forces as the page tells them: one request at a time, the newest wish wins. */

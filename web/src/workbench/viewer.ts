@@ -26,7 +26,7 @@ export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise
   const { WebViewer } = await import("@rerun-io/web-viewer");
   const viewer = new WebViewer();
   const restore = watchDownload(hooks.progress);
-  const giveBack = keepFocus(host);
+  const tamed = tameFocus(host);
   try {
     await viewer.start(null, host, {
       width: "100%", height: "100%", hide_welcome_screen: true, render_backend: "webgl",
@@ -34,7 +34,7 @@ export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise
     });
   } finally {
     restore();
-    giveBack();
+    tamed();
   }
   viewer.canvas?.setAttribute("role", "img");
   viewer.canvas?.setAttribute("aria-label", "3-D view of the mechanism. Its numbers stand in the tables of the inspector.");
@@ -110,25 +110,35 @@ function watchDownload(progress: (fraction: number) => void): () => void {
   };
 }
 
-/** The viewer takes the focus when it starts. Somebody may be reading or typing: it is given back. */
-function keepFocus(host: HTMLElement): () => void {
-  let last: Element | null = document.activeElement;
-  const follow = (event: FocusEvent): void => {
-    if (event.target instanceof Element && !host.contains(event.target) && !isTextAgent(event.target)) last = event.target;
+/**
+ * The viewer focuses its canvas, and the hidden input that it adds to the page for text, as it likes: whoever reads or
+ * types elsewhere would lose the focus and the place. Both take it only after a press inside the viewer, and never
+ * scroll. Returns what ends the search for these elements.
+ */
+function tameFocus(host: HTMLElement): () => void {
+  let inside = false;
+  document.addEventListener("pointerdown", (event) => {
+    inside = event.target instanceof Node && host.contains(event.target);
+  }, { capture: true });
+  const tame = (element: HTMLElement): void => {
+    element.autofocus = false;
+    element.focus = () => {
+      if (inside) HTMLElement.prototype.focus.call(element, { preventScroll: true });
+    };
   };
-  document.addEventListener("focusin", follow);
-  return () => {
-    document.removeEventListener("focusin", follow);
-    for (const agent of document.querySelectorAll(":scope > body > input")) {
-      agent.setAttribute("tabindex", "-1");
+  const find = (): void => {
+    host.querySelectorAll("canvas").forEach(tame);
+    for (const agent of document.querySelectorAll<HTMLElement>(":scope > body > input")) {
+      tame(agent);
+      agent.tabIndex = -1;
       agent.setAttribute("aria-hidden", "true");
     }
-    const now = document.activeElement;
-    if (!(now instanceof HTMLElement) || !(host.contains(now) || isTextAgent(now))) return;
-    if (last instanceof HTMLElement && last !== document.body && last.isConnected) last.focus({ preventScroll: true });
-    else now.blur();
+  };
+  const watch = new MutationObserver(find);
+  watch.observe(host, { childList: true, subtree: true });
+  watch.observe(document.body, { childList: true });
+  return () => {
+    find();
+    watch.disconnect();
   };
 }
-
-/** The hidden input that the viewer adds to the page to receive text. */
-const isTextAgent = (element: Element): boolean => element.parentElement === document.body && element instanceof HTMLInputElement;

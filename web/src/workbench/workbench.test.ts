@@ -9,7 +9,7 @@ const body: BodyFrame = {
   name: "bob", position: [1, 0, 0], u: [0, 1, 0], v: [-1, 0, 0], w: [0, 0, 1], velocity: [0, 0, 0], angular_velocity: [0, 0, 0],
   acceleration: [0, 0, 0], mass: 1,
 };
-const drawing: Drawing = { on: "j", about: "joint", drawn: "all", force_scale: 0.1, moment_scale: 0.1, longest: 1, camera: "corner" };
+const drawing: Drawing = { on: "j", about: "joint", drawn: "all", marked: null, force_scale: 0.1, moment_scale: 0.1, longest: 1, camera: "corner" };
 
 describe("axesOf", () => {
   it("agrees between the three ways to state a turn", () => {
