@@ -16,9 +16,9 @@ const PALETTE: [[u8; 3]; 6] =
 const PIN: [u8; 3] = [120, 120, 120];
 /// Weight and loads of a body that is cut free.
 pub(super) const FREE_BODY: &str = "world/cut-free";
-/// Rings about the joint that somebody selected, and their colour: selected rows are framed in it, too.
+/// Rings about the joint that somebody selected, and their colour: blue, as selected rows are framed.
 pub(super) const MARK: &str = "world/marked";
-const MARKED: [u8; 3] = [10, 90, 150];
+const MARKED: [u8; 3] = [20, 120, 215];
 /// Directors u, v, w: red, green, blue as everywhere.
 const AXES: [[u8; 3]; 3] = [[220, 60, 60], [60, 170, 60], [70, 110, 230]];
 /// The largest picture of a Jacobian, in pixels a side; a larger one is drawn smaller.
@@ -54,8 +54,9 @@ pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingS
     }
     let arrow = Arrows3D::update_fields().with_radii([narrow(0.012 * cast.size)]);
     recording.log_static(FREE_BODY, &arrow)?;
-    let ball = Points3D::update_fields().with_colors([color(MARKED)]).with_radii([narrow(0.045 * cast.size)]);
-    recording.log_static(MARK, &ball)?;
+    let rings =
+        LineStrips3D::update_fields().with_colors([color(MARKED)]).with_radii([narrow(0.008 * cast.size)]);
+    recording.log_static(MARK, &rings)?;
     recording.log_static("plots/energy", &SeriesLines::new().with_names(["energy, J"]))?;
     let violation = SeriesLines::new().with_names(["position, m", "velocity, m/s"]);
     recording.log_static("plots/violation", &violation)?;
