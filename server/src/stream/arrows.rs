@@ -80,7 +80,7 @@ const LONGEST: f64 = 0.8;
 /// Circles are not drawn smaller, beside the size of the mechanism: what turns could not be seen.
 const SMALLEST_CIRCLE: f64 = 0.06;
 /// Radius of the rings about a marked joint, beside the size of the mechanism.
-const RING: f64 = 0.25;
+const RING: f64 = 0.18;
 /// Points on a circle.
 const POINTS: usize = 25;
 /// Beside the force of the same joint times the mechanism's size, a smaller moment is rounding.
