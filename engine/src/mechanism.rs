@@ -13,6 +13,8 @@ const NEGLIGIBLE: f64 = 0.1;
 const CONSISTENT: f64 = 1e-13;
 /// A step of assembly that is below this part of the mechanism's size and does not shrink any more is rounding.
 const STALLED: f64 = 1e-9;
+/// Newton steps of an assembly.
+const MOST_ASSEMBLING: usize = 40;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
@@ -66,7 +68,10 @@ impl Mechanism {
         self.elimination.set_redundant(true);
         let (opening, _) = self.elimination.violation(&self.system);
         let mut last = f64::INFINITY;
-        for _ in 0..40 {
+        // Differences of large numbers are never smaller than these are exact.
+        let rounding = |x: &[f64]| 2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+        let most = if opening <= CONSISTENT * length + rounding(&given[..n]) { 0 } else { MOST_ASSEMBLING };
+        for _ in 0..most {
             self.elimination.linearize(&self.system);
             let step = self.elimination.correct_positions(&self.system, &mut y[..n]);
             self.elimination.place(&self.system, &y[..n]);
@@ -98,10 +103,15 @@ impl Mechanism {
         }
         self.elimination.set_velocity(&self.system, &y[n..]);
         let (_, rate) = self.elimination.violation(&self.system);
-        self.elimination.linearize(&self.system);
-        for _ in 0..3 {
-            self.elimination.correct_velocities(&self.system, &mut y[n..]);
-            self.elimination.set_velocity(&self.system, &y[n..]);
+        if rate > CONSISTENT * length + rounding(&given[n..]) {
+            self.elimination.linearize(&self.system);
+            for _ in 0..3 {
+                let step = self.elimination.correct_velocities(&self.system, &mut y[n..]);
+                self.elimination.set_velocity(&self.system, &y[n..]);
+                if step <= CONSISTENT * length {
+                    break;
+                }
+            }
         }
         let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         if rate > 1e-9 * length {

@@ -28,6 +28,11 @@ pub fn analyze(system: &System, elimination: &mut Elimination, q: &[f64]) -> Ran
     elimination.set_redundant(true);
     elimination.place(system, q);
     let lost = elimination.pivots(system, DEPENDENT).iter().filter(|(_, pivot)| *pivot <= DEPENDENT).count();
+    if lost == 0 {
+        // Rows that are independent somewhere are so nearly everywhere.
+        elimination.set_redundant(was_redundant);
+        return Rank { rank: system.solver_rows, at_start: system.solver_rows, dependent: Vec::new() };
+    }
     let mut nearby = moved_away(system, elimination, q);
     elimination.place(system, &nearby);
     if elimination.violation(system).0 > 1e-9 {

@@ -189,15 +189,22 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     fn linearize_here(&mut self) {
         self.set_up();
         self.regularized = self.dependent == Dependent::Shifted;
-        let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
-        let mut pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, epsilon);
-        self.counters.factorizations += 1;
-        if !self.regularized && pivots.smallest < NEAR_SINGULAR {
-            self.regularized = true;
-            pivots = self.schur.build::<L, B>(&self.rows, &self.angles, &self.mobility, REGULARIZATION);
+        loop {
+            self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
+            let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
+            self.smallest_pivot = self.schur.factor.factor(epsilon, 0.0);
             self.counters.factorizations += 1;
+            if self.regularized || self.smallest_pivot >= NEAR_SINGULAR {
+                return;
+            }
+            self.regularized = true;
         }
-        self.smallest_pivot = pivots.smallest;
+    }
+
+    #[inline(always)]
+    fn assemble_here(&mut self) {
+        self.set_up();
+        self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
     }
 
     /// Values of features, inertia and mobilities at the point of expansion.

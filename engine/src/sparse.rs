@@ -7,8 +7,11 @@
 //! that a solve is a chain of short products without divisions.
 
 mod kernel;
+mod numeric;
+mod order;
 mod wide;
 
+use order::minimum_degree;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -19,29 +22,6 @@ pub struct Slot {
     pub offset: usize,
     /// Whether the stored block is the transpose of the one asked for.
     pub transposed: bool,
-}
-
-/// Runs `$call` with the constant `$n` equal to a block's size, or `$wide` for blocks wider than any joint known today.
-macro_rules! by_size {
-    ($size:expr, $n:ident => $call:expr, $wide:expr) => {
-        by_size!(@ $size, $n => $call, $wide; 1 2 3 4 5 6 7 8 9)
-    };
-    (@ $size:expr, $n:ident => $call:expr, $wide:expr; $($value:literal)*) => {
-        match $size {
-            0 => {}
-            $($value => { const $n: usize = $value; $call })*
-            _ => $wide,
-        }
-    };
-}
-
-/// What a factorization met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pivots {
-    /// Smallest pivot, relative to the diagonal entry of S it came from.
-    pub smallest: f64,
-    /// Scalar row of S at which it stood.
-    pub row: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -88,8 +68,12 @@ pub struct BlockCholesky {
     values: Vec<f64>,
     /// D⁻¹ on the diagonal, blocks of L below it.
     factors: Vec<f64>,
-    /// Diagonal of S before the factorization.
+    /// Diagonal of S before the factorization, or infinite for rows that are left out.
     diagonal: Vec<f64>,
+    /// Where that diagonal stands, by scalar row.
+    diagonal_at: Vec<usize>,
+    /// Pivots of the last factorization relative to that diagonal, by scalar row; infinite for rows that were left out.
+    relative: Vec<f64>,
     /// A diagonal block, where rows that depend on others are looked for.
     scratch: Vec<f64>,
 }
@@ -125,6 +109,8 @@ impl BlockCholesky {
             values: Vec::new(),
             factors: Vec::new(),
             diagonal: vec![0.0; sizes.iter().sum()],
+            diagonal_at: vec![0; sizes.iter().sum()],
+            relative: vec![0.0; sizes.iter().sum()],
             scratch: vec![0.0; sizes.iter().map(|size| size * size).max().unwrap_or(0)],
         };
         factor.lay_out(sizes, &start, &order, &fill);
@@ -137,6 +123,9 @@ impl BlockCholesky {
         for (&block, neighbours) in order.iter().zip(fill) {
             let size = sizes[block];
             let diagonal = next;
+            for i in 0..size {
+                self.diagonal_at[start[block] + i] = diagonal + i * (size + 1);
+            }
             next += size * size;
             let first = self.below.len();
             let mut rows: Vec<usize> = neighbours.clone();
@@ -220,6 +209,12 @@ impl BlockCholesky {
         order
     }
 
+    /// Pivots of the last factorization relative to the diagonal entries of S they came from, by scalar row; infinite for
+    /// rows that were left out.
+    pub fn relative_pivots(&self) -> &[f64] {
+        &self.relative
+    }
+
     /// Blocks of L, with fill.
     pub fn blocks(&self) -> usize {
         self.columns.len() + self.below.len()
@@ -229,200 +224,15 @@ impl BlockCholesky {
     /// many there are. [`Self::factor`] then leaves as many out, those that say least beside the others of their block.
     pub fn find_dependent(&mut self, skip: f64) -> usize {
         self.columns.iter_mut().for_each(|column| column.dependent = 0);
-        let mut rows = Vec::new();
-        self.factor(0.0, skip, |row, relative| {
-            if relative <= skip {
-                rows.push(row);
-            }
-        });
+        self.factor(0.0, skip);
+        let mut all = 0;
         for column in &mut self.columns {
-            let own = column.start..column.start + column.size;
-            column.dependent = rows.iter().filter(|row| own.contains(row)).count();
+            let own = &self.relative[column.start..column.start + column.size];
+            column.dependent = own.iter().filter(|&&relative| relative <= skip).count();
+            all += column.dependent;
         }
-        rows.len()
+        all
     }
-
-    /// Factors S + ε diag(S), or without ε the rows of S that do not depend on others; S is used up.
-    ///
-    /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops
-    /// its row. `visit` sees each relative pivot with its scalar row.
-    pub fn factor(&mut self, epsilon: f64, skip: f64, mut visit: impl FnMut(usize, f64)) -> Pivots {
-        let mut pivots = Pivots { smallest: f64::INFINITY, row: 0 };
-        let mut note = |row: usize, relative: f64| {
-            visit(row, relative);
-            if relative < pivots.smallest {
-                pivots = Pivots { smallest: relative, row };
-            }
-        };
-        // The shift of every diagonal entry is relative to S itself, so it comes before any update.
-        for column in &self.columns {
-            let n = column.size;
-            for i in 0..n {
-                let entry = &mut self.values[column.diagonal + i * n + i];
-                self.diagonal[column.start + i] = *entry;
-                *entry += epsilon * *entry;
-            }
-        }
-        for place in 0..self.columns.len() {
-            let Column { size, start, diagonal, dependent, .. } = self.columns[place];
-            if dependent > 0 && epsilon == 0.0 {
-                let block = &mut self.scratch[..size * size];
-                block.copy_from_slice(&self.values[diagonal..diagonal + size * size]);
-                wide::leave_out(dependent, block, &mut self.diagonal[start..start + size]);
-            }
-            by_size!(
-                size,
-                N => self.factor_column::<N>(place, skip, &mut note),
-                self.factor_wide(place, skip, &mut note)
-            );
-        }
-        pivots
-    }
-
-    fn factor_column<const N: usize>(&mut self, place: usize, skip: f64, note: &mut impl FnMut(usize, f64)) {
-        let column = &self.columns[place];
-        let at = column.diagonal..column.diagonal + N * N;
-        let (Some(block), Some(reference)) = (
-            self.values[at.clone()].as_chunks::<N>().0.first_chunk::<N>(),
-            self.diagonal[column.start..].first_chunk::<N>(),
-        ) else {
-            return;
-        };
-        let inverse = kernel::invert(block, reference, skip, |i, relative| note(column.start + i, relative));
-        self.factors[at].copy_from_slice(inverse.as_flattened());
-        for below in &self.below[column.below.clone()] {
-            let at = below.offset..below.offset + below.rows * N;
-            kernel::scale(&inverse, &self.values[at.clone()], &mut self.factors[at]);
-        }
-        for update in &self.updates[column.updates.clone()] {
-            // The target belongs to a later column than the blocks it is made of.
-            let (done, later) = self.values.split_at_mut(update.target);
-            kernel::update::<N>(
-                &self.factors[update.left..update.left + update.rows * N],
-                &done[update.right..update.right + update.columns * N],
-                update.columns,
-                &mut later[..update.rows * update.columns],
-            );
-        }
-    }
-
-    fn factor_wide(&mut self, place: usize, skip: f64, note: &mut impl FnMut(usize, f64)) {
-        let column = &self.columns[place];
-        let n = column.size;
-        let at = column.diagonal..column.diagonal + n * n;
-        self.factors[at.clone()].copy_from_slice(&self.values[at.clone()]);
-        let reference = &self.diagonal[column.start..column.start + n];
-        let visit = |i: usize, relative: f64| note(column.start + i, relative);
-        wide::invert(n, &mut self.factors[at.clone()], reference, skip, visit);
-        for below in &self.below[column.below.clone()] {
-            // Blocks of a column stand behind its diagonal.
-            let (inverse, rest) = self.factors.split_at_mut(at.end);
-            let own = below.offset..below.offset + below.rows * n;
-            let out = &mut rest[own.start - at.end..own.end - at.end];
-            wide::scale(n, &inverse[at.clone()], &self.values[own], out);
-        }
-        for update in &self.updates[column.updates.clone()] {
-            let (done, later) = self.values.split_at_mut(update.target);
-            wide::update(
-                n,
-                &self.factors[update.left..update.left + update.rows * n],
-                &done[update.right..update.right + update.columns * n],
-                update.columns,
-                &mut later[..update.rows * update.columns],
-            );
-        }
-    }
-
-    /// Replaces b by the solution of S x = b.
-    pub fn solve(&self, x: &mut [f64]) {
-        for column in &self.columns {
-            by_size!(column.size, N => self.forward::<N>(column, x), self.forward_wide(column, x));
-        }
-        for column in self.columns.iter().rev() {
-            by_size!(column.size, N => self.backward::<N>(column, x), self.backward_wide(column, x));
-        }
-    }
-
-    fn forward_wide(&self, column: &Column, x: &mut [f64]) {
-        for below in &self.below[column.below.clone()] {
-            for r in 0..below.rows {
-                let first = below.offset + r * column.size;
-                let e = &self.factors[first..first + column.size];
-                let known: f64 = e.iter().zip(&x[column.start..]).map(|(e, y)| e * y).sum();
-                x[below.start + r] -= known;
-            }
-        }
-    }
-
-    fn backward_wide(&self, column: &Column, x: &mut [f64]) {
-        let n = column.size;
-        let inverse = &self.factors[column.diagonal..column.diagonal + n * n];
-        let mut solution = vec![0.0; n];
-        wide::multiply(n, inverse, &x[column.start..column.start + n], &mut solution);
-        for below in &self.below[column.below.clone()] {
-            let block = &self.factors[below.offset..below.offset + below.rows * n];
-            for (e, value) in block.chunks_exact(n).zip(&x[below.start..]) {
-                for (solution, e) in solution.iter_mut().zip(e) {
-                    *solution -= e * value;
-                }
-            }
-        }
-        x[column.start..column.start + n].copy_from_slice(&solution);
-    }
-
-    fn forward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
-        let Some(&y) = x[column.start..].first_chunk::<N>() else { return };
-        for below in &self.below[column.below.clone()] {
-            let block = &self.factors[below.offset..below.offset + below.rows * N];
-            kernel::forward(block, &y, &mut x[below.start..below.start + below.rows]);
-        }
-    }
-
-    fn backward<const N: usize>(&self, column: &Column, x: &mut [f64]) {
-        let inverse = self.factors[column.diagonal..].as_chunks::<N>().0;
-        let (Some(inverse), Some(y)) = (inverse.first_chunk::<N>(), x[column.start..].first_chunk::<N>())
-        else {
-            return;
-        };
-        let mut solution = kernel::multiply(inverse, y);
-        for below in &self.below[column.below.clone()] {
-            let block = &self.factors[below.offset..below.offset + below.rows * N];
-            kernel::backward(block, &x[below.start..below.start + below.rows], &mut solution);
-        }
-        x[column.start..column.start + N].copy_from_slice(&solution);
-    }
-}
-
-/// Greedy minimum degree: the order, and for each eliminated block its neighbours at that moment.
-///
-/// Among equals the block that was touched longest ago goes first, so that a chain is eliminated from both ends and
-/// neighbouring steps of the program do not wait for each other.
-fn minimum_degree(mut graph: Vec<BTreeSet<usize>>) -> (Vec<usize>, Vec<Vec<usize>>) {
-    let mut touched = vec![0; graph.len()];
-    let mut queue: BTreeSet<(usize, usize, usize)> =
-        graph.iter().enumerate().map(|(i, n)| (n.len(), 0, i)).collect();
-    let mut order = Vec::with_capacity(graph.len());
-    let mut fill = Vec::with_capacity(graph.len());
-    while let Some((_, _, block)) = queue.pop_first() {
-        let neighbours: Vec<usize> = std::mem::take(&mut graph[block]).into_iter().collect();
-        for &i in &neighbours {
-            queue.remove(&(graph[i].len(), touched[i], i));
-            graph[i].remove(&block);
-        }
-        for (at, &i) in neighbours.iter().enumerate() {
-            for &j in &neighbours[at + 1..] {
-                graph[i].insert(j);
-                graph[j].insert(i);
-            }
-        }
-        order.push(block);
-        for &i in &neighbours {
-            touched[i] = order.len();
-            queue.insert((graph[i].len(), touched[i], i));
-        }
-        fill.push(neighbours);
-    }
-    (order, fill)
 }
 
 #[cfg(test)]
@@ -469,7 +279,7 @@ mod tests {
             for &(i, j) in &edges { add(i, j, &mut factor); }
             let b = DVector::from_fn(n, |i, _| (i as f64).sin());
             let mut x = b.clone();
-            factor.factor(0.0, 0.0, |_, _| {});
+            factor.factor(0.0, 0.0);
             factor.solve(x.as_mut_slice());
             prop_assert!((dense * x - b).amax() < 1e-12);
         }

@@ -17,24 +17,23 @@ impl Elimination {
         self.regularized = self.redundant;
         let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
         self.assemble(system);
-        let mut pivots = self.factor.factor(epsilon, 0.0, |_, _| {});
+        let mut smallest = self.factor.factor(epsilon, 0.0);
         self.counters.factorizations += 1;
-        if !self.redundant && pivots.smallest < NEAR_SINGULAR {
+        if !self.redundant && smallest < NEAR_SINGULAR {
             self.regularized = true;
             self.assemble(system);
-            pivots = self.factor.factor(REGULARIZATION, 0.0, |_, _| {});
+            smallest = self.factor.factor(REGULARIZATION, 0.0);
             self.counters.factorizations += 1;
         }
-        self.smallest_pivot = pivots.smallest;
+        self.smallest_pivot = smallest;
     }
 
     /// Relative pivots of S at the current positions, with dependent rows dropped: (solver row, pivot).
     pub fn pivots(&mut self, system: &System, skip: f64) -> Vec<(usize, f64)> {
         self.linearize(system);
         self.assemble(system);
-        let mut pivots = Vec::with_capacity(system.solver_rows);
-        self.factor.factor(0.0, skip, |row, pivot| pivots.push((row, pivot)));
-        pivots
+        self.factor.factor(0.0, skip);
+        self.factor.relative_pivots().iter().copied().enumerate().collect()
     }
 
     pub(super) fn fill_blocks(&mut self, system: &System) {

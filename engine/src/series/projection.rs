@@ -10,39 +10,41 @@ const AWAY: f64 = 0.03;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the factor at hand. Returns its size.
-    #[inline(always)]
     pub fn correct_positions(&mut self) -> f64 {
-        self.place_values();
-        self.rows.store_factors(0, &self.values);
-        self.rows.set_violation(B::DIRECTIONS, &self.values);
-        self.angles.place(&self.values);
-        self.angles.set_violation(&self.values, &mut self.rows.extra);
-        self.prescribed.demand(0, 1.0, &mut self.rows.extra);
-        self.correct(0, |bundle, state| bundle.position_correction(&state[0]))
+        self.correct(0)
     }
 
     /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the factor at hand.
-    #[inline(always)]
     pub fn correct_velocities(&mut self) -> f64 {
+        self.correct(1)
+    }
+
+    /// The one of the positions (0) or of the velocities (1); one body of code, because it is compiled many times.
+    #[inline(always)]
+    pub(super) fn correct_here(&mut self, which: usize) -> f64 {
         self.place_values();
         self.rows.store_factors(0, &self.values);
         self.angles.place(&self.values);
-        self.values_of(|state, _| state[1]);
-        self.set_ground(false);
-        let state = &self.state;
-        self.prescribed.prepare::<L, B>(1, 1.0, |b, _| &state[b][0]);
-        self.prescribed.add_known(1.0, &mut self.values);
-        self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
-        self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
-        self.prescribed.demand(1, 1.0, &mut self.rows.extra);
-        self.correct(1, |bundle, state| bundle.velocity_correction(&state[0], &state[1]))
-    }
-
-    #[inline(always)]
-    fn correct(&mut self, which: usize, gamma: impl Fn(&B, &[B::Lifted; 2]) -> B::Rigid) -> f64 {
+        if which == 0 {
+            self.rows.set_violation(B::DIRECTIONS, &self.values);
+            self.angles.set_violation(&self.values, &mut self.rows.extra);
+        } else {
+            self.values_of(|state, _| state[1]);
+            self.set_ground(false);
+            let state = &self.state;
+            self.prescribed.prepare::<L, B>(1, 1.0, |b, _| &state[b][0]);
+            self.prescribed.add_known(1.0, &mut self.values);
+            self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
+            self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
+        }
+        self.prescribed.demand(which, 1.0, &mut self.rows.extra);
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.clear_force();
-            let gamma = gamma(bundle, state);
+            let gamma = if which == 0 {
+                bundle.position_correction(&state[0])
+            } else {
+                bundle.velocity_correction(&state[0], &state[1])
+            };
             bundle.begin(&state[0], &gamma, B::no_moment());
         }
         self.prescribed.hold();
@@ -87,8 +89,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 }
             }
         }
-        self.set_up();
-        self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
+        self.assemble();
         self.dependent = match (self.schur.factor.find_dependent(DEPENDENT), self.prescribed.is_empty()) {
             (0, _) => Dependent::None,
             (_, true) => Dependent::LeftOut,

@@ -4,7 +4,7 @@ use super::angles::Angles;
 use super::bodies::Bodies;
 use super::rows::{Place, Rows};
 use crate::row::Form;
-use crate::sparse::{BlockCholesky, Pivots, Slot};
+use crate::sparse::{BlockCholesky, Slot};
 use crate::system::{NO_INCIDENCE, System};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -167,20 +167,7 @@ impl Schur {
         schur
     }
 
-    /// Builds S from C⁻¹ s̃ of all features and factors it.
-    #[inline(always)]
-    pub fn build<const L: usize, B: Bodies<L>>(
-        &mut self,
-        rows: &Rows<L>,
-        angles: &Angles,
-        mobility: &[B::Mobility],
-        epsilon: f64,
-    ) -> Pivots {
-        self.assemble::<L, B>(rows, angles, mobility);
-        self.factor.factor(epsilon, 0.0, |_, _| {})
-    }
-
-    /// Builds S.
+    /// Builds S from C⁻¹ s̃ of all features.
     #[inline(always)]
     pub fn assemble<const L: usize, B: Bodies<L>>(
         &mut self,

@@ -9,6 +9,9 @@ const NEGLIGIBLE: f64 = 0.01;
 /// A Newton step of this size, relative to the mechanism, leaves an error of its square.
 const CONSISTENT: f64 = 1e-7;
 
+/// Newton steps of the positions at the end of a step.
+const MOST_CORRECTIONS: usize = 3;
+
 /// Orders that are found in any case.
 const LEAST_ORDER: usize = 8;
 /// A step that leaves its constraints, or a prescribed function its series, by this many tolerances is taken anew, half
@@ -30,6 +33,8 @@ pub struct Plan {
     pub length: f64,
     /// End of the run, s: no step goes beyond it.
     pub end: f64,
+    /// Whether to tell only how far the series reach, without knots.
+    pub look_only: bool,
 }
 
 /// What a step was.
@@ -64,15 +69,29 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     }
 }
 
-/// A factorization, likewise.
-struct Linearize<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
+/// A piece of a step on its own, likewise: all of them together, so that each is compiled once.
+struct Piece<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Which);
 
-impl<const L: usize, B: Bodies<L>> WithSimd for Linearize<'_, L, B> {
-    type Output = ();
+#[derive(Clone, Copy)]
+enum Which {
+    /// S without its factor.
+    Assemble,
+    Linearize,
+    /// Of the positions (0) or the velocities (1).
+    Correct(usize),
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Piece<'_, L, B> {
+    type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.0.linearize_here();
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        match self.1 {
+            Which::Assemble => self.0.assemble_here(),
+            Which::Linearize => self.0.linearize_here(),
+            Which::Correct(which) => return self.0.correct_here(which),
+        }
+        0.0
     }
 }
 
@@ -97,7 +116,26 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Builds and factors S at the point of expansion.
     pub fn linearize(&mut self) {
-        if L == 1 { self.linearize_here() } else { Arch::new().dispatch(Linearize(self)) }
+        self.piece(Which::Linearize);
+    }
+
+    /// Builds S at the point of expansion.
+    pub(super) fn assemble(&mut self) {
+        self.piece(Which::Assemble);
+    }
+
+    pub(super) fn correct(&mut self, which: usize) -> f64 {
+        self.piece(Which::Correct(which))
+    }
+
+    /// Pieces on their own are for the start of a run and for tests: no faster than the compiler makes plain code.
+    #[inline(never)]
+    fn piece(&mut self, which: Which) -> f64 {
+        if L == 1 {
+            Piece(self, which).with_simd(pulp::Scalar::new())
+        } else {
+            Arch::new().dispatch(Piece(self, which))
+        }
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
@@ -108,8 +146,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// The step that the series at the state allow, at which S must be factored, if no knot were in the way, s.
     pub fn natural_step(&mut self, order: usize, tolerance: f64) -> f64 {
-        self.expand(order, |_, _| false);
-        self.reach(order, self.allowance(tolerance)).0
+        self.step(Plan { order, tolerance, length: 0.0, end: f64::INFINITY, look_only: true }).h
     }
 
     #[inline(always)]
@@ -121,6 +158,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         // Pieces are polynomials of degree five: orders above that of their accelerations say how good the series are.
         let order = self.expand(plan.order, |s, k| {
             end < plan.end
+                && !plan.look_only
                 && k > LEAST_ORDER
                 && s.reached(k - 1, allowance, 0.0).min(s.reached(k, allowance, 0.0)) >= left
         });
@@ -128,6 +166,17 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             self.find_power(order);
         }
         let (h, order) = self.reach(order, allowance);
+        if plan.look_only {
+            return Taken {
+                h,
+                time: start,
+                at_break: false,
+                order,
+                rejected: 0,
+                finite: true,
+                proven: false,
+            };
+        }
         let mut h = self.loads.limit(self.angles.limit(h.min(left), order, FARTHEST_TURN), order);
         let mut rejected = 0;
         loop {
@@ -137,10 +186,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
             let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
             if met {
-                let (moved, closed) = self.arrive(h, time, order, plan);
-                // A comparison that is false for NaN as well.
-                if moved <= FAR * plan.tolerance || rejected == MOST_REJECTED {
-                    self.correct_velocities();
+                let most = (rejected < MOST_REJECTED).then_some(FAR * plan.tolerance);
+                if let Some(closed) = self.arrive(h, time, order, plan, most) {
                     // Rows that are left out are measured.
                     let proven = closed && !self.regularized && self.dependent == Dependent::None;
                     let finite = self.is_finite();
@@ -152,26 +199,30 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
-    /// Moves to the end of a step, factors S there and projects the positions. Returns how far that moved them, which is
-    /// what the terms that were left out would have added, and whether Newton's method has converged.
+    /// Moves to the end of a step, factors S there and projects positions and velocities. Tells whether Newton's method has
+    /// converged, or nothing if it moved the positions by more than `most`: what the terms that were left out would have
+    /// added.
     #[inline(always)]
-    fn arrive(&mut self, h: f64, time: f64, order: usize, plan: Plan) -> (f64, bool) {
+    fn arrive(&mut self, h: f64, time: f64, order: usize, plan: Plan, most: Option<f64>) -> Option<bool> {
         self.advance(h, order);
         self.set_time(time);
-        self.linearize_here();
-        let (mut moved, mut closed) = (0.0, false);
-        for _ in 0..3 {
-            let step = self.correct_positions();
-            moved += step;
-            closed = step <= CONSISTENT * plan.length;
-            if closed {
+        let (mut moved, mut closed) = (0.0f64, false);
+        for round in 0..=MOST_CORRECTIONS {
+            let last = closed || round == MOST_CORRECTIONS;
+            if last && most.is_some_and(|most| moved.is_nan() || moved > most) {
+                return None;
+            }
+            if round == 0 || (last && moved > NEGLIGIBLE * plan.tolerance) {
+                self.linearize_here();
+            }
+            let step = self.correct_here(usize::from(last));
+            if last {
                 break;
             }
+            moved += step;
+            closed = step <= CONSISTENT * plan.length;
         }
-        if moved > NEGLIGIBLE * plan.tolerance {
-            self.linearize_here();
-        }
-        (moved, closed)
+        Some(closed)
     }
 
     /// The largest terms of positions and velocities that a tolerance allows.

@@ -28,9 +28,9 @@ pub fn leave_out(count: usize, block: &mut [f64], reference: &mut [f64]) {
 }
 
 /// Replaces a symmetric n × n block, of which the lower triangle is read, by its inverse, by L D Lᵀ. `reference` is the
-/// diagonal of S, or infinite for rows that are left out; `visit` sees each other pivot relative to it, and one not above
+/// diagonal of S, or infinite for rows that are left out; `all` gets the pivots relative to it, and one not above
 /// `skip` drops its row.
-pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, mut visit: impl FnMut(usize, f64)) {
+pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, all: &mut [f64]) {
     for i in 0..n {
         for k in 0..i {
             for p in 0..k {
@@ -44,11 +44,11 @@ pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, mut vis
             pivot -= row * block[i * n + k];
         }
         if reference[i] == f64::INFINITY {
-            block[i * n + i] = 0.0;
+            (block[i * n + i], all[i]) = (0.0, f64::INFINITY);
             continue;
         }
         let relative = if reference[i] == 0.0 { 0.0 } else { pivot / reference[i] };
-        visit(i, relative);
+        all[i] = relative;
         block[i * n + i] = if relative <= skip { 0.0 } else { 1.0 / pivot };
     }
     // M = L⁻¹ in place; the diagonal keeps the reciprocals of the pivots.

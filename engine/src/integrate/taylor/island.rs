@@ -151,7 +151,8 @@ impl Island {
     /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
     /// itself that the constraints hold, and how often it was shortened.
     pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), Stop> {
-        let plan = Plan { order: self.order, tolerance: self.tolerance, length: self.length, end };
+        let plan =
+            Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, look_only: false };
         let system = self.part.as_deref().unwrap_or(whole);
         let taken = with!(&mut self.engine, s => {
             let taken = s.step(plan);
