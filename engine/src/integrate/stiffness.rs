@@ -2,9 +2,9 @@
 
 use crate::mechanism::Mechanism;
 
-/// Decay rate of a load times the length of the run above which an implicit method pays: an explicit one of order 8
-/// needs a step for each six of it, and measures three thousand steps for what the implicit one does in hundreds.
-const MANY_DECAYS: f64 = 2e4;
+/// Decay rate of a load times the length of the run above which an implicit method pays: measured (docs/PERFORMANCE.md), the
+/// series take three quarters of its time at 6.5e4, and their steps grow with this number.
+const MANY_DECAYS: f64 = 1e5;
 /// The same for oscillations, which an implicit method may leave out only if they are not excited.
 const MANY_OSCILLATIONS: f64 = 3e5;
 /// An oscillation is excited if its amplitude is above this multiple of the tolerance, in lengths of the mechanism.
