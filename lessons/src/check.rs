@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::course::Course;
+use crate::files::StepKind;
 use crate::lesson::{Lesson, line_of};
 use crate::markdown;
 
@@ -131,6 +132,15 @@ fn about(course: &Course, found: &mut Found) {
                 "correct the slug",
             );
         }
+    }
+    let order: Vec<StepKind> = about.steps.iter().map(|step| step.kind).collect();
+    if order != [StepKind::Predict, StepKind::Run, StepKind::Check, StepKind::Explain] {
+        found.add(
+            "lesson.toml",
+            0,
+            "the steps are not predict, run, check, explain",
+            "write one [[step]] of each kind, in this order",
+        );
     }
     for step in &about.steps {
         if step.text.trim().is_empty() {

@@ -16,7 +16,8 @@ pub use tasks::{Implement, ModelTask, Trajectory, Tuning};
 
 use crate::expression::Expression;
 use crate::files::{
-    ExerciseFile, FollowFile, MeasuredFile, ProvenanceKind, QuestionFile, QuestionKind, ReferenceFile,
+    ExerciseFile, FollowFile, MeasuredFile, OpensFile, ProvenanceKind, QuestionFile, QuestionKind,
+    ReferenceFile,
 };
 use crate::lesson::Files;
 use crate::tolerance::{Rule, Shape};
@@ -28,6 +29,8 @@ use crate::variant::Parameters;
 pub struct Exercise {
     /// Share of the points that passes the lesson.
     pub pass_mark: f64,
+    /// When the right answers are told.
+    pub opens: OpensFile,
     /// The questions in order.
     pub questions: Vec<Question>,
 }
@@ -171,6 +174,8 @@ pub struct FormulaBody {
 pub struct QuestionError {
     /// The question's id.
     pub question: String,
+    /// Whether it is wrong in `reference/answers.toml` rather than in `exercise.toml`.
+    pub in_reference: bool,
     /// What is wrong.
     pub problem: String,
     /// What to do.
@@ -212,6 +217,7 @@ pub(crate) fn build(
         let id = question.id.clone();
         let fail = |problem: String, remedy: &str| QuestionError {
             question: id.clone(),
+            in_reference: false,
             problem,
             remedy: remedy.to_owned(),
         };
@@ -244,7 +250,7 @@ pub(crate) fn build(
             QuestionKind::Tuning => tasks::tuning(&question, &reference, ground),
         }
         .and_then(|body| foreign_tables(&question).map(|()| body))
-        .map_err(|(problem, remedy)| fail(problem, &remedy))?;
+        .map_err(|e| QuestionError { in_reference: e.in_reference, ..fail(e.problem, &e.remedy) })?;
         questions.push(Question {
             id,
             kind: question.kind,
@@ -262,11 +268,12 @@ pub(crate) fn build(
     if let Some(id) = references.keys().next() {
         return Err(QuestionError {
             question: id.clone(),
+            in_reference: true,
             problem: "it has a reference but is not asked".to_owned(),
             remedy: "remove it from reference/answers.toml or ask it".to_owned(),
         });
     }
-    Ok(Exercise { pass_mark: file.pass_mark, questions })
+    Ok(Exercise { pass_mark: file.pass_mark, opens: file.opens, questions })
 }
 
 /// What is carried through comes from an earlier number.
@@ -277,6 +284,7 @@ fn follows_earlier(questions: &[Question]) -> Result<(), QuestionError> {
             if !questions[..at].iter().any(|q| q.id == *earlier && q.kind == QuestionKind::Number) {
                 return Err(QuestionError {
                     question: question.id.clone(),
+                    in_reference: false,
                     problem: format!("it follows {earlier}, which is no earlier number"),
                     remedy: "name an earlier question of kind number".to_owned(),
                 });
@@ -299,10 +307,22 @@ fn foreign_tables(question: &QuestionFile) -> Result<(), Trouble> {
     refuse(question.follows.is_some() && !quantity, "the table follows", &name)
 }
 
-type Trouble = (String, String);
+/// What is wrong and what to do, before it is known with which question.
+pub(crate) struct Trouble {
+    problem: String,
+    remedy: String,
+    in_reference: bool,
+}
+
+impl Trouble {
+    /// The same trouble, found in the file of the references.
+    fn in_reference(self) -> Self {
+        Self { in_reference: true, ..self }
+    }
+}
 
 fn trouble(problem: impl Into<String>, remedy: impl Into<String>) -> Trouble {
-    (problem.into(), remedy.into())
+    Trouble { problem: problem.into(), remedy: remedy.into(), in_reference: false }
 }
 
 fn refuse(present: bool, key: &str, kind: &str) -> Result<(), Trouble> {

@@ -145,6 +145,7 @@ fn told(question: &Question, outcome: Outcome) -> QuestionVerdict {
         message_html: outcome.html,
         slip: outcome.slip,
         figure_svg: outcome.figure,
+        reference_html: None,
     }
 }
 

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 use thiserror::Error;
+use triad_engine::scene::{Scene, SceneError};
 
 use crate::exercise::{self, Exercise, Ground, Question, QuestionError};
 use crate::files::{ExerciseFile, LessonFile, ReferenceFile, WrongFile};
@@ -127,6 +128,15 @@ impl Lesson {
             line: e.line(),
             problem: e.to_string(),
         })?;
+        // Read as a scene here, so that a fault is told with its own file and line and not by the first question.
+        Scene::from_json(scene_text).map_err(|error| LessonError::Unreadable {
+            file: path("scene.json"),
+            line: match &error {
+                SceneError::Syntax { line, .. } => *line,
+                _ => 1,
+            },
+            problem: error.to_string(),
+        })?;
         let source = Source {
             exercise: reader.toml("exercise.toml", "it holds the questions")?,
             references: reader
@@ -136,9 +146,10 @@ impl Lesson {
         let (questions, references) = (source.exercise.clone(), source.references.clone());
         let ground = Ground { parameters: &parameters, scene: &scene, files: &files };
         let exercise = exercise::build(questions, references, &ground).map_err(|error| {
-            let content = reader.text("exercise.toml", "").unwrap_or_default();
+            let file = if error.in_reference { "reference/answers.toml" } else { "exercise.toml" };
+            let content = reader.text(file, "").unwrap_or_default();
             let line = line_of(content, &error.question);
-            LessonError::Question { file: path("exercise.toml"), line, error }
+            LessonError::Question { file: path(file), line, error }
         })?;
         let mut wrong = BTreeMap::new();
         let mut wrong_files = BTreeSet::new();
@@ -240,12 +251,11 @@ impl Reader<'_> {
     }
 }
 
-/// Line of the question with this id.
-pub(crate) fn line_of(exercise_toml: &str, id: &str) -> usize {
-    let wanted = format!("\"{id}\"");
-    exercise_toml
-        .lines()
-        .position(|l| l.trim_start().starts_with("id") && l.contains(&wanted))
+/// Line of the question with this id, or of its reference.
+pub(crate) fn line_of(toml: &str, id: &str) -> usize {
+    let (wanted, table) = (format!("\"{id}\""), format!("[{id}]"));
+    toml.lines()
+        .position(|l| l.trim() == table || l.trim_start().starts_with("id") && l.contains(&wanted))
         .map_or(1, |index| index + 1)
 }
 

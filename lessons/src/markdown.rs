@@ -31,6 +31,7 @@ pub fn render(text: &str, figures: &BTreeMap<String, String>) -> Rendered {
     let mut events: Vec<Event> = Vec::new();
     let mut image: Option<(String, String, String)> = None;
     let mut skipped_link = false;
+    let mut dollar: Option<usize> = None;
     for (event, range) in Parser::new_ext(text, options).into_offset_iter() {
         let line = text[..range.start].matches('\n').count() + 1;
         if let Some((_, _, alt)) = &mut image {
@@ -76,13 +77,16 @@ pub fn render(text: &str, figures: &BTreeMap<String, String>) -> Rendered {
             Event::SoftBreak
                 if events.last().is_some_and(|e| matches!(e, Event::InlineHtml(h) if h.ends_with("<p>"))) => {
             }
-            other => events.push(other),
+            other => {
+                if matches!(&other, Event::Text(t) if t.contains('$')) {
+                    dollar.get_or_insert(line);
+                }
+                events.push(other);
+            }
         }
     }
-    let dollar = events.iter().any(|e| matches!(e, Event::Text(t) if t.contains('$')));
     pulldown_cmark::html::push_html(&mut out.html, events.into_iter());
-    if dollar {
-        let line = text.lines().position(|l| l.contains('$')).map_or(1, |index| index + 1);
+    if let Some(line) = dollar {
         out.problems.push((
             line,
             "a $ is left in the text: formulas are $…$ or $$…$$, without spaces inside".to_owned(),

@@ -46,6 +46,9 @@ pub struct QuestionVerdict {
     /// A picture of what was computed, as SVG that the grader drew.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub figure_svg: Option<String>,
+    /// The right answer and its source, as safe HTML, where the author opens it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference_html: Option<String>,
 }
 
 /// How one answer was judged.

@@ -6,7 +6,7 @@ using JSON
 
 "The vectors r, u, v, w of a body in a vector of coordinates x (q or qd)."
 function vectors(body, x)
-    first = body["first_column"]
+    first = body["first_column"]  # counts from 0, Julia's indices from 1
     part(k) = x[first+k+1:first+k+3]
     w = body["coordinates"] == "full" ? part(9) : nothing  # reduced: w = cross(u, v) is yours to compute
     return part(0), part(3), part(6), w

@@ -40,8 +40,24 @@ impl From<GradeError> for Problem {
 /// student's own.
 pub fn grade(lesson: &Lesson, variants: &Variants, text: &str) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
-    let seed = submission.seed.as_deref().or(submission.student.as_deref()).unwrap_or_default();
-    let lesson = variants.of(lesson, seed)?;
+    let lesson = variants.of(lesson, seed(&submission))?;
     let verdict = triad_lessons::grade(&lesson, &submission)?;
     Ok((submission, verdict))
+}
+
+/// Adds the right answers to a verdict if the author opens them after so many attempts, this one included.
+pub fn open(
+    lesson: &Lesson,
+    variants: &Variants,
+    submission: &Submission,
+    verdict: &mut Verdict,
+    attempts: usize,
+) -> Result<(), Problem> {
+    let lesson = variants.of(lesson, seed(submission))?;
+    triad_lessons::open(&lesson, verdict, attempts);
+    Ok(())
+}
+
+fn seed(submission: &Submission) -> &str {
+    submission.seed.as_deref().or(submission.student.as_deref()).unwrap_or_default()
 }

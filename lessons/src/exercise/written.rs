@@ -43,18 +43,18 @@ pub(super) fn quantity(
         (None, Some(measured)) if engine => {
             let found = measure::with_error(&ground.scene_of(None)?, measured);
             let (values, error) =
-                found.map_err(|e| trouble(format!("its measurement: {e}"), "correct it"))?;
+                found.map_err(|e| trouble(format!("its measurement: {e}"), "correct it").in_reference())?;
             let values: Vec<f64> = values.iter().map(|x| x / unit.factor).collect();
             let size = [values.len(), 1];
             (values, size, error / unit.factor)
         }
         (Some(value), _) if !engine => {
-            let (values, size) = numbers(value, shape, parameters)?;
+            let (values, size) = numbers(value, shape, parameters).map_err(Trouble::in_reference)?;
             (values, size, reference.error)
         }
         _ => {
             let remedy = "give a value and its source, or provenance = \"engine\" with measured and no value";
-            return Err(trouble("its reference has no value, or one too many", remedy));
+            return Err(trouble("its reference has no value, or one too many", remedy).in_reference());
         }
     };
     let mut misconceptions = Vec::with_capacity(question.misconceptions.len());

@@ -45,7 +45,7 @@ pub(super) fn judge(question: &Quantity, note: &str, answer: &Answer) -> Outcome
                 |digits| format!("at least {digits} significant digits"),
             );
             return Outcome::invalid(&format!(
-                "With so few digits rounding alone can make this answer wrong; give {enough}."
+                "With so few digits rounding alone can make an answer wrong; give {enough}, with zeros where the value is round."
             ));
         }
         None => Outcome::wrong(None, "<p>Not right.</p>".to_owned()),

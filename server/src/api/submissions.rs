@@ -9,6 +9,7 @@ use axum::http::StatusCode;
 use axum::response::IntoResponse;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use triad_lessons::Verdict;
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -22,6 +23,8 @@ use crate::{blocking, grading};
 
 /// Longest name of a student, in characters.
 const LONGEST_NAME: usize = 100;
+/// Attempts that are counted.
+const MOST_ATTEMPTS: usize = 1000;
 
 pub(super) fn routes() -> OpenApiRouter<App> {
     OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list))
@@ -31,6 +34,8 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 ///
 /// The verdict has an `id` if the submission was kept. Where an answer cannot be read (text for a number, a unit
 /// that does not exist) the verdict says `gradable: false` and what to correct; nothing is kept, no attempt used.
+/// Where the author opens the right answers (to those who passed, or after so many attempts), each question has its
+/// `reference_html`.
 #[utoipa::path(post, path = "/lessons/{slug}/submissions", tag = "submissions", params(("slug" = String, Path)),
     request_body(content = Object, example = json!({"student": "ada", "answers": {"tension": {"value": "29.4", "unit": "N"}}})),
     responses(
@@ -47,22 +52,37 @@ async fn submit(
         let lesson = lessons::find(&app, &slug)?;
         let name = body.get("student").and_then(Value::as_str);
         let student = student(name)?;
-        let (submission, verdict) = grading::grade(lesson, &app.variants, &body.to_string())?;
+        let (submission, mut verdict) = grading::grade(lesson, &app.variants, &body.to_string())?;
         let id = uuid::Uuid::new_v4().simple().to_string();
         let submitted_at = format!("{:.3}", jiff::Timestamp::now());
         let gradable = verdict.gradable;
-        let mut document = serde_json::to_value(verdict).map_err(Problem::internal)?;
-        document["student"] = json!(student);
-        document["submitted_at"] = json!(submitted_at);
-        document["id"] = if gradable { json!(id) } else { Value::Null };
+        let described = |verdict: &Verdict| {
+            let mut document = serde_json::to_value(verdict).map_err(Problem::internal)?;
+            document["student"] = json!(student);
+            document["submitted_at"] = json!(submitted_at);
+            document["id"] = if gradable { json!(id) } else { Value::Null };
+            Ok::<_, Problem>(document)
+        };
+        // What is kept can be listed by anybody: it goes without the right answers.
+        let kept = described(&verdict)?;
+        if gradable {
+            let earlier = Query {
+                student: Some(student.clone()),
+                lesson: Some(lesson.slug.clone()),
+                limit: MOST_ATTEMPTS,
+            };
+            let attempts = app.store.list(&earlier)?.len() + 1;
+            grading::open(lesson, &app.variants, &submission, &mut verdict, attempts)?;
+        }
+        let document = described(&verdict)?;
         if gradable {
             app.store.add(&Submission {
-                id,
+                id: id.clone(),
                 lesson: lesson.slug.clone(),
-                student,
-                submitted_at,
+                student: student.clone(),
+                submitted_at: submitted_at.clone(),
                 answers: serde_json::to_value(&submission.answers).map_err(Problem::internal)?,
-                verdict: document.clone(),
+                verdict: kept,
             })?;
         }
         let status = if gradable { StatusCode::CREATED } else { StatusCode::OK };

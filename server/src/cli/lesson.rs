@@ -7,7 +7,7 @@ use axum::http::StatusCode;
 use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
-use super::terminal::{print_json, print_line};
+use super::terminal::{counted, print_json, print_line};
 use super::{Outcome, Starter};
 use crate::api::unknown_lesson;
 use crate::problem::Problem;
@@ -70,7 +70,11 @@ pub(super) fn check(course: &Course, lesson: Option<&str>, json: bool) -> Result
             ));
         }
         let (n, seconds) = (lessons.len(), rounded(start));
-        print_line(&format!("{n} lessons checked in {seconds} s, {} faults", faults.len()));
+        print_line(&format!(
+            "{} checked in {seconds} s, {}",
+            counted(n, "lesson"),
+            counted(faults.len(), "fault")
+        ));
     }
     Ok(if faults.is_empty() { Outcome::Done } else { Outcome::No })
 }

@@ -14,7 +14,7 @@
       }
       version = state.version;
       box.hidden = state.faults.length === 0;
-      const text = `${state.faults.length} faults\n${state.faults.map((fault) => fault.what).join("\n")}`;
+      const text = `${state.faults.length} fault${state.faults.length === 1 ? "" : "s"}\n${state.faults.map((fault) => fault.what).join("\n")}`;
       if (box.textContent !== text) box.textContent = text;
       if (!box.isConnected) document.body.append(box);
     } catch {

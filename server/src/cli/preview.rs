@@ -17,7 +17,7 @@ use tower::ServiceExt;
 use triad_lessons::Course;
 
 use super::Outcome;
-use super::terminal::print_line;
+use super::terminal::{counted, print_line};
 use crate::app::App;
 use crate::limits::Limits;
 use crate::problem::Problem;
@@ -148,7 +148,7 @@ fn tell(faults: &[Value]) {
     for fault in faults {
         print_line(fault["what"].as_str().unwrap_or_default());
     }
-    print_line(&format!("{} faults", faults.len()));
+    print_line(&counted(faults.len(), "fault"));
 }
 
 fn router(shared: Shared) -> Router {

@@ -63,3 +63,8 @@ impl Drop for Progress {
         self.bar.finish_and_clear();
     }
 }
+
+/// "1 fault", "2 faults".
+pub(super) fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}

@@ -80,6 +80,12 @@ async fn a_right_and_a_wrong_submission_are_graded_kept_and_listed() {
     .await;
     assert_eq!(wrong.json()["passed"], false);
 
+    // Who has passed is told the right answers; others are not, and what is listed for everybody has none.
+    let opened = |document: &Value| document.to_string().matches("reference_html").count();
+    assert_eq!(opened(&verdict), 5, "{verdict}");
+    assert_eq!(opened(&wrong.json()), 0);
+    assert_eq!(opened(&get(&server, "/api/v1/submissions").await.json()), 0);
+
     let all = get(&server, "/api/v1/submissions").await.json();
     assert_eq!(all.as_array().map(Vec::len), Some(2));
     let ada = get(&server, "/api/v1/submissions?student=ada&lesson=simple-pendulum&limit=5").await.json();

@@ -1,9 +1,15 @@
 //! No endpoint tells an answer: everything that a student can ask for is asked for, and every byte is searched.
 
 use std::collections::BTreeSet;
+use std::pin::Pin;
 
+use axum::Router;
+use axum::body::{Body, to_bytes};
+use axum::http::Request;
+use axum::middleware::Next;
+use axum::response::Response;
 use serde_json::{Value, json};
-use triad_lessons::exercise::Body;
+use triad_lessons::exercise::Body as Question;
 use triad_lessons::submission::{Answer, Entry};
 use triad_lessons::{Course, Lesson, reference_submission};
 
@@ -53,13 +59,13 @@ fn secrets(lesson: &Lesson) -> Secrets {
         text(&question.source);
         text(&question.right);
         match &question.body {
-            Body::Quantity(q) => q.misconceptions.iter().for_each(|m| text(&m.feedback)),
-            Body::Choice { options, .. } => options.iter().for_each(|o| text(&o.reason)),
-            Body::Formula(f) => f.misconceptions.iter().for_each(|(.., feedback)| text(feedback)),
-            Body::Model(m) => m.watches().iter().for_each(|w| text(&w.feedback)),
-            Body::Implement(_) | Body::Trajectory(_) | Body::Tuning(_) => {}
+            Question::Quantity(q) => q.misconceptions.iter().for_each(|m| text(&m.feedback)),
+            Question::Choice { options, .. } => options.iter().for_each(|o| text(&o.reason)),
+            Question::Formula(f) => f.misconceptions.iter().for_each(|(.., feedback)| text(feedback)),
+            Question::Model(m) => m.watches().iter().for_each(|w| text(&w.feedback)),
+            Question::Implement(_) | Question::Trajectory(_) | Question::Tuning(_) => {}
         }
-        if let Body::Quantity(q) = &question.body {
+        if let Question::Quantity(q) = &question.body {
             for x in q.reference.iter().chain(q.misconceptions.iter().flat_map(|m| &m.value)) {
                 files.push_str(&format!(" {x:.12} "));
             }
@@ -127,8 +133,10 @@ fn wrong(lesson: &Lesson) -> Value {
     let answers = lesson.exercise.questions.iter().map(|question| {
         let text = |t: &str| Some(Entry::Text(t.to_owned()));
         let answer = match &question.body {
-            Body::Quantity(q) if q.size == [1, 1] => Answer { value: text("123456.7"), ..Answer::default() },
-            Body::Quantity(q) => {
+            Question::Quantity(q) if q.size == [1, 1] => {
+                Answer { value: text("123456.7"), ..Answer::default() }
+            }
+            Question::Quantity(q) => {
                 let row = |n: usize| Entry::List(vec![Entry::Text("123456.7".to_owned()); n]);
                 let value = match q.size {
                     [n, 1] => row(n),
@@ -136,14 +144,14 @@ fn wrong(lesson: &Lesson) -> Value {
                 };
                 Answer { value: Some(value), ..Answer::default() }
             }
-            Body::Choice { .. } => Answer::default(),
-            Body::Formula(f) => {
+            Question::Choice { .. } => Answer::default(),
+            Question::Formula(f) => {
                 Answer { value: text(&format!("12345*{}", f.symbols[0])), ..Answer::default() }
             }
-            Body::Implement(_) | Body::Model(_) | Body::Trajectory(_) => {
+            Question::Implement(_) | Question::Model(_) | Question::Trajectory(_) => {
                 Answer { file: Some("{\"states\": []}".to_owned()), ..Answer::default() }
             }
-            Body::Tuning(t) => Answer {
+            Question::Tuning(t) => Answer {
                 settings: Some(triad_lessons::submission::Settings {
                     integrator: t.integrators[0],
                     tolerance: Entry::Number(0.1),
@@ -157,53 +165,112 @@ fn wrong(lesson: &Lesson) -> Value {
     Value::Object(answers.collect())
 }
 
-#[tokio::test]
-async fn no_endpoint_tells_an_answer() {
-    let server = server();
-    let course = Course::embedded().expect("a course");
-    let document = get(&server, "/api/openapi.json").await.json();
-    let mut asked = 0;
-    for (lesson, seed) in course.lessons().iter().flat_map(|lesson| [(lesson, ""), (lesson, "ada")]) {
+/// Asks for everything that a student of these lessons can ask for; how much was asked, and what was told.
+async fn crawl(server: &Router, lessons: &[Lesson]) -> (usize, Vec<String>) {
+    let document = get(server, "/api/openapi.json").await.json();
+    let (mut asked, mut told) = (0, Vec::new());
+    for (lesson, seed) in lessons.iter().flat_map(|lesson| [(lesson, ""), (lesson, "ada")]) {
         if !seed.is_empty() && !lesson.has_variants() {
             continue;
         }
         let own = if seed.is_empty() { lesson.clone() } else { lesson.variant(seed).expect("a variant") };
         let (secrets, shown) = (secrets(&own), shown(&own));
+        let mut search = |path: &str, reply: &Reply| {
+            // A run shows its numbers: reading them off it is what the student is meant to do.
+            let run = path.contains("/sessions") || path.contains("/scenes/");
+            let found = leaks(&text(reply), &secrets, &shown, !run);
+            asked += 1;
+            told.extend((!found.is_empty()).then(|| format!("{path} tells {found:?}")));
+        };
         let slug = &lesson.slug;
-        let started = post(&server, "/api/v1/sessions", json!({"lesson": slug, "seed": seed})).await.json();
-        let session = started["id"].as_str().unwrap_or("none").to_owned();
+        let path = "/api/v1/sessions";
+        let reply = post(server, path, json!({"lesson": slug, "seed": seed})).await;
+        search(path, &reply);
+        let session = reply.json()["id"].as_str().unwrap_or("none").to_owned();
+        let mut paths = vec!["/".to_owned(), format!("/lessons/{slug}"), "/api/openapi.json".to_owned()];
         for question in &own.exercise.questions {
-            for path in addresses(&document, slug, &question.id, &session, seed) {
-                let reply = get(&server, &path).await;
-                // A run shows its numbers: reading them off it is what the student is meant to do.
-                let run = path.contains("/sessions/") || path.contains("/scenes/");
-                let found = leaks(&text(&reply), &secrets, &shown, !run);
-                assert!(found.is_empty(), "{path} tells {found:?}");
-                asked += 1;
-            }
-            for k in 1..=question.hints.len() {
-                let path = format!("/api/v1/lessons/{slug}/questions/{}/hints/{k}?seed={seed}", question.id);
-                let found = leaks(&text(&get(&server, &path).await), &secrets, &shown, true);
-                assert!(found.is_empty(), "{path} tells {found:?}");
-            }
+            paths.extend(addresses(&document, slug, &question.id, &session, seed));
+            paths.extend(
+                (1..=question.hints.len()).map(|k| {
+                    format!("/api/v1/lessons/{slug}/questions/{}/hints/{k}?seed={seed}", question.id)
+                }),
+            );
+        }
+        for path in paths {
+            let reply = get(server, &path).await;
+            search(&path, &reply);
         }
         let path = format!("/api/v1/lessons/{slug}/submissions");
         for answers in [json!({}), wrong(&own)] {
             let reply =
-                post(&server, &path, json!({"student": "eve", "seed": seed, "answers": answers})).await;
-            let found = leaks(&text(&reply), &secrets, &shown, true);
-            assert!(found.is_empty(), "a wrong submission to {slug} is told {found:?}: {}", text(&reply));
+                post(server, &path, json!({"student": "eve", "seed": seed, "answers": answers})).await;
+            search(&path, &reply);
         }
         crate::send(
-            &server,
-            axum::http::Request::delete(format!("/api/v1/sessions/{session}"))
-                .body(axum::body::Body::empty())
-                .expect("a request"),
+            server,
+            Request::delete(format!("/api/v1/sessions/{session}")).body(Body::empty()).expect("a request"),
         )
         .await;
     }
+    (asked, told)
+}
+
+#[tokio::test]
+async fn no_endpoint_tells_an_answer() {
+    let course = Course::embedded().expect("a course");
+    let (asked, told) = crawl(&server(), course.lessons()).await;
+    assert!(told.is_empty(), "{told:#?}");
     println!("{asked} answers of the server searched");
     assert!(asked > 500);
+}
+
+/// A server that lets something slip at one address is caught by the same crawl.
+#[tokio::test]
+async fn a_leak_at_any_address_is_found() {
+    let course = Course::embedded().expect("a course");
+    let lesson = course.lesson("simple-pendulum").expect("the lesson");
+    let right = inside(&lesson.question("tension-bottom").expect("the question").right);
+    for (path, leak) in [
+        ("/api/v1/lessons", "2.36784194757"),
+        ("/api/v1/lessons/simple-pendulum", "2.36784194757"),
+        ("/api/v1/lessons/simple-pendulum/questions/period/hints/1", "2.36784194757"),
+        ("/api/v1/lessons/simple-pendulum/submissions", "2.36784194757"),
+        ("/api/openapi.json", "2.36784194757"),
+        ("/lessons/simple-pendulum", "2.36784194757"),
+        ("/api/v1/sessions", right.as_str()),
+    ] {
+        let leaking = server().layer(axum::middleware::from_fn(leak_at(path, leak)));
+        let (_, told) = crawl(&leaking, std::slice::from_ref(lesson)).await;
+        assert!(!told.is_empty(), "{leak} at {path} was not found");
+        assert!(told.iter().all(|t| t.split(['?', ' ']).next() == Some(path)), "{told:#?}");
+    }
+}
+
+/// Puts a text into what is answered at one address, as a careless field would.
+fn leak_at(
+    path: &str,
+    leak: &str,
+) -> impl Fn(Request<Body>, Next) -> Pin<Box<dyn Future<Output = Response> + Send>> + Clone + use<> {
+    let (path, leak) = (path.to_owned(), format!(" {{\"leak\": \"{leak}\"}}"));
+    move |request, next| {
+        let here = request.uri().path() == path;
+        let leak = leak.clone();
+        Box::pin(async move {
+            let response = next.run(request).await;
+            if !here {
+                return response;
+            }
+            let (parts, body) = response.into_parts();
+            let bytes = to_bytes(body, 64 << 20).await.expect("a body");
+            let object = String::from_utf8_lossy(&bytes).into_owned();
+            // Into the object, so that it stays JSON for those who read it.
+            let bytes = match object.strip_suffix('}') {
+                Some(open) if open.len() > 1 => format!("{open}, \"leak\": {leak}}}"),
+                _ => object + &leak,
+            };
+            Response::from_parts(parts, Body::from(bytes))
+        })
+    }
 }
 
 /// The search finds what it is for: put into a reply, each kind of secret is seen.

@@ -312,6 +312,8 @@ export interface QuestionVerdict {
   message_html: string;
   /** A picture that the grader drew. */
   figure_svg?: string;
+  /** The right answer and its source, where the author opens it. */
+  reference_html?: string;
 }
 
 export interface Verdict {

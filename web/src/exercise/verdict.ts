@@ -25,6 +25,8 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
     h("p", { class: "verdict-head" }, icon(mark), h("strong", null, word),
       h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`)),
     text.textContent ? text : null,
+    result.reference_html
+      ? h("details", { class: "reference" }, h("summary", null, "The reference answer"), authored(h("div", { class: "verdict-text" }), result.reference_html)) : null,
     result.figure_svg ? authored(h("div", { class: "verdict-figure" }), result.figure_svg) : null);
 }
 

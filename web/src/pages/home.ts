@@ -8,6 +8,7 @@ import type { LessonSummary, Verdict } from "../core/types";
 import { heroDrawing } from "../ui/hero";
 import { icon } from "../ui/icons";
 import { empty, problemNotice, skeleton } from "../ui/notice";
+import { lastPlace } from "./place";
 
 interface Best {
   earned: number;
@@ -20,6 +21,7 @@ export function homePage(outlet: HTMLElement): Page {
   const leaving = new AbortController();
   const list = h("div", { class: "contents", "aria-busy": "true" }, skeleton(8));
   const progress = h("p", { class: "contents-progress" });
+  const place = lastPlace();
 
   outlet.append(h("div", { class: "page home" },
     h("section", { class: "hero" },
@@ -27,7 +29,8 @@ export function homePage(outlet: HTMLElement): Page {
         h("h1", null, "Mechanisms in space, one constraint at a time"),
         h("p", { class: "lead" },
           "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
-          "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.")),
+          "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints."),
+        place ? h("p", { class: "go-on" }, h("a", { class: "button primary", href: place.href }, `Go on with “${place.title}”`)) : null),
       heroDrawing()),
     h("section", { "aria-labelledby": "lessons-title" },
       h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), progress),

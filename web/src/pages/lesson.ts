@@ -8,6 +8,7 @@ import type { Lesson, LessonSummary, Scene } from "../core/types";
 import { askedView } from "../ui/asked";
 import { problemNotice, skeleton } from "../ui/notice";
 import { exerciseSection } from "../exercise/exercise";
+import { keepPlace } from "./place";
 import { steps } from "./steps";
 
 const MATHS_PATIENCE_MS = 350;
@@ -40,6 +41,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       await setMaths(text);
       await setMaths(exercise);
       if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
+      undo.push(keepPlace(slug, lesson.title));
       await afterPaint();
       void showNeighbours(text, exercise, slug, leaving.signal);
       if (leaving.signal.aborted) return;

@@ -16,7 +16,7 @@ export function steps(lesson: Lesson): HTMLElement[] {
     if (step.kind === "check") item.append(again);
     return item;
   });
-  return [h("section", { class: "prose steps" },
+  return [h("section", { class: "prose steps", id: "steps" },
     h("h2", null, "Work with the mechanism"),
     h("p", { class: "help" }, "What you write here is for you: it stays in this browser and is not graded."),
     h("ol", null, ...items),

@@ -15,6 +15,8 @@ interface Piece {
 const GROUND = "ground";
 const WIDTH = 800;
 const HEIGHT = 500;
+/** Room around a body that flies out of the picture. */
+const MARGIN = 120;
 
 export interface Sketch {
   root: SVGSVGElement;
@@ -91,6 +93,20 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
   };
 
   let last: SessionState | undefined;
+  // The picture grows when a body flies out of it, and stays so until it is drawn anew.
+  let frame: [number, number, number, number] = [0, 0, WIDTH, HEIGHT];
+  const follow = (state: SessionState): void => {
+    let [left, top, right, bottom] = frame;
+    for (const body of state.bodies) {
+      const [x, y] = project(body.position);
+      if (!Number.isFinite(x + y)) continue;
+      if (x < 0 || x > WIDTH) [left, right] = [Math.min(left, x - MARGIN), Math.max(right, x + MARGIN)];
+      if (y < 0 || y > HEIGHT) [top, bottom] = [Math.min(top, y - MARGIN), Math.max(bottom, y + MARGIN)];
+    }
+    if ([left, top, right, bottom].every((side, at) => side === frame[at])) return;
+    frame = [left, top, right, bottom];
+    root.setAttribute("viewBox", `${left} ${top} ${right - left} ${bottom - top}`);
+  };
 
   return {
     root,
@@ -108,6 +124,8 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
     rebuild: (changed) => {
       scene = changed;
       pieces = undefined;
+      frame = [0, 0, WIDTH, HEIGHT];
+      root.setAttribute("viewBox", frame.join(" "));
     },
     update: (state) => {
       last = state;
@@ -118,6 +136,7 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
         const axes: Axes = [frame.u, frame.v, frame.w];
         piece.place(piece.points.map((point) => project(add(frame.position, out(axes, point)))));
       }
+      follow(state);
       for (const layer of over) layer.update(state, project, perMetre);
     },
   };
