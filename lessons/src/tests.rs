@@ -156,7 +156,6 @@ fn checks_complain_with_place_and_remedy() {
         ("exercise.toml", "value = 9.81\n", "value = 29.5\n", "the misconception static is a right answer"),
         ("reference/answers.toml", "error = 1e-12", "error = 0.1", "at least ten times the error"),
         ("scene.json", "-9.81", "-9.80", "the scene shows"),
-        ("scene.json", "\"revolute\"", "\"hinge\"", "hinge"),
         ("scene.json", "[0, 0, 1], \"rows\"", "[0, 0, 0], \"rows\"", "pin"),
         ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be told apart"),
         ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
@@ -182,6 +181,13 @@ fn checks_complain_with_place_and_remedy() {
             "a hint is missing or empty",
         ),
         ("lesson.toml", "minutes = 30", "minutes = 90", "10 to 40 minutes"),
+        (
+            "lesson.toml",
+            "kind = \"run\"",
+            "kind = \"check\"",
+            "the steps are not predict, run, check, explain",
+        ),
+        ("lesson.md", "## A hinge", "A $ sign\n\n## A hinge", "lesson.md:1: a $ is left"),
     ] {
         // The prerequisite is not part of this small course; that complaint is always there.
         let problems = broken(path, from, to).unwrap_or_else(|e| panic!("{path}: {e}"));
@@ -196,8 +202,9 @@ fn what_cannot_be_read_names_file_and_line() {
         ("exercise.toml", "unit = \"N\"", "unit = \"Newton\"", "did you mean N?"),
         ("exercise.toml", "id = \"period\"", "id = \"tension-bottom\"", "used twice"),
         ("reference/answers.toml", "[period]", "[periode]", "question period: it has no reference"),
-        ("reference/answers.toml", "ellipk(1/2)", "ellipq(1/2)", "ellipq"),
+        ("reference/answers.toml", "ellipk(1/2)", "ellipq(1/2)", "reference/answers.toml, line"),
         ("scene.json", "\"name\"", "name", "scene.json, line 2"),
+        ("scene.json", "\"revolute\"", "\"hinge\"", "02-simple-pendulum/scene.json, line"),
         ("lesson.toml", "minutes = 30", "minutes = \"30\"", "lesson.toml, line"),
     ] {
         let error = broken(path, from, to).unwrap_err();
