@@ -58,7 +58,10 @@ fn course() -> Course {
         ("course.toml", "format_version = 1\ntitle = \"x\"\n"),
         ("01-kinds/lesson.toml", lesson),
         ("01-kinds/lesson.md", "text\n"),
-        ("01-kinds/scene.json", "{}"),
+        (
+            "01-kinds/scene.json",
+            r#"{"name": "one", "bodies": [{"name": "a", "mass": 1, "inertia": {"principal": [1, 1, 1]}}]}"#,
+        ),
         ("01-kinds/exercise.toml", EXERCISE),
         ("01-kinds/reference/answers.toml", REFERENCES),
     ];
