@@ -1,4 +1,5 @@
-//! Measures a lecture: delay, bytes, frames a second, memory and the server's share of the processor.
+//! Measures a lecture: delay, bytes, frames a second, memory and the server's share of the processor. A run that has come
+//! to its end is started anew, as a presenter does who shows it again.
 //!
 //! ```sh
 //! cargo run --release -p triad-tests --example lecture -- [FOLLOWERS] [SECONDS] [SCENE]
@@ -36,7 +37,13 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
     let session = format!("/api/v1/sessions/{}", lecture.session);
     server.post(&format!("{session}/play"), &json!({}));
     let (busy, began) = (server.processor_time(), Instant::now());
+    let mut runs = 1;
     while Instant::now() + Duration::from_millis(300) < end {
+        if server.get(&session).json()["playing"] == false {
+            server.post(&format!("{session}/reset"), &json!({}));
+            server.post(&format!("{session}/play"), &json!({}));
+            runs += 1;
+        }
         let view = json!({"view": {"mark": start.elapsed().as_secs_f64()}});
         assert_eq!(lecture.lead(&server, "PUT", "view", &view).status, 204);
         std::thread::sleep(Duration::from_millis(250));
@@ -51,7 +58,7 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
     let mean = |of: fn(&Seen) -> usize| seen.iter().map(of).sum::<usize>() as f64 / seen.len() as f64;
     let wall = length.as_secs_f64();
     println!(
-        "{scene}, {followers} followers, {wall} s, {}",
+        "{scene}, {followers} followers, {wall} s, {runs} runs, {}",
         if recording { "3-D view" } else { "sketch only" }
     );
     println!("  joined in              {:.2} s", joining.as_secs_f64());
