@@ -84,8 +84,6 @@ pub struct Elimination {
     /// Whether the current factor is that of a regularized S.
     regularized: bool,
     lends: bool,
-    /// Smallest relative pivot of the current factor.
-    pub smallest_pivot: f64,
     /// Work done so far.
     pub counters: Counters,
 }
@@ -139,7 +137,6 @@ impl Elimination {
             redundant: false,
             regularized: false,
             lends: system.lends_inertia(),
-            smallest_pivot: f64::INFINITY,
             counters: Counters::default(),
         };
         elimination.set_time(system, 0.0);
@@ -149,6 +146,17 @@ impl Elimination {
     /// Says that S is singular at every state, so that the regularization is not tried for first.
     pub fn set_redundant(&mut self, redundant: bool) {
         self.redundant = redundant;
+    }
+
+    /// Says which solver rows depend on others at every state, so that S is singular there.
+    pub fn set_dependent(&mut self, rows: &[usize]) {
+        self.redundant = !rows.is_empty();
+        self.factor.set_dependent(rows);
+    }
+
+    /// How firmly each joint holds at the positions that were factored last: see [`BlockCholesky::holds`].
+    pub fn holds(&self) -> &[f64] {
+        self.factor.holds()
     }
 
     /// Whether S is regularized at every state.

@@ -5,6 +5,7 @@ use crate::integrate::Stop;
 use crate::model::ModelError;
 use crate::scene::SceneError;
 use crate::uniqueness::UniquenessError;
+use std::fmt;
 
 /// Any failure of the engine: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,40 +56,60 @@ pub enum EngineError {
         limit: f64,
     },
     /// The step control found no step that meets the tolerance.
-    #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance")]
+    #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance{last}")]
     StepTooSmall {
         /// Time, s.
         time: f64,
         /// The step that was refused, s.
         step: f64,
+        /// What the last good state tells.
+        last: LastGood,
     },
     /// The accelerations are no longer finite.
-    #[error("the run diverges at t = {time:.6} s: accelerations are no longer finite numbers")]
+    #[error("the run diverges at t = {time:.6} s: accelerations are no longer finite numbers{last}")]
     Diverged {
         /// Time, s.
         time: f64,
+        /// What the last good state tells.
+        last: LastGood,
     },
     /// The equations of an implicit step cannot be solved.
     #[error(
-        "the integration stops at t = {time:.6} s: the equations of a step of {step:.1e} s cannot be solved"
+        "the integration stops at t = {time:.6} s: the equations of a step of {step:.1e} s cannot be solved{last}"
     )]
     NoConvergence {
         /// Time, s.
         time: f64,
         /// The step that was tried, s.
         step: f64,
+        /// What the last good state tells.
+        last: LastGood,
+    },
+    /// Steps have become so small that the run would never end.
+    #[error(
+        "the run stalls at t = {time:.6} s: its steps have shrunk to {step:.1e} s, and more than 1e9 of them are left{last}"
+    )]
+    Stalled {
+        /// Time, s.
+        time: f64,
+        /// Their size, s.
+        step: f64,
+        /// What the last good state tells.
+        last: LastGood,
     },
     /// There are no independent coordinates to integrate.
     #[error(
-        "at t = {time:.6} s no independent coordinates can be chosen: nothing is free to move, or a singular position leaves open what is"
+        "at t = {time:.6} s no independent coordinates can be chosen: nothing is free to move, or a singular position leaves open what is{last}"
     )]
     Undetermined {
         /// Time, s.
         time: f64,
+        /// What the last good state tells.
+        last: LastGood,
     },
     /// The constraints can no longer be satisfied.
     #[error(
-        "the run stops at t = {time:.6} s: joint \"{joint}\" is open by {violation:.3e} of the mechanism's size{}",
+        "the run stops at t = {time:.6} s: joint \"{joint}\" is open by {violation:.3e} of the mechanism's size{}{last}",
         contradiction(with)
     )]
     ConstraintsLost {
@@ -100,6 +121,8 @@ pub enum EngineError {
         with: Vec<String>,
         /// Largest violation relative to the size of the row.
         violation: f64,
+        /// What the last good state tells.
+        last: LastGood,
     },
     /// The run has used up the steps that it was given.
     #[error("the run stops at t = {time:.6} s: its {steps} steps are used up")]
@@ -130,18 +153,47 @@ fn contradiction(with: &[String]) -> String {
     format!(", and with it {}", names.join(", "))
 }
 
-impl From<Stop> for EngineError {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::StepTooSmall { time, step } => Self::StepTooSmall { time, step },
-            Stop::NotFinite { time } => Self::Diverged { time },
-            Stop::NoConvergence { time, step } => Self::NoConvergence { time, step },
-            Stop::Undetermined { time } => Self::Undetermined { time },
+/// What the last good state of a run tells about its end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LastGood {
+    /// Accepted steps until then.
+    pub steps: u64,
+    /// The joint or driver whose rows are nearest to depending on others there, and the product of their relative pivots, if
+    /// it is small.
+    pub nearest: Option<(String, f64)>,
+}
+
+impl fmt::Display for LastGood {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, " (after {} step{}", self.steps, if self.steps == 1 { "" } else { "s" })?;
+        if let Some((joint, hold)) = &self.nearest {
+            write!(f, "; joint \"{joint}\" is about to lose its hold, of which {hold:.0e} is left")?;
         }
+        f.write_str(")")
     }
 }
 
 impl EngineError {
+    /// A stop of an integrator, told with the last good state.
+    pub fn stopped(stop: Stop, last: LastGood) -> Self {
+        match stop {
+            Stop::StepTooSmall { time, step } => Self::StepTooSmall { time, step, last },
+            Stop::NotFinite { time } => Self::Diverged { time, last },
+            Stop::NoConvergence { time, step } => Self::NoConvergence { time, step, last },
+            Stop::Undetermined { time } => Self::Undetermined { time, last },
+            Stop::Stalled { time, step } => Self::Stalled { time, step, last },
+        }
+    }
+
+    /// The same error, told with the last good state.
+    #[must_use]
+    pub fn after(mut self, good: LastGood) -> Self {
+        if let Self::Diverged { last, .. } | Self::ConstraintsLost { last, .. } = &mut self {
+            *last = good;
+        }
+        self
+    }
+
     /// Stable name of the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
@@ -159,6 +211,7 @@ impl EngineError {
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
             Self::NoConvergence { .. } => "no-convergence",
+            Self::Stalled { .. } => "stalled",
             Self::Undetermined { .. } => "undetermined-motion",
             Self::ConstraintsLost { .. } => "constraints-lost",
             Self::StepLimit { .. } => "step-limit",
@@ -207,7 +260,12 @@ impl EngineError {
                 "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
                     .to_owned()
             }
-            Self::StepTooSmall { .. } | Self::Diverged { .. } => {
+            Self::StepTooSmall { last, .. } | Self::Stalled { last, .. } if last.nearest.is_some() => {
+                "Look at the last good state: the mechanism comes to a position from which its joints or drivers allow no \
+                 way on. Let a driver ask for less, change lengths, or end the run before."
+                    .to_owned()
+            }
+            Self::StepTooSmall { .. } | Self::Stalled { .. } | Self::Diverged { .. } => {
                 "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
                  joint that locks or a body that is far too light."
                     .to_owned()

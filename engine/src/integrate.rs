@@ -9,6 +9,7 @@ mod in_chart;
 mod matlab;
 mod method;
 mod penalty;
+mod progress;
 mod radau;
 mod rattle;
 mod stepper;
@@ -56,6 +57,13 @@ pub enum Stop {
     NotFinite {
         /// Time, s.
         time: f64,
+    },
+    /// Steps have become so small that the run would never end.
+    Stalled {
+        /// Time, s.
+        time: f64,
+        /// Their size, s.
+        step: f64,
     },
     /// Which motions the constraints leave free cannot be told, or there are none.
     Undetermined {

@@ -21,6 +21,7 @@ mod projection;
 mod recurrence;
 mod rows;
 mod schur;
+mod scout;
 mod slot;
 mod step;
 
@@ -103,10 +104,10 @@ pub struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     dependent: Dependent,
     regularized: bool,
     lends: bool,
-    /// Smallest relative pivot at the point of expansion.
-    pub smallest_pivot: f64,
     /// Work done so far.
     pub counters: Counters,
+    /// Where S is looked at elsewhere without touching the factor at hand.
+    scout: Option<Box<Self>>,
 }
 
 impl<const L: usize> Series<L> {
@@ -169,8 +170,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             dependent: if redundant { Dependent::Shifted } else { Dependent::None },
             regularized: false,
             lends: system.lends_inertia(),
-            smallest_pivot: f64::INFINITY,
             counters: Counters::default(),
+            scout: None,
         }
     }
 
@@ -192,9 +193,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         loop {
             self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
             let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
-            self.smallest_pivot = self.schur.factor.factor(epsilon, 0.0);
+            let smallest = self.schur.factor.factor(epsilon, 0.0);
             self.counters.factorizations += 1;
-            if self.regularized || self.smallest_pivot >= NEAR_SINGULAR {
+            if self.regularized || smallest >= NEAR_SINGULAR {
                 return;
             }
             self.regularized = true;

@@ -14,7 +14,7 @@ pub use summary::Summary;
 
 use crate::balance;
 use crate::elimination::Counters;
-use crate::error::EngineError;
+use crate::error::{EngineError, LastGood};
 use crate::event::Happening;
 use crate::integrate::{self, Integrator};
 use crate::jacobian::Jacobian;
@@ -24,6 +24,9 @@ use crate::passage::{Passage, Watch};
 use crate::rank::{self, Rank};
 use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
+
+/// A relative pivot below which an error names the joint that it belongs to.
+const NEARLY_DEPENDENT: f64 = 1e-4;
 
 /// A scene that runs.
 #[derive(Clone, Debug)]
@@ -56,8 +59,6 @@ pub struct Simulation {
     counted: explain::Counted,
     /// Looks out for singular positions.
     watch: Watch,
-    /// Whether singular passages are looked for.
-    watches_passages: bool,
 }
 
 impl Simulation {
@@ -83,7 +84,7 @@ impl Simulation {
                 rank.rank - rank.at_start
             ));
         }
-        mechanism.elimination.set_redundant(!rank.dependent.is_empty());
+        mechanism.elimination.set_dependent(&rank.dependent);
         mechanism.elimination.counters = Counters::default();
         mechanism.set_state(0.0, &start);
         let start_energy = mechanism.elimination.energy(&mechanism.system);
@@ -91,7 +92,7 @@ impl Simulation {
         mechanism.elimination.counters = Counters::default();
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
-        let watch = Watch::new(&mechanism.system, &rank);
+        let watch = Watch::new(&mut mechanism, &rank);
         let exchanges_energy = balance::exchanges_energy(&mechanism.system);
         let looks = exchanges_energy || !mechanism.system.watches.is_empty();
         let scratch = vec![0.0; if looks { 4 * n } else { 0 }];
@@ -116,7 +117,6 @@ impl Simulation {
             jacobian: None,
             counted: explain::Counted::default(),
             watch,
-            watches_passages: false,
         }
         .watching())
     }
@@ -266,20 +266,41 @@ impl Simulation {
             return Err(EngineError::StepLimit { time: self.integrator.time(), steps: self.step_limit });
         }
         self.work += self.work_of_last_step(self.integrator.time());
-        self.integrator.step(&mut self.mechanism, end)?;
+        if let Err(stop) = self.integrator.step(&mut self.mechanism, end) {
+            let last = self.show_last_good(self.integrator.time(), self.integrator.steps().accepted);
+            return Err(EngineError::stopped(stop, last));
+        }
         let skip = self.model().settings.skip;
         if !(skip.checks && self.integrator.proves_constraints()) {
             self.counted.checks += 1;
-            self.mechanism.check(self.integrator.time(), self.integrator.state())?;
+            let time = self.integrator.time();
+            if let Err(error) = self.mechanism.check(time, self.integrator.state()) {
+                let start = time - self.integrator.last_step();
+                let last = self.show_last_good(start, self.integrator.steps().accepted.saturating_sub(1));
+                return Err(error.after(last));
+            }
         }
-        if self.watches_passages {
-            self.watch.step(&mut self.mechanism, &mut self.integrator);
-        }
+        self.watch.step(&mut self.mechanism, &mut self.integrator);
         self.look_for_events();
         if !skip.reports {
             self.report_step();
         }
         Ok(())
+    }
+
+    /// Shows the last good state of a run that cannot go on, and tells what it is like.
+    fn show_last_good(&mut self, time: f64, steps: u64) -> LastGood {
+        if time >= self.time {
+            self.show(time);
+        }
+        let Self { mechanism, shown, .. } = self;
+        mechanism.set_state(self.time, shown);
+        let Mechanism { system, elimination, .. } = mechanism;
+        elimination.keep_holds();
+        let holds = elimination.holds_here(system).iter().zip(&system.groups);
+        let least = holds.min_by(|a, b| a.0.total_cmp(b.0)).filter(|(hold, _)| **hold < NEARLY_DEPENDENT);
+        let nearest = least.map(|(hold, group)| (group.name.clone(), *hold));
+        LastGood { steps, nearest }
     }
 
     /// Finds what is otherwise found when somebody asks, at the end of the last step.
@@ -293,14 +314,14 @@ impl Simulation {
         self.counted.reports += 1;
     }
 
-    /// From now on looks for singular positions that are passed: one more factorization a step, or more near one.
-    pub fn watch_passages(&mut self) {
-        self.watches_passages = true;
+    /// Singular positions passed since the start.
+    pub fn passages(&self) -> Vec<Passage> {
+        self.watch.passages(self.system())
     }
 
-    /// Singular positions passed since the start.
-    pub fn passages(&self) -> &[Passage] {
-        self.watch.passages()
+    /// Places inside steps that were looked at in the search for singular positions.
+    pub fn looks(&self) -> u64 {
+        self.watch.looks()
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t, J.

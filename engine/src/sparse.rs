@@ -76,6 +76,10 @@ pub struct BlockCholesky {
     relative: Vec<f64>,
     /// A diagonal block, where rows that depend on others are looked for.
     scratch: Vec<f64>,
+    /// Scalar rows that are known to depend on others at every state.
+    known_dependent: Vec<usize>,
+    /// Products of the relative pivots of each block, if they are wanted.
+    holds: Option<Vec<f64>>,
 }
 
 impl BlockCholesky {
@@ -112,6 +116,8 @@ impl BlockCholesky {
             diagonal_at: vec![0; sizes.iter().sum()],
             relative: vec![0.0; sizes.iter().sum()],
             scratch: vec![0.0; sizes.iter().map(|size| size * size).max().unwrap_or(0)],
+            known_dependent: Vec::new(),
+            holds: None,
         };
         factor.lay_out(sizes, &start, &order, &fill);
         factor.write_updates();
@@ -218,6 +224,33 @@ impl BlockCholesky {
     /// Blocks of L, with fill.
     pub fn blocks(&self) -> usize {
         self.columns.len() + self.below.len()
+    }
+
+    /// Says which scalar rows, in ascending order, depend on others at every state. [`Self::factor`] leaves them out, unless it is given ε or is
+    /// to find out itself.
+    pub fn set_dependent(&mut self, rows: &[usize]) {
+        self.known_dependent = rows.to_vec();
+    }
+
+    /// From now on keeps the holds.
+    pub fn keep_holds(&mut self) {
+        self.holds = Some(vec![1.0; self.columns.len()]);
+    }
+
+    /// Of each block, the product of the relative pivots of its rows that do not depend on others, in the last
+    /// factorization: zero where one of them loses its hold. Empty unless they are kept.
+    pub fn holds(&self) -> &[f64] {
+        self.holds.as_deref().unwrap_or_default()
+    }
+
+    fn find_holds(&mut self) {
+        let Self { holds: Some(holds), columns, rank, relative, known_dependent, .. } = self else { return };
+        for (hold, &place) in holds.iter_mut().zip(&*rank) {
+            let Column { size, start, .. } = columns[place];
+            let counts =
+                |row: &usize| relative[*row].is_finite() && known_dependent.binary_search(row).is_err();
+            *hold = (start..start + size).filter(counts).map(|row| relative[row]).product();
+        }
     }
 
     /// Finds out how many rows of each block depend on others, at a state that stands for all; S is used up. Returns how

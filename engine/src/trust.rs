@@ -4,7 +4,7 @@
 //! micrometres is held as strictly as one of kilometres.
 
 use crate::elimination::Elimination;
-use crate::error::EngineError;
+use crate::error::{EngineError, LastGood};
 use crate::row::{Difference, Form};
 use crate::scene::Stabilization;
 use crate::system::System;
@@ -60,10 +60,11 @@ pub fn check(system: &System, at: &Elimination, time: f64) -> Result<(), EngineE
     }
     let opening = opening(system, at);
     if !opening.relative.is_finite() {
-        return Err(EngineError::Diverged { time });
+        return Err(EngineError::Diverged { time, last: LastGood::default() });
     }
     let (joint, with) = opening.names(system);
-    Err(EngineError::ConstraintsLost { time, joint, with, violation: opening.relative })
+    let (violation, last) = (opening.relative, LastGood::default());
+    Err(EngineError::ConstraintsLost { time, joint, with, violation, last })
 }
 
 /// Largest |Φ| of the positions in place, relative to the size of its row; allocates nothing.

@@ -68,13 +68,20 @@ fn each_method_has_its_order_on_constrained_mechanisms() {
         (Trapezoidal, augmented, 2.0, 0.005),
     ];
     for (integrator, treatment, expected, step) in cases {
-        let found = order("spatial-double-pendulum", integrator, treatment, step);
-        println!("{integrator:?} {}: {found:.2}", treatment.word());
-        assert!(
-            found > expected - 0.6 && found < expected + 1.8,
-            "{integrator:?} with {}: order {found:.2} instead of {expected}",
-            treatment.word()
-        );
+        let check = |name: &str, step: f64, most: f64| {
+            let found = order(name, integrator, treatment, step);
+            println!("{name} {integrator:?} {}: {found:.2}", treatment.word());
+            assert!(
+                found > expected - 0.6 && found < most,
+                "{name}, {integrator:?} with {}: order {found:.2} instead of {expected}",
+                treatment.word()
+            );
+        };
+        check("spatial-double-pendulum", step, expected + 1.8);
+        // A closed loop moves more slowly at first: its steps are longer, so that the errors stand above rounding, and
+        // where that leaves only two or three of them the order may seem higher than it is.
+        let few = integrator == Dop853 && treatment == Stabilization::Partitioning;
+        check("n-four-bar:2", if few { 3.0 } else { 2.0 } * step, expected + 2.5);
     }
 }
 
@@ -125,13 +132,15 @@ fn rattle_keeps_momentum_and_its_energy_error_has_no_slope() {
 
 #[test]
 fn rattle_is_symmetric_in_time() {
-    for name in ["spatial-chain:3", "spatial-double-pendulum"] {
-        let mut scene = treated(scene(name, 2.0), IntegratorKind::Rattle, Stabilization::Projection);
+    for name in ["spatial-chain:3", "spatial-double-pendulum", "n-four-bar:2"] {
+        // The loop only as far as its first singular position.
+        let duration = if name == "n-four-bar:2" { 0.6 } else { 2.0 };
+        let mut scene = treated(scene(name, duration), IntegratorKind::Rattle, Stabilization::Projection);
         scene.simulation.step = Some(0.02);
         let start = Simulation::new(&scene).unwrap().frame();
         let (_, run) = end(&scene);
         let mut back = run.turned_back();
-        back.advance_to(2.0).unwrap();
+        back.advance_to(duration).unwrap();
         let apart = apart(&start, &back.frame());
         println!("{name}: {apart:.1e}");
         assert!(apart < 1e-10, "{name}: {apart:.1e}");

@@ -227,7 +227,6 @@ async function trouble() {
   // A run that cannot go on: the slider is driven farther than its rod is long.
   const scene = await page.evaluate(async () => (await fetch("/api/v1/scenes/spatial-slider-crank")).json());
   scene.drivers = [{ type: "slide", name: "push", joint: "D", motion: { kind: "ramp", start: 0.2, rate: 1 } }];
-  scene.simulation = { ...scene.simulation, integrator: "dop853" };
   await page.evaluate((text) => localStorage.setItem("triad:scene-draft", text), JSON.stringify(scene));
   await page.goto(`${address}/scenes/own`);
   const outcome = page.locator(".trouble .notice, .check .notice").first();

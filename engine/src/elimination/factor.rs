@@ -9,31 +9,49 @@ use nalgebra::{Matrix3, Vector3};
 impl Elimination {
     /// Builds A, S and its factor at the current positions.
     pub fn linearize(&mut self, system: &System) {
+        self.set_up(system);
+        self.regularized = self.redundant;
+        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
+        self.assemble(system);
+        let smallest = self.factor.factor(epsilon, 0.0);
+        self.counters.factorizations += 1;
+        if !self.redundant && smallest < NEAR_SINGULAR {
+            self.regularized = true;
+            self.assemble(system);
+            self.factor.factor(REGULARIZATION, 0.0);
+            self.counters.factorizations += 1;
+        }
+    }
+
+    /// Relative pivots of S at the current positions, with dependent rows dropped: (solver row, pivot). The factor is
+    /// none to solve with.
+    pub fn pivots(&mut self, system: &System, skip: f64) -> Vec<(usize, f64)> {
+        self.set_up(system);
+        self.assemble(system);
+        self.factor.factor(0.0, skip);
+        self.factor.relative_pivots().iter().copied().enumerate().collect()
+    }
+
+    /// From now on keeps how firmly joints hold.
+    pub fn keep_holds(&mut self) {
+        self.factor.keep_holds();
+    }
+
+    /// How firmly each joint holds at the current positions: see [`crate::sparse::BlockCholesky::holds`]. The factor is
+    /// none to solve with.
+    pub fn holds_here(&mut self, system: &System) -> &[f64] {
+        self.set_up(system);
+        self.assemble(system);
+        self.factor.factor(0.0, 0.0);
+        self.factor.holds()
+    }
+
+    fn set_up(&mut self, system: &System) {
         self.fill_blocks(system);
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
             state.inverse = inverse_inertia(&state.q, &body.ibar, body.lent);
         }
         self.scale_blocks(system);
-        self.regularized = self.redundant;
-        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
-        self.assemble(system);
-        let mut smallest = self.factor.factor(epsilon, 0.0);
-        self.counters.factorizations += 1;
-        if !self.redundant && smallest < NEAR_SINGULAR {
-            self.regularized = true;
-            self.assemble(system);
-            smallest = self.factor.factor(REGULARIZATION, 0.0);
-            self.counters.factorizations += 1;
-        }
-        self.smallest_pivot = smallest;
-    }
-
-    /// Relative pivots of S at the current positions, with dependent rows dropped: (solver row, pivot).
-    pub fn pivots(&mut self, system: &System, skip: f64) -> Vec<(usize, f64)> {
-        self.linearize(system);
-        self.assemble(system);
-        self.factor.factor(0.0, skip);
-        self.factor.relative_pivots().iter().copied().enumerate().collect()
     }
 
     pub(super) fn fill_blocks(&mut self, system: &System) {

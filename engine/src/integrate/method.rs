@@ -2,6 +2,7 @@
 
 use super::chart::Choice;
 use super::in_chart::{InChart, Method};
+use super::progress::Progress;
 use super::stepper::Halted;
 use super::taylor::Saved;
 use super::{
@@ -10,16 +11,20 @@ use super::{
 };
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
+use crate::passage::Stepped;
 use crate::scene::{IntegratorKind, Stabilization};
 use crate::system::System;
 
 /// An integrator at work.
 #[derive(Debug)]
-pub struct Integrator(Box<dyn Stepper>);
+pub struct Integrator {
+    stepper: Box<dyn Stepper>,
+    progress: Progress,
+}
 
 impl Clone for Integrator {
     fn clone(&self) -> Self {
-        Self(self.0.boxed())
+        Self { stepper: self.stepper.boxed(), progress: self.progress.clone() }
     }
 }
 
@@ -98,43 +103,45 @@ impl Integrator {
     /// Starts an integrator of the given kind (not `Auto`) at (t, y). One that cannot start says so at its first step.
     pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
         let started = start(kind, mechanism, t, y);
-        Self(started.unwrap_or_else(|stop| Box::new(Halted { t, y: y.to_vec(), stop })))
+        let stepper = started.unwrap_or_else(|stop| Box::new(Halted { t, y: y.to_vec(), stop }));
+        let parts = stepper.saved().map_or(1, |saved| saved.islands);
+        Self { progress: Progress::new(t, parts), stepper }
     }
 
     /// End of the last step.
     pub fn time(&self) -> f64 {
-        self.0.time()
+        self.stepper.time()
     }
 
     /// State at the end of the last step.
     pub fn state(&self) -> &[f64] {
-        self.0.state()
+        self.stepper.state()
     }
 
     /// Size of the last accepted step, s.
     pub fn last_step(&self) -> f64 {
-        self.0.last_step()
+        self.stepper.last_step()
     }
 
     /// Steps so far.
     pub fn steps(&self) -> Steps {
-        self.0.steps()
+        self.stepper.steps()
     }
 
     /// Whether the last step has shown by itself that the constraints hold at its end.
     pub fn proves_constraints(&mut self) -> bool {
-        self.0.proves_constraints()
+        self.stepper.proves_constraints()
     }
 
     /// What has been left out so far, where the method knows.
     pub fn saved(&self) -> Option<Saved> {
-        self.0.saved()
+        self.stepper.saved()
     }
 
     /// Work done and projections made, including those that the mechanism counts.
     pub fn work(&self, mechanism: &Mechanism) -> (Counters, u64) {
         let counted = mechanism.elimination.counters;
-        let (own, projections) = self.0.own_work();
+        let (own, projections) = self.stepper.own_work();
         let sum = Counters {
             evaluations: counted.evaluations + own.evaluations,
             factorizations: counted.factorizations + own.factorizations,
@@ -143,31 +150,53 @@ impl Integrator {
         (sum, mechanism.projections + projections)
     }
 
-    /// Smallest relative pivot that a factorization of the last step met.
-    pub fn smallest_pivot(&self, mechanism: &Mechanism) -> f64 {
-        self.0.smallest_pivot(mechanism)
+    /// The last step as it concerns singular positions; nothing where it cannot hide any.
+    pub fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
+        self.stepper.stepped(mechanism)
+    }
+
+    /// Whether [`Integrator::holds_inside`] tells anything.
+    pub fn has_own_holds(&self) -> bool {
+        self.stepper.saved().is_some()
+    }
+
+    /// How firmly each joint holds at time t within that step, if the method has a way of its own to find it.
+    pub fn holds_inside(&mut self, t: f64) -> Option<&[f64]> {
+        self.stepper.holds_inside(t)
+    }
+
+    /// Writes y(t) within the step that [`Integrator::stepped`] tells of.
+    pub fn write_part(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        self.stepper.write_part(mechanism, t, y);
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J, where the
     /// method knows it.
     pub fn work_to(&self, t: f64) -> Option<f64> {
-        self.0.work_to(t)
+        self.stepper.work_to(t)
     }
 
     /// Gives the mechanism, which stands at time t within the last step, the multipliers of that moment. Tells whether the
     /// method has them.
     pub fn give_multipliers(&self, mechanism: &mut Mechanism, t: f64) -> bool {
-        self.0.give_multipliers(mechanism, t)
+        self.stepper.give_multipliers(mechanism, t)
     }
 
     /// Takes one accepted step, not beyond `end`.
     pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
-        self.0.step(mechanism, end)
+        self.stepper.step(mechanism, end)?;
+        let settings = &mechanism.system.model.settings;
+        let time = self.stepper.time();
+        match self.progress.stalled(time, settings.duration) {
+            // Who gives the size of steps knows how many there will be.
+            Some(step) if settings.step.is_none() => Err(Stop::Stalled { time, step }),
+            _ => Ok(()),
+        }
     }
 
     /// Writes y(t) within the last step.
     pub fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        self.0.interpolate(mechanism, t, y);
+        self.stepper.interpolate(mechanism, t, y);
     }
 }
 

@@ -4,6 +4,7 @@ use super::taylor::Saved;
 use super::{Explicit, Steps, Stop, Taylor};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
+use crate::passage::{self, Stepped};
 use std::fmt::Debug;
 
 /// An integrator of a mechanism and its last step.
@@ -26,9 +27,25 @@ pub trait Stepper: Debug + Send + Sync {
     /// Writes y(t) within the last step.
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]);
 
-    /// Smallest relative pivot that a factorization of the last step met.
-    fn smallest_pivot(&self, mechanism: &Mechanism) -> f64 {
-        mechanism.elimination.smallest_pivot
+    /// The last step as it concerns singular positions; nothing where it cannot hide any.
+    fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
+        Some(Stepped {
+            part: 0,
+            start: self.time() - self.last_step(),
+            end: self.time(),
+            holds: None,
+            pace: passage::fastest(&mechanism.system, self.state()),
+        })
+    }
+
+    /// How firmly each joint holds at time t within that step, if the method has a way of its own to find it.
+    fn holds_inside(&mut self, _: f64) -> Option<&[f64]> {
+        None
+    }
+
+    /// Writes y(t) within the step that [`Stepper::stepped`] tells of.
+    fn write_part(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        self.interpolate(mechanism, t, y);
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J, where the
@@ -81,6 +98,16 @@ impl Stepper for Explicit {
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
         self.interpolate(mechanism, t, y);
     }
+    fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
+        Some(Stepped {
+            part: 0,
+            start: self.time() - self.last_step(),
+            end: self.time(),
+            // Its last evaluation was at the end of the step.
+            holds: Some(mechanism.elimination.holds()),
+            pace: passage::fastest(&mechanism.system, self.state()),
+        })
+    }
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }
@@ -122,8 +149,14 @@ impl Stepper for Taylor {
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
         Taylor::interpolate(self, &mechanism.system, t, y);
     }
-    fn smallest_pivot(&self, _: &Mechanism) -> f64 {
-        self.smallest_pivot()
+    fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
+        Taylor::stepped(self, &mechanism.system)
+    }
+    fn holds_inside(&mut self, t: f64) -> Option<&[f64]> {
+        Some(Taylor::holds_inside(self, t))
+    }
+    fn write_part(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        Taylor::write_part(self, &mechanism.system, t, y);
     }
     fn own_work(&self) -> (Counters, u64) {
         (self.counters(), self.projections)

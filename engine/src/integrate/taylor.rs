@@ -10,6 +10,7 @@ use super::{Steps, Stop};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
 use crate::parts;
+use crate::passage::Stepped;
 use crate::system::System;
 use island::Island;
 
@@ -46,8 +47,9 @@ pub struct Taylor {
     /// End of the last step and the state there.
     t: f64,
     y: Vec<f64>,
-    /// Start of the last step.
+    /// Start of the last step, and the part that took it.
     t_old: f64,
+    last: usize,
     saved: Saved,
     /// Whether the last step has shown by itself that the constraints hold.
     proven: bool,
@@ -92,6 +94,7 @@ impl Taylor {
             t,
             y: y.to_vec(),
             t_old: t,
+            last: 0,
             saved,
             proven: false,
             steps: Steps::default(),
@@ -152,21 +155,35 @@ impl Taylor {
         saved
     }
 
-    /// Smallest relative pivot at the start of the last step.
-    pub fn smallest_pivot(&self) -> f64 {
-        self.islands.iter().map(Island::smallest_pivot).fold(f64::INFINITY, f64::min)
+    /// The last step of the part that took it, if it may hide a singular position.
+    pub fn stepped(&self, system: &System) -> Option<Stepped<'_>> {
+        self.islands.get(self.last).and_then(|island| island.stepped(system, self.last))
+    }
+
+    /// How firmly each joint of that part holds at time t within its last step.
+    pub fn holds_inside(&mut self, t: f64) -> &[f64] {
+        self.islands.get_mut(self.last).map_or(&[], |island| island.holds_inside(t))
+    }
+
+    /// Writes the state at time t as the part that took the last step knows it: of other parts, the end of it.
+    pub fn write_part(&self, system: &System, t: f64, y: &mut [f64]) {
+        y.copy_from_slice(&self.y);
+        if let Some(island) = self.islands.get(self.last) {
+            island.interpolate(system, t, y);
+        }
     }
 
     /// Takes one step, not beyond `end`: the part that is farthest behind goes on.
     pub fn step(&mut self, system: &System, end: f64) -> Result<(), Stop> {
-        let behind = self.islands.iter_mut().min_by(|a, b| a.time().total_cmp(&b.time()));
-        let Some(island) = behind else {
+        let behind =
+            self.islands.iter_mut().enumerate().min_by(|(_, a), (_, b)| a.time().total_cmp(&b.time()));
+        let Some((index, island)) = behind else {
             // Nothing can move.
             (self.t_old, self.t, self.proven) = (self.t, end, false);
             return Ok(());
         };
         let (proven, rejected) = island.step(system, end, &mut self.y)?;
-        self.proven = proven;
+        (self.last, self.proven) = (index, proven);
         self.steps.accepted += 1;
         self.steps.rejected += rejected;
 

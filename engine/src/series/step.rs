@@ -39,6 +39,7 @@ pub struct Plan {
 
 /// What a step was.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "findings that have nothing to do with each other")]
 pub struct Taken {
     /// Its size, s.
     pub h: f64,
@@ -50,6 +51,8 @@ pub struct Taken {
     pub order: usize,
     /// How often it was shortened because it had left the constraints, or prescribed functions their series.
     pub rejected: u64,
+    /// Whether it has left them all the same, as far as it was shortened.
+    pub far: bool,
     /// Whether the new state is made of finite numbers.
     pub finite: bool,
     /// Whether Newton's method has just shown that the constraints hold: its last step was of no size, with a regular
@@ -173,6 +176,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 at_break: false,
                 order,
                 rejected: 0,
+                far: false,
                 finite: true,
                 proven: false,
             };
@@ -187,11 +191,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
             if met {
                 let most = (rejected < MOST_REJECTED).then_some(FAR * plan.tolerance);
-                if let Some(closed) = self.arrive(h, time, order, plan, most) {
+                if let Some((moved, closed)) = self.arrive(h, time, order, plan, most) {
                     // Rows that are left out are measured.
                     let proven = closed && !self.regularized && self.dependent == Dependent::None;
                     let finite = self.is_finite();
-                    return Taken { h, time, at_break: time == end, order, rejected, finite, proven };
+                    let far = moved.is_nan() || moved > FAR * plan.tolerance;
+                    return Taken { h, time, at_break: time == end, order, rejected, far, finite, proven };
                 }
             }
             rejected += 1;
@@ -199,11 +204,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
-    /// Moves to the end of a step, factors S there and projects positions and velocities. Tells whether Newton's method has
-    /// converged, or nothing if it moved the positions by more than `most`: what the terms that were left out would have
+    /// Moves to the end of a step, factors S there and projects positions and velocities. Tells how far the positions were
+    /// moved and whether Newton's method has converged, or nothing if it moved the positions by more than `most`: what the terms that were left out would have
     /// added.
     #[inline(always)]
-    fn arrive(&mut self, h: f64, time: f64, order: usize, plan: Plan, most: Option<f64>) -> Option<bool> {
+    fn arrive(
+        &mut self,
+        h: f64,
+        time: f64,
+        order: usize,
+        plan: Plan,
+        most: Option<f64>,
+    ) -> Option<(f64, bool)> {
         self.advance(h, order);
         self.set_time(time);
         let (mut moved, mut closed) = (0.0f64, false);
@@ -222,7 +234,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             moved += step;
             closed = step <= CONSISTENT * plan.length;
         }
-        Some(closed)
+        Some((moved, closed))
     }
 
     /// The largest terms of positions and velocities that a tolerance allows.

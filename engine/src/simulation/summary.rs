@@ -77,7 +77,7 @@ impl Simulation {
             projections,
             integrator: self.kind,
             reason: self.reason.clone(),
-            passages: self.watch.passages().to_vec(),
+            passages: self.watch.passages(&self.mechanism.system),
             finished: self.finished(),
         }
     }

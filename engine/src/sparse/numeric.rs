@@ -53,7 +53,9 @@ impl BlockCholesky {
     /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops
     /// its row.
     pub fn factor(&mut self, epsilon: f64, skip: f64) -> f64 {
-        Arch::new().dispatch(Factor { matrix: self, epsilon, skip })
+        let smallest = Arch::new().dispatch(Factor { matrix: &mut *self, epsilon, skip });
+        self.find_holds();
+        smallest
     }
 
     /// Replaces b by the solution of S x = b.
@@ -71,6 +73,9 @@ impl BlockCholesky {
             for (entry, &at) in self.diagonal.iter().zip(&self.diagonal_at) {
                 self.values[at] += epsilon * entry;
             }
+        }
+        if epsilon == 0.0 && skip == 0.0 {
+            self.known_dependent.iter().for_each(|&row| self.diagonal[row] = f64::INFINITY);
         }
         let mut smallest = f64::INFINITY;
         for place in 0..self.columns.len() {

@@ -243,8 +243,7 @@ fn past_reach(treatment: &Treatment, _: bool) -> Outcome {
             z: still(0.0),
         },
     });
-    let mut outcome =
-        must_be_refused(&scene, treatment, "constraints-lost|step-too-small|step-limit|diverged", &[]);
+    let mut outcome = must_be_refused(&scene, treatment, "constraints-lost|step-too-small|stalled", &[]);
     // At t = 1 s the arm is straight.
     if outcome.verdict == Verdict::Refused && (outcome.reached - 1.0).abs() > 0.01 {
         outcome.verdict = Verdict::Wrong;

@@ -28,7 +28,6 @@ const MOST_OUTPUTS: f64 = 1e7;
 pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
     let scene = scene(options)?;
     let mut simulation = Simulation::new(&scene)?;
-    simulation.watch_passages();
     if let Some(steps) = options.most_steps {
         simulation.set_step_limit(steps);
     }
@@ -135,11 +134,13 @@ fn advance(
     while !simulation.finished() {
         index += 1;
         let time = (index as f64 * every).min(simulation.duration());
+        let written = simulation.time();
         if let Err(stop) = to(simulation, time, bounds) {
             // The last good state is an output too.
             let reached = simulation.reached();
-            let good = !matches!(&stop, Stop::Engine(problem) if problem.code() == "constraints-lost");
-            if good && reached > simulation.time() && simulation.advance_to(reached).is_ok() {
+            let lost = matches!(&stop, Stop::Engine(problem) if problem.code() == "constraints-lost");
+            let shown = simulation.time() > written;
+            if shown || (!lost && reached > written && simulation.advance_to(reached).is_ok()) {
                 outputs.write(simulation).map_err(Stop::Output)?;
             }
             return Err(stop);

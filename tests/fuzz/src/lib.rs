@@ -1,7 +1,11 @@
 //! What is fuzzed: everything that reads what a stranger wrote.
 //!
 //! Each function takes any bytes and must return: without a panic, in bounded time. What is accepted must also make
-//! sense further on. The targets of `cargo fuzz` and the test that replays the kept corpus call the same functions.
+//! sense further on. The program that libFuzzer drives and the test that replays the kept corpus call the same functions.
+
+mod requests;
+
+pub use requests::requests;
 
 use std::collections::BTreeMap;
 
@@ -11,6 +15,15 @@ use triad_lessons::Submission;
 use triad_lessons::expression::Expression;
 use triad_lessons::units::Unit;
 use triad_lessons::{Lesson, markdown, number};
+
+/// What can be fuzzed, by name.
+pub const TARGETS: [(&str, fn(&[u8])); 5] = [
+    ("scene", scene),
+    ("lesson", lesson),
+    ("submission", submission),
+    ("answer", answer),
+    ("requests", requests),
+];
 
 /// Bodies, joints and steps of a scene that is also run.
 const SMALL: usize = 6;

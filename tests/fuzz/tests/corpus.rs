@@ -40,3 +40,8 @@ fn submissions_are_read_or_refused() {
 fn answers_are_read_or_refused() {
     replay("answer", triad_fuzz::answer);
 }
+
+#[test]
+fn requests_are_answered_or_refused() {
+    replay("requests", triad_fuzz::requests);
+}

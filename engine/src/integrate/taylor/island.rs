@@ -4,12 +4,15 @@ use super::{MAX_ORDER, Stop};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
 use crate::parts::Part;
+use crate::passage::{self, Stepped};
 use crate::plane;
 use crate::series::{LEAST_TOLERANCE_REDUNDANT, Plan, Planar, Series};
 use crate::system::System;
 
 /// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
 const CROWDED: f64 = 0.1;
+/// A step below this part of what is left, at whose end the constraints cannot be satisfied, is the last.
+const HOPELESS: f64 = 1e-9;
 /// Most knots that are counted.
 const MOST_KNOTS: usize = 100_000;
 
@@ -48,6 +51,8 @@ pub struct Island {
     length: f64,
     bodies: usize,
     rows: usize,
+    /// Whether its joints close loops.
+    loops: bool,
     engine: Engine,
     /// End of the last step.
     t: f64,
@@ -77,6 +82,7 @@ impl Island {
         let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
         let order = order_for(tolerance, flat.is_some());
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
+        let loops = passage::has_loops(system);
         let mut engine = match (&flat, system.bodies.len()) {
             (None, 1) => Engine::Narrow(Box::new(Series::new(system, order, redundant, turns))),
             (None, _) => Engine::Wide(Box::new(Series::new(system, order, redundant, turns))),
@@ -87,12 +93,16 @@ impl Island {
             s.keep_constants(skip.constants);
             s.place(system, t, y);
             let redundant = (flat.is_some() || redundant) && s.find_dependent(system.length);
+            if loops {
+                s.allow_looks();
+            }
             s.linearize();
             redundant
         });
         let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies) = (system.length, system.bodies.len());
         Self {
+            loops,
             part,
             tolerance,
             order,
@@ -133,9 +143,17 @@ impl Island {
         matches!(self.engine, Engine::NarrowPlanar(_) | Engine::WidePlanar(_))
     }
 
-    /// Smallest relative pivot at the start of the last step.
-    pub fn smallest_pivot(&self) -> f64 {
-        with!(&self.engine, s => s.smallest_pivot)
+    /// Its last step, if it may hide a singular position.
+    pub fn stepped(&self, whole: &System, part: usize) -> Option<Stepped<'_>> {
+        let system = self.part.as_deref().unwrap_or(whole);
+        let (holds, pace) = with!(&self.engine, s => (s.holds(), s.pace(system)));
+        self.loops.then_some(Stepped { part, start: self.t_old, end: self.t, holds: Some(holds), pace })
+    }
+
+    /// How firmly each joint holds at time t within its last step.
+    pub fn holds_inside(&mut self, t: f64) -> &[f64] {
+        let tau = (t - self.t_old).clamp(0.0, self.h_old);
+        with!(&mut self.engine, s => s.holds_inside(self.t_old, tau, self.order_old))
     }
 
     /// Work done so far.
@@ -156,11 +174,16 @@ impl Island {
         let system = self.part.as_deref().unwrap_or(whole);
         let taken = with!(&mut self.engine, s => {
             let taken = s.step(plan);
-            s.store(system, y);
+            if taken.finite {
+                s.store(system, y);
+            }
             taken
         });
         if !taken.finite || taken.h.is_nan() {
             return Err(Stop::NotFinite { time: self.t });
+        }
+        if taken.far && taken.h < HOPELESS * (end - self.t) {
+            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
         }
         if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
         {

@@ -1,0 +1,67 @@
+//! S elsewhere than at the state: how near a step comes to a singular position — THEORY section 8.
+
+use super::{Bodies, Dependent, REGULARIZATION, Series, horner};
+use crate::passage;
+use crate::system::System;
+use pulp::{Arch, Simd, WithSimd};
+
+/// A factorization of which only the pivots are wanted, to be compiled for each set of vector instructions.
+struct Holds<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Holds<'_, L, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.find_holds();
+    }
+}
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
+    /// Makes it possible to look inside steps.
+    pub fn allow_looks(&mut self) {
+        self.schur.factor.keep_holds();
+        self.scout = Some(Box::new(self.clone()));
+    }
+
+    /// How firmly each joint holds at the point of expansion: see [`crate::sparse::BlockCholesky::holds`].
+    pub fn holds(&self) -> &[f64] {
+        self.schur.factor.holds()
+    }
+
+    /// The same a time τ after the start of the last step, which was cut at order `order`. The factor at the end of the
+    /// step stays as it is.
+    pub fn holds_inside(&mut self, start: f64, tau: f64, order: usize) -> &[f64] {
+        let Self { q, stride, scout, .. } = self;
+        let Some(scout) = scout.as_deref_mut() else { return &[] };
+        scout.set_time(start + tau);
+        for (b, state) in scout.state.iter_mut().enumerate() {
+            *state = horner::<L, B>(&q[b * *stride..=b * *stride + order], tau);
+        }
+        // One body leaves nothing to vectorise.
+        if L == 1 {
+            scout.find_holds();
+        } else {
+            Arch::new().dispatch(Holds(scout));
+        }
+        scout.holds()
+    }
+
+    #[inline(always)]
+    fn find_holds(&mut self) {
+        self.assemble_here();
+        let epsilon = if self.dependent == Dependent::Shifted { REGULARIZATION } else { 0.0 };
+        self.schur.factor.factor(epsilon, 0.0);
+    }
+
+    /// How fast rows turn at the state, 1/s: see [`passage::pace`].
+    pub fn pace(&self, system: &System) -> f64 {
+        let mut fastest: f64 = 0.0;
+        for (bundle, [_, rate]) in self.bundles.iter().zip(&self.state) {
+            for lane in 0..bundle.bodies().len() {
+                fastest = fastest.max(passage::pace(&bundle.write(lane, rate, true), system.length));
+            }
+        }
+        fastest
+    }
+}
