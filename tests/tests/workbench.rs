@@ -102,7 +102,11 @@ fn grading_on_the_command_line_gives_the_verdict_of_the_server() {
         answers["answers"]["period"]["value"] = period.into();
         std::fs::write(&file, answers.to_string()).unwrap();
         let (code, here) = run_json(&["grade", "simple-pendulum", file.to_str().unwrap()]);
-        let there = server.post("/api/v1/lessons/simple-pendulum/submissions", &answers).json();
+        let mut there = server.post("/api/v1/lessons/simple-pendulum/submissions", &answers).json();
+        // Reference answers open by attempts, which only the gradebook counts.
+        for question in there["questions"].as_array_mut().unwrap() {
+            question.as_object_mut().unwrap().remove("reference_html");
+        }
         for key in ["questions", "earned", "possible", "passed", "provenance"] {
             assert_eq!(here[key], there[key], "{key}");
         }
