@@ -1,7 +1,9 @@
 //! No endpoint tells an answer: everything that a student can ask for is asked for, and every byte is searched.
 
 use std::collections::BTreeSet;
+use std::net::SocketAddr;
 use std::pin::Pin;
+use std::time::Duration;
 
 use axum::Router;
 use axum::body::{Body, to_bytes};
@@ -9,6 +11,9 @@ use axum::http::Request;
 use axum::middleware::Next;
 use axum::response::Response;
 use serde_json::{Value, json};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::time::timeout;
 use triad_lessons::exercise::Body as Question;
 use triad_lessons::submission::{Answer, Entry};
 use triad_lessons::{Course, Lesson, reference_submission};
@@ -17,6 +22,9 @@ use crate::{Reply, get, post, server};
 
 /// Significant digits from which a number is one of its own.
 const DIGITS: usize = 8;
+/// A stream is listened to until it is silent for so long, or has sent so many bytes.
+const QUIET: Duration = Duration::from_millis(200);
+const ENOUGH: usize = 1 << 18;
 
 /// What must not be told: why a right answer is right, what slips are recognised, sources, the right numbers.
 #[derive(Default)]
@@ -222,6 +230,48 @@ async fn no_endpoint_tells_an_answer() {
     assert!(told.is_empty(), "{told:#?}");
     println!("{asked} answers of the server searched");
     assert!(asked > 500);
+}
+
+/// What a WebSocket sends first: frames of a server are not masked, so that texts stand in them as they are.
+async fn overheard(address: SocketAddr, path: &str) -> String {
+    let mut socket = TcpStream::connect(address).await.expect("a connection");
+    let hello = format!(
+        "GET {path} HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+         Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+    );
+    socket.write_all(hello.as_bytes()).await.expect("a request");
+    let (mut heard, mut part) = (Vec::new(), vec![0; 64 << 10]);
+    while let Ok(Ok(count @ 1..)) = timeout(QUIET, socket.read(&mut part)).await {
+        heard.extend_from_slice(&part[..count]);
+        if heard.len() > ENOUGH {
+            break;
+        }
+    }
+    String::from_utf8_lossy(&heard).into_owned()
+}
+
+#[tokio::test]
+async fn no_stream_tells_an_answer() {
+    let (course, server) = (Course::embedded().expect("a course"), server());
+    let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
+    let address = listener.local_addr().expect("an address");
+    let served = server.clone();
+    tokio::spawn(async move { axum::serve(listener, served).await });
+    for lesson in course.lessons() {
+        let state = post(&server, "/api/v1/sessions", json!({"lesson": lesson.slug})).await.json();
+        let session = state["links"]["self"].as_str().expect("a session").to_owned();
+        post(&server, &format!("{session}/play"), json!({})).await;
+        let heard = overheard(address, state["links"]["stream"].as_str().expect("a stream")).await;
+        assert!(
+            heard.contains("101 Switching Protocols") && heard.contains("frames"),
+            "{}: {heard}",
+            lesson.slug
+        );
+        let told = leaks(&heard, &secrets(lesson), &BTreeSet::new(), false);
+        assert!(told.is_empty(), "{} tells {told:?}", lesson.slug);
+        let gone = Request::delete(session).body(Body::empty()).expect("a request");
+        crate::send(&server, gone).await;
+    }
 }
 
 /// A server that lets something slip at one address is caught by the same crawl.
