@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use super::measure::Measured;
 use super::plan::Method;
 
-const WIDTH: f64 = 640.0;
+const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 400.0;
 const LEFT: f64 = 64.0;
-const RIGHT: f64 = 176.0;
+const RIGHT: f64 = 256.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 46.0;
 /// Colours of the lines, told apart by those who do not see all of them; the dashes repeat with another period.

@@ -69,12 +69,15 @@ pub fn table(runs: &[Measured]) -> String {
     out
 }
 
-/// How much slower than the best the automatic choice is, for each error, with the place in words.
+/// How much slower the automatic choice is than the best way to run the same kind of bodies, for each error, with the
+/// place in words.
 fn slower_than_best(scene: &str, times: &[(Method, [Option<f64>; 3])]) -> Vec<(f64, String)> {
     let auto = times.iter().find(|(method, _)| method.integrator == IntegratorKind::Auto);
     let ratio = |k: usize| {
-        let best = times.iter().filter_map(|(_, t)| t[k]).fold(f64::INFINITY, f64::min);
-        Some((auto?.1[k]? / best, format!("{scene}, {:e}", ERRORS[k])))
+        let (own, reached) = auto?;
+        let alike = times.iter().filter(|(method, _)| method.coordinates == own.coordinates);
+        let best = alike.filter_map(|(_, t)| t[k]).fold(f64::INFINITY, f64::min);
+        Some((reached[k]? / best, format!("{scene}, {:e}", ERRORS[k])))
     };
     (0..ERRORS.len()).filter_map(ratio).collect()
 }
