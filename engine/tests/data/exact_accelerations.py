@@ -3,8 +3,8 @@
 The equations are written down once more, from the data of the scenes alone: nothing of Triad and nothing of the program
 that made the check vectors is used, so that the rounding of both can be told from each other. It needs mpmath (BSD):
 
-    python3 -m venv /tmp/exact && /tmp/exact/bin/pip install mpmath==1.3.0
-    /tmp/exact/bin/python engine/tests/data/exact_accelerations.py > engine/tests/data/exact-accelerations.json
+    python3 -m venv exact && exact/bin/pip install mpmath==1.3.0
+    exact/bin/python engine/tests/data/exact_accelerations.py > engine/tests/data/exact-accelerations.json
 """
 
 import json
