@@ -116,7 +116,9 @@ def main():
     words += ["--out", options.out.resolve()] if options.out else []
     threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
     quiet = {"PYTHONDONTWRITEBYTECODE": "1", **threads}
-    sys.exit(subprocess.run([str(w) for w in words], env={**os.environ, **quiet}, check=False).returncode)
+    # Some programs write logs into the folder that they are started in.
+    PLACE.mkdir(parents=True, exist_ok=True)
+    sys.exit(subprocess.run([str(w) for w in words], env={**os.environ, **quiet}, cwd=PLACE, check=False).returncode)
 
 
 if __name__ == "__main__":

@@ -145,6 +145,15 @@ impl Store {
         Ok(())
     }
 
+    /// How often a student has handed in a lesson.
+    pub fn attempts(&self, student: &str, lesson: &str) -> Result<usize, StoreError> {
+        let connection = self.lock();
+        let mut statement = connection
+            .prepare_cached("SELECT COUNT(*) FROM submission WHERE student = ?1 AND lesson = ?2")?;
+        let count: i64 = statement.query_row((student, lesson), |row| row.get(0))?;
+        Ok(usize::try_from(count).unwrap_or_default())
+    }
+
     /// Lists submissions, newest first.
     pub fn list(&self, query: &Query) -> Result<Vec<Submission>, StoreError> {
         let connection = self.lock();
@@ -201,6 +210,11 @@ mod tests {
         assert_eq!(all, [submission("2", "emmy"), submission("1", "ada")], "newest first");
         let ada = Query { student: Some("ada".into()), limit: 10, ..Query::default() };
         assert_eq!(store.list(&ada).expect("lists"), [submission("1", "ada")]);
+        let attempts = |student, lesson| store.attempts(student, lesson).expect("counts");
+        assert_eq!(
+            [attempts("ada", "pendulum"), attempts("ada", "chain"), attempts("eve", "pendulum")],
+            [1, 0, 0]
+        );
     }
 
     #[test]

@@ -141,9 +141,6 @@ impl Recorder {
     }
 
     fn write_arrows(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
-        if samples.is_empty() {
-            return Ok(());
-        }
         for index in 0..self.cast.joints.len() {
             let drawn: Vec<Glyphs> =
                 samples.iter().map(|sample| self.arrows.of_joint(&self.cast, index, sample)).collect();
@@ -161,12 +158,12 @@ impl Recorder {
         self.write_circles(MARK.into(), samples, drawn)
     }
 
-    /// Whether there is nothing to write of an entity: neither now, nor anything before that would stay.
+    /// Whether there is nothing to write of an entity: no sample, or nothing now and nothing before that would stay.
     fn is_idle<T>(&mut self, entity: &EntityPath, drawn: &[Vec<T>]) -> bool {
         if drawn.iter().any(|of_sample| !of_sample.is_empty()) {
             self.used.insert(entity.clone());
         }
-        !self.used.contains(entity)
+        drawn.is_empty() || !self.used.contains(entity)
     }
 
     fn write_circles(
@@ -175,7 +172,7 @@ impl Recorder {
         samples: &[Sample],
         drawn: Vec<Vec<Vec<[f64; 3]>>>,
     ) -> RecordingStreamResult<()> {
-        if samples.is_empty() || self.is_idle(&entity, &drawn) {
+        if self.is_idle(&entity, &drawn) {
             return Ok(());
         }
         let counts: Vec<usize> = drawn.iter().map(Vec::len).collect();
