@@ -33,8 +33,8 @@ const DEEPEST: usize = 8;
 const LOOKS: usize = 12;
 const NEARER: f64 = 0.5;
 const FAILURES: usize = 3;
-/// Passages nearer to each other than this part of the time are one.
-const APART: f64 = 1e-6;
+/// Passages between which rows turn less than this, rad, are one: some times the root of [`ZERO`].
+const APART: f64 = 4e-4;
 /// Passages for which there is room from the beginning.
 const USUAL: usize = 64;
 /// Passages that are kept: a run through more of them is told by their number alone.
@@ -226,10 +226,11 @@ impl Watch {
             *firmest = firmest.max(*hold);
         }
         self.there.clear();
-        let turned = (end - start) * pace.max(approach.pace);
+        let fastest = pace.max(approach.pace);
         let firmest = &approach.firmest;
-        let mut search = Search { watch: self, mechanism, integrator, firmest, places: &mut places };
-        search.within((start, 0), (end, 1), turned, 2);
+        let mut search =
+            Search { watch: self, mechanism, integrator, firmest, places: &mut places, pace: fastest };
+        search.within((start, 0), (end, 1), (end - start) * fastest, 2);
         std::mem::swap(&mut approach.holds, &mut places[1]);
         approach.pace = pace;
         self.parts[part] = approach;
@@ -270,6 +271,8 @@ struct Search<'a> {
     integrator: &'a mut Integrator,
     firmest: &'a [f64],
     places: &'a mut [Vec<f64>],
+    /// How fast rows turn, 1/s.
+    pace: f64,
 }
 
 impl Search<'_> {
@@ -378,7 +381,7 @@ impl Search<'_> {
         renew(&mut self.watch.there, &self.places[place]);
         self.watch.place(self.mechanism, self.integrator, time);
         let Watch { passed, involved, scout, tolerance, .. } = &mut *self.watch;
-        if passed.iter().any(|known| (known.time - time).abs() <= APART * (1.0 + time.abs())) {
+        if passed.iter().any(|known| (known.time - time).abs() * self.pace <= APART) {
             return;
         }
         let Some(scout) = scout else { return };

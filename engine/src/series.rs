@@ -35,10 +35,11 @@ use crate::elimination::Counters;
 use crate::model::BodyRef;
 use crate::system::System;
 use angles::Angles;
-use lanes::{Triple, largest};
+use lanes::{Triple, largest, times};
 use layout::bundles;
 use loads::Loads;
 use prescribed::Prescribed;
+use pulp::{Simd, WithSimd};
 use rows::{Place, Rows};
 use schur::Schur;
 use slot::Slot;
@@ -187,11 +188,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Builds and factors S at the point of expansion.
     #[inline(always)]
-    fn linearize_here(&mut self) {
+    fn linearize_here<S: Simd>(&mut self, simd: S) {
         self.set_up();
         self.regularized = self.dependent == Dependent::Shifted;
         loop {
-            self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
+            self.schur.assemble::<S, L, B>(simd, &self.rows, &self.angles, &self.mobility);
             let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
             let smallest = self.schur.factor.factor(epsilon, 0.0);
             self.counters.factorizations += 1;
@@ -203,9 +204,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     #[inline(always)]
-    fn assemble_here(&mut self) {
+    fn assemble_here<S: Simd>(&mut self, simd: S) {
         self.set_up();
-        self.schur.assemble::<L, B>(&self.rows, &self.angles, &self.mobility);
+        self.schur.assemble::<S, L, B>(simd, &self.rows, &self.angles, &self.mobility);
     }
 
     /// Values of features, inertia and mobilities at the point of expansion.
@@ -307,9 +308,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.solve(n);
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
-            let next = B::lanes_mut(&mut self.q[at + 2]).as_flattened_mut();
-            for (q, a) in next.iter_mut().zip(B::lanes(bundle.solution()).as_flattened()) {
-                *q = a * over_kappa;
+            let next = B::lanes_mut(&mut self.q[at + 2]);
+            for (q, a) in next.iter_mut().zip(B::lanes(bundle.solution())) {
+                *q = times(a, &[over_kappa; L]);
             }
             self.p[at] = bundle.director_forces();
         }
@@ -429,10 +430,25 @@ fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Lifted], tau: f64) ->
     for coefficient in coefficients.iter().rev() {
         for ((value, rate), c) in value.iter_mut().zip(rate.iter_mut()).zip(B::lanes(coefficient)) {
             for l in 0..L {
-                rate[l] = rate[l] * tau + value[l];
-                value[l] = value[l] * tau + c[l];
+                rate[l] = rate[l].mul_add(tau, value[l]);
+                value[l] = value[l].mul_add(tau, c[l]);
             }
         }
     }
     state
+}
+
+/// The same on its own, to be compiled for each set of vector instructions.
+struct Value<'a, const L: usize, B: Bodies<L>> {
+    coefficients: &'a [B::Lifted],
+    tau: f64,
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Value<'_, L, B> {
+    type Output = [B::Lifted; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [B::Lifted; 2] {
+        horner::<L, B>(self.coefficients, self.tau)
+    }
 }

@@ -1,4 +1,4 @@
-//! Block-sparse factorization S = L D Lᵀ whose order and fill are fixed once.
+//! Block-sparse factorization S = Uᵀ D U whose order and fill are fixed once.
 //!
 //! The blocks are the joints: S has a block for each pair of joints that share a moving body, so its graph is that
 //! of the mechanism. The elimination order is greedy minimum degree; for chains, trees and ladders of loops the fill,
@@ -25,28 +25,28 @@ pub struct Slot {
 }
 
 #[derive(Clone, Debug)]
-struct Column {
+struct Pivot {
     size: usize,
     /// First scalar row.
     start: usize,
     diagonal: usize,
-    below: Range<usize>,
+    beside: Range<usize>,
     updates: Range<usize>,
     /// Rows that depend on others at every state.
     dependent: usize,
 }
 
-/// A block below the diagonal.
+/// A block in the rows of a pivot and the columns of one that is eliminated later.
 #[derive(Clone, Debug)]
-struct Below {
+struct Beside {
     block: usize,
-    rows: usize,
-    /// First scalar row.
+    columns: usize,
+    /// First scalar column.
     start: usize,
     offset: usize,
 }
 
-/// target −= left · rightᵀ.
+/// target −= leftᵀ · right.
 #[derive(Clone, Debug)]
 struct Update {
     target: usize,
@@ -56,17 +56,22 @@ struct Update {
     columns: usize,
 }
 
-/// The matrix and its factor S = L D Lᵀ, D block-diagonal.
+/// Numbers from one row of a block to the next: rows of three fill a vector of four, whose last is zero.
+pub const fn stride(columns: usize) -> usize {
+    if columns == 3 { 4 } else { columns }
+}
+
+/// The matrix and its factor S = Uᵀ D U, D block-diagonal.
 #[derive(Clone, Debug)]
 pub struct BlockCholesky {
-    columns: Vec<Column>,
-    below: Vec<Below>,
+    pivots: Vec<Pivot>,
+    beside: Vec<Beside>,
     updates: Vec<Update>,
     /// Place of each block in the elimination order.
     rank: Vec<usize>,
     /// S, used up by the factorization.
     values: Vec<f64>,
-    /// D⁻¹ on the diagonal, blocks of L below it.
+    /// D⁻¹ on the diagonal, blocks of U beside it.
     factors: Vec<f64>,
     /// Diagonal of S before the factorization, or infinite for rows that are left out.
     diagonal: Vec<f64>,
@@ -106,8 +111,8 @@ impl BlockCholesky {
             })
             .collect();
         let mut factor = Self {
-            columns: Vec::with_capacity(count),
-            below: Vec::new(),
+            pivots: Vec::with_capacity(count),
+            beside: Vec::new(),
             updates: Vec::new(),
             rank,
             values: Vec::new(),
@@ -130,22 +135,22 @@ impl BlockCholesky {
             let size = sizes[block];
             let diagonal = next;
             for i in 0..size {
-                self.diagonal_at[start[block] + i] = diagonal + i * (size + 1);
+                self.diagonal_at[start[block] + i] = diagonal + i * (stride(size) + 1);
             }
-            next += size * size;
-            let first = self.below.len();
-            let mut rows: Vec<usize> = neighbours.clone();
-            rows.sort_by_key(|&i| self.rank[i]);
-            for i in rows {
-                self.below.push(Below { block: i, rows: sizes[i], start: start[i], offset: next });
-                next += sizes[i] * size;
+            next += size * stride(size);
+            let first = self.beside.len();
+            let mut columns: Vec<usize> = neighbours.clone();
+            columns.sort_by_key(|&i| self.rank[i]);
+            for i in columns {
+                self.beside.push(Beside { block: i, columns: sizes[i], start: start[i], offset: next });
+                next += size * stride(sizes[i]);
             }
-            let below = first..self.below.len();
-            self.columns.push(Column {
+            let beside = first..self.beside.len();
+            self.pivots.push(Pivot {
                 size,
                 start: start[block],
                 diagonal,
-                below,
+                beside,
                 updates: 0..0,
                 dependent: 0,
             });
@@ -155,42 +160,43 @@ impl BlockCholesky {
     }
 
     fn write_updates(&mut self) {
-        for place in 0..self.columns.len() {
+        for place in 0..self.pivots.len() {
             let first = self.updates.len();
-            let range = self.columns[place].below.clone();
-            for k in range.clone() {
-                for i in k..range.end {
-                    let (left, right) = (&self.below[i], &self.below[k]);
+            let range = self.pivots[place].beside.clone();
+            for i in range.clone() {
+                for k in i..range.end {
+                    let (left, right) = (&self.beside[i], &self.beside[k]);
                     let target = self.offset(left.block, right.block);
                     self.updates.push(Update {
                         target,
                         left: left.offset,
                         right: right.offset,
-                        rows: left.rows,
-                        columns: right.rows,
+                        rows: left.columns,
+                        columns: right.columns,
                     });
                 }
             }
-            self.columns[place].updates = first..self.updates.len();
+            self.pivots[place].updates = first..self.updates.len();
         }
     }
 
-    /// Offset of the block of two joints, the one eliminated later first.
-    fn offset(&self, later: usize, earlier: usize) -> usize {
-        let column = &self.columns[self.rank[earlier]];
+    /// Offset of the block of two joints, the one eliminated earlier first.
+    fn offset(&self, earlier: usize, later: usize) -> usize {
+        let pivot = &self.pivots[self.rank[earlier]];
         if later == earlier {
-            return column.diagonal;
+            return pivot.diagonal;
         }
-        let below = &self.below[column.below.clone()];
-        let at = below.binary_search_by_key(&self.rank[later], |b| self.rank[b.block]);
-        at.map_or(usize::MAX, |at| below[at].offset)
+        let beside = &self.beside[pivot.beside.clone()];
+        let at = beside.binary_search_by_key(&self.rank[later], |b| self.rank[b.block]);
+        at.map_or(usize::MAX, |at| beside[at].offset)
     }
 
-    /// Where the block of joints i and j is stored. The pair must be an edge that was announced, or i = j.
+    /// Where the block of joints i and j is stored, with rows of [`stride`] numbers. The pair must be an edge that was
+    /// announced, or i = j.
     pub fn slot(&self, i: usize, j: usize) -> Slot {
-        let transposed = self.rank[i] < self.rank[j];
-        let (later, earlier) = if transposed { (j, i) } else { (i, j) };
-        Slot { offset: self.offset(later, earlier), transposed }
+        let transposed = self.rank[i] > self.rank[j];
+        let (earlier, later) = if transposed { (j, i) } else { (i, j) };
+        Slot { offset: self.offset(earlier, later), transposed }
     }
 
     /// Sets all entries to zero.
@@ -221,9 +227,9 @@ impl BlockCholesky {
         &self.relative
     }
 
-    /// Blocks of L, with fill.
+    /// Blocks of U, with fill.
     pub fn blocks(&self) -> usize {
-        self.columns.len() + self.below.len()
+        self.pivots.len() + self.beside.len()
     }
 
     /// Says which scalar rows, in ascending order, depend on others at every state. [`Self::factor`] leaves them out, unless it is given ε or is
@@ -234,7 +240,7 @@ impl BlockCholesky {
 
     /// From now on keeps the holds.
     pub fn keep_holds(&mut self) {
-        self.holds = Some(vec![1.0; self.columns.len()]);
+        self.holds = Some(vec![1.0; self.pivots.len()]);
     }
 
     /// Of each block, the product of the relative pivots of its rows that do not depend on others, in the last
@@ -244,9 +250,9 @@ impl BlockCholesky {
     }
 
     fn find_holds(&mut self) {
-        let Self { holds: Some(holds), columns, rank, relative, known_dependent, .. } = self else { return };
+        let Self { holds: Some(holds), pivots, rank, relative, known_dependent, .. } = self else { return };
         for (hold, &place) in holds.iter_mut().zip(&*rank) {
-            let Column { size, start, .. } = columns[place];
+            let Pivot { size, start, .. } = pivots[place];
             let counts =
                 |row: &usize| relative[*row].is_finite() && known_dependent.binary_search(row).is_err();
             *hold = (start..start + size).filter(counts).map(|row| relative[row]).product();
@@ -256,13 +262,13 @@ impl BlockCholesky {
     /// Finds out how many rows of each block depend on others, at a state that stands for all; S is used up. Returns how
     /// many there are. [`Self::factor`] then leaves as many out, those that say least beside the others of their block.
     pub fn find_dependent(&mut self, skip: f64) -> usize {
-        self.columns.iter_mut().for_each(|column| column.dependent = 0);
+        self.pivots.iter_mut().for_each(|pivot| pivot.dependent = 0);
         self.factor(0.0, skip);
         let mut all = 0;
-        for column in &mut self.columns {
-            let own = &self.relative[column.start..column.start + column.size];
-            column.dependent = own.iter().filter(|&&relative| relative <= skip).count();
-            all += column.dependent;
+        for pivot in &mut self.pivots {
+            let own = &self.relative[pivot.start..pivot.start + pivot.size];
+            pivot.dependent = own.iter().filter(|&&relative| relative <= skip).count();
+            all += pivot.dependent;
         }
         all
     }
@@ -304,7 +310,7 @@ mod tests {
                         let (row, column, width) =
                             if slot.transposed { (b, a, sizes[i]) } else { (a, b, sizes[j]) };
                         let diagonal = if i == j && a == b { 200.0 } else { 0.0 };
-                        factor.values_mut()[slot.offset + row * width + column] += x + diagonal;
+                        factor.values_mut()[slot.offset + row * stride(width) + column] += x + diagonal;
                     }
                 }
             };

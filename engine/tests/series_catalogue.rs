@@ -115,7 +115,9 @@ fn agrees(what: &str, value: &Value) {
         }
         let summary = series.summary();
         assert_eq!(summary.integrator, IntegratorKind::Taylor);
-        assert!(summary.energy_drift.abs() < 1e-9, "{what}, {coordinates}: {:e} J", summary.energy_drift);
+        // The shaft that is thrown round reaches 8000 J, whose rounding is 1e-12 J each time it is summed.
+        let most = 1e-9f64.max(1e-12 * summary.energy.abs());
+        assert!(summary.energy_drift.abs() < most, "{what}, {coordinates}: {:e} J", summary.energy_drift);
         assert!((summary.work - work).abs() < 1e-7, "{what}: work {} against {work}", summary.work);
         assert!(summary.steps < 200, "{what}, {coordinates}: {} steps", summary.steps);
     }

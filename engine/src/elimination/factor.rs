@@ -3,6 +3,7 @@
 use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
 use crate::lift::Lift;
 use crate::row::{Form, across};
+use crate::sparse::stride;
 use crate::system::{NO_INCIDENCE, Row, System};
 use nalgebra::{Matrix3, Vector3};
 
@@ -161,7 +162,7 @@ impl Elimination {
             let a = &self.a[left.offset..left.offset + 6 * left.rows];
             let b = &self.b[right.offset..right.offset + 6 * right.rows];
             let target = &mut values[contribution.slot.offset..];
-            for (a, out) in a.chunks_exact(6).zip(target.chunks_exact_mut(right.rows)) {
+            for (a, out) in a.chunks_exact(6).zip(target.chunks_exact_mut(stride(right.rows))) {
                 for (b, out) in b.chunks_exact(6).zip(out) {
                     *out += a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
                 }

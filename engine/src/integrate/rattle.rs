@@ -26,6 +26,10 @@ const PARTS: [f64; 5] = [
 const SUBSTEPS: usize = 9;
 /// Most iterations for the end of a substep.
 const ITERATIONS: usize = 100;
+/// Changes below the first part of the mechanism's length that do not shrink any more, or below the second that hardly do,
+/// are rounding.
+const SETTLED: f64 = 1e-9;
+const ROUNDING: f64 = 1e-15;
 /// Steps of the trial run from which the step size is found, and how much smaller it is made.
 const TRIAL_STEPS: usize = 100;
 const PART_OF_TRIAL: f64 = 0.5;
@@ -146,7 +150,9 @@ impl Rattle {
                 return false;
             }
             // To the last bit: what is left over would add up in a long run.
-            if step == 0.0 || (iteration > 0 && step < 1e-9 * system.length && step >= last) {
+            let rounding = (step >= last && step < SETTLED * system.length)
+                || (step > 0.5 * last && step < ROUNDING * system.length);
+            if step == 0.0 || (iteration > 0 && rounding) {
                 converged = true;
                 break;
             }

@@ -27,6 +27,8 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     const DIRECTIONS: usize;
     /// Components of a twist.
     const TWIST: usize;
+    /// Strips of four numbers in a block of S for points.
+    const STRIPS: usize;
 
     /// Bodies of mass 1 and no inertia, to be filled in lane by lane.
     fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self;
@@ -87,8 +89,8 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     /// Adds to a row of H its part of the rotation, sign · gᵀ s̃ᵀ C⁻ᵀ.
     fn add_rotation(mobility: &Self::Mobility, lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]);
 
-    /// s̃_aᵀ I⁻¹ s̃_b of two features.
-    fn pair(a: &Self::Mobility, b: &Self::Mobility) -> [[Lane<L>; 3]; 3];
+    /// s̃_aᵀ I⁻¹ s̃_b of two features, in strips of four numbers as they stand in a block of S.
+    fn pair(a: &Self::Mobility, b: &Self::Mobility) -> [[Lane<L>; 4]; 3];
 
     /// Forgets the force at hand.
     fn clear_force(&mut self);

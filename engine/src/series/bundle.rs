@@ -1,7 +1,10 @@
 //! L bodies side by side: the part of the equations of motion that concerns each body alone — THEORY sections 7, 11.
 
 use super::bodies::Bodies;
-use super::lanes::{Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, multiply, scaled, zero};
+use super::lanes::{
+    Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, inverse_root, less, minor, multiply, negative,
+    plus, scaled, sum, times, zero,
+};
 use super::slot::Slot;
 use crate::lift::Lift;
 use crate::system::{Body, System};
@@ -49,9 +52,7 @@ impl<const L: usize> Bundle<L> {
     fn turn(&mut self, q: &Lifted<L>, moment: &Triple<L>) {
         let omega = multiply(&self.inverse, moment);
         for c in 0..3 {
-            for l in 0..L {
-                self.omega[c][l] += omega[c][l];
-            }
+            self.omega[c] = sum(&self.omega[c], &omega[c]);
         }
         for k in 0..3 {
             add_cross(&mut self.solution[1 + k], &omega, &q[1 + k]);
@@ -67,6 +68,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     type Mobility = [Triple<L>; 3];
     const DIRECTIONS: usize = 3;
     const TWIST: usize = 6;
+    const STRIPS: usize = 3;
 
     fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self {
         let zeros = [[0.0; L]; 3];
@@ -215,48 +217,35 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             half[l] = 0.5 / half[l];
         }
         self.dual = dual.map(|d| scaled(&half, &d));
-        // I_g = Σ Ī_k (|e_k|² 1 − e_k e_kᵀ), lower triangle.
-        let mut inertia = [[0.0; L]; 6];
+        // I_g = Σ Ī_k (|e_k|² 1 − e_k e_kᵀ) from its second term; xx, xy, yy, xz, yz, zz.
+        let mut products = [[0.0; L]; 6];
         for k in 0..3 {
             let e = &q[1 + k];
-            for l in 0..L {
-                let i = self.ibar[k][l];
-                let (x, y, z) = (e[0][l], e[1][l], e[2][l]);
-                inertia[0][l] += i * (y * y + z * z);
-                inertia[1][l] -= i * (x * y);
-                inertia[2][l] += i * (x * x + z * z);
-                inertia[3][l] -= i * (x * z);
-                inertia[4][l] -= i * (y * z);
-                inertia[5][l] += i * (x * x + y * y);
+            let weighted = scaled(&self.ibar[k], e);
+            for (sum, (i, j)) in products.iter_mut().zip([(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)]) {
+                *sum = plus(&weighted[i], &e[j], sum);
             }
         }
-        for l in 0..L {
-            let lent = self.lent[l];
-            let (a, b, c) = (inertia[0][l] + lent, inertia[2][l] + lent, inertia[5][l] + lent);
-            let p0 = 1.0 / a.sqrt();
-            let l10 = inertia[1][l] * p0;
-            let l20 = inertia[3][l] * p0;
-            let p1 = 1.0 / (b - l10 * l10).sqrt();
-            let l21 = (inertia[4][l] - l20 * l10) * p1;
-            let p2 = 1.0 / (c - l20 * l20 - l21 * l21).sqrt();
-            let m10 = -l10 * p0 * p1;
-            let m21 = -l21 * p1 * p2;
-            let m20 = -(l20 * p0 + l21 * m10) * p2;
-            let m = [p0, m10, p1, m20, m21, p2];
-            for (lower, m) in self.lower.iter_mut().zip(m) {
-                lower[l] = m;
-            }
-            let rows = [
-                [p0 * p0 + m10 * m10 + m20 * m20, m10 * p1 + m20 * m21, m20 * p2],
-                [m10 * p1 + m20 * m21, p1 * p1 + m21 * m21, m21 * p2],
-                [m20 * p2, m21 * p2, p2 * p2],
-            ];
-            for (inverse, row) in self.inverse.iter_mut().zip(rows) {
-                for (inverse, x) in inverse.iter_mut().zip(row) {
-                    inverse[l] = x;
-                }
-            }
+        let [xx, xy, yy, xz, yz, zz] = &products;
+        let mut diagonal = [[0.0; L]; 3];
+        for (out, (a, b)) in diagonal.iter_mut().zip([(yy, zz), (xx, zz), (xx, yy)]) {
+            *out = sum(&sum(a, b), &self.lent);
         }
+        // C⁻¹ of I_g = C Cᵀ, and I_g⁻¹ = C⁻ᵀ C⁻¹.
+        let p0 = inverse_root(&diagonal[0]);
+        let (l10, l20) = (negative(&times(xy, &p0)), negative(&times(xz, &p0)));
+        let p1 = inverse_root(&less(&l10, &l10, &diagonal[1]));
+        let l21 = times(&less(&l20, &l10, &negative(yz)), &p1);
+        let p2 = inverse_root(&less(&l20, &l20, &less(&l21, &l21, &diagonal[2])));
+        let m10 = negative(&times(&times(&l10, &p0), &p1));
+        let m21 = negative(&times(&times(&l21, &p1), &p2));
+        let m20 = negative(&times(&plus(&l20, &p0, &times(&l21, &m10)), &p2));
+        let corner = plus(&m10, &p1, &times(&m20, &m21));
+        let (side, low) = (times(&m20, &p2), times(&m21, &p2));
+        let first = plus(&p0, &p0, &plus(&m10, &m10, &times(&m20, &m20)));
+        let middle = plus(&p1, &p1, &times(&m21, &m21));
+        self.inverse = [[first, corner, side], [corner, middle, low], [side, low, times(&p2, &p2)]];
+        self.lower = [p0, m10, p1, m20, m21, p2];
     }
 
     /// C⁻¹ s̃ of a feature's arm s: three rows.
@@ -266,21 +255,14 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         for k in 0..3 {
             add_scaled(&mut arm, &slot.local[k], &q[1 + k]);
         }
-        let mut z = [[[0.0; L]; 3]; 3];
-        let m = &self.lower;
-        for l in 0..L {
-            let (x, y, w) = (arm[0][l], arm[1][l], arm[2][l]);
-            // s̃ = [[0, −w, y], [w, 0, −x], [−y, x, 0]].
-            z[0][1][l] = -m[0][l] * w;
-            z[0][2][l] = m[0][l] * y;
-            z[1][0][l] = m[2][l] * w;
-            z[1][1][l] = -m[1][l] * w;
-            z[1][2][l] = m[1][l] * y - m[2][l] * x;
-            z[2][0][l] = m[4][l] * w - m[5][l] * y;
-            z[2][1][l] = m[5][l] * x - m[3][l] * w;
-            z[2][2][l] = m[3][l] * y - m[4][l] * x;
-        }
-        z
+        let [x, y, z] = &arm;
+        let [p0, m10, p1, m20, m21, p2] = &self.lower;
+        // s̃ = [[0, −z, y], [z, 0, −x], [−y, x, 0]].
+        [
+            [[0.0; L], negative(&times(p0, z)), times(p0, y)],
+            [times(p1, z), negative(&times(m10, z)), minor(m10, y, p1, x)],
+            [minor(m21, z, p2, y), minor(p2, x, m20, z), minor(m20, y, m21, x)],
+        ]
     }
 
     #[inline(always)]
@@ -310,15 +292,12 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn pair(a: &[Triple<L>; 3], b: &[Triple<L>; 3]) -> [[Lane<L>; 3]; 3] {
-        let mut block = [[[0.0; L]; 3]; 3];
-        for c in 0..3 {
-            for i in 0..3 {
-                for k in 0..3 {
-                    for l in 0..L {
-                        block[i][k][l] += a[c][i][l] * b[c][k][l];
-                    }
-                }
+    fn pair(a: &[Triple<L>; 3], b: &[Triple<L>; 3]) -> [[Lane<L>; 4]; 3] {
+        let mut block = [[[0.0; L]; 4]; 3];
+        for (i, strip) in block.iter_mut().enumerate() {
+            for (k, out) in strip.iter_mut().enumerate().take(3) {
+                let first = times(&a[0][i], &b[0][k]);
+                *out = plus(&a[2][i], &b[2][k], &plus(&a[1][i], &b[1][k], &first));
             }
         }
         block
@@ -381,9 +360,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
         let mut moment = known;
         for c in 0..3 {
-            for l in 0..L {
-                moment[c][l] += self.moment[c][l];
-            }
+            moment[c] = sum(&moment[c], &self.moment[c]);
         }
         let [uu, vv, ww, uv, uw, vw] = gamma;
         let d = &self.dual;
@@ -396,9 +373,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         for k in 0..3 {
             let mut p = self.force[1 + k];
             for c in 0..3 {
-                for l in 0..L {
-                    p[c][l] -= self.ibar[k][l] * particular[k][c][l];
-                }
+                p[c] = less(&self.ibar[k], &particular[k][c], &p[c]);
             }
             add_cross(&mut moment, &q[1 + k], &p);
         }
@@ -420,10 +395,8 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         }
         add_scaled(&mut self.solution[0], &self.inverse_mass, &force[0]);
         self.turn(q, &moment);
-        for (sum, force) in self.force.as_flattened_mut().iter_mut().zip(force.as_flattened()) {
-            for l in 0..L {
-                sum[l] += force[l];
-            }
+        for (all, force) in self.force.as_flattened_mut().iter_mut().zip(force.as_flattened()) {
+            *all = sum(all, force);
         }
     }
 
@@ -446,9 +419,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         let mut p = [self.force[1], self.force[2], self.force[3]];
         for k in 0..3 {
             for c in 0..3 {
-                for l in 0..L {
-                    p[k][c][l] -= self.ibar[k][l] * self.solution[1 + k][c][l];
-                }
+                p[k][c] = less(&self.ibar[k], &self.solution[1 + k][c], &p[k][c]);
             }
         }
         p
@@ -458,57 +429,86 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]
 fn gram<const L: usize>(q: &[Lifted<L>], n: usize) -> [Lane<L>; 6] {
-    let mut sums = [[0.0; L]; 6];
+    let mut sums = Products::default();
     let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
     for (a, b) in heads.zip(tails).take((n - 1) / 2) {
-        add_symmetric(&mut sums, a, b);
+        sums.add(a, b);
     }
+    let mut all = sums.symmetric();
     if n.is_multiple_of(2) {
-        let middle = &q[n / 2];
-        let mut square = [[0.0; L]; 6];
-        add_symmetric(&mut square, middle, middle);
-        for k in 0..6 {
-            for l in 0..L {
-                sums[k][l] += 0.5 * square[k][l];
-            }
+        let mut square = Products::default();
+        square.add(&q[n / 2], &q[n / 2]);
+        for (sum, square) in all.iter_mut().zip(square.symmetric()) {
+            *sum = plus(&[0.5; L], &square, sum);
         }
     }
-    sums.map(|sum| sum.map(|x| -x))
+    let [uu, vv, ww, uv, uw, vw] = &all;
+    [negative(uu), negative(vv), negative(ww), negative(uv), negative(uw), negative(vw)]
 }
 
-/// Adds e_k · f_l + e_l · f_k for the six rigid-body rows uu, vv, ww, uv, uw, vw.
-#[inline(always)]
-fn add_symmetric<const L: usize>(sums: &mut [Lane<L>; 6], e: &Lifted<L>, f: &Lifted<L>) {
-    for c in 0..3 {
-        for l in 0..L {
-            let [u, v, w] = [e[1][c][l], e[2][c][l], e[3][c][l]];
-            let [x, y, z] = [f[1][c][l], f[2][c][l], f[3][c][l]];
-            sums[0][l] += 2.0 * (u * x);
-            sums[1][l] += 2.0 * (v * y);
-            sums[2][l] += 2.0 * (w * z);
-            sums[3][l] += u * y + v * x;
-            sums[4][l] += u * z + w * x;
-            sums[5][l] += v * z + w * y;
+/// Sums of e_k · f_l, apart from those of e_l · f_k, so that no sum waits for another.
+struct Products<const L: usize> {
+    /// uu, vv, ww.
+    same: [Lane<L>; 3],
+    /// uv, uw, vw, and vu, wu, wv.
+    other: [[Lane<L>; 3]; 2],
+}
+
+impl<const L: usize> Default for Products<L> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { same: [[0.0; L]; 3], other: [[[0.0; L]; 3]; 2] }
+    }
+}
+
+impl<const L: usize> Products<L> {
+    #[inline(always)]
+    fn add(&mut self, [_, u, v, w]: &Lifted<L>, [_, x, y, z]: &Lifted<L>) {
+        let [[uv, uw, vw], [vu, wu, wv]] = &mut self.other;
+        let [uu, vv, ww] = &mut self.same;
+        for c in 0..3 {
+            *uu = plus(&u[c], &x[c], uu);
+            *uv = plus(&u[c], &y[c], uv);
+            *uw = plus(&u[c], &z[c], uw);
+            *vu = plus(&v[c], &x[c], vu);
+            *vv = plus(&v[c], &y[c], vv);
+            *vw = plus(&v[c], &z[c], vw);
+            *wu = plus(&w[c], &x[c], wu);
+            *wv = plus(&w[c], &y[c], wv);
+            *ww = plus(&w[c], &z[c], ww);
         }
+    }
+
+    /// Entries e_k · f_l + e_l · f_k for the six rigid-body rows uu, vv, ww, uv, uw, vw.
+    #[inline(always)]
+    fn symmetric(&self) -> [Lane<L>; 6] {
+        let [[uv, uw, vw], [vu, wu, wv]] = &self.other;
+        let [uu, vv, ww] = &self.same;
+        [sum(uu, uu), sum(vv, vv), sum(ww, ww), sum(uv, vu), sum(uw, wu), sum(vw, wv)]
     }
 }
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
 #[inline(always)]
 fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
-    let mut sum = [[0.0; L]; 3];
+    // For each director on its own, so that no sum waits for another.
+    let mut sums = [[[0.0; L]; 3]; 3];
     for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
         for k in 0..3 {
-            add_cross(&mut sum, &e[1 + k], &p[k]);
+            add_cross(&mut sums[k], &e[1 + k], &p[k]);
         }
     }
-    sum
+    let [mut all, second, third] = sums;
+    for c in 0..3 {
+        all[c] = sum(&all[c], &sum(&second[c], &third[c]));
+    }
+    all
 }
 
 /// Entries e_k · f_l + e_l · f_k for the six rigid-body rows.
 #[inline(always)]
 fn symmetric<const L: usize>(e: &Lifted<L>, f: &Lifted<L>) -> [Lane<L>; 6] {
-    let mut sums = [[0.0; L]; 6];
-    add_symmetric(&mut sums, e, f);
-    sums
+    let mut products = Products::default();
+    products.add(e, f);
+    products.symmetric()
 }

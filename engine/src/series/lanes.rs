@@ -1,6 +1,9 @@
 //! Arithmetic on vectors of L bodies at once: component by component, one lane for each body.
 //!
-//! Plain loops of constant length, which the compiler turns into vector instructions.
+//! Plain loops of constant length, which the compiler turns into vector instructions. Products and sums are fused, so
+//! that every processor gives the same bits.
+
+use pulp::Simd;
 
 /// One number for each lane.
 pub type Lane<const L: usize> = [f64; L];
@@ -14,12 +17,78 @@ pub const fn zero<const L: usize>() -> Lifted<L> {
     [[[0.0; L]; 3]; 4]
 }
 
+/// a b.
+#[inline(always)]
+pub fn times<const L: usize>(a: &Lane<L>, b: &Lane<L>) -> Lane<L> {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = a[l] * b[l];
+    }
+    out
+}
+
+/// a + b.
+#[inline(always)]
+pub fn sum<const L: usize>(a: &Lane<L>, b: &Lane<L>) -> Lane<L> {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = a[l] + b[l];
+    }
+    out
+}
+
+/// a b + c.
+#[inline(always)]
+pub fn plus<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = a[l].mul_add(b[l], c[l]);
+    }
+    out
+}
+
+/// c − a b.
+#[inline(always)]
+pub fn less<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = (-a[l]).mul_add(b[l], c[l]);
+    }
+    out
+}
+
+/// a b − c d.
+#[inline(always)]
+pub fn minor<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>, d: &Lane<L>) -> Lane<L> {
+    less(c, d, &times(a, b))
+}
+
+/// −a.
+#[inline(always)]
+pub fn negative<const L: usize>(a: &Lane<L>) -> Lane<L> {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = -a[l];
+    }
+    out
+}
+
+/// 1 / √a.
+#[inline(always)]
+pub fn inverse_root<const L: usize>(a: &Lane<L>) -> Lane<L> {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = 1.0 / a[l].sqrt();
+    }
+    out
+}
+
 /// sum += a · b.
 #[inline(always)]
 pub fn add_dot<const L: usize>(sum: &mut Lane<L>, a: &Triple<L>, b: &Triple<L>) {
     for c in 0..3 {
         for l in 0..L {
-            sum[l] += a[c][l] * b[c][l];
+            sum[l] = a[c][l].mul_add(b[c][l], sum[l]);
         }
     }
 }
@@ -37,7 +106,7 @@ pub fn dot<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Lane<L> {
 pub fn add_cross<const L: usize>(sum: &mut Triple<L>, a: &Triple<L>, b: &Triple<L>) {
     for (c, (i, j)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
         for l in 0..L {
-            sum[c][l] += a[i][l] * b[j][l] - a[j][l] * b[i][l];
+            sum[c][l] = a[i][l].mul_add(b[j][l], (-a[j][l]).mul_add(b[i][l], sum[c][l]));
         }
     }
 }
@@ -55,7 +124,7 @@ pub fn cross<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Triple<L> {
 pub fn add_scaled<const L: usize>(sum: &mut Triple<L>, factor: &Lane<L>, a: &Triple<L>) {
     for c in 0..3 {
         for l in 0..L {
-            sum[c][l] += factor[l] * a[c][l];
+            sum[c][l] = factor[l].mul_add(a[c][l], sum[c][l]);
         }
     }
 }
@@ -72,6 +141,24 @@ pub fn scaled<const L: usize>(factor: &Lane<L>, a: &Triple<L>) -> Triple<L> {
 #[inline(always)]
 pub fn multiply<const L: usize>(rows: &[Triple<L>; 3], a: &Triple<L>) -> Triple<L> {
     [dot(&rows[0], a), dot(&rows[1], a), dot(&rows[2], a)]
+}
+
+/// Four numbers of each lane, lane by lane.
+#[inline(always)]
+pub fn rows_of_lanes<S: Simd, const L: usize>(simd: S, lanes: [Lane<L>; 4]) -> [[f64; 4]; L] {
+    let mut rows = [[0.0; 4]; L];
+    if S::F64_LANES == 4
+        && let (Some(lanes), Some(out)) =
+            (lanes.as_flattened().as_chunks().0.first_chunk::<4>(), rows.first_chunk_mut::<4>())
+    {
+        // In registers: numbers stored one by one are slow to read back in one piece.
+        *out = simd.deinterleave_shfl_f64s::<[[f64; 4]; 4]>(*lanes);
+        return rows;
+    }
+    for (l, row) in rows.iter_mut().enumerate() {
+        *row = lanes.map(|lane| lane[l]);
+    }
+    rows
 }
 
 /// Largest |x| over all components of the first `lanes` lanes.

@@ -3,9 +3,10 @@
 use super::bodies::Bodies;
 use super::rows::Place;
 use super::slot::Slot;
-use super::{Series, horner};
+use super::{Series, Value};
 use crate::model::BodyRef;
 use crate::system::System;
+use pulp::Arch;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Takes over y = (q, q̇) at time t as the point of expansion.
@@ -51,8 +52,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Writes (q, q̇) a time τ after the point that the series were last expanded about.
     pub fn interpolate(&self, system: &System, tau: f64, order: usize, y: &mut [f64]) {
         for b in 0..self.bundles.len() {
-            let state = horner::<L, B>(&self.q[b * self.stride..=b * self.stride + order], tau);
-            self.store_bundle(system, b, &state, y);
+            let coefficients = &self.q[b * self.stride..=b * self.stride + order];
+            self.store_bundle(system, b, &Arch::new().dispatch(Value::<L, B> { coefficients, tau }), y);
         }
     }
 }

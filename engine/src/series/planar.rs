@@ -4,7 +4,7 @@
 //! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
 
 use super::bodies::Bodies;
-use super::lanes::{Lane, Triple};
+use super::lanes::{Lane, Triple, less, plus, sum, times};
 use super::slot::Slot;
 use crate::lift::Lift;
 use crate::plane::Posture;
@@ -60,7 +60,12 @@ fn each<const L: usize>(of: impl Fn(usize) -> f64) -> Lane<L> {
 /// a z + b J z.
 #[inline(always)]
 fn turned<const L: usize>([a, b]: &Pair<L>, z: &Pair<L>) -> Pair<L> {
-    [each(|l| a[l] * z[0][l] - b[l] * z[1][l]), each(|l| a[l] * z[1][l] + b[l] * z[0][l])]
+    let mut out = [[0.0; L]; 2];
+    for l in 0..L {
+        out[0][l] = a[l].mul_add(z[0][l], -(b[l] * z[1][l]));
+        out[1][l] = a[l].mul_add(z[1][l], b[l] * z[0][l]);
+    }
+    out
 }
 
 #[inline(always)]
@@ -94,6 +99,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     type Mobility = Pair<L>;
     const DIRECTIONS: usize = 2;
     const TWIST: usize = 3;
+    const STRIPS: usize = 1;
 
     fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self {
         let zeros = [[0.0; L]; 2];
@@ -303,16 +309,16 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn pair(a: &Pair<L>, b: &Pair<L>) -> [[Lane<L>; 3]; 3] {
-        let mut block = [[[0.0; L]; 3]; 3];
+    fn pair(a: &Pair<L>, b: &Pair<L>) -> [[Lane<L>; 4]; 3] {
+        let mut strip = [[0.0; L]; 4];
         for i in 0..2 {
             for k in 0..2 {
                 for l in 0..L {
-                    block[i][k][l] = a[i][l] * b[k][l];
+                    strip[2 * i + k][l] = a[i][l] * b[k][l];
                 }
             }
         }
-        block
+        [strip, [[0.0; L]; 4], [[0.0; L]; 4]]
     }
 
     #[inline(always)]
@@ -391,32 +397,30 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
-        let mut sum = [0.0; L];
+        let mut sums = [[0.0; L]; 2];
         let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
         for ([_, a], [_, b]) in heads.zip(tails).take((n - 1) / 2) {
-            for l in 0..L {
-                sum[l] += a[0][l] * b[0][l] + a[1][l] * b[1][l];
+            for (c, all) in sums.iter_mut().enumerate() {
+                *all = plus(&a[c], &b[c], all);
             }
         }
-        let mut sum: Lane<L> = each(|l| 2.0 * sum[l]);
+        let half = sum(&sums[0], &sums[1]);
+        let mut all = sum(&half, &half);
         if n.is_multiple_of(2) {
             let [_, z] = &q[n / 2];
-            for l in 0..L {
-                sum[l] += z[0][l] * z[0][l] + z[1][l] * z[1][l];
-            }
+            all = plus(&z[0], &z[0], &plus(&z[1], &z[1], &all));
         }
-        (each(|l| -kappa * sum[l]), [[0.0; L]; 2])
+        (times(&[-kappa; L], &all), [[0.0; L]; 2])
     }
 
     #[inline(always)]
     fn moment(q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
-        let mut sum = [0.0; L];
+        let mut sums = [[0.0; L]; 2];
         for ([_, z], p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
-            for l in 0..L {
-                sum[l] += z[0][l] * p[1][l] - z[1][l] * p[0][l];
-            }
+            sums[0] = plus(&z[0], &p[1], &sums[0]);
+            sums[1] = less(&z[1], &p[0], &sums[1]);
         }
-        sum
+        sum(&sums[0], &sums[1])
     }
 
     #[inline(always)]

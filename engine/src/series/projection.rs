@@ -1,6 +1,6 @@
 //! Corrections of the state at the end of a step, onto the constraints — eq. (10.2).
 
-use super::lanes::largest;
+use super::lanes::{largest, sum};
 use super::{Bodies, Dependent, Series};
 
 /// A relative pivot below this belongs to a row that depends on others.
@@ -54,9 +54,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             let step = B::lanes(bundle.solution());
             moved = moved.max(largest(step));
-            let target = B::lanes_mut(&mut state[which]).as_flattened_mut();
-            for (x, dx) in target.iter_mut().zip(step.as_flattened()) {
-                *x += dx;
+            for (x, dx) in B::lanes_mut(&mut state[which]).iter_mut().zip(step) {
+                *x = sum(x, dx);
             }
         }
         moved

@@ -2,10 +2,12 @@
 
 use super::angles::Angles;
 use super::bodies::Bodies;
+use super::lanes::{plus, rows_of_lanes};
 use super::rows::{Place, Rows};
 use crate::row::Form;
-use crate::sparse::{BlockCholesky, Slot};
+use crate::sparse::{BlockCholesky, stride};
 use crate::system::{NO_INCIDENCE, System};
+use pulp::Simd;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -37,7 +39,7 @@ struct Term {
 /// A product H_p H_qᵀ that is added to a block of S.
 #[derive(Clone, Copy, Debug)]
 struct Contribution {
-    slot: Slot,
+    offset: usize,
     left: usize,
     right: usize,
     rows: usize,
@@ -57,7 +59,7 @@ struct Pair {
 struct Target {
     lane: usize,
     sign: f64,
-    slot: Slot,
+    offset: usize,
     /// σ/m, which is the same at every state; zero for a body that hangs on the ground.
     constant: f64,
 }
@@ -109,19 +111,17 @@ impl Schur {
                 for &q in &incidences[k..] {
                     let slot = factor.slot(system.incidences[p].group, system.incidences[q].group);
                     let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
+                    let offset = slot.offset;
                     if let (Some(a), Some(b)) = (ends[left], ends[right]) {
-                        let (transposed, sign) = (a.place.slot > b.place.slot, a.sign * b.sign);
-                        let mut slots = [a.place.slot, b.place.slot];
-                        slots.sort_unstable();
-                        let slot = Slot { offset: slot.offset, transposed };
+                        let sign = a.sign * b.sign;
                         let constant = sign * system.bodies[body].free_inverse_mass();
-                        let target = Target { lane: a.place.lane, sign, slot, constant };
-                        pairs.entry(slots).or_default().push(target);
+                        let target = Target { lane: a.place.lane, sign, offset, constant };
+                        pairs.entry([a.place.slot, b.place.slot]).or_default().push(target);
                         continue;
                     }
                     let (left, right) = (&system.incidences[left], &system.incidences[right]);
                     contributions.push(Contribution {
-                        slot,
+                        offset,
                         left: left.offset / 6 * twist,
                         right: right.offset / 6 * twist,
                         rows: left.rows,
@@ -131,7 +131,7 @@ impl Schur {
             }
         }
         // In the order of memory, so that the sums run through the store once.
-        contributions.sort_by_key(|c| c.slot.offset);
+        contributions.sort_by_key(|c| c.offset);
         let h = vec![0.0; system.block_numbers / 6 * twist];
         let (units, terms): (Vec<Term>, Vec<Term>) = terms(system, place, lanes, twist)
             .into_iter()
@@ -169,19 +169,19 @@ impl Schur {
 
     /// Builds S from C⁻¹ s̃ of all features.
     #[inline(always)]
-    pub fn assemble<const L: usize, B: Bodies<L>>(
+    pub fn assemble<S: Simd, const L: usize, B: Bodies<L>>(
         &mut self,
+        simd: S,
         rows: &Rows<L>,
         angles: &Angles,
         mobility: &[B::Mobility],
     ) {
         self.set_terms::<L, B>(rows, angles, mobility);
         self.factor.values_mut().copy_from_slice(&self.base);
+        self.add_pairs::<S, L, B>(simd, mobility);
         if B::TWIST == 3 {
-            self.add_pairs::<L, 2, B>(mobility);
             self.multiply::<3>();
         } else {
-            self.add_pairs::<L, 3, B>(mobility);
             self.multiply::<6>();
         }
     }
@@ -226,20 +226,18 @@ impl Schur {
 
     /// What joints that are only common points add to S: σ (1/m + s̃ᵀ I⁻¹ s̃), whose first part stands there.
     #[inline(always)]
-    fn add_pairs<const L: usize, const D: usize, B: Bodies<L>>(&mut self, mobility: &[B::Mobility]) {
+    fn add_pairs<S: Simd, const L: usize, B: Bodies<L>>(&mut self, simd: S, mobility: &[B::Mobility]) {
         let values = self.factor.values_mut();
         for pair in &self.pairs {
             let [a, b] = pair.slots.map(|slot| &mobility[slot]);
-            let block = B::pair(a, b);
-            for target in &self.targets[pair.targets.clone()] {
-                let lane = target.lane % L;
-                let out = values[target.slot.offset..].as_chunks_mut::<D>().0.first_chunk_mut::<D>();
-                let Some(out) = out else { continue };
-                for i in 0..D {
-                    for k in 0..D {
-                        let x = if target.slot.transposed { block[k][i][lane] } else { block[i][k][lane] };
-                        out[i][k] += target.sign * x;
-                    }
+            // No closures: they are not compiled for the instructions at hand.
+            let [first, second, third] = B::pair(a, b);
+            let strips =
+                [rows_of_lanes(simd, first), rows_of_lanes(simd, second), rows_of_lanes(simd, third)];
+            for &Target { lane, sign, offset, .. } in &self.targets[pair.targets.clone()] {
+                let block = &mut values[offset..offset + 4 * B::STRIPS];
+                for (out, strip) in block.as_chunks_mut::<4>().0.iter_mut().zip(&strips) {
+                    *out = plus(&[sign; 4], &strip[lane % L], out);
                 }
             }
         }
@@ -257,7 +255,7 @@ impl Schur {
         self.base.fill(0.0);
         for target in &self.targets {
             for k in 0..directions {
-                self.base[target.slot.offset + k * (directions + 1)] += target.constant;
+                self.base[target.offset + k * (stride(directions) + 1)] += target.constant;
             }
         }
     }
@@ -269,13 +267,15 @@ impl Schur {
         for c in &self.contributions {
             let (left, right) =
                 (&self.h[c.left..c.left + W * c.rows], &self.h[c.right..c.right + W * c.columns]);
-            let out = &mut values[c.slot.offset..c.slot.offset + c.rows * c.columns];
+            let out = &mut values[c.offset..c.offset + c.rows * stride(c.columns)];
             match (c.rows, c.columns) {
                 (2, 2) => add_product::<W, 2>(left, right, out),
                 (3, 3) => add_product::<W, 3>(left, right, out),
                 (5, 5) => add_product::<W, 5>(left, right, out),
                 _ => {
-                    for (a, out) in left.as_chunks::<W>().0.iter().zip(out.chunks_exact_mut(c.columns)) {
+                    for (a, out) in
+                        left.as_chunks::<W>().0.iter().zip(out.chunks_exact_mut(stride(c.columns)))
+                    {
                         for (b, out) in right.as_chunks::<W>().0.iter().zip(out) {
                             *out += dot(a, b);
                         }
@@ -290,7 +290,7 @@ impl Schur {
 fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
     let mut sum = a[0] * b[0];
     for k in 1..W {
-        sum += a[k] * b[k];
+        sum = a[k].mul_add(b[k], sum);
     }
     sum
 }
@@ -298,16 +298,10 @@ fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
 #[inline(always)]
 fn add_product<const W: usize, const N: usize>(left: &[f64], right: &[f64], out: &mut [f64]) {
     let (left, right) = (left.as_chunks::<W>().0, right.as_chunks::<W>().0);
-    let (Some(left), Some(right), Some(out)) = (
-        left.first_chunk::<N>(),
-        right.first_chunk::<N>(),
-        out.as_chunks_mut::<N>().0.first_chunk_mut::<N>(),
-    ) else {
-        return;
-    };
-    for i in 0..N {
+    let (Some(left), Some(right)) = (left.first_chunk::<N>(), right.first_chunk::<N>()) else { return };
+    for (a, out) in left.iter().zip(out.chunks_exact_mut(stride(N))) {
         for k in 0..N {
-            out[i][k] += dot(&left[i], &right[k]);
+            out[k] += dot(a, &right[k]);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! S elsewhere than at the state: how near a step comes to a singular position — THEORY section 8.
 
-use super::{Bodies, Dependent, REGULARIZATION, Series, horner};
+use super::{Bodies, Dependent, REGULARIZATION, Series, Value};
 use crate::passage;
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
@@ -12,8 +12,8 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Holds<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.0.find_holds();
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.0.find_holds(simd);
     }
 }
 
@@ -36,20 +36,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let Some(scout) = scout.as_deref_mut() else { return &[] };
         scout.set_time(start + tau);
         for (b, state) in scout.state.iter_mut().enumerate() {
-            *state = horner::<L, B>(&q[b * *stride..=b * *stride + order], tau);
+            let coefficients = &q[b * *stride..=b * *stride + order];
+            *state = Arch::new().dispatch(Value::<L, B> { coefficients, tau });
         }
-        // One body leaves nothing to vectorise.
-        if L == 1 {
-            scout.find_holds();
-        } else {
-            Arch::new().dispatch(Holds(scout));
-        }
+        Arch::new().dispatch(Holds(scout));
         scout.holds()
     }
 
     #[inline(always)]
-    fn find_holds(&mut self) {
-        self.assemble_here();
+    fn find_holds<S: Simd>(&mut self, simd: S) {
+        self.assemble_here(simd);
         let epsilon = if self.dependent == Dependent::Shifted { REGULARIZATION } else { 0.0 };
         self.schur.factor.factor(epsilon, 0.0);
     }

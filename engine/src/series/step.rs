@@ -67,8 +67,8 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     type Output = Taken;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Taken {
-        self.0.step_here(self.1)
+    fn with_simd<S: Simd>(self, simd: S) -> Taken {
+        self.0.step_here(simd, self.1)
     }
 }
 
@@ -88,10 +88,10 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Piece<'_, L, B> {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
         match self.1 {
-            Which::Assemble => self.0.assemble_here(),
-            Which::Linearize => self.0.linearize_here(),
+            Which::Assemble => self.0.assemble_here(simd),
+            Which::Linearize => self.0.linearize_here(simd),
             Which::Correct(which) => return self.0.correct_here(which),
         }
         0.0
@@ -105,8 +105,8 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.0.linearize_here();
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.0.linearize_here(simd);
         self.0.expand(2, |_, _| false);
     }
 }
@@ -131,20 +131,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.piece(Which::Correct(which))
     }
 
-    /// Pieces on their own are for the start of a run and for tests: no faster than the compiler makes plain code.
+    /// Pieces on their own are for the start of a run and for tests.
     #[inline(never)]
     fn piece(&mut self, which: Which) -> f64 {
-        if L == 1 {
-            Piece(self, which).with_simd(pulp::Scalar::new())
-        } else {
-            Arch::new().dispatch(Piece(self, which))
-        }
+        Arch::new().dispatch(Piece(self, which))
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
     pub fn step(&mut self, plan: Plan) -> Taken {
-        // One body leaves nothing to vectorise.
-        if L == 1 { self.step_here(plan) } else { Arch::new().dispatch(Step(self, plan)) }
+        Arch::new().dispatch(Step(self, plan))
     }
 
     /// The step that the series at the state allow, at which S must be factored, if no knot were in the way, s.
@@ -153,7 +148,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     #[inline(always)]
-    fn step_here(&mut self, plan: Plan) -> Taken {
+    fn step_here<S: Simd>(&mut self, simd: S, plan: Plan) -> Taken {
         // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
@@ -191,7 +186,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
             if met {
                 let most = (rejected < MOST_REJECTED).then_some(FAR * plan.tolerance);
-                if let Some((moved, closed)) = self.arrive(h, time, order, plan, most) {
+                if let Some((moved, closed)) = self.arrive(simd, h, time, order, plan, most) {
                     // Rows that are left out are measured.
                     let proven = closed && !self.regularized && self.dependent == Dependent::None;
                     let finite = self.is_finite();
@@ -208,8 +203,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// moved and whether Newton's method has converged, or nothing if it moved the positions by more than `most`: what the terms that were left out would have
     /// added.
     #[inline(always)]
-    fn arrive(
+    fn arrive<S: Simd>(
         &mut self,
+        simd: S,
         h: f64,
         time: f64,
         order: usize,
@@ -225,7 +221,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 return None;
             }
             if round == 0 || (last && moved > NEGLIGIBLE * plan.tolerance) {
-                self.linearize_here();
+                self.linearize_here(simd);
             }
             let step = self.correct_here(usize::from(last));
             if last {

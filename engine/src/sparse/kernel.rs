@@ -1,45 +1,39 @@
 //! Dense kernels of the block factorization, compiled for the sizes that joints have.
 //!
-//! `fused` says whether the processor multiplies and adds in one instruction; it is a constant wherever these are inlined.
+//! A block of N rows is an array of N rows of W numbers; W may be larger than the block is wide, so that a row fills a
+//! vector of the processor, and what stands behind its end is zero. Products and sums are fused: the same bits on every
+//! processor.
 
 /// Pivots above this part of the diagonal let a small block be inverted by its minors, with one division.
 const FAR_FROM_SINGULAR: f64 = 1e-3;
-
-/// a b + c.
-#[inline(always)]
-fn add(fused: bool, a: f64, b: f64, c: f64) -> f64 {
-    if fused { a.mul_add(b, c) } else { a * b + c }
-}
 
 /// Inverse of a symmetric block, of which the lower triangle is read. `reference` is the diagonal of S, or infinite for
 /// rows that are left out. Returns the pivots relative to it as well, infinite for rows that were left out; one not above
 /// `skip` drops its row.
 #[inline(always)]
-pub fn invert<const N: usize>(
-    fused: bool,
-    block: &[[f64; N]; N],
+pub fn invert<const N: usize, const W: usize>(
+    block: &[[f64; W]; N],
     reference: &[f64; N],
     skip: f64,
-) -> ([[f64; N]; N], [f64; N]) {
+) -> ([[f64; W]; N], [f64; N]) {
     if N == 2 || N == 3 {
-        let (inverse, relative) = by_minors(fused, block, reference);
+        let (inverse, relative) = by_minors(block, reference);
         // A comparison that is false for NaN as well.
         if relative.iter().all(|&r| r > FAR_FROM_SINGULAR.max(skip)) {
             return (inverse, relative);
         }
     }
-    by_elimination(fused, block, reference, skip)
+    by_elimination(block, reference, skip)
 }
 
 /// The inverse of two or three rows from their minors.
 #[inline(always)]
-fn by_minors<const N: usize>(
-    fused: bool,
-    block: &[[f64; N]; N],
+fn by_minors<const N: usize, const W: usize>(
+    block: &[[f64; W]; N],
     reference: &[f64; N],
-) -> ([[f64; N]; N], [f64; N]) {
-    let mut inverse = [[0.0; N]; N];
-    let minor = |a: f64, b: f64, c: f64, d: f64| add(fused, a, b, -(c * d));
+) -> ([[f64; W]; N], [f64; N]) {
+    let mut inverse = [[0.0; W]; N];
+    let minor = |a: f64, b: f64, c: f64, d: f64| a.mul_add(b, -(c * d));
     let mut relative = [0.0; N];
     relative[0] = block[0][0] / reference[0];
     let second = minor(block[0][0], block[1][1], block[1][0], block[1][0]);
@@ -54,7 +48,7 @@ fn by_minors<const N: usize>(
     let (a, b, c) = (block[0][0], block[1][0], block[1][1]);
     let (d, e, f) = (block[2][0], block[2][1], block[2][2]);
     let first = [minor(c, f, e, e), minor(d, e, b, f), minor(b, e, c, d)];
-    let determinant = add(fused, a, first[0], add(fused, b, first[1], d * first[2]));
+    let determinant = a.mul_add(first[0], b.mul_add(first[1], d * first[2]));
     relative[2] = determinant / (second * reference[2]);
     let scale = 1.0 / determinant;
     let (middle, corner) = (minor(a, f, d, d) * scale, minor(b, d, a, e) * scale);
@@ -70,27 +64,27 @@ fn by_minors<const N: usize>(
 
 /// The inverse by L D Lᵀ.
 #[inline(always)]
-fn by_elimination<const N: usize>(
-    fused: bool,
-    block: &[[f64; N]; N],
+fn by_elimination<const N: usize, const W: usize>(
+    block: &[[f64; W]; N],
     reference: &[f64; N],
     skip: f64,
-) -> ([[f64; N]; N], [f64; N]) {
-    let mut inverse = [[0.0; N]; N];
+) -> ([[f64; W]; N], [f64; N]) {
+    let mut inverse = [[0.0; W]; N];
     let mut l = [[0.0; N]; N];
     let mut reciprocal = [0.0; N];
     let mut all = [f64::INFINITY; N];
     for i in 0..N {
-        let mut row = block[i];
+        let mut row = [0.0; N];
+        row.copy_from_slice(&block[i][..N]);
         for k in 0..i {
             for p in 0..k {
-                row[k] = add(fused, -row[p], l[k][p], row[k]);
+                row[k] = (-row[p]).mul_add(l[k][p], row[k]);
             }
         }
         let mut pivot = block[i][i];
         for k in 0..i {
             l[i][k] = row[k] * reciprocal[k];
-            pivot = add(fused, -row[k], l[i][k], pivot);
+            pivot = (-row[k]).mul_add(l[i][k], pivot);
         }
         if reference[i] == f64::INFINITY {
             continue;
@@ -107,7 +101,7 @@ fn by_elimination<const N: usize>(
         for k in 0..i {
             let mut sum = l[i][k];
             for p in k + 1..i {
-                sum = add(fused, l[i][p], m[p][k], sum);
+                sum = l[i][p].mul_add(m[p][k], sum);
             }
             m[i][k] = -sum;
         }
@@ -116,7 +110,7 @@ fn by_elimination<const N: usize>(
         for c in 0..=r {
             let mut sum = 0.0;
             for i in r..N {
-                sum = add(fused, m[i][r] * reciprocal[i], m[i][c], sum);
+                sum = (m[i][r] * reciprocal[i]).mul_add(m[i][c], sum);
             }
             inverse[r][c] = sum;
             inverse[c][r] = sum;
@@ -125,128 +119,74 @@ fn by_elimination<const N: usize>(
     (inverse, all)
 }
 
+/// The row Σ a_p M_p of the rows of a matrix.
 #[inline(always)]
-fn dot<const N: usize>(fused: bool, a: &[f64; N], b: &[f64; N]) -> f64 {
-    let mut sum = a[0] * b[0];
-    for p in 1..N {
-        sum = add(fused, a[p], b[p], sum);
-    }
-    sum
-}
-
-/// The row aᵀ M.
-#[inline(always)]
-fn row_times<const N: usize>(fused: bool, a: &[f64; N], matrix: &[[f64; N]; N]) -> [f64; N] {
-    let mut sum = [0.0; N];
-    for c in 0..N {
+fn row_times<const N: usize, const W: usize>(a: &[f64; N], matrix: &[[f64; W]; N]) -> [f64; W] {
+    let mut sum = [0.0; W];
+    for c in 0..W {
         sum[c] = a[0] * matrix[0][c];
     }
     for p in 1..N {
-        for c in 0..N {
-            sum[c] = add(fused, a[p], matrix[p][c], sum[c]);
+        for c in 0..W {
+            sum[c] = a[p].mul_add(matrix[p][c], sum[c]);
         }
     }
     sum
 }
 
-/// E ← B D⁻¹ row by row.
+/// U ← D⁻¹ B for a block as wide as it is high.
 #[inline(always)]
-pub fn scale<const N: usize>(fused: bool, inverse: &[[f64; N]; N], block: &[f64], out: &mut [f64]) {
-    let (rows, out) = (block.as_chunks::<N>().0, out.as_chunks_mut::<N>().0);
-    // The commonest case, all joints of one kind, with every length known.
-    if let (Some(rows), Some(out)) = (rows.first_chunk::<N>(), out.first_chunk_mut::<N>())
-        && block.len() == N * N
-    {
-        for i in 0..N {
-            out[i] = row_times(fused, &rows[i], inverse);
-        }
-        return;
-    }
-    for (row, out) in rows.iter().zip(out) {
-        *out = row_times(fused, row, inverse);
+pub fn scale<const N: usize, const W: usize>(
+    inverse: &[[f64; W]; N],
+    block: &[[f64; W]; N],
+    out: &mut [[f64; W]; N],
+) {
+    for i in 0..N {
+        let mut row = [0.0; N];
+        row.copy_from_slice(&inverse[i][..N]);
+        out[i] = row_times(&row, block);
     }
 }
 
-/// target −= E Bᵀ, where the rows of B are `columns` in number; of a diagonal block the lower triangle, which is all that is
-/// read of it.
+/// target −= Uᵀ B for blocks as wide as they are high.
 #[inline(always)]
-pub fn update<const N: usize>(
-    fused: bool,
-    scaled: &[f64],
-    block: &[f64],
-    columns: usize,
-    diagonal: bool,
-    target: &mut [f64],
+pub fn update<const N: usize, const W: usize>(
+    scaled: &[[f64; W]; N],
+    block: &[[f64; W]; N],
+    target: &mut [[f64; W]; N],
 ) {
-    let scaled = scaled.as_chunks::<N>().0;
-    let block = block.as_chunks::<N>().0;
-    let less = |e: &[f64; N], b: &[f64; N], x: f64| {
-        let mut x = x;
+    for i in 0..N {
         for p in 0..N {
-            x = add(fused, -e[p], b[p], x);
-        }
-        x
-    };
-    if let (Some(e), Some(b), Some(out)) = (
-        scaled.first_chunk::<N>(),
-        block.first_chunk::<N>(),
-        target.as_chunks_mut::<N>().0.first_chunk_mut::<N>(),
-    ) && scaled.len() == N
-        && columns == N
-    {
-        for i in 0..N {
-            for k in 0..if diagonal { i + 1 } else { N } {
-                out[i][k] = less(&e[i], &b[k], out[i][k]);
+            for c in 0..W {
+                target[i][c] = (-scaled[p][i]).mul_add(block[p][c], target[i][c]);
             }
         }
-        return;
-    }
-    for (e, out) in scaled.iter().zip(target.chunks_exact_mut(columns)) {
-        for (b, out) in block.iter().zip(out) {
-            *out = less(e, b, *out);
-        }
     }
 }
 
-/// y_i −= E y_j.
+/// target −= Uᵀ y for a block as wide as it is high.
 #[inline(always)]
-pub fn forward<const N: usize>(fused: bool, scaled: &[f64], y: &[f64; N], target: &mut [f64]) {
-    let rows = scaled.as_chunks::<N>().0;
-    if let (Some(rows), Some(out)) = (rows.first_chunk::<N>(), target.first_chunk_mut::<N>())
-        && scaled.len() == N * N
-    {
-        for i in 0..N {
-            out[i] -= dot(fused, &rows[i], y);
-        }
-        return;
-    }
-    for (e, out) in rows.iter().zip(target) {
-        *out -= dot(fused, e, y);
+pub fn forward<const N: usize, const W: usize>(scaled: &[[f64; W]; N], y: &[f64; N], target: &mut [f64; N]) {
+    let known = row_times(y, scaled);
+    for i in 0..N {
+        target[i] -= known[i];
     }
 }
 
-/// x_j −= Eᵀ x_i.
+/// x −= U source for a block as wide as it is high.
 #[inline(always)]
-pub fn backward<const N: usize>(fused: bool, scaled: &[f64], source: &[f64], x: &mut [f64; N]) {
-    let rows = scaled.as_chunks::<N>().0;
-    if let (Some(rows), Some(source)) = (rows.first_chunk::<N>(), source.first_chunk::<N>())
-        && scaled.len() == N * N
-    {
-        let known = row_times(fused, source, rows);
-        for p in 0..N {
-            x[p] -= known[p];
-        }
-        return;
-    }
-    for (e, value) in rows.iter().zip(source) {
-        for p in 0..N {
-            x[p] = add(fused, -e[p], *value, x[p]);
+pub fn backward<const N: usize, const W: usize>(scaled: &[[f64; W]; N], source: &[f64; N], x: &mut [f64; N]) {
+    for p in 0..N {
+        for k in 0..N {
+            x[p] = (-scaled[p][k]).mul_add(source[k], x[p]);
         }
     }
 }
 
 /// M x for a symmetric matrix.
 #[inline(always)]
-pub fn multiply<const N: usize>(fused: bool, matrix: &[[f64; N]; N], x: &[f64; N]) -> [f64; N] {
-    row_times(fused, x, matrix)
+pub fn multiply<const N: usize, const W: usize>(matrix: &[[f64; W]; N], x: &[f64; N]) -> [f64; N] {
+    let mut product = [0.0; N];
+    product.copy_from_slice(&row_times(x, matrix)[..N]);
+    product
 }

@@ -1,17 +1,18 @@
 //! Factorization and solution: the program of block operations, run on the processor's vector instructions.
 
-use super::{BlockCholesky, Column, kernel, wide};
+use super::{BlockCholesky, Pivot, kernel, stride, wide};
 use pulp::{Arch, Simd, WithSimd};
 
-/// Runs `$call` with the constant `$n` equal to a block's size, or `$wide` for blocks wider than those of joints.
+/// Runs `$call` with the constant `$n` equal to a block's size and `$w` to its stride, or `$wide` for blocks wider than
+/// those of joints.
 macro_rules! by_size {
-    ($size:expr, $n:ident => $call:expr, $wide:expr) => {
-        by_size!(@ $size, $n => $call, $wide; 1 2 3 4 5 6)
+    ($size:expr, $n:ident, $w:ident => $call:expr, $wide:expr) => {
+        by_size!(@ $size, $n, $w => $call, $wide; 1 2 3 4 5 6)
     };
-    (@ $size:expr, $n:ident => $call:expr, $wide:expr; $($value:literal)*) => {
+    (@ $size:expr, $n:ident, $w:ident => $call:expr, $wide:expr; $($value:literal)*) => {
         match $size {
             0 => {}
-            $($value => { const $n: usize = $value; $call })*
+            $($value => { const $n: usize = $value; const $w: usize = stride($value); $call })*
             _ => $wide,
         }
     };
@@ -28,7 +29,7 @@ impl WithSimd for Factor<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> f64 {
-        self.matrix.factor_here(!S::IS_SCALAR, self.epsilon, self.skip)
+        self.matrix.factor_here(self.epsilon, self.skip)
     }
 }
 
@@ -42,7 +43,7 @@ impl WithSimd for Solve<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.matrix.solve_here(!S::IS_SCALAR, self.x);
+        self.matrix.solve_here(self.x);
     }
 }
 
@@ -64,7 +65,7 @@ impl BlockCholesky {
     }
 
     #[inline(always)]
-    fn factor_here(&mut self, fused: bool, epsilon: f64, skip: f64) -> f64 {
+    fn factor_here(&mut self, epsilon: f64, skip: f64) -> f64 {
         // The shift of every diagonal entry is relative to S itself, so it comes before any update.
         for (entry, &at) in self.diagonal.iter_mut().zip(&self.diagonal_at) {
             *entry = self.values[at];
@@ -78,16 +79,19 @@ impl BlockCholesky {
             self.known_dependent.iter().for_each(|&row| self.diagonal[row] = f64::INFINITY);
         }
         let mut smallest = f64::INFINITY;
-        for place in 0..self.columns.len() {
-            let Column { size, start, diagonal, dependent, .. } = self.columns[place];
+        for place in 0..self.pivots.len() {
+            let Pivot { size, start, diagonal, dependent, .. } = self.pivots[place];
             if dependent > 0 && epsilon == 0.0 {
                 let block = &mut self.scratch[..size * size];
-                block.copy_from_slice(&self.values[diagonal..diagonal + size * size]);
+                let rows = self.values[diagonal..].chunks_exact(stride(size));
+                for (own, row) in block.chunks_exact_mut(size).zip(rows) {
+                    own.copy_from_slice(&row[..size]);
+                }
                 wide::leave_out(dependent, block, &mut self.diagonal[start..start + size]);
             }
             by_size!(
                 size,
-                N => smallest = self.factor_column::<N>(fused, place, skip).min(smallest),
+                N, W => smallest = self.factor_pivot::<N, W>(place, skip).min(smallest),
                 smallest = self.factor_wide(place, skip).min(smallest)
             );
         }
@@ -95,128 +99,155 @@ impl BlockCholesky {
     }
 
     #[inline(always)]
-    fn factor_column<const N: usize>(&mut self, fused: bool, place: usize, skip: f64) -> f64 {
-        let Self { columns, below, updates, values, factors, diagonal, relative, .. } = self;
-        let column = &columns[place];
+    fn factor_pivot<const N: usize, const W: usize>(&mut self, place: usize, skip: f64) -> f64 {
+        let Self { pivots, beside, updates, values, factors, diagonal, relative, .. } = self;
+        let pivot = &pivots[place];
         let (Some(block), Some(place), Some(reference), Some(relative)) = (
-            values[column.diagonal..].as_chunks::<N>().0.first_chunk::<N>(),
-            factors[column.diagonal..].as_chunks_mut::<N>().0.first_chunk_mut::<N>(),
-            diagonal[column.start..].first_chunk::<N>(),
-            relative[column.start..].first_chunk_mut::<N>(),
+            rows::<N, W>(&values[pivot.diagonal..]),
+            rows_mut::<N, W>(&mut factors[pivot.diagonal..]),
+            diagonal[pivot.start..].first_chunk::<N>(),
+            relative[pivot.start..].first_chunk_mut::<N>(),
         ) else {
             return f64::INFINITY;
         };
         // Kept in registers: what was just written number by number is slow to read back in one piece.
-        let (inverse, pivots) = kernel::invert(fused, block, reference, skip);
+        let (inverse, pivots) = kernel::invert(block, reference, skip);
         (*place, *relative) = (inverse, pivots);
-        for below in &below[column.below.clone()] {
-            let at = below.offset..below.offset + below.rows * N;
-            kernel::scale(fused, &inverse, &values[at.clone()], &mut factors[at]);
+        for beside in &beside[pivot.beside.clone()] {
+            let (block, out) = (&values[beside.offset..], &mut factors[beside.offset..]);
+            // The commonest case, all joints of one kind, with every length known.
+            if beside.columns == N
+                && let (Some(block), Some(out)) = (rows::<N, W>(block), rows_mut::<N, W>(out))
+            {
+                kernel::scale(&inverse, block, out);
+            } else {
+                wide::scale(N, inverse.as_flattened(), W, beside.columns, block, out);
+            }
         }
-        for update in &updates[column.updates.clone()] {
-            // The target belongs to a later column than the blocks it is made of.
+        for update in &updates[pivot.updates.clone()] {
+            // The target belongs to a later pivot than the blocks it is made of.
             let (done, later) = values.split_at_mut(update.target);
-            kernel::update::<N>(
-                fused,
-                &factors[update.left..update.left + update.rows * N],
-                &done[update.right..update.right + update.columns * N],
-                update.columns,
-                update.left == update.right,
-                &mut later[..update.rows * update.columns],
-            );
+            let (scaled, block) = (&factors[update.left..], &done[update.right..]);
+            if update.rows == N
+                && update.columns == N
+                && let (Some(scaled), Some(block), Some(target)) =
+                    (rows::<N, W>(scaled), rows::<N, W>(block), rows_mut::<N, W>(later))
+            {
+                kernel::update(scaled, block, target);
+            } else {
+                wide::update(N, scaled, block, update.rows, update.columns, later);
+            }
         }
         pivots.iter().fold(f64::INFINITY, |least, &r| least.min(r))
     }
 
     fn factor_wide(&mut self, place: usize, skip: f64) -> f64 {
-        let column = &self.columns[place];
-        let n = column.size;
-        let at = column.diagonal..column.diagonal + n * n;
-        let rows = column.start..column.start + n;
+        let pivot = &self.pivots[place];
+        let n = pivot.size;
+        let at = pivot.diagonal..pivot.diagonal + n * n;
+        let own = pivot.start..pivot.start + n;
         self.factors[at.clone()].copy_from_slice(&self.values[at.clone()]);
-        let relative = &mut self.relative[rows.clone()];
-        wide::invert(n, &mut self.factors[at.clone()], &self.diagonal[rows], skip, relative);
+        let relative = &mut self.relative[own.clone()];
+        wide::invert(n, &mut self.factors[at.clone()], &self.diagonal[own], skip, relative);
         let smallest = relative.iter().fold(f64::INFINITY, |least, &r| least.min(r));
-        for below in &self.below[column.below.clone()] {
-            // Blocks of a column stand behind its diagonal.
+        for beside in &self.beside[pivot.beside.clone()] {
+            // Blocks beside a pivot stand behind it.
             let (inverse, rest) = self.factors.split_at_mut(at.end);
-            let own = below.offset..below.offset + below.rows * n;
-            let out = &mut rest[own.start - at.end..own.end - at.end];
-            wide::scale(n, &inverse[at.clone()], &self.values[own], out);
+            let (block, out) = (&self.values[beside.offset..], &mut rest[beside.offset - at.end..]);
+            wide::scale(n, &inverse[at.clone()], n, beside.columns, block, out);
         }
-        for update in &self.updates[column.updates.clone()] {
+        for update in &self.updates[pivot.updates.clone()] {
             let (done, later) = self.values.split_at_mut(update.target);
-            wide::update(
-                n,
-                &self.factors[update.left..update.left + update.rows * n],
-                &done[update.right..update.right + update.columns * n],
-                update.columns,
-                &mut later[..update.rows * update.columns],
-            );
+            let (scaled, block) = (&self.factors[update.left..], &done[update.right..]);
+            wide::update(n, scaled, block, update.rows, update.columns, later);
         }
         smallest
     }
 
     #[inline(always)]
-    fn solve_here(&self, fused: bool, x: &mut [f64]) {
-        for column in &self.columns {
-            by_size!(column.size, N => self.forward::<N>(fused, column, x), self.forward_wide(column, x));
+    fn solve_here(&self, x: &mut [f64]) {
+        for pivot in &self.pivots {
+            by_size!(pivot.size, N, W => self.forward::<N, W>(pivot, x), self.forward_wide(pivot, x));
         }
-        for column in self.columns.iter().rev() {
-            by_size!(column.size, N => self.backward::<N>(fused, column, x), self.backward_wide(column, x));
-        }
-    }
-
-    fn forward_wide(&self, column: &Column, x: &mut [f64]) {
-        for below in &self.below[column.below.clone()] {
-            for r in 0..below.rows {
-                let first = below.offset + r * column.size;
-                let e = &self.factors[first..first + column.size];
-                let known: f64 = e.iter().zip(&x[column.start..]).map(|(e, y)| e * y).sum();
-                x[below.start + r] -= known;
-            }
-        }
-    }
-
-    fn backward_wide(&self, column: &Column, x: &mut [f64]) {
-        let n = column.size;
-        let inverse = &self.factors[column.diagonal..column.diagonal + n * n];
-        let mut solution = vec![0.0; n];
-        wide::multiply(n, inverse, &x[column.start..column.start + n], &mut solution);
-        for below in &self.below[column.below.clone()] {
-            let block = &self.factors[below.offset..below.offset + below.rows * n];
-            for (e, value) in block.chunks_exact(n).zip(&x[below.start..]) {
-                for (solution, e) in solution.iter_mut().zip(e) {
-                    *solution -= e * value;
-                }
-            }
-        }
-        x[column.start..column.start + n].copy_from_slice(&solution);
-    }
-
-    #[inline(always)]
-    fn forward<const N: usize>(&self, fused: bool, column: &Column, x: &mut [f64]) {
-        let Some(&y) = x[column.start..].first_chunk::<N>() else { return };
-        for below in &self.below[column.below.clone()] {
-            let block = &self.factors[below.offset..below.offset + below.rows * N];
-            kernel::forward(fused, block, &y, &mut x[below.start..below.start + below.rows]);
+        for pivot in self.pivots.iter().rev() {
+            by_size!(pivot.size, N, W => self.backward::<N, W>(pivot, x), self.backward_wide(pivot, x));
         }
     }
 
     #[inline(always)]
-    fn backward<const N: usize>(&self, fused: bool, column: &Column, x: &mut [f64]) {
-        let inverse = self.factors[column.diagonal..].as_chunks::<N>().0;
-        let (Some(inverse), Some(y)) = (inverse.first_chunk::<N>(), x[column.start..].first_chunk::<N>())
-        else {
-            return;
-        };
-        let mut solution = kernel::multiply(fused, inverse, y);
-        for below in &self.below[column.below.clone()] {
-            let block = &self.factors[below.offset..below.offset + below.rows * N];
-            kernel::backward(fused, block, &x[below.start..below.start + below.rows], &mut solution);
+    fn forward<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
+        let Some(&y) = x[pivot.start..].first_chunk::<N>() else { return };
+        for beside in &self.beside[pivot.beside.clone()] {
+            let block = &self.factors[beside.offset..];
+            let target = &mut x[beside.start..];
+            if beside.columns == N
+                && let (Some(block), Some(target)) = (rows::<N, W>(block), target.first_chunk_mut::<N>())
+            {
+                kernel::forward(block, &y, target);
+            } else {
+                wide::forward(&y, block, beside.columns, target);
+            }
         }
-        if let Some(out) = x[column.start..].first_chunk_mut::<N>() {
+    }
+
+    #[inline(always)]
+    fn backward<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
+        let inverse = rows::<N, W>(&self.factors[pivot.diagonal..]);
+        let (Some(inverse), Some(y)) = (inverse, x[pivot.start..].first_chunk::<N>()) else { return };
+        let mut solution = kernel::multiply(inverse, y);
+        for beside in &self.beside[pivot.beside.clone()] {
+            let (block, source) = (&self.factors[beside.offset..], &x[beside.start..]);
+            if beside.columns == N
+                && let (Some(block), Some(source)) = (rows::<N, W>(block), source.first_chunk::<N>())
+            {
+                kernel::backward(block, source, &mut solution);
+            } else {
+                wide::backward(block, &source[..beside.columns], &mut solution);
+            }
+        }
+        if let Some(out) = x[pivot.start..].first_chunk_mut::<N>() {
             *out = solution;
         }
     }
+
+    fn forward_wide(&self, pivot: &Pivot, x: &mut [f64]) {
+        for beside in &self.beside[pivot.beside.clone()] {
+            let (own, others) = own_and_others(x, pivot, beside.start);
+            wide::forward(own, &self.factors[beside.offset..], beside.columns, others);
+        }
+    }
+
+    fn backward_wide(&self, pivot: &Pivot, x: &mut [f64]) {
+        let n = pivot.size;
+        let inverse = &self.factors[pivot.diagonal..pivot.diagonal + n * n];
+        let mut solution = vec![0.0; n];
+        wide::multiply(n, inverse, &x[pivot.start..pivot.start + n], &mut solution);
+        for beside in &self.beside[pivot.beside.clone()] {
+            let source = &x[beside.start..beside.start + beside.columns];
+            wide::backward(&self.factors[beside.offset..], source, &mut solution);
+        }
+        x[pivot.start..pivot.start + n].copy_from_slice(&solution);
+    }
+}
+
+/// The rows of one pivot, and those from `other` on, of another.
+fn own_and_others<'a>(x: &'a mut [f64], pivot: &Pivot, other: usize) -> (&'a [f64], &'a mut [f64]) {
+    let own = pivot.start..pivot.start + pivot.size;
+    if other < pivot.start {
+        let (before, from) = x.split_at_mut(pivot.start);
+        (&from[..pivot.size], &mut before[other..])
+    } else {
+        let (before, behind) = x.split_at_mut(own.end);
+        (&before[own.start..], &mut behind[other - own.end..])
+    }
+}
+
+#[inline(always)]
+fn rows<const N: usize, const W: usize>(block: &[f64]) -> Option<&[[f64; W]; N]> {
+    block.as_chunks::<W>().0.first_chunk::<N>()
+}
+
+#[inline(always)]
+fn rows_mut<const N: usize, const W: usize>(block: &mut [f64]) -> Option<&mut [[f64; W]; N]> {
+    block.as_chunks_mut::<W>().0.first_chunk_mut::<N>()
 }

@@ -1,4 +1,7 @@
-//! The kernels for blocks wider than those that are compiled one by one: the same, with lengths known only at run time.
+//! The kernels for blocks whose lengths are known only at run time: wider than those that are compiled one by one, or of
+//! joints of two kinds.
+
+use super::stride;
 
 /// Marks in the diagonal of S, as infinite, so many rows of a symmetric block as say least beside the others: the last
 /// ones of an elimination whose pivots are the largest, relative to that diagonal. The block is used up.
@@ -75,18 +78,49 @@ pub fn invert(n: usize, block: &mut [f64], reference: &[f64], skip: f64, all: &m
     }
 }
 
-/// E ← B D⁻¹ row by row.
-pub fn scale(n: usize, inverse: &[f64], block: &[f64], out: &mut [f64]) {
-    for (row, out) in block.chunks_exact(n).zip(out.chunks_exact_mut(n)) {
-        multiply(n, inverse, row, out);
+/// U ← D⁻¹ B, where D⁻¹ has n rows of `width` numbers and B has `columns`.
+#[inline(always)]
+pub fn scale(n: usize, inverse: &[f64], width: usize, columns: usize, block: &[f64], out: &mut [f64]) {
+    let step = stride(columns);
+    for (own, out) in inverse.chunks_exact(width).zip(out.chunks_exact_mut(step)).take(n) {
+        out.fill(0.0);
+        for (factor, row) in own.iter().zip(block.chunks_exact(step)).take(n) {
+            for (out, x) in out[..columns].iter_mut().zip(row) {
+                *out = factor.mul_add(*x, *out);
+            }
+        }
     }
 }
 
-/// target −= E Bᵀ, where the rows of B are `columns` in number.
-pub fn update(n: usize, scaled: &[f64], block: &[f64], columns: usize, target: &mut [f64]) {
-    for (e, out) in scaled.chunks_exact(n).zip(target.chunks_exact_mut(columns)) {
-        for (b, out) in block.chunks_exact(n).zip(out) {
-            *out -= dot(e, b);
+/// target −= Uᵀ B, where U and B have n rows, and the target `rows` and `columns`.
+#[inline(always)]
+pub fn update(n: usize, scaled: &[f64], block: &[f64], rows: usize, columns: usize, target: &mut [f64]) {
+    for (i, out) in target.chunks_exact_mut(stride(columns)).take(rows).enumerate() {
+        let column = scaled[i..].iter().step_by(stride(rows));
+        for (factor, row) in column.zip(block.chunks_exact(stride(columns))).take(n) {
+            for (out, x) in out[..columns].iter_mut().zip(row) {
+                *out = (-factor).mul_add(*x, *out);
+            }
+        }
+    }
+}
+
+/// target −= Uᵀ y, where U has `columns`.
+#[inline(always)]
+pub fn forward(y: &[f64], scaled: &[f64], columns: usize, target: &mut [f64]) {
+    for (y, row) in y.iter().zip(scaled.chunks_exact(stride(columns))) {
+        for (out, u) in target[..columns].iter_mut().zip(row) {
+            *out = (-y).mul_add(*u, *out);
+        }
+    }
+}
+
+/// x −= U source.
+#[inline(always)]
+pub fn backward(scaled: &[f64], source: &[f64], x: &mut [f64]) {
+    for (x, row) in x.iter_mut().zip(scaled.chunks_exact(stride(source.len()))) {
+        for (u, source) in row.iter().zip(source) {
+            *x = (-u).mul_add(*source, *x);
         }
     }
 }
@@ -94,10 +128,6 @@ pub fn update(n: usize, scaled: &[f64], block: &[f64], columns: usize, target: &
 /// M x for a symmetric matrix.
 pub fn multiply(n: usize, matrix: &[f64], x: &[f64], out: &mut [f64]) {
     for (row, out) in matrix.chunks_exact(n).zip(out) {
-        *out = dot(row, x);
+        *out = row.iter().zip(x).map(|(a, b)| a * b).sum();
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -17,7 +17,7 @@ use std::time::Instant;
 use triad_engine::matrices::{self, Part};
 use triad_engine::mechanism::Mechanism;
 use triad_engine::model::Model;
-use triad_engine::sparse::BlockCholesky;
+use triad_engine::sparse::{BlockCholesky, stride};
 use triad_engine::system::System;
 use triad_engine::{catalogue, rank};
 
@@ -143,7 +143,7 @@ fn blocks<'a>(entries: &[(usize, usize, f64)], sizes: &[usize]) -> Contender<'a>
             } else {
                 (i - start[a], j - start[b], sizes[b])
             };
-            matrix.values_mut()[slot.offset + row * width + column] = value;
+            matrix.values_mut()[slot.offset + row * stride(width) + column] = value;
         };
         put(i, j);
         if joint[i] == joint[j] {
