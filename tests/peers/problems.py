@@ -55,22 +55,16 @@ PROBLEMS = {
 }
 
 
+def chain_start(rods):
+    """Directions of the chain's rods of 1 m and 1 kg at the start, their rates, and the spin about them, rad/s."""
+    import numpy as np
+
+    phase = np.arange(1, rods + 1)
+    rates = np.stack([0 * phase, 0.8 * np.sin(phase), -0.4 * np.cos(phase)], axis=1)
+    return np.tile([1.0, 0.0, 0.0], (rods, 1)), rates, 1.0
+
+
 def relative_rates(rods):
     """Angular velocities at the start of each rod of the chain against the one before, rad/s."""
     absolute = [(0.0, 0.0, 0.0)] + [(1.0, 0.4 * math.cos(i), 0.8 * math.sin(i)) for i in range(1, rods + 1)]
     return [tuple(b - a for a, b in zip(*pair, strict=True)) for pair in zip(absolute, absolute[1:])]
-
-
-def chain_model(pin, rods):
-    """The chain as Pinocchio's model, with the quaternions and rates of the start."""
-    import numpy as np
-
-    model = pin.Model()
-    model.gravity.linear = np.array([0.0, 0.0, -GRAVITY])
-    inertia = pin.Inertia(1.0, np.array([0.5, 0.0, 0.0]), np.diag([AXIAL, ACROSS, ACROSS]))
-    parent = 0
-    for i in range(rods):
-        place = pin.SE3(np.eye(3), np.array([float(i > 0), 0.0, 0.0]))
-        parent = model.addJoint(parent, pin.JointModelSpherical(), place, f"ball-{i + 1}")
-        model.appendBodyToJoint(parent, inertia, pin.SE3.Identity())
-    return model, np.tile([0.0, 0.0, 0.0, 1.0], rods), np.array(relative_rates(rods)).ravel()

@@ -41,9 +41,9 @@ def solve(f, y, duration, step=GRID, order=12):
     return np.array(states)
 
 
-def converged(f, y, duration, points, order=10):
+def converged(f, y, duration, points):
     """Points at multiples of GRID, and the largest difference from steps twice as long."""
-    fine, coarse = (points(solve(f, y, duration, step, order)) for step in (GRID, 2 * GRID))
+    fine, coarse = (points(solve(f, y, duration, step)) for step in (GRID, 2 * GRID))
     change = np.linalg.norm((fine[::2] - coarse).astype(float), axis=-1).max()
     return fine.astype(float), float(change)
 
@@ -108,47 +108,40 @@ class Top:
 
 
 def chain(rods, duration):
-    """The far ends of the chain's rods: joint quaternions and Pinocchio's recursion, its accuracy that of doubles."""
-    import pinocchio as pin
+    """The far ends of the chain's rods: directions d of the rods, and the forces f in their joints; in doubles.
 
-    from problems import chain_model
+    A rod whose two moments across are B turns by d × d̈ = (M − A s ḋ) / B, where A is its moment along d, s its spin, which
+    is constant as all forces meet its axis, and M = −d × (f_k + f_(k+1)) / 2. The joints' forces follow from the accelerations
+    of the points that they join.
+    """
+    from problems import ACROSS, AXIAL, GRAVITY, chain_start
 
-    model, quaternions, rates = chain_model(pin, rods)
-    data = model.createData()
-    torque = np.zeros(model.nv)
-    n = model.nq
+    directions, rates, spin = chain_start(rods)
+    weight = np.array([0, 0, -GRAVITY])
+    own = np.arange(rods)
+    unit = np.eye(3)
 
     def f(y):
-        q, v = y[:n], y[n:]
-        unit = (q.reshape(-1, 4) / np.linalg.norm(q.reshape(-1, 4), axis=1)[:, None]).ravel()
-        change = np.empty(n + model.nv)
-        w, e = v.reshape(-1, 3), q.reshape(-1, 4)
-        change[:n].reshape(-1, 4)[:, :3] = 0.5 * (e[:, 3:] * w + np.cross(e[:, :3], w))
-        change[:n].reshape(-1, 4)[:, 3] = -0.5 * (e[:, :3] * w).sum(axis=1)
-        change[n:] = pin.aba(model, data, unit, v, torque)
-        return change
+        d, v = y.reshape(2, rods, 3)
+        turning = (unit - d[:, :, None] * d[:, None, :]) / (4 * ACROSS)
+        bent = np.cross(v, d) * (-AXIAL * spin / ACROSS) - (v * v).sum(axis=1)[:, None] * d
+        matrix = np.zeros((rods, 3, rods, 3))
+        matrix[own, :, own] += unit + turning
+        matrix[own[1:], :, own[1:]] += unit + turning[:-1]
+        matrix[own[:-1], :, own[1:]] += turning[:-1] - unit
+        matrix[own[1:], :, own[:-1]] += turning[:-1] - unit
+        right = bent / 2
+        right[1:] += bent[:-1] / 2
+        right[0] -= weight
+        force = np.linalg.solve(matrix.reshape(3 * rods, -1), right.ravel()).reshape(rods, 3)
+        both = force.copy()
+        both[:-1] += force[1:]
+        return np.concatenate([v, bent - 2 * np.einsum("kij,kj->ki", turning, both)]).ravel()
 
     def points(states):
-        return np.array([chain_ends(state[:n].reshape(-1, 4)) for state in states])
+        return states[:, : 3 * rods].reshape(-1, rods, 3).cumsum(axis=1)
 
-    return converged(f, np.concatenate([quaternions, rates]), duration, points, order=10)
-
-
-def chain_ends(quaternions):
-    """Far ends of rods of 1 m along their x, from the quaternions (x, y, z, w) of their joints."""
-    turn, end, ends = np.eye(3), np.zeros(3), []
-    for e in quaternions:
-        x, y, z, w = e / np.linalg.norm(e)
-        turn = turn @ np.array(
-            [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-            ]
-        )
-        end = end + turn[:, 0]
-        ends.append(end)
-    return np.array(ends)
+    return converged(f, np.concatenate([directions, rates]).ravel(), duration, points)
 
 
 def between(samples, times):
