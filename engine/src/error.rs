@@ -1,11 +1,15 @@
 //! What can go wrong between a text and a finished run.
 
+mod last_good;
+
+pub use last_good::{Cause, LastGood};
+
 use crate::catalogue::CatalogueError;
 use crate::integrate::Stop;
 use crate::model::ModelError;
 use crate::scene::SceneError;
 use crate::uniqueness::UniquenessError;
-use std::fmt;
+use last_good::listed;
 
 /// Any failure of the engine: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -54,6 +58,43 @@ pub enum EngineError {
         moved: f64,
         /// How far they may be moved, m.
         limit: f64,
+    },
+    /// No velocities satisfy the joints and what drivers ask for.
+    #[error(
+        "driver \"{driver}\" asks for a motion that the joints do not allow at t = {time:.6} s: no velocities satisfy it{}; the \
+         nearest miss it by {missed:.1e}/s",
+        together(with)
+    )]
+    MotionImpossible {
+        /// Time, s.
+        time: f64,
+        /// The driver whose rate is missed most.
+        driver: String,
+        /// The joints and drivers that contradict it.
+        with: Vec<String>,
+        /// Where it stands in the scene, as a JSON pointer.
+        pointer: String,
+        /// By how much the nearest velocities miss it, relative to the size of its rows, 1/s.
+        missed: f64,
+    },
+    /// Rounding cannot tell the rows of a joint from redundant ones.
+    #[error(
+        "the masses are too different: between {light_mass:.1e} kg of \"{light}\" and {heavy_mass:.1e} kg of \"{heavy}\" \
+         rounding cannot tell whether joint \"{joint}\" holds"
+    )]
+    MassesTooDifferent {
+        /// The joint.
+        joint: String,
+        /// Where it stands in the scene, as a JSON pointer.
+        pointer: String,
+        /// The lightest body.
+        light: String,
+        /// Its mass, kg.
+        light_mass: f64,
+        /// The heaviest body.
+        heavy: String,
+        /// Its mass, kg.
+        heavy_mass: f64,
     },
     /// The step control found no step that meets the tolerance.
     #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance{last}")]
@@ -125,12 +166,14 @@ pub enum EngineError {
         last: LastGood,
     },
     /// The run has used up the steps that it was given.
-    #[error("the run stops at t = {time:.6} s: its {steps} steps are used up")]
+    #[error("the run stops at t = {time:.6} s: its {steps} steps are used up{last}")]
     StepLimit {
         /// Time, s.
         time: f64,
         /// How many steps it was given.
         steps: u64,
+        /// What the last state tells.
+        last: LastGood,
     },
     /// A time outside the run was asked for.
     #[error("t = {time} s is outside the run, which goes from {from} s to {to} s")]
@@ -146,31 +189,12 @@ pub enum EngineError {
 
 /// Names of joints that are open together with the worst one.
 fn contradiction(with: &[String]) -> String {
-    if with.is_empty() {
-        return String::new();
-    }
-    let names: Vec<String> = with.iter().map(|name| format!("\"{name}\"")).collect();
-    format!(", and with it {}", names.join(", "))
+    if with.is_empty() { String::new() } else { format!(", and with it {}", listed(with)) }
 }
 
-/// What the last good state of a run tells about its end.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct LastGood {
-    /// Accepted steps until then.
-    pub steps: u64,
-    /// The joint or driver whose rows are nearest to depending on others there, and the product of their relative pivots, if
-    /// it is small.
-    pub nearest: Option<(String, f64)>,
-}
-
-impl fmt::Display for LastGood {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, " (after {} step{}", self.steps, if self.steps == 1 { "" } else { "s" })?;
-        if let Some((joint, hold)) = &self.nearest {
-            write!(f, "; joint \"{joint}\" is about to lose its hold, of which {hold:.0e} is left")?;
-        }
-        f.write_str(")")
-    }
+/// Names of what contradicts a driver.
+fn together(with: &[String]) -> String {
+    if with.is_empty() { String::new() } else { format!(" together with {}", listed(with)) }
 }
 
 impl EngineError {
@@ -208,6 +232,8 @@ impl EngineError {
             Self::Uniqueness(error) => error.code(),
             Self::Assembly { .. } => "assembly-failed",
             Self::StartTooFar { .. } => "start-too-far",
+            Self::MotionImpossible { .. } => "motion-impossible",
+            Self::MassesTooDifferent { .. } => "masses-too-different",
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
             Self::NoConvergence { .. } => "no-convergence",
@@ -227,13 +253,33 @@ impl EngineError {
             }
             Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
             Self::Model(error) => Some(error.pointer()),
-            Self::Assembly { pointer, .. } | Self::StartTooFar { pointer, .. } => Some(pointer.clone()),
+            Self::Assembly { pointer, .. }
+            | Self::StartTooFar { pointer, .. }
+            | Self::MotionImpossible { pointer, .. }
+            | Self::MassesTooDifferent { pointer, .. } => Some(pointer.clone()),
+            _ => None,
+        }
+    }
+
+    /// Why no way leads on from the last good state, if it can be told.
+    pub fn cause(&self) -> Option<&Cause> {
+        match self {
+            Self::StepTooSmall { last, .. }
+            | Self::Diverged { last, .. }
+            | Self::NoConvergence { last, .. }
+            | Self::Stalled { last, .. }
+            | Self::Undetermined { last, .. }
+            | Self::ConstraintsLost { last, .. }
+            | Self::StepLimit { last, .. } => last.cause.as_ref(),
             _ => None,
         }
     }
 
     /// What to try.
     pub fn hint(&self) -> String {
+        if let Some(cause) = self.cause().filter(|_| !matches!(self, Self::Undetermined { .. })) {
+            return cause.hint().to_owned();
+        }
         match self {
             Self::Scene(SceneError::TooLong { .. } | SceneError::TooMany { .. }) => {
                 "Split the mechanism, or leave out what does not move.".to_owned()
@@ -260,9 +306,14 @@ impl EngineError {
                 "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
                     .to_owned()
             }
-            Self::StepTooSmall { last, .. } | Self::Stalled { last, .. } if last.nearest.is_some() => {
-                "Look at the last good state: the mechanism comes to a position from which its joints or drivers allow no \
-                 way on. Let a driver ask for less, change lengths, or end the run before."
+            Self::MotionImpossible { .. } => {
+                "Let the driver stand still there, free one of the joints that are named, or leave out one of two drivers \
+                 that contradict each other: `triad check` tells the degrees of freedom."
+                    .to_owned()
+            }
+            Self::MassesTooDifferent { .. } => {
+                "Make the light bodies heavier, or leave them out: a rod without mass between two bodies is a joint of \
+                 the kind \"rod\"."
                     .to_owned()
             }
             Self::StepTooSmall { .. } | Self::Stalled { .. } | Self::Diverged { .. } => {

@@ -90,7 +90,7 @@ pub mod stress;
 
 mod error;
 
-pub use error::{EngineError, LastGood};
+pub use error::{Cause, EngineError, LastGood};
 pub use scene::Scene;
 
 /// Version of the engine, recorded with every grade.

@@ -17,6 +17,9 @@ const STALLED: f64 = 1e-9;
 const MOST_ASSEMBLING: usize = 40;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
+/// Most corrections of the velocities of a start, and the part of the given rates above which they have failed.
+const MOST_CORRECTING: usize = 12;
+const UNSOLVED: f64 = 1e-6;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
 const FARTHEST: f64 = 0.35;
 
@@ -104,14 +107,16 @@ impl Mechanism {
         self.elimination.set_velocity(&self.system, &y[n..]);
         let (_, rate) = self.elimination.violation(&self.system);
         if rate > CONSISTENT * length + rounding(&given[n..]) {
+            let asked = trust::rates(&self.system, &self.elimination).into_iter().fold(0.0, f64::max);
             self.elimination.linearize(&self.system);
-            for _ in 0..3 {
+            for _ in 0..MOST_CORRECTING {
                 let step = self.elimination.correct_velocities(&self.system, &mut y[n..]);
                 self.elimination.set_velocity(&self.system, &y[n..]);
                 if step <= CONSISTENT * length {
                     break;
                 }
             }
+            self.check_motion(t, asked)?;
         }
         let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         if rate > 1e-9 * length {
@@ -121,6 +126,26 @@ impl Mechanism {
         }
         self.elimination.set_redundant(was_redundant);
         Ok(notes)
+    }
+
+    /// Refuses rates of drivers that no velocities satisfy, where those in place come nearest; `asked` is the largest rate
+    /// that had to be made up for. Without drivers there are always velocities: zero.
+    fn check_motion(&self, time: f64, asked: f64) -> Result<(), EngineError> {
+        let Self { system, elimination, .. } = self;
+        let rates = trust::rates(system, elimination);
+        let drivers = (0..rates.len()).filter(|&group| system.groups[group].driver);
+        let driver = drivers.max_by(|&a, &b| rates[a].total_cmp(&rates[b]));
+        let unsolved = rates.iter().any(|rate| *rate > UNSOLVED * asked);
+        let Some(driver) = driver.filter(|_| unsolved) else { return Ok(()) };
+        let others = trust::worst(&rates).into_iter().filter(|&(group, _)| group != driver);
+        let name = |group: usize| system.groups[group].name.clone();
+        Err(EngineError::MotionImpossible {
+            time,
+            driver: name(driver),
+            with: others.take(trust::NAMED).map(|(group, _)| name(group)).collect(),
+            pointer: trust::pointer(system, driver),
+            missed: rates[driver],
+        })
     }
 
     fn assembly_error(&mut self, t: f64, given: &[f64], reached: &[f64], moved: f64) -> EngineError {

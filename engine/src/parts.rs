@@ -157,6 +157,28 @@ fn links(model: &Model) -> impl Iterator<Item = [BodyRef; 2]> + '_ {
     joints.chain(geared).chain(drivers).chain(loads)
 }
 
+/// Whether joints or drivers close loops: rows of a tree never depend on each other. Drivers along a joint and gears close
+/// none.
+pub fn has_loops(model: &Model) -> bool {
+    let ground = model.bodies.len();
+    let mut label: Vec<usize> = (0..=ground).collect();
+    let place = |body: BodyRef| match body {
+        BodyRef::Ground => ground,
+        BodyRef::Moving(body) => body,
+    };
+    let joints =
+        model.joints.iter().filter(|joint| joint.gear.is_none()).map(|joint| joint.bodies.map(place));
+    let drivers = model.drivers.iter().filter_map(|driver| match driver.kind {
+        DriverKind::Point { body, .. } | DriverKind::Vector { body, .. } => Some([body, ground]),
+        _ => None,
+    });
+    joints.chain(drivers).any(|[i, j]| {
+        let joined = root(&mut label, i) == root(&mut label, j);
+        join(&mut label, i, j);
+        joined
+    })
+}
+
 fn root(label: &mut [usize], mut body: usize) -> usize {
     while label[body] != body {
         label[body] = label[label[body]];

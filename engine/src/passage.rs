@@ -8,9 +8,11 @@ use crate::elimination::Elimination;
 use crate::integrate::Integrator;
 use crate::lift::Lift;
 use crate::mechanism::Mechanism;
-use crate::model::{BodyRef, DriverKind};
+use crate::parts::has_loops;
 use crate::rank::Rank;
+use crate::scene::Stabilization;
 use crate::system::System;
+use crate::trust;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -33,8 +35,10 @@ const DEEPEST: usize = 8;
 const LOOKS: usize = 12;
 const NEARER: f64 = 0.5;
 const FAILURES: usize = 3;
-/// Passages between which rows turn less than this, rad, are one: some times the root of [`ZERO`].
-const APART: f64 = 4e-4;
+/// Passages nearer to each other than this part of the time are one.
+const APART: f64 = 1e-6;
+/// Two at which the same joint loses its hold are one if rows turn less than so many times what cannot be told from zero.
+const SAME: f64 = 20.0;
 /// Passages for which there is room from the beginning.
 const USUAL: usize = 64;
 /// Passages that are kept: a run through more of them is told by their number alone.
@@ -81,43 +85,13 @@ pub fn fastest(system: &System, y: &[f64]) -> f64 {
     paces.fold(0.0, f64::max)
 }
 
-/// Whether joints or drivers close loops: rows of a tree never depend on each other. Drivers along a joint and gears close
-/// none.
-pub fn has_loops(system: &System) -> bool {
-    let model = &system.model;
-    let bodies = model.bodies.len();
-    let mut label: Vec<usize> = (0..=bodies).collect();
-    let place = |body: BodyRef| match body {
-        BodyRef::Ground => bodies,
-        BodyRef::Moving(body) => body,
-    };
-    let joints =
-        model.joints.iter().filter(|joint| joint.gear.is_none()).map(|joint| joint.bodies.map(place));
-    let drivers = model.drivers.iter().filter_map(|driver| match driver.kind {
-        DriverKind::Point { body, .. } | DriverKind::Vector { body, .. } => Some([body, bodies]),
-        _ => None,
-    });
-    joints.chain(drivers).any(|[i, j]| {
-        let (i, j) = (root(&mut label, i), root(&mut label, j));
-        label[i] = j;
-        i == j
-    })
-}
-
 /// A passage as it is kept, and where its joints stand in the list of all.
 #[derive(Clone, Debug)]
 struct Passed {
     time: f64,
+    /// What is left there of the hold that is lost.
+    hold: f64,
     joints: Range<usize>,
-}
-
-/// Where a body's part of the mechanism is labelled.
-fn root(label: &mut [usize], mut k: usize) -> usize {
-    while label[k] != k {
-        label[k] = label[label[k]];
-        k = label[k];
-    }
-    k
 }
 
 /// What is known of a part of the mechanism.
@@ -140,6 +114,10 @@ pub struct Watch {
     /// Where pivots are looked at, if the mechanism has loops.
     scout: Option<Elimination>,
     tolerance: f64,
+    /// Whether the constraints are held by no projection, and may be open.
+    opens: bool,
+    /// Part of its firmest hold at which a joint holds no more.
+    zero: f64,
     parts: Vec<Approach>,
     passed: Vec<Passed>,
     /// Joints of all passages.
@@ -157,7 +135,7 @@ impl Watch {
     /// For a mechanism whose rank is known.
     pub fn new(mechanism: &mut Mechanism, rank: &Rank) -> Self {
         let Mechanism { system, elimination, .. } = mechanism;
-        let scout = has_loops(system).then(|| {
+        let scout = has_loops(&system.model).then(|| {
             elimination.keep_holds();
             let mut scout = elimination.clone();
             scout.set_dependent(&rank.dependent);
@@ -168,6 +146,8 @@ impl Watch {
         Self {
             scout,
             tolerance: system.model.settings.tolerance,
+            opens: system.model.settings.stabilization != Stabilization::Projection,
+            zero: zero(system.model.settings.tolerance, 0.0),
             parts: Vec::new(),
             passed: Vec::with_capacity(USUAL),
             involved: Vec::with_capacity(USUAL * groups),
@@ -206,6 +186,9 @@ impl Watch {
         if self.scout.is_none() || self.passed.len() >= MOST {
             return;
         }
+        if self.opens {
+            self.zero = zero(self.tolerance, trust::relative(&mechanism.system, &mechanism.elimination));
+        }
         let Some(stepped) = integrator.stepped(mechanism) else { return };
         let Stepped { part, start, end, pace, .. } = stepped;
         if self.parts.len() <= part {
@@ -226,10 +209,10 @@ impl Watch {
             *firmest = firmest.max(*hold);
         }
         self.there.clear();
-        let fastest = pace.max(approach.pace);
         let firmest = &approach.firmest;
+        let fastest = pace.max(approach.pace);
         let mut search =
-            Search { watch: self, mechanism, integrator, firmest, places: &mut places, pace: fastest };
+            Search { watch: self, mechanism, integrator, firmest, pace: fastest, places: &mut places };
         search.within((start, 0), (end, 1), (end - start) * fastest, 2);
         std::mem::swap(&mut approach.holds, &mut places[1]);
         approach.pace = pace;
@@ -259,6 +242,12 @@ impl Watch {
     }
 }
 
+/// What counts as zero beside the firmest hold. Where rows are open, nothing holds bodies nearer to the singular position
+/// than the root of that: there they are of second order.
+fn zero(tolerance: f64, open: f64) -> f64 {
+    ZERO.max((OFF * tolerance).powi(2)).max(OFF * open)
+}
+
 fn renew(target: &mut Vec<f64>, source: &[f64]) {
     target.clear();
     target.extend_from_slice(source);
@@ -270,9 +259,9 @@ struct Search<'a> {
     mechanism: &'a mut Mechanism,
     integrator: &'a mut Integrator,
     firmest: &'a [f64],
-    places: &'a mut [Vec<f64>],
     /// How fast rows turn, 1/s.
     pace: f64,
+    places: &'a mut [Vec<f64>],
 }
 
 impl Search<'_> {
@@ -283,19 +272,22 @@ impl Search<'_> {
 
     /// What counts as zero for the hold of a joint.
     fn zero(&self, joint: usize) -> f64 {
-        self.firmest[joint] * ZERO.max((OFF * self.watch.tolerance).powi(2))
+        self.firmest[joint] * self.watch.zero
     }
 
     /// The joint that is most likely to lose its hold between two places, between which rows turn by so much; and its
     /// distances from that at both: zero there, π/2 at its firmest hold.
     fn suspect(&self, a: usize, b: usize, turned: f64) -> Option<(usize, f64, f64)> {
         let bound = FASTER * turned;
+        // In steps that rounding makes very short both ends may be as near to zero as can be told.
+        let floor = self.watch.zero.sqrt();
         let mut least = None;
         let mut sum = bound;
         for (joint, firmest) in self.firmest.iter().enumerate().filter(|(_, firmest)| **firmest > REDUNDANT) {
             let part = |place: usize| {
                 let hold = self.places[place].get(joint).copied().unwrap_or(f64::NAN);
-                (hold / firmest).clamp(0.0, 1.0).sqrt()
+                let root = (hold / firmest).clamp(0.0, 1.0).sqrt();
+                if root <= floor { 0.0 } else { root - floor }
             };
             let (from, to) = (part(a), part(b));
             // The sine is less than its angle. Comparisons that are false for NaN as well.
@@ -329,7 +321,7 @@ impl Search<'_> {
         if near < NEARER * from.max(to) || finest {
             let spots = (spot(self, a), spot(self, middle), spot(self, b));
             if let Some(zero) = self.root(joint, spots.0, spots.1, spots.2) {
-                self.found(zero);
+                self.found(joint, zero);
             }
         }
         if finest {
@@ -375,22 +367,32 @@ impl Search<'_> {
         None
     }
 
-    fn found(&mut self, time: f64) {
+    fn found(&mut self, joint: usize, time: f64) {
         let place = self.places.len() - 1;
         self.look(time, place);
         renew(&mut self.watch.there, &self.places[place]);
+        let hold = self.places[place][joint];
         self.watch.place(self.mechanism, self.integrator, time);
-        let Watch { passed, involved, scout, tolerance, .. } = &mut *self.watch;
-        if passed.iter().any(|known| (known.time - time).abs() * self.pace <= APART) {
+        let Watch { passed, involved, scout, zero, .. } = &mut *self.watch;
+        let near = SAME * zero.sqrt() / self.pace;
+        let same = |known: &&mut Passed| {
+            let apart = (known.time - time).abs();
+            apart <= APART * (1.0 + time.abs())
+                || (apart <= near && involved[known.joints.clone()].contains(&joint))
+        };
+        if let Some(known) = passed.iter_mut().find(same) {
+            if hold < known.hold {
+                (known.time, known.hold) = (time, hold);
+            }
             return;
         }
         let Some(scout) = scout else { return };
         let holds = scout.holds_here(&self.mechanism.system);
         let least = holds.iter().fold(f64::INFINITY, |least, hold| least.min(*hold));
-        let limit = INVOLVED.max((OFF * *tolerance).powi(2)).max(2.0 * least);
+        let limit = INVOLVED.max(*zero).max(2.0 * least);
         let first = involved.len();
         involved.extend((0..holds.len()).filter(|joint| holds[*joint] <= limit));
-        passed.push(Passed { time, joints: first..involved.len() });
+        passed.push(Passed { time, hold, joints: first..involved.len() });
         passed.sort_unstable_by(|a, b| a.time.total_cmp(&b.time));
     }
 }

@@ -4,6 +4,8 @@
 //! singular position, where it would mislead. The dependent rows are those that the factorization of S has to drop.
 
 use crate::elimination::Elimination;
+use crate::error::EngineError;
+use crate::parts;
 use crate::system::System;
 
 /// A relative pivot below this belongs to a dependent row.
@@ -46,6 +48,29 @@ pub fn analyze(system: &System, elimination: &mut Elimination, q: &[f64]) -> Ran
     let mut dependent = dependent;
     dependent.sort_unstable();
     Rank { rank: system.solver_rows - dependent.len(), at_start: system.solver_rows - lost, dependent }
+}
+
+/// Rows of a tree of joints are independent whatever the position: if rounding finds them dependent, the masses are to
+/// blame, and what would be computed has nothing to do with the mechanism.
+pub fn check(system: &System, rank: &Rank) -> Result<(), EngineError> {
+    let System { groups, bodies, model, .. } = system;
+    let Some(row) = rank.dependent.first() else { return Ok(()) };
+    let tree = model.drivers.is_empty() && model.joints.iter().all(|joint| joint.gear.is_none());
+    if !tree || parts::has_loops(model) {
+        return Ok(());
+    }
+    let by_mass = || bodies.iter().zip(&model.bodies).map(|(body, named)| (body.mass, named.name.clone()));
+    let light = by_mass().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
+    let heavy = by_mass().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
+    let joint = groups.iter().position(|group| group.solver.contains(row)).unwrap_or_default();
+    Err(EngineError::MassesTooDifferent {
+        joint: groups[joint].name.clone(),
+        pointer: format!("/joints/{joint}"),
+        light: light.1,
+        light_mass: light.0,
+        heavy: heavy.1,
+        heavy_mass: heavy.0,
+    })
 }
 
 /// A consistent position a little away from q, along an arbitrary admissible velocity.

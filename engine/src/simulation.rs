@@ -1,6 +1,7 @@
 //! A scene that runs: time, state, steps, and what can be asked of them.
 
 mod ask;
+mod cause;
 mod explain;
 mod frame;
 mod happening;
@@ -25,9 +26,6 @@ use crate::rank::{self, Rank};
 use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
 
-/// A relative pivot below which an error names the joint that it belongs to.
-const NEARLY_DEPENDENT: f64 = 1e-4;
-
 /// A scene that runs.
 #[derive(Clone, Debug)]
 pub struct Simulation {
@@ -43,6 +41,8 @@ pub struct Simulation {
     /// The state that is shown.
     shown: Vec<f64>,
     start_energy: f64,
+    /// Largest kinetic energy at the ends of steps that were looked at, J.
+    kinetic: f64,
     /// Whether drivers or loads without potential act.
     exchanges_energy: bool,
     /// Their work up to the start of the last step, J.
@@ -77,6 +77,7 @@ impl Simulation {
         mechanism.system.start(q, q_dot);
         notes.extend(mechanism.assemble(&mut start)?);
         let rank = rank::analyze(&mechanism.system, &mut mechanism.elimination, &start[..n]);
+        rank::check(&mechanism.system, &rank)?;
         if rank.at_start < rank.rank {
             notes.push(format!(
                 "the start is a singular position: {} rows lose their hold there, and several branches of motion may \
@@ -108,6 +109,7 @@ impl Simulation {
             time: 0.0,
             shown,
             start_energy,
+            kinetic: 0.0,
             exchanges_energy,
             work: 0.0,
             scratch,
@@ -193,7 +195,7 @@ impl Simulation {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
         self.counted = explain::Counted::default();
-        self.work = 0.0;
+        (self.work, self.kinetic) = (0.0, 0.0);
         self.watch.forget();
         self.mechanism.set_state(time, y);
         self.start_energy = self.mechanism.elimination.energy(&self.mechanism.system);
@@ -263,7 +265,9 @@ impl Simulation {
     fn integrate_one(&mut self, end: f64) -> Result<(), EngineError> {
         let steps = self.integrator.steps();
         if steps.accepted + steps.rejected >= self.step_limit {
-            return Err(EngineError::StepLimit { time: self.integrator.time(), steps: self.step_limit });
+            let (time, steps) = (self.integrator.time(), self.step_limit);
+            let last = self.show_last_good(time, self.integrator.steps().accepted);
+            return Err(EngineError::StepLimit { time, steps, last });
         }
         self.work += self.work_of_last_step(self.integrator.time());
         if let Err(stop) = self.integrator.step(&mut self.mechanism, end) {
@@ -279,6 +283,8 @@ impl Simulation {
                 let last = self.show_last_good(start, self.integrator.steps().accepted.saturating_sub(1));
                 return Err(error.after(last));
             }
+            let Mechanism { system, elimination, .. } = &self.mechanism;
+            self.kinetic = self.kinetic.max(elimination.kinetic_energy(system));
         }
         self.watch.step(&mut self.mechanism, &mut self.integrator);
         self.look_for_events();
@@ -293,14 +299,7 @@ impl Simulation {
         if time >= self.time {
             self.show(time);
         }
-        let Self { mechanism, shown, .. } = self;
-        mechanism.set_state(self.time, shown);
-        let Mechanism { system, elimination, .. } = mechanism;
-        elimination.keep_holds();
-        let holds = elimination.holds_here(system).iter().zip(&system.groups);
-        let least = holds.min_by(|a, b| a.0.total_cmp(b.0)).filter(|(hold, _)| **hold < NEARLY_DEPENDENT);
-        let nearest = least.map(|(hold, group)| (group.name.clone(), *hold));
-        LastGood { steps, nearest }
+        LastGood { steps, cause: self.cause() }
     }
 
     /// Finds what is otherwise found when somebody asks, at the end of the last step.

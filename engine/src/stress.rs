@@ -35,6 +35,8 @@ pub enum Verdict {
     Degraded,
     /// It was refused, or stopped with an error that says why.
     Refused,
+    /// It ran and its result is wrong, but the run says itself that it is to be doubted, and why.
+    Warned,
     /// It ran and its result is wrong, or it was refused for a reason that is not the true one.
     Wrong,
 }

@@ -1,4 +1,4 @@
-//! How far a state is from its constraints, each row measured by its own size.
+//! How far a state is from its constraints, each row measured by its own size, and what else speaks against a result.
 //!
 //! A distance is compared with the length of the mechanism, a product of unit vectors with one: so a mechanism of
 //! micrometres is held as strictly as one of kilometres.
@@ -6,8 +6,8 @@
 use crate::elimination::Elimination;
 use crate::error::{EngineError, LastGood};
 use crate::row::{Difference, Form};
-use crate::scene::Stabilization;
-use crate::system::System;
+use crate::scene::{Settings, Stabilization};
+use crate::system::{Row, System};
 
 /// The rows that are violated most.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Opening {
 }
 
 /// Most joints that an error names.
-const NAMED: usize = 4;
+pub const NAMED: usize = 4;
 
 impl Opening {
     /// Name of the joint that is open most, and of those open with it.
@@ -29,13 +29,17 @@ impl Opening {
         (names.next().unwrap_or_default(), names.collect())
     }
 
-    /// JSON pointer of the element that is open most: rows are written by joints, then by drivers.
+    /// JSON pointer of the element that is open most.
     pub fn pointer(&self, system: &System) -> String {
-        let index = self.groups.first().map_or(0, |&(index, _)| index);
-        match index.checked_sub(system.model.joints.len()) {
-            Some(driver) => format!("/drivers/{driver}"),
-            None => format!("/joints/{index}"),
-        }
+        pointer(system, self.groups.first().map_or(0, |&(index, _)| index))
+    }
+}
+
+/// JSON pointer of a joint or driver, by the index of its group: rows are written by joints, then by drivers.
+pub fn pointer(system: &System, group: usize) -> String {
+    match group.checked_sub(system.model.joints.len()) {
+        Some(driver) => format!("/drivers/{driver}"),
+        None => format!("/joints/{group}"),
     }
 }
 
@@ -79,22 +83,29 @@ fn row_opening(system: &System, at: &Elimination, form: &Form) -> f64 {
 
 /// Measures the positions in place.
 pub fn opening(system: &System, at: &Elimination) -> Opening {
-    let mut groups: Vec<(usize, f64)> = Vec::new();
-    let mut relative = rigid_opening(at);
-    let mut worst = 0.0f64;
-    for (index, group) in system.groups.iter().enumerate() {
-        let rows = system.rows[group.forms.clone()].iter().map(|row| row_opening(system, at, &row.form));
-        let open = rows.fold(0.0, larger);
-        relative = larger(relative, open);
-        // The list stays short: only what can still be of the worst's size.
-        if open > SHARE * worst || open.is_nan() {
-            worst = larger(worst, open);
-            groups.push((index, open));
-        }
-    }
-    groups.retain(|&(_, open)| open > SHARE * worst || open.is_nan());
+    let groups = worst(&by_group(system, |form| row_opening(system, at, form)));
+    let relative = groups.first().map_or(0.0, |&(_, open)| open);
+    Opening { relative: larger(rigid_opening(at), relative), groups }
+}
+
+/// Largest |Φ̇| of each joint and driver at the velocities in place, relative to the size of its rows, 1/s.
+pub fn rates(system: &System, at: &Elimination) -> Vec<f64> {
+    by_group(system, |form| at.row_violation(system, form).1 / row_size(system, form))
+}
+
+/// The largest number of the rows of each group.
+fn by_group(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
+    let largest = |forms: &[Row]| forms.iter().map(|row| of(&row.form)).fold(0.0, larger);
+    system.groups.iter().map(|group| largest(&system.rows[group.forms.clone()])).collect()
+}
+
+/// The groups with the largest numbers, the worst first.
+pub fn worst(numbers: &[f64]) -> Vec<(usize, f64)> {
+    let worst = numbers.iter().copied().fold(0.0, larger);
+    let counts = |&(_, open): &(usize, f64)| open > SHARE * worst || open.is_nan();
+    let mut groups: Vec<(usize, f64)> = numbers.iter().copied().enumerate().filter(counts).collect();
     groups.sort_by(|a, b| b.1.total_cmp(&a.1));
-    Opening { relative, groups }
+    groups
 }
 
 /// Largest violation of a rigid-body row.
@@ -122,6 +133,54 @@ fn row_size(system: &System, form: &Form) -> f64 {
         Form::Relation { slide: Some((_, _, factor)), .. } => (system.length * factor.abs()).max(1.0),
         Form::CommonVector { .. } | Form::Relation { .. } => 1.0,
     }
+}
+
+/// What a run has shown of itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Signs {
+    /// When it first passed a singular position, s.
+    pub passed: Option<f64>,
+    /// Energy that is missing, relative to the largest kinetic energy.
+    pub drift: f64,
+    /// Largest |Φ| relative to the size of its row.
+    pub open: f64,
+}
+
+/// Energy may be missing, and rows may be open, by so many tolerances, within these bounds.
+const ALLOWED: f64 = 1e4;
+const ALLOWED_WITHIN: (f64, f64) = (1e-6, 1e-2);
+
+/// What speaks against the result of a run, in words, with what to use instead.
+pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
+    let treatment = settings.stabilization;
+    let projected = treatment == Stabilization::Projection;
+    let instead = match settings.step {
+        _ if !projected => "use projection, with taylor or dop853",
+        Some(_) => "use shorter steps, or leave their size to the tolerance",
+        None => "tighten the tolerance, or use taylor",
+    };
+    let mut doubts = Vec::new();
+    if let Some(time) = signs.passed.filter(|_| !projected) {
+        doubts.push(format!(
+            "a singular position was passed at t = {time:.6} s, through which {} holds neither the constraints nor the \
+             branch of the motion: what follows may be wrong; {instead}",
+            treatment.word()
+        ));
+    }
+    let allowed = (ALLOWED * settings.tolerance).clamp(ALLOWED_WITHIN.0, ALLOWED_WITHIN.1);
+    for (size, what) in [
+        (signs.drift, "of the largest kinetic energy came from nowhere or went there"),
+        (signs.open, "of the mechanism's size is how far the joints are open"),
+    ] {
+        // True for NaN as well.
+        if larger(size, allowed) != allowed {
+            doubts.push(format!(
+                "{size:.1e} {what}, more than a tolerance of {:.0e} promises; {instead}",
+                settings.tolerance
+            ));
+        }
+    }
+    doubts
 }
 
 /// The larger of two numbers; NaN is larger than any.

@@ -271,3 +271,18 @@ fn stiff_loads_cost_few_steps_and_auto_knows_them() {
     let mild = Simulation::new(&guided(&spring(100.0, 1.0), 0.0, 1.0, "auto")).unwrap().summary();
     assert_eq!(mild.integrator, IntegratorKind::Taylor);
 }
+
+#[test]
+fn what_is_looked_at_between_steps_does_not_change_a_run_in_a_chart() {
+    for (integrator, treatment) in [
+        (IntegratorKind::Radau, Stabilization::Projection),
+        (IntegratorKind::Dop853, Stabilization::Partitioning),
+    ] {
+        let mut scene = treated(scene("n-four-bar:2", 2.0), integrator, treatment);
+        scene.simulation.tolerance = 1e-5;
+        let (frame, _) = end(&scene);
+        let mut looked = Simulation::new(&scene).unwrap();
+        (1..=2000).for_each(|k| looked.advance_to(f64::from(k) * 1e-3).unwrap());
+        assert_eq!(format!("{frame:?}"), format!("{:?}", looked.frame()), "{integrator:?}");
+    }
+}

@@ -1,11 +1,20 @@
 //! What a run says about itself: singular positions it passed, and how far it can be trusted.
 
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use triad_engine::catalogue;
-use triad_engine::scene::IntegratorKind;
+use triad_engine::scene::{IntegratorKind, Stabilization};
 use triad_engine::simulation::Simulation;
 use triad_engine::verify::Verifier;
+
+/// Those that go through singular positions; rattle stops there.
+const INTEGRATORS: [IntegratorKind; 5] = [
+    IntegratorKind::Taylor,
+    IntegratorKind::Dop853,
+    IntegratorKind::Dopri5,
+    IntegratorKind::Ode45,
+    IntegratorKind::Radau,
+];
 
 /// Times at which θ̈ = κ sin θ from θ = 0 with the rate 1 passes odd multiples of π/2: classical Runge-Kutta with
 /// steps of 0.1 ms, and linear interpolation between them.
@@ -40,7 +49,7 @@ fn singular_passages_are_told_with_their_times_and_joints() {
         let kappa = 9.81 * 3.0 * (3.0 * windows + 1.0) / (2.0 * (4.0 * windows + 1.0));
         let exact = horizontal_times(kappa, 10.0);
         assert!(exact.len() >= 9);
-        for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+        for integrator in INTEGRATORS {
             let mut scene = catalogue::scene(&format!("n-four-bar:{windows}")).unwrap();
             scene.simulation.integrator = integrator;
             scene.simulation.tolerance = tolerance;
@@ -73,7 +82,7 @@ fn regular_runs_tell_of_no_passage() {
     for name in
         ["simple-pendulum", "spatial-double-pendulum", "spatial-chain:5", "spatial-slider-crank", "bricard"]
     {
-        for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+        for integrator in INTEGRATORS {
             let mut scene = catalogue::scene(name).unwrap();
             scene.simulation.integrator = integrator;
             scene.simulation.duration = 2.0;
@@ -147,5 +156,105 @@ fn a_run_that_cannot_go_on_ends_soon_and_says_where() {
         assert!((summary.time - 0.09016).abs() < 1e-4, "{}", summary.time);
         assert!(summary.position_violation < 1e-6, "{summary:?}");
         assert!(error.to_string().contains(&format!("after {} steps", summary.steps)), "{error}");
+    }
+}
+
+#[test]
+fn a_start_that_drivers_and_joints_contradict_is_refused_at_once() {
+    // The rod makes a structure of the hinged body that the driver is to turn.
+    for seed in [177, 271, 1402] {
+        let error = Simulation::new(&triad_engine::stress::random::scene(seed)).unwrap_err();
+        println!("{seed}: {error}");
+        assert_eq!((error.code(), error.pointer().as_deref()), ("motion-impossible", Some("/drivers/0")));
+        assert!(
+            error.to_string().contains("\"driver\"") && error.to_string().contains("\"loop0\""),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn what_stands_in_the_way_is_told_in_words() {
+    use triad_engine::Cause;
+    // A driver that comes to the end of its reach, and a rod that hardly holds since the start.
+    let stopped = |scene: &triad_engine::Scene, steps: u64| {
+        let mut run = Simulation::new(scene).unwrap();
+        run.set_step_limit(steps);
+        let error = run.advance_to(run.duration()).unwrap_err();
+        println!("{error}");
+        error
+    };
+    let error = stopped(&triad_engine::stress::random::scene(304), 20_000);
+    let Some(Cause::OutOfReach { drivers, time, open }) = error.cause() else { panic!("{error}") };
+    assert_eq!(drivers, &["driver"]);
+    assert!((time - 0.09905).abs() < 1e-4 && open.iter().any(|name| name == "loop0"), "{error}");
+    let error = stopped(&out_of_reach(), 20_000);
+    let Some(Cause::OutOfReach { drivers, .. }) = error.cause() else { panic!("{error}") };
+    assert_eq!(drivers, &["push"]);
+    let mut scene = triad_engine::stress::random::scene(1407);
+    scene.simulation.integrator = IntegratorKind::Dop853;
+    let error = stopped(&scene, 100);
+    assert!(matches!(error.cause(), Some(Cause::Weak { joint, .. }) if joint == "loop1"), "{error}");
+    // Rows of a tree never depend on each other, however small their pivots: no joint is to blame.
+    let error = stopped(&catalogue::scene("spatial-chain:5").unwrap(), 3);
+    assert_eq!(error.cause(), None, "{error}");
+}
+
+#[test]
+fn what_a_treatment_does_not_survive_is_told() {
+    let exact = horizontal_times(9.81 * 3.0 * 7.0 / 18.0, 10.0);
+    let end = |treatment: Stabilization| {
+        let mut scene = catalogue::scene("n-four-bar:2").unwrap();
+        scene.simulation.integrator = IntegratorKind::Dop853;
+        scene.simulation.stabilization = treatment;
+        let mut run = Simulation::new(&scene).unwrap();
+        run.advance_to(10.0).unwrap();
+        (run.frame().bodies[0].position, run.summary())
+    };
+    let (right, projected) = end(Stabilization::Projection);
+    assert!(projected.doubts.is_empty(), "{:?}", projected.doubts);
+    for treatment in [
+        Stabilization::Baumgarte { alpha: 0.0, beta: 0.0 },
+        Stabilization::Baumgarte { alpha: 1.0, beta: 1.0 },
+        Stabilization::Baumgarte { alpha: 5.0, beta: 5.0 },
+        Stabilization::Penalty { alpha: 1e4, omega: 10.0, mu: 1.0 },
+        Stabilization::Penalty { alpha: 1e7, omega: 10.0, mu: 1.0 },
+        Stabilization::Partitioning,
+    ] {
+        let (position, summary) = end(treatment);
+        let off = (0..3).map(|k| (position[k] - right[k]).abs()).fold(0.0, f64::max);
+        println!("{treatment:?}: off by {off:.1e}, {:?}", summary.doubts);
+        let first = summary.passages.first().unwrap();
+        assert!((first.time - exact[0]).abs() < 0.05, "{treatment:?}: {} is not {}", first.time, exact[0]);
+        let doubts = summary.doubts.join("\n");
+        assert!(
+            doubts.contains("singular position") && doubts.contains("use projection"),
+            "{treatment:?}: {doubts}"
+        );
+        // What is wrong by centimetres is measured, and not only feared.
+        let measured = summary.doubts.len() > 1;
+        assert!(measured || off < 1e-2, "{treatment:?}: {off:.1e}, {doubts}");
+    }
+}
+
+#[test]
+fn sound_runs_are_not_doubted() {
+    for name in ["simple-pendulum", "spatial-double-pendulum", "spatial-slider-crank", "bricard"] {
+        for treatment in [
+            Stabilization::Projection,
+            Stabilization::Partitioning,
+            Stabilization::Baumgarte { alpha: 20.0, beta: 20.0 },
+        ] {
+            for integrator in [IntegratorKind::Dop853, IntegratorKind::Radau] {
+                let mut scene = catalogue::scene(name).unwrap();
+                scene.simulation.integrator = integrator;
+                scene.simulation.stabilization = treatment;
+                scene.simulation.duration = 2.0;
+                let mut run = Simulation::new(&scene).unwrap();
+                run.advance_to(2.0).unwrap();
+                let doubts = run.summary().doubts;
+                assert!(doubts.is_empty(), "{name} {treatment:?} {integrator:?}: {doubts:?}");
+            }
+        }
     }
 }

@@ -315,16 +315,18 @@ impl Elimination {
     pub fn energy(&self, system: &System) -> f64 {
         let gravity = system.model.gravity;
         let springs: f64 = system.loads.iter().map(|load| load.potential(self)).sum();
-        let bodies: f64 = self
-            .bodies
-            .iter()
-            .zip(&system.bodies)
-            .map(|(state, body)| {
-                let turning: f64 = (0..3).map(|k| body.ibar[k] * state.q_dot.e[k].norm_squared()).sum();
-                0.5 * (body.mass * state.q_dot.r.norm_squared() + turning)
-                    - body.mass * gravity.dot(&state.q.r)
-            })
-            .sum();
-        bodies + springs
+        let bodies = self.bodies.iter().zip(&system.bodies);
+        let weights: f64 = bodies.map(|(state, body)| body.mass * gravity.dot(&state.q.r)).sum();
+        self.kinetic_energy(system) - weights + springs
+    }
+
+    /// Kinetic energy, J; positions and velocities must be in place.
+    pub fn kinetic_energy(&self, system: &System) -> f64 {
+        let bodies = self.bodies.iter().zip(&system.bodies);
+        let twice = bodies.map(|(state, body)| {
+            let turning: f64 = (0..3).map(|k| body.ibar[k] * state.q_dot.e[k].norm_squared()).sum();
+            body.mass * state.q_dot.r.norm_squared() + turning
+        });
+        0.5 * twice.sum::<f64>()
     }
 }

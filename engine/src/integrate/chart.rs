@@ -52,6 +52,15 @@ pub struct Chart {
     pub choices: u64,
 }
 
+/// Where a search began.
+#[derive(Clone, Debug)]
+pub struct Mark {
+    q: DVector<f64>,
+    q_dot: DVector<f64>,
+    eta: DVector<f64>,
+    iterations: usize,
+}
+
 impl Chart {
     /// A chart about the consistent state y at time t. `None` if the motions allowed cannot be told.
     pub fn new(choice: Choice, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<Self> {
@@ -148,6 +157,22 @@ impl Chart {
         out.copy_from_slice(product.as_slice());
     }
 
+    /// Where the next search begins, to come back to: outputs between steps must not change the run.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            q: self.q.clone(),
+            q_dot: self.q_dot.clone(),
+            eta: self.eta.clone(),
+            iterations: self.iterations,
+        }
+    }
+
+    /// Goes back to where a search began.
+    pub fn come_back(&mut self, mark: Mark) {
+        let Mark { q, q_dot, eta, iterations } = mark;
+        (self.q, self.q_dot, self.eta, self.iterations) = (q, q_dot, eta, iterations);
+    }
+
     /// Writes the state y with the independent coordinates and velocities x = (η, η̇) at time t. False if there is none
     /// near the last one.
     pub fn lift(&mut self, mechanism: &mut Mechanism, t: f64, x: &[f64], y: &mut [f64]) -> bool {
@@ -160,6 +185,7 @@ impl Chart {
         if !found {
             // The next search must not begin where this one was lost.
             self.q.copy_from(&self.base);
+            self.eta.fill(0.0);
             if self.choice == Choice::Partition {
                 self.iterations = WORN + 1;
             }

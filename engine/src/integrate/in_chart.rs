@@ -88,6 +88,8 @@ pub struct InChart<M> {
     method: M,
     chart: Chart,
     y: Vec<f64>,
+    /// State at the start of the last step.
+    y_old: Vec<f64>,
     /// x of the chart, a state and a rate of the mechanism.
     x: Vec<f64>,
     lifted: Vec<f64>,
@@ -113,7 +115,7 @@ impl<M: Method> InChart<M> {
         let (mut lifted, mut rate) = (y.to_vec(), y.to_vec());
         let mut plant = Charted { mechanism, chart: &mut chart, y: &mut lifted, rate: &mut rate };
         let method = start(&mut plant, &x);
-        Ok(Self { method, chart, y: y.to_vec(), x, lifted, rate })
+        Ok(Self { method, chart, y: y.to_vec(), y_old: y.to_vec(), x, lifted, rate })
     }
 
     /// How often independent coordinates were chosen.
@@ -158,6 +160,7 @@ impl<M: Method> Stepper for InChart<M> {
         if self.chart.is_worn() {
             self.renew(mechanism)?;
         }
+        self.y_old.copy_from_slice(&self.y);
         let mut result = self.advance(mechanism, end);
         if result.is_err() {
             // Another chart may reach where this one ends.
@@ -178,11 +181,13 @@ impl<M: Method> Stepper for InChart<M> {
             y.copy_from_slice(&self.y);
             return;
         }
+        let mark = self.chart.mark();
         let Self { method, chart, lifted, rate, x, .. } = self;
         method.interpolate(&mut Charted { mechanism, chart, y: lifted, rate }, t, x);
         if !self.chart.lift(mechanism, t, &self.x, y) {
-            y.copy_from_slice(&self.y);
+            self.between(t, y);
         }
+        self.chart.come_back(mark);
     }
 
     fn boxed(&self) -> Box<dyn Stepper> {
@@ -191,6 +196,21 @@ impl<M: Method> Stepper for InChart<M> {
 }
 
 impl<M: Method> InChart<M> {
+    /// The state at time t within the last step from those at its ends: by cubics, where no lift converges because the
+    /// mechanism is about singular.
+    fn between(&self, t: f64, y: &mut [f64]) {
+        let n = y.len() / 2;
+        let h = self.method.last_step();
+        let s = 1.0 + (t - self.method.time()) / h;
+        for i in 0..n {
+            let (from, to) = (self.y_old[n + i], self.y[n + i]);
+            let mean = (self.y[i] - self.y_old[i]) / h;
+            let (c2, c3) = (3.0 * mean - 2.0 * from - to, from + to - 2.0 * mean);
+            y[i] = self.y_old[i] + h * s * (from + s * (c2 + s * c3));
+            y[n + i] = from + s * (2.0 * c2 + s * 3.0 * c3);
+        }
+    }
+
     fn advance(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
         let Self { method, chart, lifted, rate, .. } = self;
         method.step(&mut Charted { mechanism, chart, y: lifted, rate }, end)

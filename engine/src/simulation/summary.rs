@@ -1,10 +1,14 @@
 //! What a run has cost and how far it can be trusted.
 
 use super::Simulation;
+use crate::mechanism::Mechanism;
 use crate::passage::Passage;
 use crate::scene::IntegratorKind;
 use crate::trust;
 use serde::Serialize;
+
+/// The part of the energy at the start that counts as kinetic where nothing moves.
+const STANDING: f64 = 1e-3;
 
 /// What a run has cost and how far it can be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,6 +45,8 @@ pub struct Summary {
     pub reason: String,
     /// Singular positions passed, where the mobility jumps for a moment.
     pub passages: Vec<Passage>,
+    /// What speaks against the result, in words, with what to use instead.
+    pub doubts: Vec<String>,
     /// Whether the end of the run is reached.
     pub finished: bool,
 }
@@ -59,13 +65,16 @@ impl Simulation {
         let elimination = &self.mechanism.elimination;
         let energy = elimination.energy(&self.mechanism.system);
         let (position_violation, velocity_violation) = elimination.violation(&self.mechanism.system);
+        let energy_drift = energy - self.start_energy - work;
         let (counters, projections) = self.integrator.work(&self.mechanism);
         let steps = self.integrator.steps();
+        let passages = self.watch.passages(&self.mechanism.system);
+        let doubts = self.doubts(&passages, energy_drift);
         Summary {
             time: self.time,
             energy,
             work,
-            energy_drift: energy - self.start_energy - work,
+            energy_drift,
             position_violation,
             velocity_violation,
             steps: steps.accepted,
@@ -77,8 +86,29 @@ impl Simulation {
             projections,
             integrator: self.kind,
             reason: self.reason.clone(),
-            passages: self.watch.passages(&self.mechanism.system),
+            passages,
+            doubts,
             finished: self.finished(),
         }
+    }
+
+    /// What speaks against the shown state, which is in place.
+    fn doubts(&self, passages: &[Passage], drift: f64) -> Vec<String> {
+        // A Taylor series meets its tolerance or stops, and does not look at each step.
+        if self.kind == IntegratorKind::Taylor {
+            return Vec::new();
+        }
+        let Mechanism { system, elimination, .. } = &self.mechanism;
+        let kinetic = self.kinetic.max(elimination.kinetic_energy(system));
+        let signs = trust::Signs {
+            passed: passages.first().map(|passage| passage.time),
+            drift: if drift == 0.0 {
+                0.0
+            } else {
+                drift.abs() / kinetic.max(STANDING * self.start_energy.abs())
+            },
+            open: trust::relative(system, elimination),
+        };
+        trust::doubts(&system.model.settings, &signs)
     }
 }

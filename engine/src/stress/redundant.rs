@@ -222,7 +222,7 @@ fn drivers(treatment: &Treatment, _: bool) -> Outcome {
             motion: Motion::Ramp { start: 0.0, rate },
         });
     }
-    must_be_refused(&scene, treatment, "constraints-lost", &["\"slow\"", "\"fast\""])
+    must_be_refused(&scene, treatment, "motion-impossible", &["\"slow\"", "\"fast\""])
 }
 
 fn past_reach(treatment: &Treatment, _: bool) -> Outcome {

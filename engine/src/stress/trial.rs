@@ -123,11 +123,11 @@ impl<'a> Trial<'a> {
         if self.conserves.is_some() {
             outcome.energy_drift = Some(drift / kinetic);
         }
-        self.judge(&mut outcome, stopped.as_ref());
+        self.judge(&mut outcome, stopped.as_ref(), &summary.doubts);
         outcome
     }
 
-    fn judge(&self, outcome: &mut Outcome, stopped: Option<&EngineError>) {
+    fn judge(&self, outcome: &mut Outcome, stopped: Option<&EngineError>, doubts: &[String]) {
         let mut verdict = Verdict::Survived;
         let mut reasons = Vec::new();
         let mut blame = |what: &str, value: Option<f64>, good: f64, poor: f64| {
@@ -155,6 +155,10 @@ impl<'a> Trial<'a> {
             }
             Some(error) => reasons.push(format!("then it stopped: {error}")),
             None => {}
+        }
+        if verdict == Verdict::Wrong && !doubts.is_empty() {
+            verdict = Verdict::Warned;
+            reasons.push(format!("it says: {}", doubts.join("; ")));
         }
         if reasons.is_empty() {
             let error = outcome.error.or(outcome.energy_drift).unwrap_or(0.0);

@@ -334,6 +334,7 @@ fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[S
         };
         lines.push(format!("  singular positions     passed {times}, at {joints}"));
     }
+    lines.extend(s.doubts.iter().map(|doubt| format!("  doubt                  {doubt}")));
     if let Some(v) = verified {
         let (by, tolerance) = (v.integrator.word(), v.tolerance);
         lines.push(format!(

@@ -230,6 +230,7 @@ fn word(verdict: Verdict) -> &'static str {
         Verdict::Survived => "survived",
         Verdict::Degraded => "degraded",
         Verdict::Refused => "refused",
+        Verdict::Warned => "warned",
         Verdict::Wrong => "wrong",
     }
 }

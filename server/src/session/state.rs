@@ -190,7 +190,7 @@ pub struct SessionState {
     pub changes: u64,
     /// The hand's spring, while a body is pulled.
     pub pull: Option<Pull>,
-    /// What the engine found or corrected in the scene.
+    /// What the engine found or corrected in the scene, and what speaks against the result so far.
     pub notes: Vec<String>,
     /// Why the simulation stopped before its end; the last good state is kept.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -269,7 +269,7 @@ impl SessionState {
             drawing: extra.drawing.clone(),
             changes: extra.changes,
             pull: extra.pull.clone(),
-            notes: simulation.notes().to_vec(),
+            notes: [simulation.notes(), &summary.doubts].concat(),
             error: extra.error.as_ref().map(Problem::document),
             bodies: bodies.collect(),
             forces,

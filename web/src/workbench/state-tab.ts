@@ -62,7 +62,7 @@ export function stateTab(session: Session): InspectorTab {
     setText(factors.value, String(state.factorizations));
     const said = state.notes ?? [];
     notes.hidden = said.length === 0;
-    if (notes.childElementCount !== said.length) notes.replaceChildren(...said.map((text) => h("li", null, text)));
+    if (notes.textContent !== said.join("")) notes.replaceChildren(...said.map((text) => h("li", null, text)));
     const shown = Math.min(limit, state.q.length);
     table.update(state.q.slice(0, shown).map((q, k) => ({
       head: names?.[k] ?? `q${k + 1}`,

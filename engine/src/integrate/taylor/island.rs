@@ -3,8 +3,8 @@
 use super::{MAX_ORDER, Stop};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
-use crate::parts::Part;
-use crate::passage::{self, Stepped};
+use crate::parts::{self, Part};
+use crate::passage::Stepped;
 use crate::plane;
 use crate::series::{LEAST_TOLERANCE_REDUNDANT, Plan, Planar, Series};
 use crate::system::System;
@@ -82,7 +82,7 @@ impl Island {
         let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
         let order = order_for(tolerance, flat.is_some());
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
-        let loops = passage::has_loops(system);
+        let loops = parts::has_loops(&system.model);
         let mut engine = match (&flat, system.bodies.len()) {
             (None, 1) => Engine::Narrow(Box::new(Series::new(system, order, redundant, turns))),
             (None, _) => Engine::Wide(Box::new(Series::new(system, order, redundant, turns))),

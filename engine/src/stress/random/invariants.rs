@@ -36,7 +36,7 @@ pub fn judge(scene: &Scene, treatment: &Treatment) -> Outcome {
                 back_in_time(&scene, &run, &mut findings);
             }
         }
-        Err(error) => findings.refused(&scene, &error),
+        Err(error) => findings.refused(&error),
     }
     outcome.error = Some(findings.error);
     outcome.verdict = findings.verdict;
@@ -65,10 +65,10 @@ impl Findings {
         self.words.push(format!("{what} differs by {value:.1e}"));
     }
 
-    /// An error is a true answer only if a driver can ask for too much; the start of every drawn mechanism is closed.
-    fn refused(&mut self, scene: &Scene, error: &EngineError) {
-        let may_lock = !scene.drivers.is_empty() && error.code() != "assembly-failed";
-        self.verdict = self.verdict.max(if may_lock { Verdict::Refused } else { Verdict::Wrong });
+    /// An error is a true answer only if it tells what stands in the way; the start of every drawn mechanism is closed.
+    fn refused(&mut self, error: &EngineError) {
+        let told = error.cause().is_some() || error.code() == "motion-impossible";
+        self.verdict = self.verdict.max(if told { Verdict::Refused } else { Verdict::Wrong });
         self.words.push(error.to_string());
     }
 }
@@ -130,7 +130,7 @@ fn compare(scene: &Scene, run: &mut Simulation, findings: &mut Findings) {
                 findings.measure(what, distance.fold(0.0, larger), (GOOD, POOR));
             }
             Err(error) => {
-                findings.refused(scene, &error);
+                findings.refused(&error);
                 findings.words.push(format!("with {what}"));
             }
         }
@@ -159,7 +159,7 @@ fn back_in_time(scene: &Scene, run: &Simulation, findings: &mut Findings) {
             findings.measure("the start after the way back", apart, (GOOD, POOR));
         }
         Err(error) => {
-            findings.refused(scene, &error);
+            findings.refused(&error);
             findings.words.push("on the way back".to_owned());
         }
     }

@@ -10,10 +10,10 @@ const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2rem auto;ma
 color:#1b1f24;background:#fff}h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}\
 table{border-collapse:collapse;width:100%;font-size:.9rem}th,td{text-align:left;padding:.3rem .6rem;\
 border-bottom:1px solid #d8dee4;vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums;\
-white-space:nowrap}.survived{color:#116329}.degraded{color:#7d4e00}.refused{color:#0550ae}.wrong{color:#a40e26;\
-font-weight:600}svg text{font:12px system-ui,sans-serif;fill:currentColor}.scroll{overflow-x:auto}\
+white-space:nowrap}.survived{color:#116329}.degraded{color:#7d4e00}.refused{color:#0550ae}.warned{color:#953800}\
+.wrong{color:#a40e26;font-weight:600}svg text{font:12px system-ui,sans-serif;fill:currentColor}.scroll{overflow-x:auto}\
 @media(prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}th,td{border-color:#30363d}\
-.survived{color:#56d364}.degraded{color:#e3b341}.refused{color:#79c0ff}.wrong{color:#ff7b72}}";
+.survived{color:#56d364}.degraded{color:#e3b341}.refused{color:#79c0ff}.warned{color:#f0883e}.wrong{color:#ff7b72}}";
 
 /// The page.
 pub(super) fn render(report: &Report) -> String {
@@ -31,7 +31,8 @@ pub(super) fn render(report: &Report) -> String {
          <p>Engine {}, {form} form{seeds}. {} cases: {}.</p><p>A case is <b class=survived>survived</b> only if it \
          agrees with its reference or keeps its invariant, <b class=degraded>degraded</b> if it does so less \
          precisely than its tolerance promises, <b class=refused>refused</b> if the engine says why it cannot be \
-         run (on), and <b class=wrong>wrong</b> otherwise.</p>",
+         run (on), <b class=warned>warned</b> if the result is wrong but the run says that it is to be doubted, and \
+         <b class=wrong>wrong</b> otherwise.</p>",
         report.engine,
         report.entries.len(),
         counts.join(", "),

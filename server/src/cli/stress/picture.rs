@@ -16,6 +16,7 @@ fn look(verdict: Verdict) -> (&'static str, &'static str) {
         Verdict::Survived => ("#cfe8d5", "✓"),
         Verdict::Degraded => ("#fbe7b2", "~"),
         Verdict::Refused => ("#d6e4f7", "–"),
+        Verdict::Warned => ("#f6d3b0", "!"),
         Verdict::Wrong => ("#f3c1bd", "✗"),
     }
 }
@@ -73,7 +74,8 @@ pub(super) fn svg(columns: &[Column]) -> String {
                 writeln!(out, "<text x=\"{}\" y=\"{y}\" text-anchor=\"end\">{}</text>", LEFT - 8, entry.case);
         }
     }
-    let words = [Verdict::Survived, Verdict::Degraded, Verdict::Refused, Verdict::Wrong].map(|verdict| {
+    let verdicts = [Verdict::Survived, Verdict::Degraded, Verdict::Refused, Verdict::Warned, Verdict::Wrong];
+    let words = verdicts.map(|verdict| {
         let (_, mark) = look(verdict);
         format!("{mark} {}", word(verdict))
     });
@@ -91,9 +93,9 @@ pub(super) fn markdown(columns: &[Column], picture: &str) -> String {
     let mut out = String::from(
         "# Which treatment survives what\n\nWritten by `triad stress --treatments`; do not edit. Every case has a \
          reference of its own or an invariant: ✓ it is met within what the tolerance of 1e-9 promises, ~ less \
-         precisely, ✗ the result is wrong, – the engine refused or stopped, and said why. Below the mark are the \
-         largest error (or energy drift), relative, and the accepted steps. Runs are stopped at 60 000 steps, penalties \
-         at 12 000. Energies without an exact solution only tell that nothing was lost: see `triad stress`.\n\n",
+         precisely, – the engine refused or stopped, and said why, ! the result is wrong, and the run says that it is \
+         to be doubted, ✗ it is wrong, and nothing says so. Below the mark are the largest error (or energy drift), \
+         relative, and the accepted steps. Runs are stopped at 60 000 steps, penalties at 12 000. Energies without an exact solution only tell that nothing was lost: see `triad stress`.\n\n",
     );
     if !picture.is_empty() {
         let _ = write!(out, "![Which treatment survives what]({picture})\n\n");

@@ -1,0 +1,77 @@
+//! Why a run cannot go on from its last good state, as far as the mechanism itself can tell.
+
+use super::Simulation;
+use crate::error::{Cause, EngineError};
+use crate::mechanism::Mechanism;
+use crate::{parts, passage};
+
+/// How far ahead a position is looked for: so many radians of the body that turns fastest.
+const AHEAD: [f64; 2] = [0.1, 0.01];
+/// A joint is told if so much is left of its hold at the start, or if it holds no more than this at the start.
+const LOSING: f64 = 1e-4;
+const WEAK: f64 = 1e-7;
+
+impl Simulation {
+    /// Why no way leads on from the shown state, if it can be told.
+    pub(super) fn cause(&mut self) -> Option<Cause> {
+        self.out_of_reach().or_else(|| self.hardly_held())
+    }
+
+    /// Whether drivers ask for positions that the joints do not allow: then none is found a little ahead.
+    fn out_of_reach(&self) -> Option<Cause> {
+        let system = &self.mechanism.system;
+        let drivers: Vec<String> =
+            system.groups.iter().filter(|group| group.driver).map(|group| group.name.clone()).collect();
+        if drivers.is_empty() {
+            return None;
+        }
+        let pace = passage::fastest(system, &self.shown);
+        let mut found = None;
+        for ahead in AHEAD {
+            let h = ahead / pace;
+            let time = self.time + h;
+            if h.is_nan() || time > self.duration() {
+                continue;
+            }
+            let mut y = self.shown.clone();
+            let (q, q_dot) = y.split_at_mut(system.coordinates);
+            q.iter_mut().zip(q_dot).for_each(|(q, v)| *q += h * *v);
+            let open = match self.mechanism.clone().assemble_at(time, &mut y) {
+                Err(EngineError::Assembly { joint, with, .. }) => [vec![joint], with].concat(),
+                Err(EngineError::MotionImpossible { driver, with, .. }) => [vec![driver], with].concat(),
+                _ => return None,
+            };
+            found = Some((time, open));
+        }
+        let (time, open) = found?;
+        let driver = drivers.iter().find(|driver| open.contains(driver)).cloned();
+        Some(Cause::OutOfReach { drivers: driver.map_or(drivers, |driver| vec![driver]), time, open })
+    }
+
+    /// The joint whose rows are nearest to depending on others. Those of a tree never are, whatever their pivots say.
+    fn hardly_held(&mut self) -> Option<Cause> {
+        if !parts::has_loops(self.model()) {
+            return None;
+        }
+        let start = self.holds_at(0.0, &self.start.clone());
+        let here = self.holds_at(self.time, &self.shown.clone());
+        let groups = &self.mechanism.system.groups;
+        let named = |index: usize| groups[index].name.clone();
+        let least = |holds: &[f64]| {
+            holds.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 1.0))
+        };
+        let left: Vec<f64> = here.iter().zip(&start).map(|(here, start)| here / start).collect();
+        let (lost, weak) = (least(&left), least(&start));
+        if weak.1 < WEAK {
+            return Some(Cause::Weak { joint: named(weak.0), hold: weak.1.max(0.0) });
+        }
+        (lost.1 < LOSING).then(|| Cause::Losing { joint: named(lost.0), hold: lost.1.max(0.0) })
+    }
+
+    fn holds_at(&mut self, time: f64, y: &[f64]) -> Vec<f64> {
+        self.mechanism.set_state(time, y);
+        let Mechanism { system, elimination, .. } = &mut self.mechanism;
+        elimination.keep_holds();
+        elimination.holds_here(system).to_vec()
+    }
+}
