@@ -12,6 +12,7 @@ mod acting;
 mod angles;
 mod bodies;
 mod bundle;
+mod convolution;
 mod lanes;
 mod layout;
 mod loads;
