@@ -212,6 +212,13 @@ fn what_stands_in_the_way_is_told_in_words() {
     let Some(Cause::OutOfReach { drivers, time, open }) = error.cause() else { panic!("{error}") };
     assert_eq!(drivers, &["driver"]);
     assert!((time - 0.09905).abs() < 1e-4 && open.iter().any(|name| name == "loop0"), "{error}");
+    // Steps that lead nowhere are not gone on with.
+    for seed in [304, 338, 551, 898, 1143, 1850] {
+        let mut run = Simulation::new(&triad_engine::stress::random::scene(seed)).unwrap();
+        run.advance_to(run.duration()).unwrap_err();
+        let summary = run.summary();
+        assert!(summary.steps + summary.rejected < 500, "{seed}: {summary:?}");
+    }
     let error = stopped(&out_of_reach(), 20_000);
     let Some(Cause::OutOfReach { drivers, .. }) = error.cause() else { panic!("{error}") };
     assert_eq!(drivers, &["push"]);
