@@ -270,7 +270,7 @@ impl EngineError {
             | Self::Stalled { last, .. }
             | Self::Undetermined { last, .. }
             | Self::ConstraintsLost { last, .. }
-            | Self::StepLimit { last, .. } => last.cause.as_ref(),
+            | Self::StepLimit { last, .. } => last.cause.as_deref(),
             _ => None,
         }
     }

@@ -3,6 +3,7 @@
 use crate::elimination::Elimination;
 use crate::error::EngineError;
 use crate::integrate::Plant;
+use crate::passage;
 use crate::scene::Stabilization;
 use crate::system::System;
 use crate::trust;
@@ -17,9 +18,11 @@ const STALLED: f64 = 1e-9;
 const MOST_ASSEMBLING: usize = 40;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
-/// Most corrections of the velocities of a start, and the part of the given rates above which they have failed.
+/// Most corrections of the velocities of a start. They have failed if they leave more than these parts of the largest rate
+/// that was to be made up for, and of the fastest turning body.
 const MOST_CORRECTING: usize = 12;
 const UNSOLVED: f64 = 1e-6;
+const ROUNDING: f64 = 1e-9;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
 const FARTHEST: f64 = 0.35;
 
@@ -116,7 +119,7 @@ impl Mechanism {
                     break;
                 }
             }
-            self.check_motion(t, asked)?;
+            self.check_motion(t, UNSOLVED * asked + ROUNDING * passage::fastest(&self.system, y))?;
         }
         let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         if rate > 1e-9 * length {
@@ -128,14 +131,14 @@ impl Mechanism {
         Ok(notes)
     }
 
-    /// Refuses rates of drivers that no velocities satisfy, where those in place come nearest; `asked` is the largest rate
-    /// that had to be made up for. Without drivers there are always velocities: zero.
-    fn check_motion(&self, time: f64, asked: f64) -> Result<(), EngineError> {
+    /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
+    /// Without drivers there are always velocities: zero.
+    fn check_motion(&self, time: f64, most: f64) -> Result<(), EngineError> {
         let Self { system, elimination, .. } = self;
         let rates = trust::rates(system, elimination);
         let drivers = (0..rates.len()).filter(|&group| system.groups[group].driver);
         let driver = drivers.max_by(|&a, &b| rates[a].total_cmp(&rates[b]));
-        let unsolved = rates.iter().any(|rate| *rate > UNSOLVED * asked);
+        let unsolved = rates.iter().any(|rate| *rate > most);
         let Some(driver) = driver.filter(|_| unsolved) else { return Ok(()) };
         let others = trust::worst(&rates).into_iter().filter(|&(group, _)| group != driver);
         let name = |group: usize| system.groups[group].name.clone();

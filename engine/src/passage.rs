@@ -4,6 +4,8 @@
 //! singular position. The factorizations of the run tell it at the ends of steps. A step is looked at inside if its rows
 //! turn so far that one of these numbers may reach zero and come back. Mechanisms without loops have no such step.
 
+mod search;
+
 use crate::elimination::Elimination;
 use crate::integrate::Integrator;
 use crate::lift::Lift;
@@ -13,32 +15,18 @@ use crate::rank::Rank;
 use crate::scene::Stabilization;
 use crate::system::System;
 use crate::trust;
+use search::Search;
 use serde::Serialize;
 use std::ops::Range;
 
-/// How fast the distance from a singular position, as an angle, may change beside the fastest turning body.
-const FASTER: f64 = 2.5;
+/// What a step must turn to tell how fast holds change, rad.
+const TELLING: f64 = 0.005;
 /// A joint holds no more at this part of its firmest hold. At a loose tolerance the state is off the singular position by
 /// more than rounding: by about so many tolerances.
 const ZERO: f64 = 1e-8;
 const OFF: f64 = 10.0;
-/// Joints that never hold more firmly are redundant.
-const REDUNDANT: f64 = 1e-7;
-/// Joints whose hold is below so many zeros at the passage of another have lost it with that one.
-const TOGETHER: f64 = 1e3;
-/// Joints that are named hold less than this.
-const INVOLVED: f64 = 1e-6;
-/// Least part of a step that is looked at, rad, and how often one is divided.
-const FINEST: f64 = 0.05;
+/// How often a step is divided.
 const DEEPEST: usize = 8;
-/// Looks in the search for a zero, how much nearer each is to come, and how many may fail to.
-const LOOKS: usize = 12;
-const NEARER: f64 = 0.5;
-const FAILURES: usize = 3;
-/// Passages nearer to each other than this part of the time are one.
-const APART: f64 = 1e-6;
-/// Two at which the same joint loses its hold are one if rows turn less than so many times what cannot be told from zero.
-const SAME: f64 = 20.0;
 /// Passages for which there is room from the beginning.
 const USUAL: usize = 64;
 /// Passages that are kept: a run through more of them is told by their number alone.
@@ -101,12 +89,25 @@ struct Approach {
     firmest: Vec<f64>,
     /// Holds at the end of the last step.
     holds: Vec<f64>,
+    /// Fastest change of the roots of holds so far, beside the fastest turning body.
+    faster: Vec<f64>,
     /// Pace at the end of the last step.
     pace: f64,
 }
 
-/// A time and the hold of a joint there.
-type Spot = (f64, f64);
+impl Approach {
+    /// Keeps how fast holds have changed from one place to another, between which rows turn by so much.
+    fn note_change(&mut self, from: &[f64], to: &[f64], turned: f64) {
+        self.faster.resize(self.firmest.len(), 0.0);
+        if turned < TELLING {
+            return;
+        }
+        for (((faster, firmest), from), to) in self.faster.iter_mut().zip(&self.firmest).zip(from).zip(to) {
+            let root = |hold: f64| (hold / firmest).max(0.0).sqrt();
+            *faster = faster.max((root(*to) - root(*from)).abs() / turned);
+        }
+    }
+}
 
 /// Watches the pivots of a run.
 #[derive(Clone, Debug)]
@@ -209,11 +210,17 @@ impl Watch {
             *firmest = firmest.max(*hold);
         }
         self.there.clear();
-        let firmest = &approach.firmest;
         let fastest = pace.max(approach.pace);
-        let mut search =
-            Search { watch: self, mechanism, integrator, firmest, pace: fastest, places: &mut places };
-        search.within((start, 0), (end, 1), (end - start) * fastest, 2);
+        let mut search = Search {
+            watch: self,
+            mechanism,
+            integrator,
+            approach: &approach,
+            pace: fastest,
+            places: &mut places,
+        };
+        search.within((start, 0), (end, 1), 2);
+        approach.note_change(&places[0], &places[1], (end - start) * fastest);
         std::mem::swap(&mut approach.holds, &mut places[1]);
         approach.pace = pace;
         self.parts[part] = approach;
@@ -251,148 +258,4 @@ fn zero(tolerance: f64, open: f64) -> f64 {
 fn renew(target: &mut Vec<f64>, source: &[f64]) {
     target.clear();
     target.extend_from_slice(source);
-}
-
-/// The search for zeros of holds inside a step.
-struct Search<'a> {
-    watch: &'a mut Watch,
-    mechanism: &'a mut Mechanism,
-    integrator: &'a mut Integrator,
-    firmest: &'a [f64],
-    /// How fast rows turn, 1/s.
-    pace: f64,
-    places: &'a mut [Vec<f64>],
-}
-
-impl Search<'_> {
-    /// Looks at time t, and keeps the holds.
-    fn look(&mut self, t: f64, place: usize) {
-        self.watch.look(self.mechanism, self.integrator, t, &mut self.places[place]);
-    }
-
-    /// What counts as zero for the hold of a joint.
-    fn zero(&self, joint: usize) -> f64 {
-        self.firmest[joint] * self.watch.zero
-    }
-
-    /// The joint that is most likely to lose its hold between two places, between which rows turn by so much; and its
-    /// distances from that at both: zero there, π/2 at its firmest hold.
-    fn suspect(&self, a: usize, b: usize, turned: f64) -> Option<(usize, f64, f64)> {
-        let bound = FASTER * turned;
-        // In steps that rounding makes very short both ends may be as near to zero as can be told.
-        let floor = self.watch.zero.sqrt();
-        let mut least = None;
-        let mut sum = bound;
-        for (joint, firmest) in self.firmest.iter().enumerate().filter(|(_, firmest)| **firmest > REDUNDANT) {
-            let part = |place: usize| {
-                let hold = self.places[place].get(joint).copied().unwrap_or(f64::NAN);
-                let root = (hold / firmest).clamp(0.0, 1.0).sqrt();
-                if root <= floor { 0.0 } else { root - floor }
-            };
-            let (from, to) = (part(a), part(b));
-            // The sine is less than its angle. Comparisons that are false for NaN as well.
-            if from + to <= sum {
-                let (from, to) = (from.asin(), to.asin());
-                let gone =
-                    self.watch.there.get(joint).is_some_and(|hold| *hold <= TOGETHER * self.zero(joint));
-                if from + to <= sum && !gone {
-                    sum = from + to;
-                    least = Some((joint, from, to));
-                }
-            }
-        }
-        least
-    }
-
-    /// Looks for zeros between two places, between which rows turn by so much.
-    fn within(&mut self, a: (f64, usize), b: (f64, usize), turned: f64, place: usize) {
-        if place + 1 >= self.places.len() || self.watch.passed.len() >= MOST {
-            return;
-        }
-        let Some((joint, from, to)) = self.suspect(a.1, b.1, turned) else { return };
-        // Where it would be zero if it fell and rose at one rate.
-        let part = if from + to > 0.0 { (from / (from + to)).clamp(0.1, 0.9) } else { 0.5 };
-        let time = a.0 + part * (b.0 - a.0);
-        self.look(time, place);
-        let spot = |search: &Self, (t, place): (f64, usize)| (t, search.places[place][joint]);
-        let middle = (time, place);
-        let near = (spot(self, middle).1 / self.firmest[joint]).max(0.0).sqrt();
-        let finest = turned < FINEST;
-        if near < NEARER * from.max(to) || finest {
-            let spots = (spot(self, a), spot(self, middle), spot(self, b));
-            if let Some(zero) = self.root(joint, spots.0, spots.1, spots.2) {
-                self.found(joint, zero);
-            }
-        }
-        if finest {
-            return;
-        }
-        let share = |width: f64| turned * width / (b.0 - a.0);
-        self.within(a, middle, share(time - a.0), place + 1);
-        self.within(middle, b, share(b.0 - time), place + 1);
-    }
-
-    /// The time of a zero near `m`, by the secant: the root of the hold is a number that changes its sign there, of which
-    /// only the size is known. Which of the two zeros that two sizes allow is meant, its slope tells.
-    fn root(&mut self, joint: usize, a: Spot, m: Spot, b: Spot) -> Option<f64> {
-        let root = |(t, hold): Spot| (t, hold.max(0.0).sqrt());
-        let place = self.places.len() - 1;
-        let (mut last, mut now) = (root(a), root(m));
-        let mut slope = (last.1 + root(b).1) / (b.0 - a.0);
-        let zero = self.zero(joint);
-        let mut failures = 0;
-        for _ in 0..LOOKS {
-            let apart = (now.0 - last.0).abs();
-            let slopes = [last.1 + now.1, (last.1 - now.1).abs()].map(|change| change / apart);
-            let between = (slopes[0] / slope).ln().abs() <= (slopes[1] / slope).ln().abs();
-            slope = if between { slopes[0] } else { slopes[1] };
-            let signed = if between { -now.1 } else { now.1 };
-            // A zero at an end of the step may seem to lie behind it.
-            let next = (now.0 + (now.0 - last.0) * signed / (last.1 - signed)).clamp(a.0, b.0);
-            let vanishes = now.1 * now.1 <= zero;
-            if next.is_nan() || next == now.0 {
-                return vanishes.then_some(now.0);
-            }
-            self.look(next, place);
-            let there = root((next, self.places[place][joint]));
-            if vanishes {
-                return Some(if there.1 < now.1 { next } else { now.0 });
-            }
-            failures += usize::from(there.1 > NEARER * now.1);
-            if failures == FAILURES {
-                return None;
-            }
-            (last, now) = (now, there);
-        }
-        None
-    }
-
-    fn found(&mut self, joint: usize, time: f64) {
-        let place = self.places.len() - 1;
-        self.look(time, place);
-        renew(&mut self.watch.there, &self.places[place]);
-        let hold = self.places[place][joint];
-        self.watch.place(self.mechanism, self.integrator, time);
-        let Watch { passed, involved, scout, zero, .. } = &mut *self.watch;
-        let near = SAME * zero.sqrt() / self.pace;
-        let same = |known: &&mut Passed| {
-            let apart = (known.time - time).abs();
-            apart <= APART * (1.0 + time.abs())
-                || (apart <= near && involved[known.joints.clone()].contains(&joint))
-        };
-        if let Some(known) = passed.iter_mut().find(same) {
-            if hold < known.hold {
-                (known.time, known.hold) = (time, hold);
-            }
-            return;
-        }
-        let Some(scout) = scout else { return };
-        let holds = scout.holds_here(&self.mechanism.system);
-        let least = holds.iter().fold(f64::INFINITY, |least, hold| least.min(*hold));
-        let limit = INVOLVED.max(*zero).max(2.0 * least);
-        let first = involved.len();
-        involved.extend((0..holds.len()).filter(|joint| holds[*joint] <= limit));
-        passed.push(Passed { time, hold, joints: first..involved.len() });
-        passed.sort_unstable_by(|a, b| a.time.total_cmp(&b.time));
-    }
 }

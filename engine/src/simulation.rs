@@ -299,7 +299,7 @@ impl Simulation {
         if time >= self.time {
             self.show(time);
         }
-        LastGood { steps, cause: self.cause() }
+        LastGood { steps, cause: self.cause().map(Box::new) }
     }
 
     /// Finds what is otherwise found when somebody asks, at the end of the last step.

@@ -50,6 +50,8 @@ pub struct Treatment {
     pub stabilization: Option<Stabilization>,
     /// Steps after which a run is stopped, if fewer than the case allows.
     pub most_steps: Option<u64>,
+    /// Bodies above which it is not tried, if its matrices are full.
+    pub most_bodies: Option<usize>,
 }
 
 impl Treatment {

@@ -144,6 +144,8 @@ pub struct Signs {
     pub drift: f64,
     /// Largest |Φ| relative to the size of its row.
     pub open: f64,
+    /// Part of the lightest mass that is lost in the rounding of penalties.
+    pub swallowed: f64,
 }
 
 /// Energy may be missing, and rows may be open, by so many tolerances, within these bounds.
@@ -171,6 +173,7 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
     for (size, what) in [
         (signs.drift, "of the largest kinetic energy came from nowhere or went there"),
         (signs.open, "of the mechanism's size is how far the joints are open"),
+        (signs.swallowed, "of the lightest mass is lost in the rounding of the penalties"),
     ] {
         // True for NaN as well.
         if larger(size, allowed) != allowed {

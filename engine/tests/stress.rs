@@ -53,3 +53,15 @@ fn random_mechanisms_are_never_silently_wrong() {
         assert!(outcome.verdict < Verdict::Wrong, "seed {seed} ({}): {}", entry.summary, outcome.reason);
     }
 }
+
+#[test]
+fn no_treatment_is_silently_wrong() {
+    let cases = stress::cases();
+    for name in ["slider-crank-equal", "micrometre"] {
+        let case = cases.iter().find(|case| case.name == name).unwrap();
+        for (treatment, how) in stress::comparison() {
+            let outcome = stress::run(case, &how, true).outcome;
+            assert!(outcome.verdict < Verdict::Wrong, "{name}, {treatment}: {}", outcome.reason);
+        }
+    }
+}

@@ -14,7 +14,7 @@ pub struct LastGood {
     /// Accepted steps until then.
     pub steps: u64,
     /// Why no way leads on, if it can be told.
-    pub cause: Option<Cause>,
+    pub cause: Option<Box<Cause>>,
 }
 
 /// Why no way leads on from a state.
@@ -52,7 +52,7 @@ impl fmt::Display for Cause {
                 f,
                 "driver {} asks for more than the joints allow: at t = {time:.6} s no position nearby closes {}",
                 listed(drivers),
-                listed(open)
+                if open.is_empty() { "all of them".to_owned() } else { listed(open) }
             ),
             Self::Losing { joint, hold } => {
                 write!(f, "\"{joint}\" is about to lose its hold, of which {hold:.0e} is left")

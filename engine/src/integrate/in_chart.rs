@@ -167,12 +167,13 @@ impl<M: Method> Stepper for InChart<M> {
             self.renew(mechanism)?;
             result = self.advance(mechanism, end);
         }
-        result?;
         let Self { method, chart, y, .. } = self;
-        if chart.lift(mechanism, method.time(), method.state(), y) {
-            Ok(())
-        } else {
-            Err(Stop::NotFinite { time: method.time() })
+        let (time, step) = (method.time(), method.last_step());
+        match result {
+            Ok(()) if chart.lift(mechanism, time, method.state(), y) => Ok(()),
+            // What is not finite is a state that no lift has reached.
+            Ok(()) | Err(Stop::NotFinite { .. }) => Err(Stop::NoConvergence { time, step }),
+            result => result,
         }
     }
 

@@ -32,6 +32,8 @@ const SETTLED: f64 = 1e-9;
 const ROUNDING: f64 = 1e-15;
 /// Steps of the trial run from which the step size is found, and how much smaller it is made.
 const TRIAL_STEPS: usize = 100;
+/// A step of this part of the longest one: the trial comes to a halt, and says no more about the motion until then.
+const HALTING: f64 = 1e-4;
 const PART_OF_TRIAL: f64 = 0.5;
 
 /// The integrator and its last step.
@@ -294,13 +296,17 @@ impl Stepper for Rattle {
 fn trial_step(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end: f64) -> f64 {
     let mut trial = mechanism.clone();
     let mut explicit = Explicit::new(&DOP853, &mut trial, t, y, tolerance);
-    let mut smallest = f64::INFINITY;
+    let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);
     for step in 0..TRIAL_STEPS {
         if explicit.time() >= end || explicit.step(&mut trial, end).is_err() {
             break;
         }
         // The first step is a guess, the last one is cut.
         if step > 0 && explicit.time() < end {
+            largest = largest.max(explicit.last_step());
+            if explicit.last_step() < HALTING * largest {
+                break;
+            }
             smallest = smallest.min(explicit.last_step());
         }
     }

@@ -43,7 +43,8 @@ impl Simulation {
             };
             found = Some((time, open));
         }
-        let (time, open) = found?;
+        let (time, mut open) = found?;
+        open.retain(|name| !name.is_empty());
         let driver = drivers.iter().find(|driver| open.contains(driver)).cloned();
         Some(Cause::OutOfReach { drivers: driver.map_or(drivers, |driver| vec![driver]), time, open })
     }

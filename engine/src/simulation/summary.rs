@@ -1,9 +1,11 @@
 //! What a run has cost and how far it can be trusted.
 
 use super::Simulation;
+use crate::integrate::Strength;
 use crate::mechanism::Mechanism;
 use crate::passage::Passage;
-use crate::scene::IntegratorKind;
+use crate::scene::{IntegratorKind, Stabilization};
+use crate::system::System;
 use crate::trust;
 use serde::Serialize;
 
@@ -49,6 +51,13 @@ pub struct Summary {
     pub doubts: Vec<String>,
     /// Whether the end of the run is reached.
     pub finished: bool,
+}
+
+/// Part of the lightest mass that is lost in the rounding of penalties.
+fn swallowed(system: &System) -> f64 {
+    let Stabilization::Penalty { alpha, omega, mu } = system.model.settings.stabilization else { return 0.0 };
+    let lightest = system.bodies.iter().fold(f64::INFINITY, |least, body| least.min(body.mass));
+    (Strength { alpha, omega, mu }.least_tolerance() / lightest).min(1.0)
 }
 
 impl Simulation {
@@ -108,6 +117,7 @@ impl Simulation {
                 drift.abs() / kinetic.max(STANDING * self.start_energy.abs())
             },
             open: trust::relative(system, elimination),
+            swallowed: swallowed(system),
         };
         trust::doubts(&system.model.settings, &signs)
     }

@@ -243,9 +243,10 @@ fn past_reach(treatment: &Treatment, _: bool) -> Outcome {
             z: still(0.0),
         },
     });
-    let mut outcome = must_be_refused(&scene, treatment, "constraints-lost|step-too-small|stalled", &[]);
-    // At t = 1 s the arm is straight.
-    if outcome.verdict == Verdict::Refused && (outcome.reached - 1.0).abs() > 0.01 {
+    let codes = "constraints-lost|step-too-small|stalled|diverged|no-convergence";
+    let mut outcome = must_be_refused(&scene, treatment, codes, &["driver \"hand\" asks for more"]);
+    // At t = 1 s the arm is straight; feedback stretches it a little.
+    if outcome.verdict == Verdict::Refused && !(0.99..1.3).contains(&outcome.reached) {
         outcome.verdict = Verdict::Wrong;
         outcome.reason.push_str("; but the arm is straight at t = 1 s");
     }

@@ -10,6 +10,8 @@ const FAMILY: &str = "treatments";
 /// Steps of a compared run, and of one whose steps are dear: more is no use of a treatment.
 const STEPS: u64 = 60_000;
 const DEAR_STEPS: u64 = 12_000;
+/// Bodies of a treatment whose matrices are full: the cube of more takes hours.
+const BODIES: usize = 100;
 
 pub(super) const CASES: &[Case] = &[
     Case {
@@ -88,5 +90,11 @@ pub fn all() -> Vec<(String, Treatment)> {
 }
 
 fn with(integrator: IntegratorKind, stabilization: Stabilization, steps: u64) -> Treatment {
-    Treatment { integrator: Some(integrator), stabilization: Some(stabilization), most_steps: Some(steps) }
+    let sparse = matches!(stabilization, Stabilization::Projection | Stabilization::Baumgarte { .. });
+    Treatment {
+        integrator: Some(integrator),
+        stabilization: Some(stabilization),
+        most_steps: Some(steps),
+        most_bodies: (!sparse || integrator == IntegratorKind::Radau).then_some(BODIES),
+    }
 }

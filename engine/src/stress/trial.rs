@@ -23,6 +23,7 @@ pub struct Trial<'a> {
     samples: u32,
     steps: u64,
     most_steps: u64,
+    most_bodies: usize,
     conserves: Option<(f64, f64)>,
 }
 
@@ -39,6 +40,7 @@ impl<'a> Trial<'a> {
             samples: 40,
             steps: STEPS,
             most_steps: treatment.most_steps.unwrap_or(u64::MAX),
+            most_bodies: treatment.most_bodies.unwrap_or(usize::MAX),
             conserves: None,
         }
     }
@@ -84,13 +86,18 @@ impl<'a> Trial<'a> {
 
     /// Runs and judges.
     pub fn run(self) -> Outcome {
+        let refused =
+            |why: String, reference: String| Outcome { reference, ..Outcome::nothing(Verdict::Refused, why) };
+        if self.scene.bodies.len() > self.most_bodies {
+            let why = format!(
+                "not tried: its matrices are full, and more than {} bodies too many",
+                self.most_bodies
+            );
+            return refused(why, self.reference);
+        }
         match Simulation::new(&self.scene) {
             Ok(simulation) => self.watch(simulation),
-            Err(error) => {
-                let mut outcome = Outcome::nothing(Verdict::Refused, error.to_string());
-                outcome.reference = self.reference;
-                outcome
-            }
+            Err(error) => refused(error.to_string(), self.reference),
         }
     }
 

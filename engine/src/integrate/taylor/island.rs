@@ -11,8 +11,10 @@ use crate::system::System;
 
 /// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
 const CROWDED: f64 = 0.1;
-/// A step below this part of what is left, at whose end the constraints cannot be satisfied, is the last.
+/// A step below this part of what is left is the last if the constraints cannot be satisfied at its end, or could be only
+/// after it had been halved so often: from there on steps lead nowhere, and spoil the state.
 const HOPELESS: f64 = 1e-9;
+const HALVED: u64 = 3;
 /// Most knots that are counted.
 const MOST_KNOTS: usize = 100_000;
 
@@ -182,7 +184,7 @@ impl Island {
         if !taken.finite || taken.h.is_nan() {
             return Err(Stop::NotFinite { time: self.t });
         }
-        if taken.far && taken.h < HOPELESS * (end - self.t) {
+        if (taken.far || taken.rejected >= HALVED) && taken.h < HOPELESS * (end - self.t) {
             return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
         }
         if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
