@@ -160,6 +160,21 @@ fn a_run_writes_a_table_and_a_recording_and_says_how_far_it_can_be_trusted() {
 }
 
 #[test]
+fn reports_are_written_into_folders_that_are_not_there_yet_and_a_bad_place_is_told_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("reports/stress.html");
+    let done = run(&["stress", "--case", "lamina", "--quick", "--html", report.to_str().unwrap()]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(std::fs::read_to_string(&report).unwrap().contains("<html"));
+    // A file is no folder: nothing is run whose report has no place.
+    let nowhere = report.join("stress.html");
+    let refused = run(&["stress", "--html", nowhere.to_str().unwrap()]);
+    assert_eq!(refused.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert!(told.contains("unwritable-file") && told.contains("try:"), "{told}");
+}
+
+#[test]
 fn check_counts_rows_and_names_the_redundant_ones() {
     let (exit, report) = run_json(&["check", "simple-pendulum"]);
     assert_eq!(exit, 0);

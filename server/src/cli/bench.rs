@@ -1,6 +1,6 @@
 //! `triad bench`: run time against error of the built-in scenes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use axum::http::StatusCode;
 use clap::Args;
@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
 
 use super::Outcome;
+use super::output::{make_folder, write};
 use super::terminal::{print_line, progress};
 use crate::bench::{Plan, RasterError, Wish, by_scene, csv, html, measure, png, svg, table};
 use crate::problem::Problem;
@@ -68,15 +69,12 @@ pub(super) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
             "leave --scenes out to see all of them",
         ));
     }
-    std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
+    make_folder(&folder)?;
     let bar = progress("bench", 1.0, hidden);
     let runs = measure(&plan, |part, _| bar.reached(part))?;
     drop(bar);
     print_line(&table(&runs));
-    let write = |name: &str, bytes: &[u8]| {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).map_err(|error| unwritable(&path, &error))
-    };
+    let write = |name: &str, bytes: &[u8]| write(&folder.join(name), bytes);
     write(reports::BENCH, html(&runs).as_bytes())?;
     write("bench.csv", csv(&runs).as_bytes())?;
     for (scene, runs) in by_scene(&runs) {
@@ -95,14 +93,5 @@ fn undrawable(scene: &str, error: &RasterError) -> Problem {
         "undrawable-plot",
         format!("the plot of {scene} cannot be made: {error}"),
         "the plot as SVG and the tables are there; please report this",
-    )
-}
-
-fn unwritable(path: &Path, error: &std::io::Error) -> Problem {
-    Problem::new(
-        StatusCode::INTERNAL_SERVER_ERROR,
-        "unwritable-file",
-        format!("{} cannot be written: {error}", path.display()),
-        "check that the folder exists and is writable",
     )
 }

@@ -38,9 +38,7 @@ pub(super) fn import(options: &Import, json: bool) -> Result<Outcome, Problem> {
         print_json(&json!({ "scene": imported.scene, "left_out": imported.left_out, "check": report }));
     }
     match &options.out {
-        Some(path) => {
-            std::fs::write(path, written + "\n").map_err(|error| super::run::unwritable(path, &error))?
-        }
+        Some(path) => super::output::write(path, written + "\n")?,
         None if json => {}
         None => print_line(&written),
     }

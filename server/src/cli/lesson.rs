@@ -7,6 +7,7 @@ use axum::http::StatusCode;
 use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
+use super::output::write;
 use super::terminal::{counted, print_json, print_line};
 use super::{Outcome, Starter};
 use crate::api::unknown_lesson;
@@ -117,22 +118,6 @@ pub(super) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome, Proble
     print_line(&format!("See it while you write:  triad --course {} lesson preview {slug}", into.display()));
     print_line(&format!("What is still to do:     triad --course {} lesson check {slug}", into.display()));
     Ok(Outcome::Done)
-}
-
-/// Writes a file and the folders above it.
-fn write(path: &Path, text: &str) -> Result<(), Problem> {
-    let refused = |error: std::io::Error| {
-        Problem::new(
-            StatusCode::INTERNAL_SERVER_ERROR,
-            "unwritable-file",
-            format!("cannot write {}: {error}", path.display()),
-            "check that the folder exists and that you may write there",
-        )
-    };
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(refused)?;
-    }
-    std::fs::write(path, text).map_err(refused)
 }
 
 /// Writes a starter and its states.

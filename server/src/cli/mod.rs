@@ -9,6 +9,7 @@ mod grade;
 mod import;
 mod interrupt;
 mod lesson;
+mod output;
 mod paper;
 mod preview;
 mod run;

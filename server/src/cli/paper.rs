@@ -14,6 +14,7 @@ use triad_engine::paper::{
 use triad_engine::scene::Coordinates;
 
 use super::Outcome;
+use super::output::write;
 use super::terminal::{print_json, print_line, progress};
 use crate::problem::Problem;
 
@@ -88,14 +89,7 @@ pub(super) fn paper(options: &Paper, json: bool) -> Result<Outcome, Problem> {
     drop(bar);
     let verdict = verdict(&rows);
     if let Some(path) = &options.svg {
-        std::fs::write(path, figure::svg(&figure::curves(&rows))).map_err(|error| {
-            Problem::new(
-                StatusCode::INTERNAL_SERVER_ERROR,
-                "unwritable-file",
-                format!("{}: {error}", path.display()),
-                "choose a folder that exists and may be written to",
-            )
-        })?;
+        write(path, figure::svg(&figure::curves(&rows)))?;
     }
     if json {
         print_json(&serde_json::json!({"examples": rows, "verdict": verdict}));

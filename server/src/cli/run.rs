@@ -1,6 +1,5 @@
 //! `triad run`.
 
-use std::path::Path;
 use std::time::Instant;
 
 use axum::http::StatusCode;
@@ -12,6 +11,7 @@ use triad_engine::{EngineError, VERSION};
 
 use super::csv::Table;
 use super::interrupt::Interrupt;
+use super::output::{make_room, unwritable};
 use super::terminal::{Progress, print_json, print_line, progress};
 use super::{Outcome, Run};
 use crate::problem::Problem;
@@ -177,6 +177,7 @@ impl Outputs {
     fn open(options: &Run, scene: &Scene, simulation: &mut Simulation) -> Result<Self, Problem> {
         let mut table = None;
         if let Some(path) = &options.out {
+            make_room(path)?;
             let joints = simulation.multipliers();
             let bodies: Vec<&str> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
             let opened = Table::create(path, &scene.name, &bodies, &joints);
@@ -185,6 +186,7 @@ impl Outputs {
         let mut recorders = Vec::new();
         let id = uuid::Uuid::new_v4().simple().to_string();
         if let Some(path) = &options.rrd {
+            make_room(path)?;
             let recorder = Recorder::to_file(path, &id, cast(scene, simulation));
             recorders.push(recorder.map_err(|error| unwritable(path, &error))?);
         }
@@ -226,15 +228,6 @@ impl Outputs {
         }
         self.table.take().map_or(Ok(()), |table| table.finish().map_err(|error| output_failed(&error)))
     }
-}
-
-pub(super) fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Problem {
-    Problem::new(
-        StatusCode::INTERNAL_SERVER_ERROR,
-        "unwritable-file",
-        format!("{} cannot be written: {error}", path.display()),
-        "check that the folder exists and is writable",
-    )
 }
 
 fn no_viewer(url: &str, error: &RecordError) -> Problem {

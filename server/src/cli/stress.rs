@@ -14,6 +14,7 @@ use triad_engine::scene::Scene;
 use triad_engine::stress::{self, Case, Entry, Treatment, Verdict};
 
 use super::Outcome;
+use super::output::{make_room, write};
 use super::terminal::{print_json, print_line, progress};
 use crate::problem::Problem;
 
@@ -78,6 +79,9 @@ struct Column {
 
 /// Runs the suite.
 pub(super) fn stress(options: &Stress, json: bool) -> Result<Outcome, Problem> {
+    for file in [&options.html, &options.svg, &options.markdown].into_iter().flatten() {
+        make_room(file)?;
+    }
     if options.treatments {
         return treatments(options, json);
     }
@@ -144,17 +148,6 @@ fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
         }
     }
     Ok(Outcome::Done)
-}
-
-fn write(file: &std::path::Path, text: &str) -> Result<(), Problem> {
-    std::fs::write(file, text).map_err(|error| {
-        Problem::new(
-            StatusCode::INTERNAL_SERVER_ERROR,
-            "unwritable-file",
-            format!("{}: {error}", file.display()),
-            "give a file in a folder that may be written to",
-        )
-    })
 }
 
 fn chosen(options: &Stress) -> Result<Vec<Case>, Problem> {
