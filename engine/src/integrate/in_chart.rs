@@ -171,8 +171,9 @@ impl<M: Method> Stepper for InChart<M> {
         let (time, step) = (method.time(), method.last_step());
         match result {
             Ok(()) if chart.lift(mechanism, time, method.state(), y) => Ok(()),
-            // What is not finite is a state that no lift has reached.
-            Ok(()) | Err(Stop::NotFinite { .. }) => Err(Stop::NoConvergence { time, step }),
+            // What is not finite is a state that no lift has reached, in the chart of another position or in its own.
+            Ok(()) | Err(Stop::NotFinite { .. }) if step > 0.0 => Err(Stop::NoConvergence { time, step }),
+            Ok(()) | Err(Stop::NotFinite { .. }) => Err(Stop::Undetermined { time }),
             result => result,
         }
     }

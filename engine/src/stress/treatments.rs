@@ -11,7 +11,7 @@ const FAMILY: &str = "treatments";
 const STEPS: u64 = 60_000;
 const DEAR_STEPS: u64 = 12_000;
 /// Bodies of a treatment whose matrices are full: the cube of more takes hours.
-const BODIES: usize = 100;
+const BODIES: usize = 50;
 
 pub(super) const CASES: &[Case] = &[
     Case {
