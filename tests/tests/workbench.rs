@@ -163,7 +163,7 @@ fn a_run_writes_a_table_and_a_recording_and_says_how_far_it_can_be_trusted() {
 fn reports_are_written_into_folders_that_are_not_there_yet_and_a_bad_place_is_told_before_the_work() {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("reports/stress.html");
-    let done = run(&["stress", "--case", "lamina", "--quick", "--html", report.to_str().unwrap()]);
+    let done = run(&["stress", "--case", "bookshelf", "--quick", "--html", report.to_str().unwrap()]);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     assert!(std::fs::read_to_string(&report).unwrap().contains("<html"));
     // A file is no folder: nothing is run whose report has no place.
