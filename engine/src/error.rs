@@ -62,7 +62,7 @@ pub enum EngineError {
     /// No velocities satisfy the joints and what drivers ask for.
     #[error(
         "driver \"{driver}\" asks for a motion that the joints do not allow at t = {time:.6} s: no velocities satisfy it{}; the \
-         nearest miss it by {missed:.1e}/s",
+         nearest miss it by {missed:.1e}/s{last}",
         together(with)
     )]
     MotionImpossible {
@@ -76,6 +76,8 @@ pub enum EngineError {
         pointer: String,
         /// By how much the nearest velocities miss it, relative to the size of its rows, 1/s.
         missed: f64,
+        /// What the last good state tells.
+        last: LastGood,
     },
     /// Rounding cannot tell the rows of a joint from redundant ones.
     #[error(
@@ -212,7 +214,10 @@ impl EngineError {
     /// The same error, told with the last good state.
     #[must_use]
     pub fn after(mut self, good: LastGood) -> Self {
-        if let Self::Diverged { last, .. } | Self::ConstraintsLost { last, .. } = &mut self {
+        if let Self::Diverged { last, .. }
+        | Self::ConstraintsLost { last, .. }
+        | Self::MotionImpossible { last, .. } = &mut self
+        {
             *last = good;
         }
         self
@@ -269,6 +274,7 @@ impl EngineError {
             | Self::NoConvergence { last, .. }
             | Self::Stalled { last, .. }
             | Self::Undetermined { last, .. }
+            | Self::MotionImpossible { last, .. }
             | Self::ConstraintsLost { last, .. }
             | Self::StepLimit { last, .. } => last.cause.as_deref(),
             _ => None,

@@ -1,7 +1,7 @@
 //! A system with its changing state: what integrators move, and where consistency is made and kept.
 
 use crate::elimination::Elimination;
-use crate::error::EngineError;
+use crate::error::{EngineError, LastGood};
 use crate::integrate::Plant;
 use crate::passage;
 use crate::scene::Stabilization;
@@ -23,6 +23,8 @@ const CLOSED: f64 = 1e-9;
 const MOST_CORRECTING: usize = 12;
 const UNSOLVED: f64 = 1e-6;
 const ROUNDING: f64 = 1e-9;
+/// Rates that are left at the end of a step, 1/s, for each part of the tolerance, are none.
+const LEFT: f64 = 1e3;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
 const FARTHEST: f64 = 0.35;
 
@@ -54,7 +56,17 @@ impl Mechanism {
     /// Refuses the state at the end of a step that is off the constraints: it must not be taken for a result.
     pub fn check(&mut self, t: f64, y: &[f64]) -> Result<(), EngineError> {
         self.set_state(t, y);
-        trust::check(&self.system, &self.elimination, t)
+        trust::check(&self.system, &self.elimination, t)?;
+        let settings = &self.system.model.settings;
+        if self.system.model.drivers.is_empty() || settings.stabilization != Stabilization::Projection {
+            return Ok(());
+        }
+        // What a projection leaves of the rates, no velocities satisfy.
+        let most = LEFT * settings.tolerance + UNSOLVED * passage::fastest(&self.system, y);
+        if trust::largest_rate(&self.system, &self.elimination) <= most {
+            return Ok(());
+        }
+        self.check_motion(t, most)
     }
 
     /// Moves a start onto the constraints. Returns what was corrected, in words.
@@ -148,6 +160,7 @@ impl Mechanism {
             with: others.take(trust::NAMED).map(|(group, _)| name(group)).collect(),
             pointer: trust::pointer(system, driver),
             missed: rates[driver],
+            last: LastGood::default(),
         })
     }
 

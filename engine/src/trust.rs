@@ -93,6 +93,12 @@ pub fn rates(system: &System, at: &Elimination) -> Vec<f64> {
     by_group(system, |form| at.row_violation(system, form).1 / row_size(system, form))
 }
 
+/// The largest of them; allocates nothing.
+pub fn largest_rate(system: &System, at: &Elimination) -> f64 {
+    let rows = system.rows.iter();
+    rows.map(|row| at.row_violation(system, &row.form).1 / row_size(system, &row.form)).fold(0.0, larger)
+}
+
 /// The largest number of the rows of each group.
 fn by_group(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
     let largest = |forms: &[Row]| forms.iter().map(|row| of(&row.form)).fold(0.0, larger);

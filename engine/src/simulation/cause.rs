@@ -25,7 +25,8 @@ impl Simulation {
         if drivers.is_empty() {
             return None;
         }
-        let pace = passage::fastest(system, &self.shown);
+        // Where nothing moves yet, the run's own time must do.
+        let pace = passage::fastest(system, &self.shown).max(self.duration().recip());
         let mut found = None;
         for ahead in AHEAD {
             let h = ahead / pace;

@@ -243,8 +243,8 @@ fn past_reach(treatment: &Treatment, _: bool) -> Outcome {
             z: still(0.0),
         },
     });
-    let codes = "constraints-lost|step-too-small|stalled|no-convergence|undetermined-motion";
-    let mut outcome = must_be_refused(&scene, treatment, codes, &["driver \"hand\" asks for more"]);
+    let codes = "motion-impossible|constraints-lost|step-too-small|stalled|no-convergence";
+    let mut outcome = must_be_refused(&scene, treatment, codes, &["driver \"hand\" asks for"]);
     // At t = 1 s the arm is straight; feedback stretches it a little.
     if outcome.verdict == Verdict::Refused && !(0.99..1.3).contains(&outcome.reached) {
         outcome.verdict = Verdict::Wrong;

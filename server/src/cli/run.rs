@@ -138,7 +138,8 @@ fn advance(
         if let Err(stop) = to(simulation, time, bounds) {
             // The last good state is an output too.
             let reached = simulation.reached();
-            let lost = matches!(&stop, Stop::Engine(problem) if problem.code() == "constraints-lost");
+            let lost = matches!(&stop, Stop::Engine(problem)
+                if ["constraints-lost", "motion-impossible"].contains(&problem.code()));
             let shown = simulation.time() > written;
             if shown || (!lost && reached > written && simulation.advance_to(reached).is_ok()) {
                 outputs.write(simulation).map_err(Stop::Output)?;
