@@ -342,3 +342,12 @@ fn sound_runs_are_not_doubted() {
         }
     }
 }
+
+#[test]
+fn a_driven_structure_that_hardly_holds_is_survived_all_the_same() {
+    let mut run = Simulation::new(&triad_engine::stress::random::scene(1407)).unwrap();
+    run.advance_to(run.duration()).unwrap();
+    let summary = run.summary();
+    assert!(summary.steps + summary.rejected < 20, "{summary:?}");
+    assert!(summary.energy_drift.abs() < 1e-6 * summary.energy.abs(), "{summary:?}");
+}

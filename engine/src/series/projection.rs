@@ -89,11 +89,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
         }
         self.assemble();
-        self.dependent = match (self.schur.factor.find_dependent(DEPENDENT), self.prescribed.is_empty()) {
-            (0, _) => Dependent::None,
-            (_, true) => Dependent::LeftOut,
-            (_, false) => Dependent::Shifted,
-        };
+        let dependent = self.schur.factor.find_dependent(DEPENDENT);
+        self.dependent = if dependent == 0 { Dependent::None } else { Dependent::LeftOut };
         self.state = state;
         self.dependent != Dependent::None
     }
