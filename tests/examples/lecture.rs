@@ -32,8 +32,10 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
         (0..followers).map(|_| Follower::join(&server.address, &lecture.code, recording)).collect();
     let joining = joined.elapsed();
     let end = Instant::now() + length;
-    let watching: Vec<_> =
-        crowd.into_iter().map(|follower| std::thread::spawn(move || follow(follower, start, end))).collect();
+    let watching: Vec<_> = crowd
+        .into_iter()
+        .map(|follower| std::thread::spawn(move || follow(follower, start, move |_| Instant::now() >= end)))
+        .collect();
     let session = format!("/api/v1/sessions/{}", lecture.session);
     server.post(&format!("{session}/play"), &json!({}));
     let (busy, began) = (server.processor_time(), Instant::now());

@@ -134,10 +134,10 @@ pub struct Seen {
     pub time: f64,
 }
 
-/// Follows until `end`; marks carry the time at which they were set, counted from `start`.
-pub fn follow(mut follower: Follower, start: Instant, end: Instant) -> Seen {
+/// Follows until it is enough; marks carry the time at which they were set, counted from `start`.
+pub fn follow(mut follower: Follower, start: Instant, enough: impl Fn(&Seen) -> bool) -> Seen {
     let mut seen = Seen::default();
-    while Instant::now() < end {
+    while !enough(&seen) {
         match follower.read() {
             Message::Text(text) if text["type"] == "state" => {
                 seen.states += 1;

@@ -169,7 +169,7 @@ fn reports_are_written_into_folders_that_are_not_there_yet_and_a_bad_place_is_to
     // A file is no folder: nothing is run whose report has no place.
     let nowhere = report.join("stress.html");
     let refused = run(&["stress", "--html", nowhere.to_str().unwrap()]);
-    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(refused.status.code(), Some(4));
     let told = String::from_utf8_lossy(&refused.stderr);
     assert!(told.contains("unwritable-file") && told.contains("try:"), "{told}");
 }
