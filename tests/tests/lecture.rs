@@ -25,7 +25,7 @@ fn many_follow_one_simulation_and_one_who_stalls_harms_nobody_and_catches_up() {
     server.post(&format!("{session}/play"), &json!({"speed": 2}));
     // However long it takes: a follower who is told nothing more ends with an error.
     let start = Instant::now();
-    let enough = |seen: &Seen| seen.states >= 3 && seen.blocks >= 1 && seen.time > 0.0;
+    let enough = |seen: &Seen| seen.states >= 10 && seen.blocks >= 1 && seen.time > 2.0;
     let watching: Vec<_> =
         crowd.into_iter().map(|one| std::thread::spawn(move || follow(one, start, enough))).collect();
     for thread in watching {
