@@ -273,3 +273,41 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         best
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use crate::mechanism::Mechanism;
+    use crate::model::Model;
+    use crate::system::System;
+
+    /// Products and sums are fused whether the processor does it or not.
+    #[test]
+    fn every_set_of_instructions_gives_the_same_bits() {
+        for name in ["spatial-chain:5", "spatial-slider-crank"] {
+            let scene = catalogue::scene(name).unwrap();
+            let mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
+            let system = &mechanism.system;
+            let mut y = vec![0.0; 2 * system.coordinates];
+            let (q, q_dot) = y.split_at_mut(system.coordinates);
+            system.start(q, q_dot);
+            let mut own = Series::<4>::new(system, 12, false, &[]);
+            own.place(system, 0.0, &y);
+            own.linearize();
+            let mut plain = own.clone();
+            let plan = Plan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, look_only: false };
+            for _ in 0..5 {
+                let taken = own.step(plan);
+                assert_eq!(
+                    taken.h.to_bits(),
+                    Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits()
+                );
+            }
+            let mut other = y.clone();
+            own.store(system, &mut y);
+            plain.store(system, &mut other);
+            assert!(y.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
+        }
+    }
+}
