@@ -67,7 +67,7 @@ enum Dependent {
     None,
     /// They are left out.
     LeftOut,
-    /// S is regularized: motions are prescribed, which may contradict each other.
+    /// Which they are is not found out yet: S is regularized.
     Shifted,
 }
 

@@ -5,8 +5,8 @@ use crate::mechanism::Mechanism;
 /// Decay rate of a load times the length of the run above which an implicit method pays: measured (docs/PERFORMANCE.md), the
 /// series take three quarters of its time at 6.5e4, and their steps grow with this number.
 const MANY_DECAYS: f64 = 1e5;
-/// The tolerance for which that holds. At a tighter one the implicit method needs more steps, by the fourth root, since its
-/// stages are of order three; the series do not.
+/// The tolerance for which that holds. At a tighter one the implicit method needs more steps, by the fourth root, between
+/// its order of five and that of its stages, three; the series do not.
 const AT_TOLERANCE: f64 = 1e-6;
 /// The same for oscillations, which an implicit method may leave out only if they are not excited.
 const MANY_OSCILLATIONS: f64 = 3e5;
