@@ -13,7 +13,8 @@
 //! # Ok::<(), triad_engine::EngineError>(())
 //! ```
 
-pub mod scene;
+pub use triad_scene as scene;
+pub use triad_scene::catalogue;
 
 pub mod motion;
 
@@ -83,8 +84,6 @@ pub mod check;
 pub mod analysis;
 
 pub mod paper;
-
-pub mod catalogue;
 
 pub mod stress;
 

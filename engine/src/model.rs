@@ -19,7 +19,6 @@ pub use error::ModelError;
 pub use event::{EventQuantity, ModelEvent};
 pub use joint::ModelJoint;
 pub use load::{Element, LoadKind, ModelLoad};
-pub use reader::nearest_name;
 
 use crate::scene::{Scene, Settings, Stabilization};
 use nalgebra::Vector3;

@@ -5,6 +5,7 @@ use crate::motion::{Curve, VectorCurve};
 use crate::scene::{GROUND, JointKind, Motion, Triple, VectorMotion};
 use nalgebra::Vector3;
 use std::collections::HashMap;
+use triad_scene::text::nearest_name;
 
 /// Most coefficients of a polynomial and most points of a table.
 const MAX_COEFFICIENTS: usize = 32;
@@ -205,29 +206,4 @@ impl Reader<'_> {
         }
         Ok(VectorCurve::new(motion))
     }
-}
-
-/// The candidate that differs from `name` in the fewest letters, if it is near.
-pub fn nearest_name<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
-    candidates
-        .take(1000)
-        .map(|candidate| (edit_distance(name, candidate), candidate))
-        .min()
-        .filter(|(distance, _)| *distance <= name.len().max(3) / 3)
-        .map(|(_, candidate)| candidate.to_owned())
-}
-
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(64).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().take(64).enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }

@@ -1,9 +1,10 @@
 //! A scene exactly as its author wrote it.
 //!
-//! Nothing here is checked beyond its type: that is the work of [`crate::model::Model`]. Unknown keys are
+//! Nothing here is checked beyond its type: that is the work of the engine's `Model`. Unknown keys are
 //! refused, so that a misspelt key cannot silently mean its default. SI units, radians, right-handed axes.
 
 mod body;
+pub mod catalogue;
 mod driver;
 mod error;
 mod event;
@@ -12,6 +13,7 @@ mod load;
 mod motion;
 mod parameter;
 mod settings;
+pub mod text;
 
 pub use body::{Body, Coordinates, Inertia, Orientation, Shape};
 pub use driver::Driver;

@@ -1,6 +1,6 @@
 //! The N-four-bar mechanism — A02 of the IFToMM library of benchmark problems.
 
-use crate::scene::{AxisRows, Body, GROUND, Inertia, Joint, JointKind, Orientation, Scene, Settings, Shape};
+use crate::{AxisRows, Body, GROUND, Inertia, Joint, JointKind, Orientation, Scene, Settings, Shape};
 
 /// N windows: N + 1 uprights pinned to the ground at (i, 0), N couplers between their tips; all links are uniform
 /// slender rods of 1 m and 1 kg. It starts upright, the tips moving at 1 m/s along +x.
@@ -36,7 +36,7 @@ pub fn scene(windows: usize) -> Scene {
                       jumps from 1 to N + 1."
                 .to_owned(),
         gravity: [0.0, -9.81, 0.0],
-        coordinates: crate::scene::Coordinates::Full,
+        coordinates: crate::Coordinates::Full,
         bodies,
         joints,
         drivers: Vec::new(),

@@ -1,6 +1,6 @@
 //! Prescribed motions of a mechanism as their author writes them.
 
-use super::{Motion, Triple, VectorMotion};
+use crate::{Motion, Triple, VectorMotion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Forces and moments as their author writes them.
 
-use super::{Motion, Triple, VectorMotion};
+use crate::{Motion, Triple, VectorMotion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

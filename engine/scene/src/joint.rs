@@ -1,6 +1,6 @@
 //! Joints as their author writes them.
 
-use super::Triple;
+use crate::Triple;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

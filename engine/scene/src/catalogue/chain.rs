@@ -1,7 +1,6 @@
 //! A chain of rods in three-dimensional motion: the scene on which the cost per body is measured.
 
-use crate::scene::{Body, Coordinates, GROUND, Inertia, Joint, JointKind, Scene, Settings, Shape};
-use nalgebra::Vector3;
+use crate::{Body, Coordinates, GROUND, Inertia, Joint, JointKind, Scene, Settings, Shape, Triple};
 
 /// Radius of a rod, m.
 const RADIUS: f64 = 0.05;
@@ -13,11 +12,12 @@ pub fn scene(rods: usize) -> Scene {
     let across = (3.0 * RADIUS * RADIUS + 1.0) / 12.0;
     let mut bodies = Vec::with_capacity(rods);
     let mut joints = Vec::with_capacity(rods);
-    let mut end_velocity = Vector3::zeros();
+    let mut end_velocity = [0.0; 3];
     for i in 1..=rods {
         let (sine, cosine) = (i as f64).sin_cos();
-        let omega = Vector3::new(1.0, 0.4 * cosine, 0.8 * sine);
-        let half = omega.cross(&Vector3::new(0.5, 0.0, 0.0));
+        let omega = [1.0, 0.4 * cosine, 0.8 * sine];
+        // ω × (0.5, 0, 0): the velocity of the middle relative to the inner end.
+        let half: Triple = [0.0, omega[2] * 0.5, -(omega[1] * 0.5)];
         let x = i as f64;
         bodies.push(Body {
             name: format!("rod-{i}"),
@@ -26,12 +26,12 @@ pub fn scene(rods: usize) -> Scene {
             center_of_mass: [0.0; 3],
             position: [x - 0.5, 0.0, 0.0],
             orientation: None,
-            velocity: (end_velocity + half).into(),
-            angular_velocity: omega.into(),
+            velocity: std::array::from_fn(|k| end_velocity[k] + half[k]),
+            angular_velocity: omega,
             coordinates: None,
             shape: vec![Shape::Rod { from: [-0.5, 0.0, 0.0], to: [0.5, 0.0, 0.0], radius: RADIUS }],
         });
-        end_velocity += 2.0 * half;
+        end_velocity = std::array::from_fn(|k| end_velocity[k] + 2.0 * half[k]);
         let previous = if i == 1 { GROUND.to_owned() } else { format!("rod-{}", i - 1) };
         joints.push(ball(&format!("ball-{i}"), &previous, &format!("rod-{i}"), [x - 1.0, 0.0, 0.0]));
     }

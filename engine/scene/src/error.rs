@@ -1,6 +1,6 @@
 //! Why a text is not a scene.
 
-use super::MAX_TEXT;
+use crate::MAX_TEXT;
 
 /// Why a text is not a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,7 +66,7 @@ pub enum SceneError {
 }
 
 /// The error of a reader that knows the path of keys.
-pub(super) fn syntax_error(error: &serde_path_to_error::Error<serde_json::Error>) -> SceneError {
+pub(crate) fn syntax_error(error: &serde_path_to_error::Error<serde_json::Error>) -> SceneError {
     let path = error.path().to_string();
     let pointer: String = error
         .path()
@@ -88,7 +88,7 @@ pub(super) fn syntax_error(error: &serde_path_to_error::Error<serde_json::Error>
 }
 
 /// The error of a reader that knows line and column only.
-pub(super) fn plain_error(error: &serde_json::Error, pointer: &str) -> SceneError {
+pub(crate) fn plain_error(error: &serde_json::Error, pointer: &str) -> SceneError {
     let text = error.to_string();
     let reason = text.rsplit_once(" at line ").map_or(text.clone(), |(reason, _)| reason.to_owned());
     SceneError::Syntax {

@@ -1,7 +1,7 @@
 //! Numbers of a scene that its author offers to be changed, and scenes with changed numbers.
 
-use super::error::SceneError;
-use super::{Scene, Settings};
+use crate::error::SceneError;
+use crate::{Scene, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};

@@ -1,6 +1,6 @@
 //! Bodies as their author writes them.
 
-use super::{Triple, is_default};
+use crate::{Triple, is_default};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
