@@ -16,6 +16,7 @@ pub use kinematics::{KinematicState, Kinematics, kinematics};
 pub use modes::{About, Mode, Modes, Motion, modes};
 pub use stage::Stage;
 
+use crate::constraints::ConstraintError;
 use crate::error::EngineError;
 
 /// Most bodies that analyses with dense matrices take: their work grows with the cube.
@@ -80,6 +81,12 @@ pub enum AnalysisError {
         /// Why.
         reason: String,
     },
+}
+
+impl From<ConstraintError> for AnalysisError {
+    fn from(error: ConstraintError) -> Self {
+        Self::Engine(error.into())
+    }
 }
 
 impl AnalysisError {

@@ -3,7 +3,7 @@
 //! θ is the angle about the axis from the vector a₁ of body i to the vector b of body j, measured with a₂ = s × a₁ as
 //! θ = atan2(a₂ · b, a₁ · b). Whole turns are counted from the last accepted step.
 
-use crate::row::FeatureId;
+use crate::feature::FeatureId;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 

@@ -17,11 +17,6 @@ const NODES: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_54),
 ];
 
-/// Whether anything but weight and springs acts on the mechanism.
-pub fn exchanges_energy(system: &System) -> bool {
-    system.groups.iter().any(|group| group.driver) || system.loads.iter().any(|load| !load.is_conservative())
-}
-
 /// Power of drivers and of loads without potential, W; accelerations must have been evaluated.
 pub fn power(system: &System, at: &Elimination) -> f64 {
     let loads: f64 = system.loads.iter().map(|load| load.power(at)).sum();

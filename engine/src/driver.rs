@@ -1,9 +1,10 @@
 //! Drivers as lists of rows — THEORY section 5.
 
+use crate::feature::{Difference, Target};
 use crate::model::{BodyRef, DriverKind, Model, ModelDriver};
 use crate::motion::VectorCurve;
-use crate::row::{Difference, Form, Target};
-use crate::writer::{Writer, WrittenGroup};
+use crate::row::Form;
+use crate::writer::{LabelledForm, Writer, WrittenGroup};
 use nalgebra::Vector3;
 
 /// Writes the rows of a driver.
@@ -52,6 +53,6 @@ pub fn write(model: &Model, driver: &ModelDriver, writer: &mut Writer) {
             ([ground, body], [origin; 2], "AR*", Form::Product { a, b, target })
         }
     };
-    let (name, forms) = (driver.name.clone(), vec![(label, form)]);
+    let (name, forms) = (driver.name.clone(), vec![LabelledForm::new(label, form)]);
     writer.groups.push(WrittenGroup { name, forms, bodies, points, driver: true });
 }

@@ -14,10 +14,11 @@ pub use increment::Residual;
 pub use state::BodyState;
 
 use crate::angle::AngleState;
+use crate::feature::FeatureId;
 use crate::lift::Lift;
 use crate::load::Forces;
 use crate::motion::Jet;
-use crate::row::{FeatureId, Form};
+use crate::row::Form;
 use crate::sparse::{BlockCholesky, Slot};
 use crate::system::{Row, System};
 use nalgebra::Vector3;

@@ -3,10 +3,10 @@
 //! Not used by the solver, which works in twist form; both speak of the same row forms, and tests hold them together.
 
 use crate::elimination::Elimination;
+use crate::feature::{Difference, FeatureId, Target};
 use crate::lift::Lift;
 use crate::model::BodyRef;
-use crate::reaction::equation_labels;
-use crate::row::{Difference, FeatureId, Form, Target};
+use crate::row::{Form, equation_labels};
 use crate::scene::Coordinates;
 use crate::system::System;
 use nalgebra::Vector3;

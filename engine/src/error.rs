@@ -5,11 +5,11 @@ mod last_good;
 pub use last_good::{Cause, LastGood};
 
 use crate::catalogue::CatalogueError;
+use crate::constraints::ConstraintError;
 use crate::integrate::Stop;
 use crate::model::ModelError;
 use crate::scene::SceneError;
 use crate::uniqueness::UniquenessError;
-use last_good::listed;
 
 /// Any failure of the engine: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -26,77 +26,13 @@ pub enum EngineError {
     /// Which reactions are unique cannot be told.
     #[error(transparent)]
     Uniqueness(#[from] UniquenessError),
-    /// No position near the given one satisfies the joints.
-    #[error(
-        "the mechanism cannot be assembled near its start: joint \"{joint}\" stays open by {violation:.3e} of the \
-         mechanism's size{} (moved by {moved:.3e} m)",
-        contradiction(with)
-    )]
-    Assembly {
-        /// The joint whose rows are violated most.
-        joint: String,
-        /// The joints that stay open with it: it contradicts one or more of them.
-        with: Vec<String>,
-        /// Where it stands in the scene, as a JSON pointer.
-        pointer: String,
-        /// Largest violation of its rows, relative to their size.
-        violation: f64,
-        /// How far the bodies were moved in the attempt, m.
-        moved: f64,
-    },
-    /// The start can be corrected, but only by moving bodies so far that another start is probably meant.
-    #[error(
-        "joint \"{joint}\" is open at the start, and closing all joints would move bodies by {moved:.3e} m, more than \
-         the {limit:.3e} m that count as a correction"
-    )]
-    StartTooFar {
-        /// The joint that is open most at the given start.
-        joint: String,
-        /// Where it stands in the scene, as a JSON pointer.
-        pointer: String,
-        /// How far bodies would have to be moved, m.
-        moved: f64,
-        /// How far they may be moved, m.
-        limit: f64,
-    },
-    /// No velocities satisfy the joints and what drivers ask for.
-    #[error(
-        "driver \"{driver}\" asks for a motion that the joints do not allow at t = {time:.6} s: no velocities satisfy it{}; the \
-         nearest miss it by {missed:.1e}/s{last}",
-        together(with)
-    )]
-    MotionImpossible {
-        /// Time, s.
-        time: f64,
-        /// The driver whose rate is missed most.
-        driver: String,
-        /// The joints and drivers that contradict it.
-        with: Vec<String>,
-        /// Where it stands in the scene, as a JSON pointer.
-        pointer: String,
-        /// By how much the nearest velocities miss it, relative to the size of its rows, 1/s.
-        missed: f64,
-        /// What the last good state tells.
-        last: LastGood,
-    },
-    /// Rounding cannot tell the rows of a joint from redundant ones.
-    #[error(
-        "the masses are too different: between {light_mass:.1e} kg of \"{light}\" and {heavy_mass:.1e} kg of \"{heavy}\" \
-         rounding cannot tell whether joint \"{joint}\" holds"
-    )]
-    MassesTooDifferent {
-        /// The joint.
-        joint: String,
-        /// Where it stands in the scene, as a JSON pointer.
-        pointer: String,
-        /// The lightest body.
-        light: String,
-        /// Its mass, kg.
-        light_mass: f64,
-        /// The heaviest body.
-        heavy: String,
-        /// Its mass, kg.
-        heavy_mass: f64,
+    /// The constraints cannot be satisfied.
+    #[error("{error}{}", last.as_ref().map(ToString::to_string).unwrap_or_default())]
+    Constraint {
+        /// Which, and how far they are from it.
+        error: ConstraintError,
+        /// What the last good state tells, where there is one.
+        last: Option<LastGood>,
     },
     /// The step control found no step that meets the tolerance.
     #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance{last}")]
@@ -150,23 +86,6 @@ pub enum EngineError {
         /// What the last good state tells.
         last: LastGood,
     },
-    /// The constraints can no longer be satisfied.
-    #[error(
-        "the run stops at t = {time:.6} s: joint \"{joint}\" is open by {violation:.3e} of the mechanism's size{}{last}",
-        contradiction(with)
-    )]
-    ConstraintsLost {
-        /// Time, s.
-        time: f64,
-        /// The joint or driver whose rows are violated most.
-        joint: String,
-        /// Those that are open with it.
-        with: Vec<String>,
-        /// Largest violation relative to the size of the row.
-        violation: f64,
-        /// What the last good state tells.
-        last: LastGood,
-    },
     /// The run has used up the steps that it was given.
     #[error("the run stops at t = {time:.6} s: its {steps} steps are used up{last}")]
     StepLimit {
@@ -189,14 +108,14 @@ pub enum EngineError {
     },
 }
 
-/// Names of joints that are open together with the worst one.
-fn contradiction(with: &[String]) -> String {
-    if with.is_empty() { String::new() } else { format!(", and with it {}", listed(with)) }
-}
-
-/// Names of what contradicts a driver.
-fn together(with: &[String]) -> String {
-    if with.is_empty() { String::new() } else { format!(" together with {}", listed(with)) }
+impl From<ConstraintError> for EngineError {
+    fn from(error: ConstraintError) -> Self {
+        if let ConstraintError::NotFinite { time } = error {
+            return Self::Diverged { time, last: LastGood::default() };
+        }
+        let last = error.is_during_motion().then(LastGood::default);
+        Self::Constraint { error, last }
+    }
 }
 
 impl EngineError {
@@ -214,11 +133,9 @@ impl EngineError {
     /// The same error, told with the last good state.
     #[must_use]
     pub fn after(mut self, good: LastGood) -> Self {
-        if let Self::Diverged { last, .. }
-        | Self::ConstraintsLost { last, .. }
-        | Self::MotionImpossible { last, .. } = &mut self
-        {
-            *last = good;
+        match &mut self {
+            Self::Diverged { last, .. } | Self::Constraint { last: Some(last), .. } => *last = good,
+            _ => {}
         }
         self
     }
@@ -235,16 +152,12 @@ impl EngineError {
             Self::Catalogue(error) => error.code(),
             Self::Model(error) => error.code(),
             Self::Uniqueness(error) => error.code(),
-            Self::Assembly { .. } => "assembly-failed",
-            Self::StartTooFar { .. } => "start-too-far",
-            Self::MotionImpossible { .. } => "motion-impossible",
-            Self::MassesTooDifferent { .. } => "masses-too-different",
+            Self::Constraint { error, .. } => error.code(),
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
             Self::NoConvergence { .. } => "no-convergence",
             Self::Stalled { .. } => "stalled",
             Self::Undetermined { .. } => "undetermined-motion",
-            Self::ConstraintsLost { .. } => "constraints-lost",
             Self::StepLimit { .. } => "step-limit",
             Self::TimeOutside { .. } => "time-outside-run",
         }
@@ -258,10 +171,7 @@ impl EngineError {
             }
             Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
             Self::Model(error) => Some(error.pointer()),
-            Self::Assembly { pointer, .. }
-            | Self::StartTooFar { pointer, .. }
-            | Self::MotionImpossible { pointer, .. }
-            | Self::MassesTooDifferent { pointer, .. } => Some(pointer.clone()),
+            Self::Constraint { error, .. } => error.pointer().map(str::to_owned),
             _ => None,
         }
     }
@@ -274,8 +184,7 @@ impl EngineError {
             | Self::NoConvergence { last, .. }
             | Self::Stalled { last, .. }
             | Self::Undetermined { last, .. }
-            | Self::MotionImpossible { last, .. }
-            | Self::ConstraintsLost { last, .. }
+            | Self::Constraint { last: Some(last), .. }
             | Self::StepLimit { last, .. } => last.cause.as_deref(),
             _ => None,
         }
@@ -308,20 +217,7 @@ impl EngineError {
             Self::Catalogue(error) => error.hint(),
             Self::Model(error) => error.hint(),
             Self::Uniqueness(error) => error.hint(),
-            Self::Assembly { .. } | Self::StartTooFar { .. } => {
-                "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
-                    .to_owned()
-            }
-            Self::MotionImpossible { .. } => {
-                "Let the driver stand still there, free one of the joints that are named, or leave out one of two drivers \
-                 that contradict each other: `triad check` tells the degrees of freedom."
-                    .to_owned()
-            }
-            Self::MassesTooDifferent { .. } => {
-                "Make the light bodies heavier, or leave them out: a rod without mass between two bodies is a joint of \
-                 the kind \"rod\"."
-                    .to_owned()
-            }
+            Self::Constraint { error, .. } => error.hint().to_owned(),
             Self::StepTooSmall { .. } | Self::Stalled { .. } | Self::Diverged { .. } => {
                 "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
                  joint that locks or a body that is far too light."
@@ -335,11 +231,6 @@ impl EngineError {
             Self::Undetermined { .. } => {
                 "Use projection as the stabilization, with taylor or dop853; a mechanism whose drivers prescribe all of \
                  its motion has nothing to integrate: see `triad kinematics`."
-                    .to_owned()
-            }
-            Self::ConstraintsLost { .. } => {
-                "Look at the last good state: a driver asks for more than the joints allow, two of them contradict each \
-                 other, masses or stiffnesses are too different for the tolerance, or the stabilization is too weak."
                     .to_owned()
             }
             Self::StepLimit { .. } => {

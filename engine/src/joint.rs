@@ -1,9 +1,9 @@
 //! Joints as lists of rows — THEORY section 5. A joint has no object at run time: it only writes rows.
 
+use crate::feature::{Difference, FeatureId, Target};
 use crate::model::{Model, ModelJoint};
-use crate::row::{Difference, FeatureId, Form, Target};
+use crate::row::Form;
 use crate::scene::{AxisRows, JointKind};
-use crate::system::SHARED;
 use crate::writer::{LabelledForm, Writer, WrittenGroup};
 
 /// Labels of perpendicularity rows (CAR) and of rows that keep a point on a line.
@@ -19,11 +19,12 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
             match joint.rows {
                 AxisRows::Cv => {
                     let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
-                    forms.push(("CV", Form::CommonVector { a, b }));
+                    forms.push(LabelledForm::new("CV", Form::CommonVector { a, b }));
                 }
                 AxisRows::Shared => {
                     let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
-                    forms.push((SHARED, Form::CommonVector { a, b }));
+                    let form = Form::CommonVector { a, b };
+                    forms.push(LabelledForm { label: "CV (shared)", form, implied: true });
                 }
                 AxisRows::TwoCar => forms.extend(common_axis(joint, writer)),
             }
@@ -31,7 +32,7 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
         }
         JointKind::Universal => {
             let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
-            vec![common_point(joint, writer), ("CAR", perpendicular(a, b))]
+            vec![common_point(joint, writer), LabelledForm::new("CAR", perpendicular(a, b))]
         }
         JointKind::Cylindrical => on_line(joint, writer).chain(common_axis(joint, writer)).collect(),
         JointKind::Prismatic => {
@@ -48,7 +49,7 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
         JointKind::Screw => {
             let mut forms: Vec<LabelledForm> =
                 on_line(joint, writer).chain(common_axis(joint, writer)).collect();
-            forms.push(("SCREW", thread(joint, writer)));
+            forms.push(LabelledForm::new("SCREW", thread(joint, writer)));
             forms
         }
         JointKind::Fixed => {
@@ -57,7 +58,7 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
             forms.push(no_turn(joint, writer));
             forms
         }
-        JointKind::Rod => vec![("DIST", distance(joint, writer))],
+        JointKind::Rod => vec![LabelledForm::new("DIST", distance(joint, writer))],
         JointKind::PointOnLine => on_line(joint, writer).collect(),
         JointKind::PointInPlane => vec![in_plane(joint, writer)],
         JointKind::Gear => match joint.gear {
@@ -65,7 +66,8 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
                 let first = writer.angle(&model.joints[first]);
                 let second = writer.angle(&model.joints[second]);
                 let angles = [Some((first, -ratio)), Some((second, 1.0))];
-                vec![("GEAR", Form::Relation { angles, slide: None, constant: 0.0 })]
+                let form = Form::Relation { angles, slide: None, constant: 0.0 };
+                vec![LabelledForm::new("GEAR", form)]
             }
             None => Vec::new(),
         },
@@ -77,7 +79,7 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
 /// P_i = P_j (CP).
 fn common_point(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
     let [a, b] = [0, 1].map(|side| writer.point(joint.bodies[side], joint.points[side]));
-    ("CP", Form::Coincidence { a, b })
+    LabelledForm::new("CP", Form::Coincidence { a, b })
 }
 
 /// The axis of body j is perpendicular to two vectors of body i (2 CAR).
@@ -85,14 +87,14 @@ fn common_axis(joint: &ModelJoint, writer: &mut Writer) -> Vec<LabelledForm> {
     let [i, j] = joint.bodies;
     let s = writer.vector(j, joint.axes[1]);
     let across = joint.cross[0].map(|t| writer.vector(i, t));
-    CAR.into_iter().zip(across).map(|(label, t)| (label, perpendicular(t, s))).collect()
+    CAR.into_iter().zip(across).map(|(label, t)| LabelledForm::new(label, perpendicular(t, s))).collect()
 }
 
 /// Vectors across the axis that coincide at the start stay perpendicular in pairs (CAR).
 fn no_turn(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
     let [i, j] = joint.bodies;
     let (a, b) = (writer.vector(i, joint.cross[0][0]), writer.vector(j, joint.cross[1][1]));
-    (CAR[2], perpendicular(a, b))
+    LabelledForm::new(CAR[2], perpendicular(a, b))
 }
 
 /// P_j lies on the line through P_i along the axis of body i.
@@ -102,14 +104,15 @@ fn on_line(joint: &ModelJoint, writer: &mut Writer) -> impl Iterator<Item = Labe
         Difference { plus: writer.point(j, joint.points[1]), minus: Some(writer.point(i, joint.points[0])) };
     let across = joint.cross[0].map(|t| writer.vector(i, t));
     LINE.into_iter().zip(across).map(move |(label, t)| {
-        (label, Form::Product { a: Difference::one(t), b: between, target: Target::Constant(0.0) })
+        let form = Form::Product { a: Difference::one(t), b: between, target: Target::Constant(0.0) };
+        LabelledForm::new(label, form)
     })
 }
 
 /// P_j lies in the plane through P_i normal to the axis of body i.
 fn in_plane(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
     let (a, b) = writer.slide(joint);
-    ("PLANE", Form::Product { a, b, target: Target::Constant(0.0) })
+    LabelledForm::new("PLANE", Form::Product { a, b, target: Target::Constant(0.0) })
 }
 
 /// |P_j − P_i|² = L².

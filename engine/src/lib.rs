@@ -16,6 +16,8 @@
 pub use triad_scene as scene;
 pub use triad_scene::catalogue;
 
+pub mod linalg;
+
 pub mod motion;
 
 pub mod model;
@@ -23,6 +25,8 @@ pub mod model;
 pub mod lift;
 
 pub mod sharing;
+
+pub mod feature;
 
 pub mod angle;
 
@@ -36,7 +40,11 @@ pub mod driver;
 
 pub mod load;
 
+pub mod body;
+
 pub mod system;
+
+pub mod pace;
 
 pub mod sparse;
 
@@ -55,6 +63,8 @@ pub mod plane;
 pub mod matrices;
 
 pub mod series;
+
+pub mod constraints;
 
 pub mod rank;
 

@@ -6,20 +6,19 @@
 
 mod independent;
 mod normal;
-mod rigid;
 mod sparse_lu;
 
 pub use independent::{independent_rows, left_null_space};
 pub use normal::{Normal, RankOne, RightSides};
-pub use rigid::{RigidMultipliers, rigid_multipliers};
 pub use sparse_lu::{Columns, SparseLu};
 
+use crate::body::Body;
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::jacobian::Jacobian;
 use crate::lift::Lift;
 use crate::scene::Coordinates;
-use crate::system::{Body, System};
+use crate::system::System;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Rows whose part across the others is smaller than this, relative to the longest row, are dependent.

@@ -4,10 +4,10 @@
 //! its direction — eq. (6.8).
 
 use crate::elimination::Elimination;
+use crate::feature::{Difference, Feature, FeatureId};
 use crate::lift::Lift;
 use crate::model::{BodyRef, Element, LoadKind, Model, ModelLoad};
 use crate::motion::VectorCurve;
-use crate::row::{Difference, Feature, FeatureId};
 use crate::scene::LoadFrame;
 use crate::writer::Writer;
 use nalgebra::Vector3;

@@ -1,9 +1,9 @@
 //! A system with its changing state: what integrators move, and where consistency is made and kept.
 
+use crate::constraints::ConstraintError;
 use crate::elimination::Elimination;
-use crate::error::{EngineError, LastGood};
 use crate::integrate::Plant;
-use crate::passage;
+use crate::pace;
 use crate::scene::Stabilization;
 use crate::system::System;
 use crate::trust;
@@ -54,7 +54,7 @@ impl Mechanism {
     }
 
     /// Refuses the state at the end of a step that is off the constraints: it must not be taken for a result.
-    pub fn check(&mut self, t: f64, y: &[f64]) -> Result<(), EngineError> {
+    pub fn check(&mut self, t: f64, y: &[f64]) -> Result<(), ConstraintError> {
         self.set_state(t, y);
         trust::check(&self.system, &self.elimination, t)?;
         let settings = &self.system.model.settings;
@@ -62,7 +62,7 @@ impl Mechanism {
             return Ok(());
         }
         // What a projection leaves of the rates, no velocities satisfy.
-        let most = LEFT * settings.tolerance + UNSOLVED * passage::fastest(&self.system, y);
+        let most = LEFT * settings.tolerance + UNSOLVED * pace::fastest(&self.system, y);
         if trust::largest_rate(&self.system, &self.elimination) <= most {
             return Ok(());
         }
@@ -70,13 +70,13 @@ impl Mechanism {
     }
 
     /// Moves a start onto the constraints. Returns what was corrected, in words.
-    pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, EngineError> {
+    pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
         self.elimination.forget_turns();
         self.assemble_at(0.0, y)
     }
 
     /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.
-    pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, EngineError> {
+    pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
         let n = self.system.coordinates;
         let length = self.system.length;
         let mut notes = Vec::new();
@@ -112,7 +112,7 @@ impl Mechanism {
             self.set_state(t, &given);
             let opening = trust::opening(&self.system, &self.elimination);
             let (joint, pointer) = (opening.names(&self.system).0, opening.pointer(&self.system));
-            return Err(EngineError::StartTooFar { joint, pointer, moved, limit });
+            return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
         }
         if opening > 1e-9 * length {
             notes.push(format!(
@@ -131,7 +131,7 @@ impl Mechanism {
                     break;
                 }
             }
-            self.check_motion(t, UNSOLVED * asked + ROUNDING * passage::fastest(&self.system, y))?;
+            self.check_motion(t, UNSOLVED * asked + ROUNDING * pace::fastest(&self.system, y))?;
         }
         let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         if rate > 1e-9 * length {
@@ -145,7 +145,7 @@ impl Mechanism {
 
     /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
     /// Without drivers there are always velocities: zero.
-    fn check_motion(&self, time: f64, most: f64) -> Result<(), EngineError> {
+    fn check_motion(&self, time: f64, most: f64) -> Result<(), ConstraintError> {
         let Self { system, elimination, .. } = self;
         let rates = trust::rates(system, elimination);
         let drivers = (0..rates.len()).filter(|&group| system.groups[group].driver);
@@ -154,17 +154,16 @@ impl Mechanism {
         let Some(driver) = driver.filter(|_| unsolved) else { return Ok(()) };
         let others = trust::worst(&rates).into_iter().filter(|&(group, _)| group != driver);
         let name = |group: usize| system.groups[group].name.clone();
-        Err(EngineError::MotionImpossible {
+        Err(ConstraintError::MotionImpossible {
             time,
             driver: name(driver),
             with: others.take(trust::NAMED).map(|(group, _)| name(group)).collect(),
             pointer: trust::pointer(system, driver),
             missed: rates[driver],
-            last: LastGood::default(),
         })
     }
 
-    fn assembly_error(&mut self, t: f64, given: &[f64], reached: &[f64], moved: f64) -> EngineError {
+    fn assembly_error(&mut self, t: f64, given: &[f64], reached: &[f64], moved: f64) -> ConstraintError {
         // The best compromise leaves open the joints that contradict each other, and closes all others. Where there
         // is none (bodies were stretched instead), the joint that is open at the given start says most.
         let mut opening = trust::opening(&self.system, &self.elimination);
@@ -176,7 +175,7 @@ impl Mechanism {
         let (joint, with) = opening.names(&self.system);
         let pointer = opening.pointer(&self.system);
         let violation = opening.groups.first().map_or(opening.relative, |&(_, violation)| violation);
-        EngineError::Assembly { joint, with, pointer, violation, moved }
+        ConstraintError::Assembly { joint, with, pointer, violation, moved }
     }
 
     fn baumgarte(&self) -> (f64, f64) {

@@ -17,7 +17,7 @@ pub use body::ModelBody;
 pub use driver::{DriverKind, ModelDriver};
 pub use error::ModelError;
 pub use event::{EventQuantity, ModelEvent};
-pub use joint::ModelJoint;
+pub use joint::{ModelJoint, director_along};
 pub use load::{Element, LoadKind, ModelLoad};
 
 use crate::scene::{Scene, Settings, Stabilization};

@@ -8,7 +8,6 @@ mod search;
 
 use crate::elimination::Elimination;
 use crate::integrate::Integrator;
-use crate::lift::Lift;
 use crate::mechanism::Mechanism;
 use crate::parts::has_loops;
 use crate::rank::Rank;
@@ -54,23 +53,6 @@ pub struct Stepped<'a> {
     pub holds: Option<&'a [f64]>,
     /// How fast the rows turn at its end, 1/s.
     pub pace: f64,
-}
-
-/// How fast a body turns the rows of its joints, 1/s: its angular velocity, or its velocity by the length of the
-/// mechanism.
-pub fn pace(rate: &Lift, length: f64) -> f64 {
-    let turning: f64 = rate.e.iter().map(nalgebra::Vector3::norm_squared).sum();
-    (0.5 * turning).sqrt().max(rate.r.norm() / length)
-}
-
-/// The largest pace of all bodies in the state y = (q, q̇).
-pub fn fastest(system: &System, y: &[f64]) -> f64 {
-    let (q, q_dot) = y.split_at(system.coordinates);
-    let paces = system.bodies.iter().map(|body| {
-        let rate = body.layout.velocity(&body.layout.position(q), q_dot);
-        pace(&rate, system.length)
-    });
-    paces.fold(0.0, f64::max)
 }
 
 /// A passage as it is kept, and where its joints stand in the list of all.

@@ -6,13 +6,15 @@
 //! components of a body's twist, and the part of each row in the plane. What the other rows carry is a matter of
 //! reactions, which are found in space when somebody asks for them.
 
+use crate::body::{Body, GroundPivot, PlanarPose};
+use crate::feature::{Difference, Target};
 use crate::lift::Lift;
 use crate::load::Load;
 use crate::model::{BodyRef, ModelJoint};
 use crate::motion::{Curve, VectorCurve};
-use crate::row::{Difference, Form, Target};
+use crate::row::Form;
 use crate::scene::{JointKind, LoadFrame};
-use crate::system::{Anchor, Body, Row, System};
+use crate::system::{Row, System};
 use nalgebra::{Matrix3, Vector3};
 
 /// Directions are the same, and components are nothing, within this.
@@ -49,48 +51,6 @@ pub enum Spatial {
     },
 }
 
-/// How a body stands in its plane: its directors where z = (1, 0), and its height.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Posture {
-    frame: Matrix3<f64>,
-    /// Directors u, v, w as columns: along z, across z, along the normal.
-    directors: Matrix3<f64>,
-    /// Height of the centre of mass above the plane through the origin, m.
-    pub height: f64,
-}
-
-impl Default for Posture {
-    fn default() -> Self {
-        Self { frame: Matrix3::identity(), directors: Matrix3::identity(), height: 0.0 }
-    }
-}
-
-impl Posture {
-    /// (r, z) of a position or velocity in space.
-    pub fn lower(&self, lift: &Lift) -> ([f64; 2], [f64; 2]) {
-        let r = self.frame.tr_mul(&lift.r);
-        let mut z = [0.0; 2];
-        for (e, d) in lift.e.iter().zip(self.directors.column_iter()) {
-            let e = self.frame.tr_mul(e);
-            // e = z d as complex numbers; the squares of the three |d| make two.
-            z[0] += 0.5 * (d[0] * e[0] + d[1] * e[1]);
-            z[1] += 0.5 * (d[0] * e[1] - d[1] * e[0]);
-        }
-        ([r[0], r[1]], z)
-    }
-
-    /// Position, or velocity or acceleration if `rate`, in space of (r, z).
-    pub fn raise(&self, r: [f64; 2], z: [f64; 2], rate: bool) -> Lift {
-        let constant = |x: f64| if rate { 0.0 } else { x };
-        let e = [0, 1, 2].map(|k| {
-            let d = self.directors.column(k);
-            let (x, y) = (z[0] * d[0] - z[1] * d[1], z[0] * d[1] + z[1] * d[0]);
-            self.frame * Vector3::new(x, y, constant(d[2]))
-        });
-        Lift { r: self.frame * Vector3::new(r[0], r[1], constant(self.height)), e }
-    }
-}
-
 /// The plane in which a system moves from the consistent positions q on.
 pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
     let places: Vec<Lift> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
@@ -125,7 +85,7 @@ fn frame(normal: &Vector3<f64>) -> Matrix3<f64> {
         let [i, j] = [(k + 1) % 3, (k + 2) % 3];
         return Matrix3::from_columns(&[i, j, k].map(|axis| Vector3::ith(axis, 1.0)));
     }
-    let [a, b] = crate::row::across(normal);
+    let [a, b] = crate::linalg::orthonormal_basis(normal);
     Matrix3::from_columns(&[a, b, *normal])
 }
 
@@ -162,7 +122,7 @@ impl Plane {
             let place = body.layout.position(q);
             let directors = turned * Matrix3::from_columns(&place.e);
             let height = (turned * place.r)[2];
-            body.posture = Some(Posture { frame: self.frame, directors, height });
+            body.planar_pose = Some(PlanarPose { frame: self.frame, directors, height });
         }
         turn_features(&mut flat, &turned);
         turn_loads(&mut flat, &turned);
@@ -184,8 +144,8 @@ fn set_inertia(flat: &mut System) {
         let inertia = body.principal.dot(&normal.component_mul(&normal));
         body.ibar = Vector3::new(inertia, 0.0, 0.0);
         let scale = body.mass * arm * arm;
-        let about_anchor = body.anchor.map_or(0.0, |anchor| body.mass * anchor.local.xy().norm_squared());
-        let lacks = inertia + about_anchor < LACKING * scale || inertia + about_anchor == 0.0;
+        let about_pivot = body.pivot.map_or(0.0, |pivot| body.mass * pivot.local.xy().norm_squared());
+        let lacks = inertia + about_pivot < LACKING * scale || inertia + about_pivot == 0.0;
         let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
         body.lent = if lacks { LENT * scale } else { 0.0 };
     }
@@ -200,7 +160,7 @@ fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
         let first = flat.rows.len();
         let mut size = 0;
         for mut row in kept(flat, &rows[group.forms.clone()], &group.name)? {
-            if hang(flat, &row.form) {
+            if set_pivot(flat, &row.form) {
                 continue;
             }
             row.solver = flat.solver_rows + size;
@@ -221,7 +181,7 @@ fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
 }
 
 /// Hangs a body on the ground by a point that is held there: one point each, and fixed ones only.
-fn hang(flat: &mut System, form: &Form) -> bool {
+fn set_pivot(flat: &mut System, form: &Form) -> bool {
     let &Form::Coincidence { a, b } = form else { return false };
     let [a, b] = [a, b].map(|f| flat.features[f]);
     let (body, own, ground) = match (a.body, b.body) {
@@ -229,9 +189,9 @@ fn hang(flat: &mut System, form: &Form) -> bool {
         (BodyRef::Ground, BodyRef::Moving(body)) => (body, b, a),
         _ => return false,
     };
-    let free = flat.bodies[body].anchor.is_none() && own.curve.is_none() && ground.curve.is_none();
+    let free = flat.bodies[body].pivot.is_none() && own.curve.is_none() && ground.curve.is_none();
     if free {
-        flat.bodies[body].anchor = Some(Anchor { local: own.local, ground: ground.local });
+        flat.bodies[body].pivot = Some(GroundPivot { local: own.local, ground: ground.local });
     }
     free
 }
@@ -276,7 +236,7 @@ fn independent(form: &Form) -> usize {
 }
 
 fn directors(body: &Body) -> Matrix3<f64> {
-    body.posture.map_or_else(Matrix3::identity, |posture| posture.directors)
+    body.planar_pose.map_or_else(Matrix3::identity, |pose| pose.directors)
 }
 
 /// The rows of a joint that say something in the plane, each thing once.

@@ -3,8 +3,8 @@
 //! The rank is taken at a consistent position a little away from the given one: a mechanism often starts in a
 //! singular position, where it would mislead. The dependent rows are those that the factorization of S has to drop.
 
+use crate::constraints::ConstraintError;
 use crate::elimination::Elimination;
-use crate::error::EngineError;
 use crate::parts;
 use crate::system::System;
 
@@ -52,7 +52,7 @@ pub fn analyze(system: &System, elimination: &mut Elimination, q: &[f64]) -> Ran
 
 /// Rows of a tree of joints are independent whatever the position: if rounding finds them dependent, the masses are to
 /// blame, and what would be computed has nothing to do with the mechanism.
-pub fn check(system: &System, rank: &Rank) -> Result<(), EngineError> {
+pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
     let System { groups, bodies, model, .. } = system;
     let Some(row) = rank.dependent.first() else { return Ok(()) };
     let tree = model.drivers.is_empty() && model.joints.iter().all(|joint| joint.gear.is_none());
@@ -63,7 +63,7 @@ pub fn check(system: &System, rank: &Rank) -> Result<(), EngineError> {
     let light = by_mass().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     let heavy = by_mass().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     let joint = groups.iter().position(|group| group.solver.contains(row)).unwrap_or_default();
-    Err(EngineError::MassesTooDifferent {
+    Err(ConstraintError::MassesTooDifferent {
         joint: groups[joint].name.clone(),
         pointer: format!("/joints/{joint}"),
         light: light.1,

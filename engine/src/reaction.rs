@@ -5,9 +5,13 @@
 //! coordinates and never shown as reactions.
 
 pub mod report;
+mod rigid;
+
+pub use rigid::{RigidMultipliers, rigid_multipliers};
 
 use crate::elimination::Elimination;
 use crate::model::BodyRef;
+use crate::row::equation_labels;
 use crate::system::System;
 use serde::Serialize;
 
@@ -39,14 +43,6 @@ pub struct JointMultipliers {
     pub about: [f64; 3],
     /// Frame of the components.
     pub expressed_in: &'static str,
-}
-
-/// Names of the equations of a labelled form.
-pub fn equation_labels(label: &str, equations: usize) -> Vec<String> {
-    if equations == 1 {
-        return vec![label.to_owned()];
-    }
-    ["x", "y", "z"].iter().take(equations).map(|axis| format!("{label}.{axis}")).collect()
 }
 
 /// Multipliers and reactions of all joints; accelerations must have been evaluated.

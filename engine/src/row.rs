@@ -1,102 +1,12 @@
 //! Constraint rows — THEORY section 4.
 //!
-//! Every constraint of every joint is one of three forms, each a polynomial of degree at most two in the lifted
-//! coordinates of the bodies that it touches. A form is a statement about *features*: points C^P Q and vectors C^s Q
+//! Every constraint of every joint is one of four forms; three are polynomials of degree at most two in the lifted
+//! coordinates of the bodies that they touch, the fourth relates joint angles. A form is a statement about *features*: points C^P Q and vectors C^s Q
 //! with constant local coordinates, or points and vectors of the ground. Φ, Φ_q, ν and γ all follow from that one
 //! statement, so they cannot disagree.
 
 use crate::angle::Angle;
-use crate::model::BodyRef;
-use crate::motion::{Curve, Jet, MOST_TERMS, sine_cosine};
-use nalgebra::Vector3;
-
-/// A point (`point`) or a vector that is fixed in a body or in the ground, or moves in it as prescribed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Feature {
-    /// Where it is fixed.
-    pub body: BodyRef,
-    /// A point, which moves with r, or a vector, which only turns.
-    pub point: bool,
-    /// Local coordinates (ξ, η, ζ) in the principal frame; for the ground, world components.
-    pub local: Vector3<f64>,
-    /// Which curve gives the local coordinates instead, if they are functions of time.
-    pub curve: Option<usize>,
-}
-
-impl Feature {
-    /// Whether it is fixed in the ground: then nothing about it ever changes.
-    pub fn is_fixed(&self) -> bool {
-        self.body == BodyRef::Ground && self.curve.is_none()
-    }
-}
-
-/// Place of a feature in the system's list.
-pub type FeatureId = usize;
-
-/// Difference of two features, or one feature.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
-    /// Feature that counts positive.
-    pub plus: FeatureId,
-    /// Feature that counts negative.
-    pub minus: Option<FeatureId>,
-}
-
-impl Difference {
-    /// One feature.
-    pub fn one(plus: FeatureId) -> Self {
-        Self { plus, minus: None }
-    }
-
-    fn rename(&mut self, place: &[FeatureId]) {
-        self.plus = place[self.plus];
-        self.minus = self.minus.map(|f| place[f]);
-    }
-
-    /// The difference of some quantity of the two features.
-    pub fn of(self, quantity: impl Fn(FeatureId) -> Vector3<f64>) -> Vector3<f64> {
-        let plus = quantity(self.plus);
-        self.minus.map_or(plus, |minus| plus - quantity(minus))
-    }
-}
-
-/// The number that a product must have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// Always the same.
-    Constant(f64),
-    /// The value of a target curve.
-    Driven(usize),
-}
-
-/// A prescribed number: a curve, or the cosine of one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TargetCurve {
-    /// The curve.
-    pub curve: Curve,
-    /// Whether the number is the curve's cosine.
-    pub cosine: bool,
-}
-
-impl TargetCurve {
-    /// Value, first and second derivative at time t.
-    pub fn at(&self, t: f64) -> Jet<f64> {
-        let mut series = [0.0; 3];
-        self.expand(t, &mut series);
-        [series[0], series[1], 2.0 * series[2]]
-    }
-
-    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
-    pub fn expand(&self, t: f64, out: &mut [f64]) {
-        self.curve.expand(t, out);
-        if self.cosine {
-            let mut angle = [0.0; MOST_TERMS];
-            let (mut sin, terms) = (angle, out.len().min(MOST_TERMS));
-            angle[..terms].copy_from_slice(&out[..terms]);
-            sine_cosine(&angle[..terms], &mut sin, out);
-        }
-    }
-}
+use crate::feature::{Difference, FeatureId, Target};
 
 /// One form of constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,16 +99,10 @@ impl Form {
     }
 }
 
-/// Two unit vectors that make a right-handed frame with the unit vector s.
-///
-/// Duff et al., Building an orthonormal basis, revisited, JCGT 6 (2017): no branch that could jump except at
-/// s = −e₃, and none is needed to be smooth.
-pub fn across(s: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let sign = 1f64.copysign(s.z);
-    let a = -1.0 / (sign + s.z);
-    let b = s.x * s.y * a;
-    [
-        Vector3::new(1.0 + sign * s.x * s.x * a, sign * b, -sign * s.x),
-        Vector3::new(b, sign + s.y * s.y * a, -s.y),
-    ]
+/// Names of the equations of a labelled form.
+pub fn equation_labels(label: &str, equations: usize) -> Vec<String> {
+    if equations == 1 {
+        return vec![label.to_owned()];
+    }
+    ["x", "y", "z"].iter().take(equations).map(|axis| format!("{label}.{axis}")).collect()
 }

@@ -31,7 +31,6 @@ pub use bundle::Bundle;
 pub use planar::Planar;
 pub use step::{Plan, Taken};
 
-use crate::balance;
 use crate::elimination::Counters;
 use crate::model::BodyRef;
 use crate::system::System;
@@ -147,7 +146,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let angles = Angles::new(system, &place, stride, turns);
         let prescribed = Prescribed::new(system, &place, L, stride);
         let loads = Loads::new(system, &place, L, stride);
-        let exchanges = balance::exchanges_energy(system);
+        let exchanges = !system.is_conservative();
         Self {
             time: 0.0,
             next_break: f64::INFINITY,

@@ -5,18 +5,9 @@
 //! constant. Directors that are shared in turn all follow the first body that has them.
 
 use crate::lift::{Director, Layout};
-use crate::model::{BodyRef, Model, ModelJoint};
+use crate::model::{BodyRef, Model, ModelJoint, director_along};
 use crate::scene::{AxisRows, JointKind};
 use nalgebra::Vector3;
-
-/// How near a unit axis must be to a director.
-const ALONG: f64 = 1e-9;
-
-/// The director (0, 1, 2 for u, v, w) that a local unit axis lies along, and its sign.
-pub fn director_along(axis: &Vector3<f64>) -> Option<(usize, f64)> {
-    let k = axis.iamax();
-    ((axis[k].abs() - 1.0).abs() < ALONG).then(|| (k, axis[k].signum()))
-}
 
 /// What a director follows.
 #[derive(Clone, Copy, Debug)]

@@ -25,6 +25,7 @@ use crate::passage::{Passage, Watch};
 use crate::rank::{self, Rank};
 use crate::scene::{IntegratorKind, Scene};
 use crate::system::System;
+use nalgebra::{Matrix3, Vector3};
 
 /// A scene that runs.
 #[derive(Clone, Debug)]
@@ -43,8 +44,8 @@ pub struct Simulation {
     start_energy: f64,
     /// Largest kinetic energy at the ends of steps that were looked at, J.
     kinetic: f64,
-    /// Whether drivers or loads without potential act.
-    exchanges_energy: bool,
+    /// Whether neither drivers nor loads without potential act.
+    conservative: bool,
     /// Their work up to the start of the last step, J.
     work: f64,
     scratch: Vec<f64>,
@@ -94,8 +95,8 @@ impl Simulation {
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
         let watch = Watch::new(&mut mechanism, &rank);
-        let exchanges_energy = balance::exchanges_energy(&mechanism.system);
-        let looks = exchanges_energy || !mechanism.system.watches.is_empty();
+        let conservative = mechanism.system.is_conservative();
+        let looks = !conservative || !mechanism.system.watches.is_empty();
         let scratch = vec![0.0; if looks { 4 * n } else { 0 }];
         let end = mechanism.system.model.settings.duration;
         Ok(Self {
@@ -110,7 +111,7 @@ impl Simulation {
             shown,
             start_energy,
             kinetic: 0.0,
-            exchanges_energy,
+            conservative,
             work: 0.0,
             scratch,
             step_limit: u64::MAX,
@@ -179,7 +180,7 @@ impl Simulation {
         let (q, q_dot) = y.split_at_mut(n);
         let system = &mut self.mechanism.system;
         let places = system.model.bodies.iter().zip(&other.model().bodies).zip(&frames);
-        let moved: Vec<ModelBody> = places.map(|((body, old), frame)| body.placed_as(old, frame)).collect();
+        let moved: Vec<ModelBody> = places.map(|((body, old), frame)| placed_as(body, old, frame)).collect();
         let given = std::mem::replace(&mut system.model.bodies, moved);
         system.start(q, q_dot);
         system.model.bodies = given;
@@ -281,7 +282,7 @@ impl Simulation {
             if let Err(error) = self.mechanism.check(time, self.integrator.state()) {
                 let start = time - self.integrator.last_step();
                 let last = self.show_last_good(start, self.integrator.steps().accepted.saturating_sub(1));
-                return Err(error.after(last));
+                return Err(EngineError::from(error).after(last));
             }
             let Mechanism { system, elimination, .. } = &self.mechanism;
             self.kinetic = self.kinetic.max(elimination.kinetic_energy(system));
@@ -326,7 +327,7 @@ impl Simulation {
     /// Work of drivers and of loads without potential from the start of the last step to time t, J.
     fn work_of_last_step(&mut self, t: f64) -> f64 {
         let start = self.integrator.time() - self.integrator.last_step();
-        if !self.exchanges_energy || t <= start {
+        if self.conservative || t <= start {
             return 0.0;
         }
         if let Some(work) = self.integrator.work_to(t) {
@@ -359,5 +360,21 @@ impl Simulation {
         back.mechanism.set_state(0.0, &back.start);
         back.start_energy = back.mechanism.elimination.energy(&back.mechanism.system);
         back
+    }
+}
+
+/// A body where `old`, a body of the same frame, stands in a run. Centre of mass and principal axes may differ between
+/// the two: what stays in place is the author's frame.
+fn placed_as(body: &ModelBody, old: &ModelBody, frame: &BodyFrame) -> ModelBody {
+    let axes = [frame.u, frame.v, frame.w].map(Vector3::from);
+    let turn = Matrix3::from_columns(&axes) * old.principal_axes.transpose();
+    let angular_velocity = Vector3::from(frame.angular_velocity);
+    let arm = turn * (body.center_of_mass - old.center_of_mass);
+    ModelBody {
+        position: Vector3::from(frame.position) + arm,
+        directors: turn * body.principal_axes,
+        velocity: Vector3::from(frame.velocity) + angular_velocity.cross(&arm),
+        angular_velocity,
+        ..body.clone()
     }
 }

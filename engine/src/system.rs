@@ -1,59 +1,19 @@
 //! The assembled system: everything that never changes during a run.
 
 use crate::angle::Angle;
+use crate::body::Body;
 use crate::event::Watch;
-use crate::lift::{Layout, Lift};
+use crate::feature::{Feature, TargetCurve};
+use crate::lift::Lift;
 use crate::load::Load;
 use crate::model::{BodyRef, Model};
 use crate::motion::VectorCurve;
-use crate::plane::Posture;
-use crate::row::{Feature, Form, TargetCurve};
-use crate::scene::Coordinates;
+use crate::row::Form;
 use crate::sharing;
-use crate::writer::{Writer, WrittenGroup};
+use crate::writer::{LabelledForm, Writer, WrittenGroup};
 use crate::{driver, joint};
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// A body as the equations of motion see it.
-#[derive(Clone, Debug)]
-pub struct Body {
-    /// Mass m, kg.
-    pub mass: f64,
-    /// Principal moments of inertia, kg m².
-    pub principal: Vector3<f64>,
-    /// Ī of u, v, w: the diagonal of the constant mass matrix is (m, Ī_u, Ī_v, Ī_w) — eq. (6.2).
-    pub ibar: Vector3<f64>,
-    /// Inertia added to each principal moment in the factorization alone, for a body that has none about some
-    /// axis; refinement takes its effect out again — THEORY section 7.
-    pub lent: f64,
-    /// Which coordinates describe it.
-    pub coordinates: Coordinates,
-    /// How its lifted coordinates follow from q.
-    pub layout: Layout,
-    /// How it stands in the plane, in a system that has been reduced to one.
-    pub posture: Option<Posture>,
-    /// The point by which it hangs on the ground, in a system that has been reduced to a plane: that joint's rows are
-    /// eliminated with the rigid-body rows — eq. (7.10).
-    pub anchor: Option<Anchor>,
-}
-
-/// A point of a body that a joint holds at a point of the ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Anchor {
-    /// The point of the body, in its own frame.
-    pub local: Vector3<f64>,
-    /// The point of the ground.
-    pub ground: Vector3<f64>,
-}
-
-impl Body {
-    /// What a force at the centre of mass moves it by: nothing if it hangs on the ground, where the moment about the anchor
-    /// tells all.
-    pub fn free_inverse_mass(&self) -> f64 {
-        if self.anchor.is_some() { 0.0 } else { 1.0 / self.mass }
-    }
-}
 
 /// The rows of one joint or driver.
 #[derive(Clone, Debug)]
@@ -108,9 +68,6 @@ pub struct Row {
     /// For each feature of the form in the order of [`Form::features`], the incidence of its body.
     pub incidence: [usize; 6],
 }
-
-/// Label of the row that a shared director makes needless.
-pub const SHARED: &str = "CV (shared)";
 
 /// Marks a feature of the ground, which meets no moving body.
 pub const NO_INCIDENCE: usize = usize::MAX;
@@ -252,8 +209,8 @@ impl System {
                 lent,
                 coordinates: body.coordinates,
                 layout: layouts[index],
-                posture: None,
-                anchor: None,
+                planar_pose: None,
+                pivot: None,
             });
             self.coordinates += layouts[index].size();
             self.rigid_rows += layouts[index].rigid_rows().count();
@@ -263,11 +220,11 @@ impl System {
     fn add_group(&mut self, written: WrittenGroup) {
         let WrittenGroup { name, forms, bodies: pair, points, driver } = written;
         let index = self.groups.len();
-        let size: usize = forms.iter().map(|(_, form)| form.independent()).sum();
+        let size: usize = forms.iter().map(|row| row.form.independent()).sum();
         let first = self.incidences.len();
         let mut bodies: Vec<usize> = forms
             .iter()
-            .flat_map(|(_, form)| form.features(&self.angles))
+            .flat_map(|row| row.form.features(&self.angles))
             .filter_map(|f| match self.features[f].body {
                 BodyRef::Ground => None,
                 BodyRef::Moving(body) => Some(body),
@@ -282,7 +239,7 @@ impl System {
         }
         let (first_form, first_equation) = (self.rows.len(), self.equations);
         let mut local = 0;
-        for (label, form) in forms {
+        for LabelledForm { label, form, implied } in forms {
             let mut incidence = [NO_INCIDENCE; 6];
             for (k, f) in form.features(&self.angles).into_iter().enumerate() {
                 if let BodyRef::Moving(body) = self.features[f].body {
@@ -290,7 +247,6 @@ impl System {
                     incidence[k] = found.unwrap_or(NO_INCIDENCE);
                 }
             }
-            let implied = label == SHARED;
             self.rows.push(Row {
                 form,
                 label,
@@ -314,6 +270,11 @@ impl System {
             incidences: first..self.incidences.len(),
         });
         self.solver_rows += size;
+    }
+
+    /// Whether nothing but weight and springs acts: then the energy stays what it is.
+    pub fn is_conservative(&self) -> bool {
+        !self.groups.iter().any(|group| group.driver) && self.loads.iter().all(Load::is_conservative)
     }
 
     /// Whether any body has no inertia about some axis.

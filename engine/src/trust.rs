@@ -3,9 +3,10 @@
 //! A distance is compared with the length of the mechanism, a product of unit vectors with one: so a mechanism of
 //! micrometres is held as strictly as one of kilometres.
 
+use crate::constraints::ConstraintError;
 use crate::elimination::Elimination;
-use crate::error::{EngineError, LastGood};
-use crate::row::{Difference, Form};
+use crate::feature::Difference;
+use crate::row::Form;
 use crate::scene::{Settings, Stabilization};
 use crate::system::{Row, System};
 
@@ -52,7 +53,7 @@ const LOST: f64 = 1e-6;
 const LOST_BY_FEEDBACK: f64 = 0.1;
 
 /// Refuses positions in place that are off the constraints: they are no result.
-pub fn check(system: &System, at: &Elimination, time: f64) -> Result<(), EngineError> {
+pub fn check(system: &System, at: &Elimination, time: f64) -> Result<(), ConstraintError> {
     let limit = match system.model.settings.stabilization {
         Stabilization::Projection
         | Stabilization::Partitioning
@@ -64,11 +65,10 @@ pub fn check(system: &System, at: &Elimination, time: f64) -> Result<(), EngineE
     }
     let opening = opening(system, at);
     if !opening.relative.is_finite() {
-        return Err(EngineError::Diverged { time, last: LastGood::default() });
+        return Err(ConstraintError::NotFinite { time });
     }
     let (joint, with) = opening.names(system);
-    let (violation, last) = (opening.relative, LastGood::default());
-    Err(EngineError::ConstraintsLost { time, joint, with, violation, last })
+    Err(ConstraintError::Lost { time, joint, with, violation: opening.relative })
 }
 
 /// Largest |Φ| of the positions in place, relative to the size of its row; allocates nothing.

@@ -1,14 +1,30 @@
 //! Collecting features, curves and rows while a system is assembled.
 
 use crate::angle::Angle;
+use crate::feature::{Difference, Feature, FeatureId, Target, TargetCurve};
 use crate::model::{BodyRef, ModelJoint};
 use crate::motion::{Curve, VectorCurve};
-use crate::row::{Difference, Feature, FeatureId, Form, Target, TargetCurve};
+use crate::row::Form;
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
 /// A row form with the label under which its equations are shown.
-pub type LabelledForm = (&'static str, Form);
+#[derive(Clone, Copy, Debug)]
+pub struct LabelledForm {
+    /// The label.
+    pub label: &'static str,
+    /// The form.
+    pub form: Form,
+    /// Whether shared coordinates satisfy it by themselves.
+    pub implied: bool,
+}
+
+impl LabelledForm {
+    /// A row that is written.
+    pub fn new(label: &'static str, form: Form) -> Self {
+        Self { label, form, implied: false }
+    }
+}
 
 /// The rows of one joint or driver.
 #[derive(Clone, Debug)]
@@ -114,8 +130,8 @@ impl Writer {
             place[old] = new;
         }
         self.features = order.iter().map(|&old| self.features[old]).collect();
-        for (_, form) in self.groups.iter_mut().flat_map(|g| &mut g.forms) {
-            form.rename(&place);
+        for written in self.groups.iter_mut().flat_map(|g| &mut g.forms) {
+            written.form.rename(&place);
         }
         for angle in &mut self.angles {
             angle.rename(&place);

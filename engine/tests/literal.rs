@@ -4,7 +4,8 @@ mod common;
 
 use common::{Random, random_scene, start};
 use nalgebra::DVector;
-use triad_engine::literal::{Literal, rigid_multipliers};
+use triad_engine::literal::Literal;
+use triad_engine::reaction::rigid_multipliers;
 
 /// Full, reduced or mixed coordinates, body by body.
 const KINDS: [fn(usize) -> &'static str; 3] =

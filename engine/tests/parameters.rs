@@ -1,5 +1,6 @@
 //! Scenes with changed numbers, and runs that go on with them.
 
+use triad_engine::constraints::ConstraintError;
 use triad_engine::scene::{Scene, SceneError};
 use triad_engine::simulation::Simulation;
 use triad_engine::{EngineError, catalogue};
@@ -122,5 +123,8 @@ fn a_state_that_no_longer_fits_is_refused() {
     let far = serde_json::json!(9.0);
     let moved = pendulum().changed([], [("/bodies/0/position/0", &far)]).unwrap();
     let mut after = Simulation::new(&moved).unwrap();
-    assert!(matches!(after.continue_from(&mut before), Err(EngineError::StartTooFar { .. })));
+    assert!(matches!(
+        after.continue_from(&mut before),
+        Err(EngineError::Constraint { error: ConstraintError::StartTooFar { .. }, .. })
+    ));
 }

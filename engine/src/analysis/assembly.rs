@@ -1,6 +1,7 @@
 //! Assembly: consistent positions and velocities from a rough start.
 
 use super::AnalysisError;
+use crate::constraints::ConstraintError;
 use crate::error::EngineError;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -80,7 +81,9 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
         let (joint, with) = open.names(&mechanism.system);
         let pointer = open.pointer(&mechanism.system);
         let moved = placements(&mechanism, &y).iter().fold(0.0f64, |a, p| a.max(p.moved));
-        return Err(EngineError::Assembly { joint, with, pointer, violation, moved }.into());
+        return Err(
+            EngineError::from(ConstraintError::Assembly { joint, with, pointer, violation, moved }).into()
+        );
     }
     Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, opening, left })
 }

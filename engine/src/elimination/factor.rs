@@ -2,7 +2,8 @@
 
 use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
 use crate::lift::Lift;
-use crate::row::{Form, across};
+use crate::linalg::orthonormal_basis;
+use crate::row::Form;
 use crate::sparse::stride;
 use crate::system::{NO_INCIDENCE, Row, System};
 use nalgebra::{Matrix3, Vector3};
@@ -67,7 +68,7 @@ impl Elimination {
                     }
                 }
                 Form::CommonVector { a, b } => {
-                    self.transverse[index] = across(&self.features[a].value.normalize());
+                    self.transverse[index] = orthonormal_basis(&self.features[a].value.normalize());
                     for k in 0..2 {
                         let t = self.transverse[index][k];
                         self.add_gradient(system, row, k, 0, a, &t);

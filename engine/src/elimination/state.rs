@@ -2,10 +2,11 @@
 //! without solving anything.
 
 use super::Elimination;
+use crate::feature::{Difference, FeatureId, Target};
 use crate::lift::Lift;
 use crate::model::BodyRef;
 use crate::motion::Jet;
-use crate::row::{Difference, FeatureId, Form, Target};
+use crate::row::Form;
 use crate::system::System;
 use nalgebra::{Matrix3, Vector3};
 

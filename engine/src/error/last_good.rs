@@ -1,12 +1,7 @@
 //! What the last good state of a run that stopped tells about the reason.
 
+use crate::constraints::quoted;
 use std::fmt;
-
-/// Names in quotes.
-pub(super) fn listed(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-    names.join(", ")
-}
 
 /// What the last good state of a run tells about its end.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,8 +46,8 @@ impl fmt::Display for Cause {
             Self::OutOfReach { drivers, time, open } => write!(
                 f,
                 "driver {} asks for more than the joints allow: at t = {time:.6} s no position nearby closes {}",
-                listed(drivers),
-                if open.is_empty() { "all of them".to_owned() } else { listed(open) }
+                quoted(drivers),
+                if open.is_empty() { "all of them".to_owned() } else { quoted(open) }
             ),
             Self::Losing { joint, hold } => {
                 write!(f, "\"{joint}\" is about to lose its hold, of which {hold:.0e} is left")

@@ -4,7 +4,8 @@ use super::taylor::Saved;
 use super::{Explicit, Steps, Stop, Taylor};
 use crate::elimination::Counters;
 use crate::mechanism::Mechanism;
-use crate::passage::{self, Stepped};
+use crate::pace;
+use crate::passage::Stepped;
 use std::fmt::Debug;
 
 /// An integrator of a mechanism and its last step.
@@ -34,7 +35,7 @@ pub trait Stepper: Debug + Send + Sync {
             start: self.time() - self.last_step(),
             end: self.time(),
             holds: None,
-            pace: passage::fastest(&mechanism.system, self.state()),
+            pace: pace::fastest(&mechanism.system, self.state()),
         })
     }
 
@@ -105,7 +106,7 @@ impl Stepper for Explicit {
             end: self.time(),
             // Its last evaluation was at the end of the step.
             holds: Some(mechanism.elimination.holds()),
-            pace: passage::fastest(&mechanism.system, self.state()),
+            pace: pace::fastest(&mechanism.system, self.state()),
         })
     }
     fn boxed(&self) -> Box<dyn Stepper> {

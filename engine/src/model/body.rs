@@ -2,7 +2,6 @@
 
 use super::{ModelError, finite};
 use crate::scene::{Body, Coordinates, Inertia, Orientation, Triple};
-use crate::simulation::BodyFrame;
 use nalgebra::{Matrix3, Quaternion, SymmetricEigen, Unit, UnitQuaternion, Vector3};
 
 /// How far from orthonormal directors may be, to be corrected instead of refused.
@@ -74,23 +73,6 @@ impl ModelBody {
             velocity: Vector3::from(body.velocity) + angular_velocity.cross(&arm),
             angular_velocity,
         })
-    }
-
-    /// This body where `old`, a body of the same frame, stands in a run. Centre of mass and principal axes may differ
-    /// between the two: what stays in place is the author's frame.
-    #[must_use]
-    pub fn placed_as(&self, old: &Self, frame: &BodyFrame) -> Self {
-        let axes = [frame.u, frame.v, frame.w].map(Vector3::from);
-        let turn = Matrix3::from_columns(&axes) * old.principal_axes.transpose();
-        let angular_velocity = Vector3::from(frame.angular_velocity);
-        let arm = turn * (self.center_of_mass - old.center_of_mass);
-        Self {
-            position: Vector3::from(frame.position) + arm,
-            directors: turn * self.principal_axes,
-            velocity: Vector3::from(frame.velocity) + angular_velocity.cross(&arm),
-            angular_velocity,
-            ..self.clone()
-        }
     }
 
     /// Coordinates (ξ, η, ζ) in the principal frame of a point of the author's frame.

@@ -2,10 +2,18 @@
 
 use super::reader::Reader;
 use super::{BodyRef, ModelError};
-use crate::row::across;
+use crate::linalg::orthonormal_basis;
 use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
-use crate::sharing::director_along;
 use nalgebra::Vector3;
+
+/// How near a unit axis must be to a director.
+const ALONG: f64 = 1e-9;
+
+/// The director (0, 1, 2 for u, v, w) that a local unit axis lies along, and its sign.
+pub fn director_along(axis: &Vector3<f64>) -> Option<(usize, f64)> {
+    let k = axis.iamax();
+    ((axis[k].abs() - 1.0).abs() < ALONG).then(|| (k, axis[k].signum()))
+}
 
 /// A checked joint. Ground points and vectors are in the world frame, others in the principal frame of the body.
 #[derive(Clone, Debug)]
@@ -236,9 +244,9 @@ fn axes(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3<f
 /// Vectors across the axis on body i, and those on body j that coincide with them as nearly as body j's own axis
 /// allows.
 fn cross_vectors(reader: &Reader, bodies: [BodyRef; 2], axes: [Vector3<f64>; 2]) -> [[Vector3<f64>; 2]; 2] {
-    let on_i = across(&axes[0]);
+    let on_i = orthonormal_basis(&axes[0]);
     let first = reader.vector_from_world(bodies[1], &reader.vector_to_world(bodies[0], &on_i[0]));
     let first = first - axes[1] * axes[1].dot(&first);
-    let first = first.try_normalize(1e-6).unwrap_or_else(|| across(&axes[1])[0]);
+    let first = first.try_normalize(1e-6).unwrap_or_else(|| orthonormal_basis(&axes[1])[0]);
     [on_i, [first, axes[1].cross(&first)]]
 }

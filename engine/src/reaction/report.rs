@@ -214,7 +214,9 @@ fn frame(
                 };
                 let x = turn(&joint.axes[0]).normalize();
                 let y = turn(&joint.cross[0][0]);
-                let y = (y - x * x.dot(&y)).try_normalize(1e-9).unwrap_or_else(|| crate::row::across(&x)[0]);
+                let y = (y - x * x.dot(&y))
+                    .try_normalize(1e-9)
+                    .unwrap_or_else(|| crate::linalg::orthonormal_basis(&x)[0]);
                 let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
                 (format!("joint \"{}\", x along its axis", joint.name), axes)
             }

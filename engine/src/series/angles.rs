@@ -4,7 +4,8 @@ use super::lanes::Triple;
 use super::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, value};
 use super::rows::Place;
 use crate::angle::AngleState;
-use crate::row::{Difference, FeatureId, Form};
+use crate::feature::{Difference, FeatureId};
+use crate::row::Form;
 use crate::system::System;
 use nalgebra::Vector3;
 

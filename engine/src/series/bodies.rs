@@ -2,8 +2,9 @@
 
 use super::lanes::{Lane, Triple};
 use super::slot::Slot;
+use crate::body::Body;
 use crate::lift::Lift;
-use crate::system::{Body, System};
+use crate::system::System;
 use nalgebra::Vector3;
 use std::fmt::Debug;
 use std::ops::Range;

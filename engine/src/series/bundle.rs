@@ -7,8 +7,9 @@ use super::lanes::{
     plus, scaled, sum, times, zero,
 };
 use super::slot::Slot;
+use crate::body::Body;
 use crate::lift::Lift;
-use crate::system::{Body, System};
+use crate::system::System;
 use nalgebra::Vector3;
 use std::ops::Range;
 

@@ -7,10 +7,10 @@ use super::recurrence::{
     Vectors, dot, product, product_with_rate, quotient, rate, root, scaled, value, vector_value,
 };
 use super::rows::Place;
+use crate::feature::FeatureId;
 use crate::load;
 use crate::model::{BodyRef, Element};
 use crate::motion::VectorCurve;
-use crate::row::FeatureId;
 use crate::scene::LoadFrame;
 use crate::system::System;
 use nalgebra::Vector3;

@@ -6,9 +6,9 @@
 use super::bodies::Bodies;
 use super::lanes::{Lane, Triple, less, plus, sum, times};
 use super::slot::Slot;
+use crate::body::{Body, PlanarPose};
 use crate::lift::Lift;
-use crate::plane::Posture;
-use crate::system::{Body, System};
+use crate::system::System;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -21,15 +21,15 @@ pub struct Planar<const L: usize> {
     bodies: Range<usize>,
     slots: Range<usize>,
     /// How each body stands in the plane, and the plane itself.
-    postures: [Posture; L],
+    poses: [PlanarPose; L],
     height: Lane<L>,
     mass: Lane<L>,
     /// 1/m, or zero for a body that hangs on the ground by a point: then 1, that point in the body's frame, and on the ground.
     inverse_mass: Lane<L>,
     hangs: Lane<L>,
-    anchor: Pair<L>,
+    pivot: Pair<L>,
     ground: Pair<L>,
-    /// From the centre of mass to the anchor, at the point of expansion.
+    /// From the centre of mass to the pivot, at the point of expansion.
     arm: Pair<L>,
     inertia: Lane<L>,
     lent: Lane<L>,
@@ -37,7 +37,7 @@ pub struct Planar<const L: usize> {
     /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
     dual: Pair<L>,
     particular: Pair<L>,
-    /// 1 / I_g and its root, about the anchor where there is one, lent inertia included.
+    /// 1 / I_g and its root, about the pivot where there is one, lent inertia included.
     inverse: Lane<L>,
     root: Lane<L>,
     force: [Pair<L>; 2],
@@ -78,9 +78,9 @@ impl<const L: usize> Planar<L> {
     /// large parts must not leave their rounding in z · z̈.
     #[inline(always)]
     fn turn(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
-        let about_anchor = cross(&self.arm, force);
+        let about_pivot = cross(&self.arm, force);
         for l in 0..L {
-            let omega = self.inverse[l] * (moment[l] - about_anchor[l]);
+            let omega = self.inverse[l] * (moment[l] - about_pivot[l]);
             self.omega[l] += omega;
             self.solution[0][0][l] += self.inverse_mass[l] * force[0][l] + omega * self.arm[1][l];
             self.solution[0][1][l] += self.inverse_mass[l] * force[1][l] - omega * self.arm[0][l];
@@ -92,7 +92,7 @@ impl<const L: usize> Planar<L> {
 
 impl<const L: usize> Bodies<L> for Planar<L> {
     type Lifted = [Pair<L>; 2];
-    /// Of z · z = 1, and of what holds an anchor.
+    /// Of z · z = 1, and of what holds a pivot.
     type Rigid = (Lane<L>, Pair<L>);
     type Moment = Lane<L>;
     type Directors = Pair<L>;
@@ -106,12 +106,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         Self {
             bodies,
             slots,
-            postures: [Posture::default(); L],
+            poses: [PlanarPose::default(); L],
             height: [0.0; L],
             mass: [1.0; L],
             inverse_mass: [1.0; L],
             hangs: [0.0; L],
-            anchor: zeros,
+            pivot: zeros,
             ground: zeros,
             arm: zeros,
             inertia: [1.0; L],
@@ -132,11 +132,11 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
         self.mass[lane] = body.mass;
         self.inverse_mass[lane] = body.free_inverse_mass();
-        if let Some(anchor) = body.anchor {
+        if let Some(pivot) = body.pivot {
             self.hangs[lane] = 1.0;
             for c in 0..2 {
-                self.anchor[c][lane] = anchor.local[c];
-                self.ground[c][lane] = anchor.ground[c];
+                self.pivot[c][lane] = pivot.local[c];
+                self.ground[c][lane] = pivot.ground[c];
             }
         }
         self.inertia[lane] = body.ibar[0];
@@ -144,9 +144,9 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         for c in 0..2 {
             self.weight[c][lane] = body.mass * system.model.gravity[c];
         }
-        if let Some(posture) = body.posture {
-            self.postures[lane] = posture;
-            self.height[lane] = posture.height;
+        if let Some(pose) = body.planar_pose {
+            self.poses[lane] = pose;
+            self.height[lane] = pose.height;
         }
     }
 
@@ -188,7 +188,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     fn read(&self, lane: usize, lift: &Lift, out: &mut [Pair<L>; 2]) {
-        let ([x, y], [c, s]) = self.postures[lane].lower(lift);
+        let ([x, y], [c, s]) = self.poses[lane].lower(lift);
         for (out, value) in out.as_flattened_mut().iter_mut().zip([x, y, c, s]) {
             out[lane] = value;
         }
@@ -196,7 +196,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     fn write(&self, lane: usize, x: &[Pair<L>; 2], rate: bool) -> Lift {
         let [r, z] = x.map(|v| [v[0][lane], v[1][lane]]);
-        self.postures[lane].raise(r, z, rate)
+        self.poses[lane].raise(r, z, rate)
     }
 
     #[inline(always)]
@@ -263,15 +263,15 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn linearize(&mut self, q: &[Pair<L>; 2]) {
         let z = &q[1];
-        self.arm = turned(&self.anchor, z);
+        self.arm = turned(&self.pivot, z);
         for l in 0..L {
             let square = z[0][l] * z[0][l] + z[1][l] * z[1][l];
             let half = 0.5 / square;
             self.dual[0][l] = half * z[0][l];
             self.dual[1][l] = half * z[1][l];
             let [x, y] = self.arm.map(|s| s[l]);
-            let about_anchor = self.mass[l] * (x * x + y * y);
-            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_anchor + self.lent[l]);
+            let about_pivot = self.mass[l] * (x * x + y * y);
+            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_pivot + self.lent[l]);
             self.root[l] = self.inverse[l].sqrt();
         }
     }
@@ -348,8 +348,8 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             self.omega[l] = 0.0;
             self.returned[l] = 0.0;
         }
-        // The anchor stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the anchor.
-        let particular = turned(&self.anchor, &self.particular);
+        // The pivot stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the pivot.
+        let particular = turned(&self.pivot, &self.particular);
         self.solution[0] = [0, 1].map(|c| each(|l| held[c][l] - particular[c][l]));
         let force: Pair<L> =
             [0, 1].map(|c| each(|l| self.force[0][c][l] - self.mass[l] * self.solution[0][c][l]));
@@ -386,7 +386,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         let held: Pair<L> =
             [0, 1].map(|c| each(|l| self.mass[l] * self.solution[0][c][l] - self.force[0][c][l]));
         // Along z and J z, as in [`Bodies::pull_back`].
-        let [a, b] = &self.anchor;
+        let [a, b] = &self.pivot;
         let pulled: Pair<L> = [
             each(|l| a[l] * held[0][l] + b[l] * held[1][l]),
             each(|l| a[l] * held[1][l] - b[l] * held[0][l]),
@@ -431,7 +431,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn position_correction(&self, q: &[Pair<L>; 2]) -> Self::Rigid {
         let [r, z] = q;
-        let arm = turned(&self.anchor, z);
+        let arm = turned(&self.pivot, z);
         let open: Pair<L> =
             [0, 1].map(|c| each(|l| self.hangs[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
         (each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l])), open)
@@ -440,7 +440,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn velocity_correction(&self, q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Self::Rigid {
         let (z, [r_rate, rate]) = (&q[1], q_dot);
-        let arm = turned(&self.anchor, rate);
+        let arm = turned(&self.pivot, rate);
         let open: Pair<L> = [0, 1].map(|c| each(|l| -self.hangs[l] * (r_rate[c][l] + arm[c][l])));
         (each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l])), open)
     }

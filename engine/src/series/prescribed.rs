@@ -9,9 +9,10 @@ use super::lanes::Triple;
 use super::recurrence::{Vectors, product_with_rate, value, vector_value};
 use super::rows::Place;
 use super::slot::Slot;
+use crate::feature::{Target, TargetCurve};
 use crate::model::BodyRef;
 use crate::motion::VectorCurve;
-use crate::row::{Form, Target, TargetCurve};
+use crate::row::Form;
 use crate::system::System;
 use nalgebra::Vector3;
 

@@ -1,7 +1,9 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
 use super::lanes::{Lane, Triple, add_dot, dot, scaled};
-use crate::row::{Difference, FeatureId, Form, Target, across};
+use crate::feature::{Difference, FeatureId, Target};
+use crate::linalg::orthonormal_basis;
+use crate::row::Form;
 use crate::system::System;
 use nalgebra::Vector3;
 
@@ -150,7 +152,7 @@ impl<const L: usize> Rows<L> {
     pub fn turn_common_vectors(&mut self, values: &[Triple<L>]) {
         for row in &mut self.commons {
             let s = Vector3::from(row.a.get(values));
-            row.across = across(&(s / s.norm())).map(Into::into);
+            row.across = orthonormal_basis(&(s / s.norm())).map(Into::into);
         }
     }
 

@@ -1,7 +1,7 @@
 //! S elsewhere than at the state: how near a step comes to a singular position — THEORY section 8.
 
 use super::{Bodies, Dependent, REGULARIZATION, Series, Value};
-use crate::passage;
+use crate::pace;
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -50,12 +50,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.schur.factor.factor(epsilon, 0.0);
     }
 
-    /// How fast rows turn at the state, 1/s: see [`passage::pace`].
+    /// How fast rows turn at the state, 1/s: see [`pace::pace`].
     pub fn pace(&self, system: &System) -> f64 {
         let mut fastest: f64 = 0.0;
         for (bundle, [_, rate]) in self.bundles.iter().zip(&self.state) {
             for lane in 0..bundle.bodies().len() {
-                fastest = fastest.max(passage::pace(&bundle.write(lane, rate, true), system.length));
+                fastest = fastest.max(pace::pace(&bundle.write(lane, rate, true), system.length));
             }
         }
         fastest

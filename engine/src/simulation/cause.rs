@@ -1,9 +1,10 @@
 //! Why a run cannot go on from its last good state, as far as the mechanism itself can tell.
 
 use super::Simulation;
-use crate::error::{Cause, EngineError};
+use crate::constraints::ConstraintError;
+use crate::error::Cause;
 use crate::mechanism::Mechanism;
-use crate::{parts, passage};
+use crate::{pace, parts};
 
 /// How far ahead a position is looked for: so many radians of the body that turns fastest.
 const AHEAD: [f64; 2] = [0.1, 0.01];
@@ -26,7 +27,7 @@ impl Simulation {
             return None;
         }
         // Where nothing moves yet, the run's own time must do.
-        let pace = passage::fastest(system, &self.shown).max(self.duration().recip());
+        let pace = pace::fastest(system, &self.shown).max(self.duration().recip());
         let mut found = None;
         for ahead in AHEAD {
             let h = ahead / pace;
@@ -38,8 +39,8 @@ impl Simulation {
             let (q, q_dot) = y.split_at_mut(system.coordinates);
             q.iter_mut().zip(q_dot).for_each(|(q, v)| *q += h * *v);
             let open = match self.mechanism.clone().assemble_at(time, &mut y) {
-                Err(EngineError::Assembly { joint, with, .. }) => [vec![joint], with].concat(),
-                Err(EngineError::MotionImpossible { driver, with, .. }) => [vec![driver], with].concat(),
+                Err(ConstraintError::Assembly { joint, with, .. }) => [vec![joint], with].concat(),
+                Err(ConstraintError::MotionImpossible { driver, with, .. }) => [vec![driver], with].concat(),
                 _ => return None,
             };
             found = Some((time, open));

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_engine::equations::{column_names, row_names};
+use triad_engine::feature::{Difference, FeatureId, Target};
 use triad_engine::lift::Director;
 use triad_engine::model::BodyRef;
-use triad_engine::row::{Difference, FeatureId, Form, Target};
+use triad_engine::row::Form;
 use triad_engine::scene::GROUND;
 use triad_engine::system::System;
 
@@ -144,7 +145,7 @@ impl DealState {
 }
 
 fn bodies(system: &System) -> Vec<DealBody> {
-    let body = |(body, model): (&triad_engine::system::Body, &triad_engine::model::ModelBody)| DealBody {
+    let body = |(body, model): (&triad_engine::body::Body, &triad_engine::model::ModelBody)| DealBody {
         name: model.name.clone(),
         coordinates: if body.layout.directors.contains(&Director::Product) { "reduced" } else { "full" },
         first_column: body.layout.first,

@@ -2,12 +2,12 @@
 //!
 //! They hold the directors of a body at unit length and right angles: stress inside the coordinates, not a reaction.
 
-use super::{for_mass_entries, force};
+use super::Multiplier;
 use crate::elimination::Elimination;
 use crate::equations;
 use crate::jacobian::Jacobian;
 use crate::lift::Lift;
-use crate::reaction::Multiplier;
+use crate::literal::{for_mass_entries, force};
 use crate::scene::Coordinates;
 use crate::system::System;
 use serde::Serialize;
