@@ -19,11 +19,12 @@ use crate::lift::Lift;
 use crate::load::Forces;
 use crate::motion::Jet;
 use crate::row::Form;
-use crate::sparse::{BlockCholesky, Slot};
 use crate::system::{Row, System};
 use nalgebra::Vector3;
 use right_side::gram;
 use state::FeatureState;
+use triad_linalg::BlockCholesky;
+use triad_linalg::block_cholesky::Slot;
 
 /// Regularization of S where rows are redundant, relative to its diagonal.
 ///
@@ -157,7 +158,7 @@ impl Elimination {
 
     /// How firmly each joint holds at the positions that were factored last: see [`BlockCholesky::holds`].
     pub fn holds(&self) -> &[f64] {
-        self.factor.holds()
+        self.factor.pivot_products()
     }
 
     /// Whether S is regularized at every state.

@@ -16,8 +16,6 @@
 pub use triad_scene as scene;
 pub use triad_scene::catalogue;
 
-pub mod linalg;
-
 pub mod motion;
 
 pub mod model;
@@ -45,8 +43,6 @@ pub mod body;
 pub mod system;
 
 pub mod pace;
-
-pub mod sparse;
 
 pub mod elimination;
 

@@ -4,13 +4,9 @@
 //! one dense system. This is far slower than the elimination and shares with it only the row forms: an independent
 //! check of it, the way to the multipliers of the rigid-body rows, and what `triad paper` integrates.
 
-mod independent;
 mod normal;
-mod sparse_lu;
 
-pub use independent::{independent_rows, left_null_space};
 pub use normal::{Normal, RankOne, RightSides};
-pub use sparse_lu::{Columns, SparseLu};
 
 use crate::body::Body;
 use crate::elimination::Elimination;
@@ -20,6 +16,7 @@ use crate::lift::Lift;
 use crate::scene::Coordinates;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use triad_linalg::{independent_rows, left_null_space};
 
 /// Rows whose part across the others is smaller than this, relative to the longest row, are dependent.
 pub const DEPENDENT: f64 = 1e-9;

@@ -16,6 +16,7 @@ use crate::row::Form;
 use crate::scene::{JointKind, LoadFrame};
 use crate::system::{Row, System};
 use nalgebra::{Matrix3, Vector3};
+use triad_linalg::orthonormal_basis;
 
 /// Directions are the same, and components are nothing, within this.
 const ALIKE: f64 = 1e-11;
@@ -85,7 +86,7 @@ fn frame(normal: &Vector3<f64>) -> Matrix3<f64> {
         let [i, j] = [(k + 1) % 3, (k + 2) % 3];
         return Matrix3::from_columns(&[i, j, k].map(|axis| Vector3::ith(axis, 1.0)));
     }
-    let [a, b] = crate::linalg::orthonormal_basis(normal);
+    let [a, b] = orthonormal_basis(normal);
     Matrix3::from_columns(&[a, b, *normal])
 }
 

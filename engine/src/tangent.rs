@@ -1,9 +1,9 @@
 //! The small motions that the joints allow at one position — eq. (10.4).
 
 use crate::elimination::Elimination;
-use crate::literal::left_null_space;
 use crate::system::System;
 use nalgebra::DMatrix;
+use triad_linalg::left_null_space;
 
 /// A row of unit length of which less than this is across the others depends on them.
 const DEPENDENT: f64 = 1e-9;

@@ -10,10 +10,10 @@ mod remedy;
 pub use remedy::Remedy;
 
 use crate::elimination::Elimination;
-use crate::literal::left_null_space;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
+use triad_linalg::left_null_space;
 
 /// Most rows that are analysed: the work grows with their cube.
 pub const MAX_ROWS: usize = 600;

@@ -7,11 +7,12 @@ use serde_json::{Value, json};
 use triad_engine::elimination::Elimination;
 use triad_engine::equations;
 use triad_engine::jacobian::Jacobian;
-use triad_engine::literal::{Literal, independent_rows};
+use triad_engine::literal::Literal;
 use triad_engine::model::Model;
 use triad_engine::reaction::rigid_multipliers;
 use triad_engine::scene::Scene;
 use triad_engine::system::System;
+use triad_linalg::independent_rows;
 
 #[derive(Deserialize)]
 struct Vectors {

@@ -24,10 +24,10 @@ fn the_elimination_agrees_with_the_literal_equations_at_any_state() {
             let (system, mut elimination, mut q, mut q_dot) = start(&scene);
             let mut random = Random::new(seed + 1000);
             for x in &mut q {
-                *x += 0.05 * random.number();
+                *x += 0.05 * random.between(-1.0, 1.0);
             }
             for x in &mut q_dot {
-                *x += random.number();
+                *x += random.between(-1.0, 1.0);
             }
             let mut acceleration = vec![0.0; q.len()];
             elimination.accelerate(&system, &q, &q_dot, (0.0, 0.0), &mut acceleration);

@@ -7,13 +7,14 @@ use common::{random_scene, start, table};
 use nalgebra::Vector3;
 use triad_engine::catalogue;
 use triad_engine::check::check;
-use triad_engine::literal::{Literal, left_null_space};
+use triad_engine::literal::Literal;
 use triad_engine::model::BodyRef;
 use triad_engine::reaction::report::{
     About, Component, Convention, ExpressedIn, Reaction, ReactionReport, Side,
 };
 use triad_engine::scene::{AxisRows, Joint, JointKind, Scene};
 use triad_engine::simulation::Simulation;
+use triad_linalg::left_null_space;
 
 fn on(side: Side, about: About) -> Convention {
     Convention { on: side, about, ..Convention::default() }

@@ -2,11 +2,11 @@
 
 use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
 use crate::lift::Lift;
-use crate::linalg::orthonormal_basis;
 use crate::row::Form;
-use crate::sparse::stride;
 use crate::system::{NO_INCIDENCE, Row, System};
 use nalgebra::{Matrix3, Vector3};
+use triad_linalg::block_cholesky::stride;
+use triad_linalg::orthonormal_basis;
 
 impl Elimination {
     /// Builds A, S and its factor at the current positions.
@@ -36,16 +36,16 @@ impl Elimination {
 
     /// From now on keeps how firmly joints hold.
     pub fn keep_holds(&mut self) {
-        self.factor.keep_holds();
+        self.factor.keep_pivot_products();
     }
 
-    /// How firmly each joint holds at the current positions: see [`crate::sparse::BlockCholesky::holds`]. The factor is
+    /// How firmly each joint holds at the current positions: see [`triad_linalg::BlockCholesky::pivot_products`]. The factor is
     /// none to solve with.
     pub fn holds_here(&mut self, system: &System) -> &[f64] {
         self.set_up(system);
         self.assemble(system);
         self.factor.factor(0.0, 0.0);
-        self.factor.holds()
+        self.factor.pivot_products()
     }
 
     fn set_up(&mut self, system: &System) {

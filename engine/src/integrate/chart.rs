@@ -5,10 +5,10 @@
 //! η̇ = L q̇ and η̈ = L q̈. In a chart the constraints hold at every stage of an integrator, not only at the ends of steps.
 
 use crate::lift::Lift;
-use crate::literal::independent_rows;
 use crate::mechanism::Mechanism;
 use crate::{rank, tangent};
 use nalgebra::{DMatrix, DVector, Vector3};
+use triad_linalg::independent_rows;
 
 /// Corrections of positions and velocities below this, relative to the size of the mechanism, are rounding.
 const CONSISTENT: f64 = 1e-13;

@@ -1,6 +1,5 @@
 //! M + c Φ_qᵀ Φ_q, the matrix of penalty methods, with its factors; zeros are left out.
 
-use super::sparse_lu::{Columns, SparseLu};
 use super::{for_mass_entries, force};
 use crate::elimination::Elimination;
 use crate::equations;
@@ -8,6 +7,7 @@ use crate::jacobian::Jacobian;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
+use triad_linalg::{Columns, SparseLu};
 
 /// A matrix of rank one: weight times the product of a sparse vector with itself.
 #[derive(Clone, Debug)]

@@ -2,9 +2,9 @@
 
 use super::reader::Reader;
 use super::{BodyRef, ModelError};
-use crate::linalg::orthonormal_basis;
 use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
 use nalgebra::Vector3;
+use triad_linalg::orthonormal_basis;
 
 /// How near a unit axis must be to a director.
 const ALONG: f64 = 1e-9;

@@ -6,11 +6,12 @@ use crate::equations;
 use crate::error::EngineError;
 use crate::integrate::Plant;
 use crate::jacobian::Jacobian;
-use crate::literal::{Columns, DEPENDENT, Literal, SparseLu, for_mass_entries, force, independent_rows};
+use crate::literal::{DEPENDENT, Literal, for_mass_entries, force};
 use crate::model::Model;
 use crate::scene::Coordinates;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector};
+use triad_linalg::{Columns, SparseLu, independent_rows};
 
 /// How the accelerations are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,6 +6,7 @@ use crate::system::{Group, System};
 use crate::uniqueness::{NullSpace, RANK_TOLERANCE, Redundancy, TOLERANCE, UniquenessError};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
+use triad_linalg::orthonormal_basis;
 
 /// Which of the two bodies of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -214,9 +215,7 @@ fn frame(
                 };
                 let x = turn(&joint.axes[0]).normalize();
                 let y = turn(&joint.cross[0][0]);
-                let y = (y - x * x.dot(&y))
-                    .try_normalize(1e-9)
-                    .unwrap_or_else(|| crate::linalg::orthonormal_basis(&x)[0]);
+                let y = (y - x * x.dot(&y)).try_normalize(1e-9).unwrap_or_else(|| orthonormal_basis(&x)[0]);
                 let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
                 (format!("joint \"{}\", x along its axis", joint.name), axes)
             }

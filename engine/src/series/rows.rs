@@ -2,10 +2,10 @@
 
 use super::lanes::{Lane, Triple, add_dot, dot, scaled};
 use crate::feature::{Difference, FeatureId, Target};
-use crate::linalg::orthonormal_basis;
 use crate::row::Form;
 use crate::system::System;
 use nalgebra::Vector3;
+use triad_linalg::orthonormal_basis;
 
 /// Where a feature's numbers stand: a slot and a lane of it.
 #[derive(Clone, Copy, Debug)]

@@ -5,11 +5,12 @@ use super::bodies::Bodies;
 use super::lanes::{plus, rows_of_lanes};
 use super::rows::{Place, Rows};
 use crate::row::Form;
-use crate::sparse::{BlockCholesky, stride};
 use crate::system::{NO_INCIDENCE, System};
 use pulp::Simd;
 use std::collections::BTreeMap;
 use std::ops::Range;
+use triad_linalg::BlockCholesky;
+use triad_linalg::block_cholesky::stride;
 
 /// Which gradient a term of H has.
 #[derive(Clone, Copy, Debug)]

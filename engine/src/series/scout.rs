@@ -20,13 +20,13 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Holds<'_, L, B> {
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Makes it possible to look inside steps.
     pub fn allow_looks(&mut self) {
-        self.schur.factor.keep_holds();
+        self.schur.factor.keep_pivot_products();
         self.scout = Some(Box::new(self.clone()));
     }
 
-    /// How firmly each joint holds at the point of expansion: see [`crate::sparse::BlockCholesky::holds`].
+    /// How firmly each joint holds at the point of expansion: see [`triad_linalg::BlockCholesky::pivot_products`].
     pub fn holds(&self) -> &[f64] {
-        self.schur.factor.holds()
+        self.schur.factor.pivot_products()
     }
 
     /// The same a time τ after the start of the last step, which was cut at order `order`. The factor at the end of the

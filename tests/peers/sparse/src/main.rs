@@ -17,7 +17,8 @@ use std::time::Instant;
 use triad_engine::matrices::{self, Part};
 use triad_engine::mechanism::Mechanism;
 use triad_engine::model::Model;
-use triad_engine::sparse::{BlockCholesky, stride};
+use triad_linalg::BlockCholesky;
+use triad_linalg::block_cholesky::stride;
 use triad_engine::system::System;
 use triad_engine::{catalogue, rank};
 

@@ -55,7 +55,7 @@ impl BlockCholesky {
     /// its row.
     pub fn factor(&mut self, epsilon: f64, skip: f64) -> f64 {
         let smallest = Arch::new().dispatch(Factor { matrix: &mut *self, epsilon, skip });
-        self.find_holds();
+        self.find_pivot_products();
         smallest
     }
 

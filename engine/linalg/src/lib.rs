@@ -1,0 +1,15 @@
+#![doc = include_str!("../README.md")]
+
+pub mod block_cholesky;
+mod sparse_lu;
+
+mod null_space;
+
+mod basis;
+
+pub mod random;
+
+pub use basis::orthonormal_basis;
+pub use block_cholesky::BlockCholesky;
+pub use null_space::{independent_rows, left_null_space};
+pub use sparse_lu::{Columns, SparseLu};
