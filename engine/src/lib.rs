@@ -83,15 +83,9 @@ pub mod passage;
 
 pub mod simulation;
 
-pub mod verify;
-
 pub mod check;
 
 pub mod analysis;
-
-pub mod paper;
-
-pub mod stress;
 
 mod error;
 

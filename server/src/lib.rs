@@ -7,7 +7,6 @@ pub mod problem;
 
 pub mod limits;
 
-pub mod bench;
 pub mod grading;
 pub mod scenes;
 pub mod store;

@@ -6,8 +6,8 @@ use axum::http::StatusCode;
 use triad_engine::EngineError;
 use triad_engine::analysis::AnalysisError;
 use triad_engine::catalogue;
-use triad_engine::paper::PaperError;
 use triad_engine::scene::{self, Scene};
+use triad_lab::paper::PaperError;
 
 use crate::limits::Limits;
 use crate::problem::{Problem, suggest};

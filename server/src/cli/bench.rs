@@ -6,11 +6,12 @@ use axum::http::StatusCode;
 use clap::Args;
 use serde::de::DeserializeOwned;
 use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
+use triad_lab::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
 
 use super::Outcome;
 use super::output::{make_folder, write};
+use super::raster::{RasterError, png};
 use super::terminal::{print_line, progress};
-use crate::bench::{Plan, RasterError, Wish, by_scene, csv, html, measure, png, svg, table};
 use crate::problem::Problem;
 use crate::reports;
 

@@ -12,6 +12,7 @@ mod lesson;
 mod output;
 mod paper;
 mod preview;
+mod raster;
 mod run;
 mod serve;
 mod stress;

@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use axum::http::StatusCode;
 use clap::Args;
 use serde::Serialize;
-use triad_engine::paper::{
+use triad_engine::scene::Coordinates;
+use triad_lab::paper::{
     CASES, Case, Correlation, Counts, LinearAlgebra, PaperPlant, correlation, reference, run,
 };
-use triad_engine::scene::Coordinates;
 
 use super::Outcome;
 use super::output::write;

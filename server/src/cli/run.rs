@@ -6,8 +6,8 @@ use axum::http::StatusCode;
 use serde_json::json;
 use triad_engine::scene::{Scene, Skip};
 use triad_engine::simulation::{LeftOut, Simulation, Summary};
-use triad_engine::verify::{Verification, Verifier};
 use triad_engine::{EngineError, VERSION};
+use triad_lab::verify::{Verification, Verifier};
 
 use super::csv::Table;
 use super::interrupt::Interrupt;

@@ -11,7 +11,7 @@ use clap::Args;
 use serde::Serialize;
 use triad_engine::VERSION;
 use triad_engine::scene::Scene;
-use triad_engine::stress::{self, Case, Entry, Treatment, Verdict};
+use triad_lab::stress::{self, Case, Entry, Treatment, Verdict};
 
 use super::Outcome;
 use super::output::{make_room, write};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use triad_engine::stress::{Entry, Verdict};
+use triad_lab::stress::{Entry, Verdict};
 
 use super::{Report, word};
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use triad_engine::stress::Verdict;
+use triad_lab::stress::Verdict;
 
 use super::{Column, word};
 

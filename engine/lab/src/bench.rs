@@ -1,0 +1,16 @@
+//! Run time against error: scenes × integrators × treatments × kinds of bodies × tolerances, measured in turns, with
+//! references of their own.
+//!
+//! Times are of integration alone, on one thread, without assembly and output. Every run is repeated and the repeats
+//! of all runs are interleaved, so that a disturbance of the machine falls on all of them alike.
+
+mod measure;
+mod plan;
+mod plot;
+mod reference;
+mod report;
+
+pub use measure::{Measured, measure};
+pub use plan::{Case, Method, Plan, Wish};
+pub use plot::svg;
+pub use report::{by_scene, csv, html, table};

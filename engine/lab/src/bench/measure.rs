@@ -1,0 +1,107 @@
+//! Running a plan.
+
+use std::time::{Duration, Instant};
+
+use triad_engine::EngineError;
+use triad_engine::simulation::{Simulation, Summary};
+use triad_scene::Scene;
+use triad_scene::catalogue;
+
+use super::plan::{Case, Method, Plan, Truth};
+use super::reference::{self, distance};
+
+/// One run with its error, its times and its work.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Name of the scene.
+    pub scene: &'static str,
+    /// How it was run.
+    pub method: Method,
+    /// The tolerance.
+    pub tolerance: f64,
+    /// Largest distance from the reference, m; `None` if the run stopped early.
+    pub error: Option<f64>,
+    /// Times of all repeats in rising order, s.
+    pub times: Vec<f64>,
+    /// Work of one run.
+    pub work: Summary,
+}
+
+impl Measured {
+    /// Median of the times, s.
+    pub fn median(&self) -> f64 {
+        self.times.get(self.times.len() / 2).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Half the range between the quartiles, relative to the median.
+    pub fn spread(&self) -> f64 {
+        let at = |part: usize| self.times.get(self.times.len() * part / 4).copied().unwrap_or(f64::NAN);
+        0.5 * (at(3) - at(1)) / self.median()
+    }
+}
+
+/// A run that is ready to be repeated.
+struct Ready {
+    simulation: Simulation,
+    measured: Measured,
+}
+
+/// Runs a plan; `progress(done, of all, what)` hears how far it is, in parts of one.
+pub fn measure(plan: &Plan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<Measured>, EngineError> {
+    let mut ready = Vec::new();
+    for (index, case) in plan.cases.iter().enumerate() {
+        prepare(plan, case, &mut ready, |part| {
+            progress(0.4 * (index as f64 + part) / plan.cases.len() as f64, case.scene);
+        })?;
+    }
+    let deadline = Instant::now() + Duration::from_secs_f64(plan.seconds);
+    for round in 0..plan.repeats {
+        for run in &mut ready {
+            if Instant::now() >= deadline && round > 0 {
+                break;
+            }
+            run.simulation.reset();
+            let start = Instant::now();
+            // A run that stops early was found out when its error was taken.
+            let _ = run.simulation.advance_to(run.simulation.duration());
+            run.measured.times.push(start.elapsed().as_secs_f64());
+        }
+        progress(0.4 + 0.6 * (round + 1) as f64 / plan.repeats as f64, "repeats");
+    }
+    Ok(ready
+        .into_iter()
+        .map(|Ready { mut simulation, mut measured }| {
+            measured.times.sort_by(f64::total_cmp);
+            measured.work = simulation.summary();
+            measured
+        })
+        .collect())
+}
+
+fn prepare(
+    plan: &Plan,
+    case: &Case,
+    ready: &mut Vec<Ready>,
+    mut progress: impl FnMut(f64),
+) -> Result<(), EngineError> {
+    let mut scene: Scene = catalogue::scene(case.scene)?;
+    scene.simulation.duration = case.duration;
+    let truth = reference::reference(case, &scene)?;
+    let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
+    for (index, &method) in plan.methods.iter().enumerate() {
+        progress(index as f64 / plan.methods.len() as f64);
+        for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(case, method, t)) {
+            scene.coordinates = method.coordinates;
+            scene.simulation.integrator = method.integrator;
+            scene.simulation.stabilization = method.treatment;
+            scene.simulation.tolerance = tolerance;
+            let error = reference::positions(&scene, compared).ok().map(|run| distance(&run, &truth));
+            let mut simulation = Simulation::new(&scene)?;
+            let work = simulation.summary();
+            let times = Vec::with_capacity(plan.repeats);
+            let measured = Measured { scene: case.scene, method, tolerance, error, times, work };
+            ready.push(Ready { simulation, measured });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! Positions that runs are compared with.
+
+use triad_engine::EngineError;
+use triad_engine::simulation::Simulation;
+use triad_scene::IntegratorKind;
+use triad_scene::Scene;
+
+use super::plan::{Case, Truth};
+
+/// Interval at which runs are compared, s.
+pub const EVERY: f64 = 0.01;
+
+/// Positions of the compared bodies at multiples of [`EVERY`].
+pub type Positions = Vec<Vec<[f64; 3]>>;
+
+/// Number of intervals of a run.
+fn intervals(duration: f64) -> u32 {
+    let mut count = 0;
+    while f64::from(count + 1) * EVERY <= duration + 1e-9 {
+        count += 1;
+    }
+    count
+}
+
+/// Positions of the first `bodies` bodies of a scene.
+pub fn positions(scene: &Scene, bodies: usize) -> Result<Positions, EngineError> {
+    let mut simulation = Simulation::new(scene)?;
+    (0..=intervals(scene.simulation.duration))
+        .map(|k| {
+            simulation.advance_to((f64::from(k) * EVERY).min(scene.simulation.duration))?;
+            Ok(simulation.frame().bodies.iter().take(bodies).map(|b| b.position).collect())
+        })
+        .collect()
+}
+
+/// The reference of a case: positions of the bodies that are compared.
+pub fn reference(case: &Case, scene: &Scene) -> Result<Positions, EngineError> {
+    match case.truth {
+        Truth::Converged => {
+            let mut tight = scene.clone();
+            tight.simulation.tolerance = 1e-13;
+            tight.simulation.integrator = IntegratorKind::Dop853;
+            positions(&tight, scene.bodies.len())
+        }
+        Truth::Angle { kappa, start, rate, arm } => {
+            let angles = pendulum(kappa, start, rate, intervals(case.duration));
+            Ok(angles.into_iter().map(|phi| vec![[arm * phi.sin(), arm * phi.cos(), 0.0]]).collect())
+        }
+    }
+}
+
+/// φ̈ = κ sin φ at multiples of [`EVERY`], by its own Taylor series of order 20: exact to rounding.
+fn pendulum(kappa: f64, start: f64, rate: f64, intervals: u32) -> Vec<f64> {
+    const ORDER: usize = 20;
+    let (mut phi, mut omega) = (start, rate);
+    let mut angles = vec![phi];
+    for _ in 0..intervals {
+        let mut series = [0.0; ORDER + 1];
+        let (mut sine, mut cosine) = ([0.0; ORDER + 1], [0.0; ORDER + 1]);
+        (series[0], series[1]) = (phi, omega);
+        (sine[0], cosine[0]) = phi.sin_cos();
+        for n in 0..ORDER - 1 {
+            series[n + 2] = kappa * sine[n] / ((n + 1) * (n + 2)) as f64;
+            for i in 0..=n {
+                let change = (i + 1) as f64 * series[i + 1] / (n + 1) as f64;
+                sine[n + 1] += change * cosine[n - i];
+                cosine[n + 1] -= change * sine[n - i];
+            }
+        }
+        (phi, omega) = (0.0, 0.0);
+        for c in series.iter().rev() {
+            omega = omega * EVERY + phi;
+            phi = phi * EVERY + c;
+        }
+        angles.push(phi);
+    }
+    angles
+}
+
+/// Largest distance between two records.
+pub fn distance(a: &Positions, b: &Positions) -> f64 {
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    pairs.map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The period of a pendulum released horizontally is 4 K(1/2)/√(g/L).
+    #[test]
+    fn the_angle_returns_after_its_period() {
+        let angles = pendulum(9.81, -std::f64::consts::FRAC_PI_2, 0.0, 1000);
+        // Four periods are 9.4713677903 s; before and after, the angle is even about that moment.
+        let period = 4.0 * 2.367_841_947_576_237_4;
+        let ahead = angles[947] + std::f64::consts::FRAC_PI_2;
+        let tau: f64 = period - 9.47;
+        assert!((ahead + 0.5 * 9.81 * tau * tau).abs() < 1e-7, "{ahead}");
+    }
+}

@@ -1,0 +1,9 @@
+#![doc = include_str!("../README.md")]
+
+pub mod verify;
+
+pub mod stress;
+
+pub mod paper;
+
+pub mod bench;

@@ -1,0 +1,221 @@
+//! The stress suite: scenes that try to break the engine, each judged against a reference or an invariant of its own.
+//!
+//! A run that merely ends proves nothing. A case counts as *survived* only if what it computed agrees with a solution
+//! that was found without this engine (a motion of one degree of freedom, a closed form), or keeps an invariant of the
+//! mechanism (energy, momentum, equal answers in other coordinates, the way back in time). Pure, like the rest of the
+//! engine: bounded by steps instead of clocks, and the same on every machine.
+
+mod build;
+mod large;
+mod long;
+mod oracle;
+pub mod random;
+mod redundant;
+mod scales;
+pub mod shrink;
+mod singular;
+mod starts;
+mod stiff;
+mod treatments;
+mod trial;
+
+pub use trial::Trial;
+
+use serde::Serialize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use triad_scene::{IntegratorKind, Scene, Stabilization};
+
+/// What became of a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It ran, and agrees with its reference within what its tolerance promises.
+    Survived,
+    /// It ran, but less precisely than its tolerance promises.
+    Degraded,
+    /// It was refused, or stopped with an error that says why.
+    Refused,
+    /// It ran and its result is wrong, but the run says itself that it is to be doubted, and why.
+    Warned,
+    /// It ran and its result is wrong, or it was refused for a reason that is not the true one.
+    Wrong,
+}
+
+/// How scenes are run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Treatment {
+    /// Integrator, if not that of the scene.
+    pub integrator: Option<IntegratorKind>,
+    /// What keeps the constraints satisfied, if not what the scene says.
+    pub stabilization: Option<Stabilization>,
+    /// Steps after which a run is stopped, if fewer than the case allows.
+    pub most_steps: Option<u64>,
+    /// Bodies above which it is not tried, if its matrices are full.
+    pub most_bodies: Option<usize>,
+}
+
+impl Treatment {
+    /// Applies it to a scene.
+    pub fn apply(&self, scene: &mut Scene) {
+        let settings = &mut scene.simulation;
+        settings.integrator = self.integrator.unwrap_or(settings.integrator);
+        settings.stabilization = self.stabilization.unwrap_or(settings.stabilization);
+    }
+}
+
+/// What is measured of a case; what does not apply is left out.
+#[derive(Clone, Debug, Serialize)]
+pub struct Outcome {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Why, in words.
+    pub reason: String,
+    /// What it was compared with, in words.
+    pub reference: String,
+    /// Largest deviation from the reference, relative to its size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
+    /// Largest energy drift relative to the largest kinetic energy, where energy is conserved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_drift: Option<f64>,
+    /// Largest |Φ| relative to the size of its row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub violation: Option<f64>,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of the accelerations.
+    pub evaluations: u64,
+    /// Time that was reached, s.
+    pub reached: f64,
+}
+
+/// A case of the suite.
+#[derive(Clone, Copy)]
+pub struct Case {
+    /// Unique name.
+    pub name: &'static str,
+    /// What kind of trouble it makes.
+    pub family: &'static str,
+    /// What it is, in one line.
+    pub summary: &'static str,
+    /// What has to become of it.
+    pub expected: Verdict,
+    /// Whether it is part of the quick form.
+    pub quick: bool,
+    /// Runs it; the flag asks for the quick form.
+    run: fn(&Treatment, bool) -> Outcome,
+}
+
+/// A case with what became of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Entry {
+    /// Name of the case.
+    pub case: String,
+    /// Kind of trouble.
+    pub family: String,
+    /// What it is.
+    pub summary: String,
+    /// What has to become of it.
+    pub expected: Verdict,
+    /// What became of it.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+impl Entry {
+    /// Whether the case went as it has to, or better.
+    pub fn as_expected(&self) -> bool {
+        match self.expected {
+            Verdict::Refused if self.family != random::FAMILY => self.outcome.verdict == Verdict::Refused,
+            expected => self.outcome.verdict <= expected,
+        }
+    }
+}
+
+/// All cases, in the order of the report.
+pub fn cases() -> Vec<Case> {
+    [
+        singular::CASES,
+        redundant::CASES,
+        scales::CASES,
+        stiff::CASES,
+        long::CASES,
+        large::CASES,
+        starts::CASES,
+        treatments::CASES,
+    ]
+    .concat()
+}
+
+/// Which treatment survives what: each integrator and each stabilization with its name.
+pub fn comparison() -> Vec<(String, Treatment)> {
+    treatments::all()
+}
+
+/// The cases on which treatments are compared.
+pub fn compared() -> Vec<Case> {
+    let all = cases();
+    let named = |name: &&str| all.iter().find(|case| case.name == *name).copied();
+    treatments::COMPARED.iter().filter_map(named).collect()
+}
+
+/// Runs a case. A panic is caught and counts as wrong.
+pub fn run(case: &Case, treatment: &Treatment, quick: bool) -> Entry {
+    let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(treatment, quick)))
+        .unwrap_or_else(|panic| Outcome::nothing(Verdict::Wrong, format!("panicked: {}", words_of(&*panic))));
+    Entry {
+        case: case.name.to_owned(),
+        family: case.family.to_owned(),
+        summary: case.summary.to_owned(),
+        expected: case.expected,
+        outcome,
+    }
+}
+
+fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
+impl Outcome {
+    /// An outcome without numbers.
+    fn nothing(verdict: Verdict, reason: String) -> Self {
+        Self {
+            verdict,
+            reason,
+            reference: String::new(),
+            error: None,
+            energy_drift: None,
+            violation: None,
+            steps: 0,
+            rejected: 0,
+            evaluations: 0,
+            reached: 0.0,
+        }
+    }
+
+    /// The worse of two outcomes of one case, work added up.
+    fn and(mut self, other: Self) -> Self {
+        let work =
+            (self.steps + other.steps, self.rejected + other.rejected, self.evaluations + other.evaluations);
+        let worst = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => Some(if a > b { a } else { b }),
+            (a, b) => a.or(b),
+        };
+        let numbers = (
+            worst(self.error, other.error),
+            worst(self.energy_drift, other.energy_drift),
+            worst(self.violation, other.violation),
+        );
+        let worse =
+            other.verdict > self.verdict || (other.verdict == self.verdict && other.error > self.error);
+        if worse {
+            self = other;
+        }
+        (self.steps, self.rejected, self.evaluations) = work;
+        (self.error, self.energy_drift, self.violation) = numbers;
+        self
+    }
+}

@@ -1,0 +1,108 @@
+//! Long runs: what drifts, and how fast.
+
+use super::build::{DOWN, GROUND, body, distance, pin, rod, scene};
+use super::oracle::OneDegree;
+use super::{Case, Outcome, Treatment, Trial, Verdict};
+use nalgebra::Vector3;
+use triad_engine::simulation::Simulation;
+
+const FAMILY: &str = "long";
+
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "pendulum-2000-s",
+        family: FAMILY,
+        summary: "A rod swings for 2000 s; quick: 100 s",
+        expected: Verdict::Survived,
+        quick: true,
+        run: pendulum,
+    },
+    Case {
+        name: "free-body-turns",
+        family: FAMILY,
+        summary: "A free asymmetric body turns about a general axis 1e5 times; quick: a thousand times",
+        expected: Verdict::Survived,
+        quick: true,
+        run: |treatment, quick| free_body([1.0, 2.0, 0.5], quick, treatment),
+    },
+    Case {
+        name: "intermediate-axis-turns",
+        family: FAMILY,
+        summary: "The same about its intermediate axis: it flips over and over",
+        expected: Verdict::Survived,
+        quick: true,
+        run: |treatment, quick| free_body([1e-3, 2.0, 1e-3], quick, treatment),
+    },
+    Case {
+        name: "chain-of-ten",
+        family: FAMILY,
+        summary: "A chain of ten rods for 1000 s; quick: 5 s",
+        expected: Verdict::Survived,
+        quick: true,
+        run: chain,
+    },
+];
+
+fn pendulum(treatment: &Treatment, quick: bool) -> Outcome {
+    let seconds = if quick { 100.0 } else { 2000.0 };
+    let start = 2.0f64;
+    let mut scene = scene("pendulum", DOWN, seconds, 1e-10);
+    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));
+    scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
+    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * a.sin());
+    Trial::new(scene, treatment)
+        .against("exact motion of a physical pendulum", (1e-8 * seconds, 1e-2), move |run| {
+            let (angle, _) = exact.at(run.time());
+            distance(&run.frame(), 0, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
+        })
+        .conserving((1e-10 * seconds.max(1e3), 1e-3))
+        .within(2_000_000)
+        .run()
+}
+
+fn free_body(omega: [f64; 3], quick: bool, treatment: &Treatment) -> Outcome {
+    let turns = if quick { 1e3 } else { 1e5 };
+    let speed = Vector3::from(omega).norm();
+    let mut scene = scene("free-body", [0.0; 3], turns * std::f64::consts::TAU / speed, 1e-10);
+    let principal = [1.0, 2.0, 2.8];
+    let mut free = body("body", 1.0, principal, [0.0; 3]);
+    free.angular_velocity = omega;
+    free.velocity = [1e-3, 0.0, 0.0];
+    scene.bodies.push(free);
+    let mut start = None;
+    let momentum = move |run: &mut Simulation| -> Vector3<f64> {
+        let shown = run.frame().bodies[0];
+        let omega = Vector3::from(shown.angular_velocity);
+        [shown.u, shown.v, shown.w]
+            .iter()
+            .zip(principal)
+            .map(|(axis, moment)| {
+                let axis = Vector3::from(*axis);
+                axis * (moment * axis.dot(&omega))
+            })
+            .sum()
+    };
+    Trial::new(scene, treatment)
+        .against("angular momentum in the world", (1e-9 * turns, 1e-2), move |run| {
+            let now = momentum(run);
+            let start = start.get_or_insert(now);
+            (now - *start).norm() / start.norm()
+        })
+        .conserving((1e-9 * turns, 1e-2))
+        .within(10_000_000)
+        .run()
+}
+
+fn chain(treatment: &Treatment, quick: bool) -> Outcome {
+    let seconds = if quick { 5.0 } else { 1000.0 };
+    let mut scene = scene("chain", DOWN, seconds, 1e-9);
+    for i in 0..10 {
+        let x = f64::from(i);
+        let name = format!("rod-{i}");
+        scene.bodies.push(rod(&name, 1.0, [x, 0.0], [x + 1.0, 0.0], [0.0; 2], 0.0));
+        let above = if i == 0 { GROUND.to_owned() } else { format!("rod-{}", i - 1) };
+        scene.joints.push(pin(&format!("pin-{i}"), &above, &name, [x, 0.0]));
+    }
+    // Chaotic: no two solutions agree for long. Energy and closure are what remains.
+    Trial::new(scene, treatment).conserving((1e-8 * seconds.max(10.0), 1e-2)).within(3_000_000).run()
+}

@@ -1,0 +1,147 @@
+//! Starts that are wrong: to be corrected with a note where that is possible, refused where it is not.
+
+use super::build::{DOWN, GROUND, directors, distance, pin, rod, scene};
+use super::trial::must_be_refused;
+use super::{Case, Outcome, Treatment, Trial, Verdict};
+use triad_engine::simulation::Simulation;
+use triad_scene::Scene;
+
+const FAMILY: &str = "wrong starts";
+
+pub(super) const CASES: &[Case] = &[
+    Case {
+        name: "points-off",
+        family: FAMILY,
+        summary: "A double pendulum whose points miss each other by up to 30 % of a link",
+        expected: Verdict::Survived,
+        quick: true,
+        run: points_off,
+    },
+    Case {
+        name: "velocities-off",
+        family: FAMILY,
+        summary: "A double pendulum whose velocities contradict its hinges",
+        expected: Verdict::Survived,
+        quick: true,
+        run: velocities_off,
+    },
+    Case {
+        name: "not-orthonormal",
+        family: FAMILY,
+        summary: "Directors that are 10 % from orthonormal",
+        expected: Verdict::Survived,
+        quick: true,
+        run: not_orthonormal,
+    },
+    Case {
+        name: "left-handed",
+        family: FAMILY,
+        summary: "Directors u, v and w of which the third points the wrong way",
+        expected: Verdict::Refused,
+        quick: true,
+        run: left_handed,
+    },
+    Case {
+        name: "not-at-all-orthonormal",
+        family: FAMILY,
+        summary: "Directors that are parallel",
+        expected: Verdict::Refused,
+        quick: true,
+        run: parallel,
+    },
+    Case {
+        name: "unreachable",
+        family: FAMILY,
+        summary: "A double pendulum whose last point is held twice as far as it reaches",
+        expected: Verdict::Refused,
+        quick: true,
+        run: unreachable,
+    },
+];
+
+fn double_pendulum() -> Scene {
+    let mut scene = scene("double-pendulum", DOWN, 2.0, 1e-9);
+    scene.bodies.push(rod("upper", 1.0, [0.0; 2], [0.6, -0.8], [0.0; 2], 0.0));
+    scene.bodies.push(rod("lower", 1.0, [0.6, -0.8], [1.6, -0.8], [0.0; 2], 0.0));
+    for (name, i, j, ends) in [
+        ("shoulder", GROUND, "upper", ([0.0, 0.0, 0.0], [-0.5, 0.0, 0.0])),
+        ("elbow", "upper", "lower", ([0.5, 0.0, 0.0], [-0.5, 0.0, 0.0])),
+    ] {
+        let mut joint = pin(name, i, j, [0.0; 2]);
+        joint.point = None;
+        (joint.point_i, joint.point_j) = (Some(ends.0), Some(ends.1));
+        scene.joints.push(joint);
+    }
+    scene
+}
+
+/// The corrected start must be told in a note, be consistent, and stay near what was given; from there energy holds.
+fn corrected(scene: Scene, far: f64, word: &str, treatment: &Treatment) -> Outcome {
+    let given: Vec<_> = scene.bodies.iter().map(|b| b.position).collect();
+    let told = Simulation::new(&scene).is_ok_and(|run| run.notes().iter().any(|note| note.contains(word)));
+    let mut first = true;
+    let mut outcome = Trial::new(scene, treatment)
+        .against("the start stays near the given one", (0.0, 0.0), move |run| {
+            let frame = run.frame();
+            let moved = (0..given.len()).map(|k| distance(&frame, k, given[k])).fold(0.0, f64::max);
+            let too_far = std::mem::take(&mut first) && moved > far;
+            if too_far { moved } else { 0.0 }
+        })
+        .conserving((1e-6, 1e-3))
+        .run();
+    if !told && outcome.verdict == Verdict::Survived {
+        outcome.verdict = Verdict::Wrong;
+        "the start was corrected, and nothing is said about it".clone_into(&mut outcome.reason);
+    }
+    outcome
+}
+
+fn points_off(treatment: &Treatment, _: bool) -> Outcome {
+    [0.01, 0.1, 0.2]
+        .into_iter()
+        .map(|by| {
+            let mut scene = double_pendulum();
+            scene.bodies[0].position[0] += by;
+            scene.bodies[1].position[1] -= by;
+            scene.bodies[1].position[2] += 0.5 * by;
+            corrected(scene, 2.0 * by, "positions", treatment)
+        })
+        .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
+}
+
+fn velocities_off(treatment: &Treatment, _: bool) -> Outcome {
+    let mut scene = double_pendulum();
+    scene.bodies[0].velocity = [3.0, -1.0, 2.0];
+    scene.bodies[0].angular_velocity = [1.0, -1.0, 2.0];
+    scene.bodies[1].velocity = [-3.0, 1.0, 0.5];
+    corrected(scene, 1e-9, "velocities", treatment)
+}
+
+fn not_orthonormal(treatment: &Treatment, _: bool) -> Outcome {
+    let mut scene = double_pendulum();
+    scene.bodies[1].orientation = Some(directors([1.1, 0.05, 0.0], [-0.05, 0.93, 0.02]));
+    corrected(scene, 0.2, "orthonormal", treatment)
+}
+
+fn left_handed(treatment: &Treatment, _: bool) -> Outcome {
+    let mut scene = double_pendulum();
+    let mut orientation = directors([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    orientation.w = Some([0.0, 0.0, -1.0]);
+    scene.bodies[1].orientation = Some(orientation);
+    must_be_refused(&scene, treatment, "orientation-invalid", &["\"lower\""])
+}
+
+fn parallel(treatment: &Treatment, _: bool) -> Outcome {
+    let mut scene = double_pendulum();
+    scene.bodies[0].orientation = Some(directors([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
+    must_be_refused(&scene, treatment, "orientation-invalid", &["\"upper\""])
+}
+
+fn unreachable(treatment: &Treatment, _: bool) -> Outcome {
+    let mut scene = double_pendulum();
+    let mut hand = pin("hand", GROUND, "lower", [0.0; 2]);
+    hand.point = None;
+    (hand.point_i, hand.point_j) = (Some([4.0, 0.0, 0.0]), Some([0.5, 0.0, 0.0]));
+    scene.joints.push(hand);
+    must_be_refused(&scene, treatment, "assembly-failed|start-too-far", &["\"hand\""])
+}

@@ -1,0 +1,99 @@
+//! An error estimate of a run from a second solution of the same scene, by another method or at another tolerance.
+
+use serde::Serialize;
+use triad_engine::EngineError;
+use triad_engine::simulation::Simulation;
+use triad_scene::{IntegratorKind, Scene, Stabilization};
+
+/// How much tighter the tolerance of the second solution is, and the least there is.
+const TIGHTER: f64 = 1e-3;
+const TIGHTEST: f64 = 1e-13;
+
+/// Largest difference of a body between the two solutions so far.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodyError {
+    /// Its name.
+    pub body: String,
+    /// Of its centre of mass, m.
+    pub position: f64,
+    /// Of its directors: an angle for small ones, rad.
+    pub turn: f64,
+}
+
+/// What a second solution says about a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verification {
+    /// Integrator of the second solution.
+    pub integrator: IntegratorKind,
+    /// Its tolerance.
+    pub tolerance: f64,
+    /// At how many times the two were compared.
+    pub compared: u64,
+    /// Largest difference of a centre of mass, m.
+    pub position: f64,
+    /// Largest difference of a director, rad.
+    pub turn: f64,
+    /// Largest differences body by body.
+    pub bodies: Vec<BodyError>,
+}
+
+/// A second solution that runs beside a first one.
+#[derive(Clone, Debug)]
+pub struct Verifier {
+    second: Simulation,
+    found: Verification,
+}
+
+impl Verifier {
+    /// Starts the second solution of the scene that `first` runs: by dop853 if that is a Taylor series, by radau if
+    /// it is stiff, else by a series; a hundred times tighter, always with projection.
+    pub fn new(scene: &Scene, first: &mut Simulation) -> Result<Self, EngineError> {
+        let mut scene = scene.clone();
+        let settings = &mut scene.simulation;
+        let by_first = first.summary().integrator;
+        settings.tolerance = (settings.tolerance * TIGHTER).max(TIGHTEST);
+        settings.stabilization = Stabilization::Projection;
+        settings.step = None;
+        settings.integrator = match by_first {
+            IntegratorKind::Taylor => IntegratorKind::Dop853,
+            IntegratorKind::Radau => IntegratorKind::Radau,
+            _ => IntegratorKind::Taylor,
+        };
+        let mut second = Simulation::new(&scene)?;
+        let bodies =
+            scene.bodies.iter().map(|b| BodyError { body: b.name.clone(), position: 0.0, turn: 0.0 });
+        let found = Verification {
+            integrator: second.summary().integrator,
+            tolerance: scene.simulation.tolerance,
+            compared: 0,
+            position: 0.0,
+            turn: 0.0,
+            bodies: bodies.collect(),
+        };
+        Ok(Self { second, found })
+    }
+
+    /// Brings the second solution to the time that the first one shows, by at most so many steps, and compares. False
+    /// if it did not get there: ask again.
+    pub fn compare(&mut self, first: &mut Simulation, most_steps: u64) -> Result<bool, EngineError> {
+        if !self.second.advance_towards(first.time(), most_steps)? {
+            return Ok(false);
+        }
+        let (here, there) = (first.frame(), self.second.frame());
+        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+        for (error, (a, b)) in self.found.bodies.iter_mut().zip(here.bodies.iter().zip(&there.bodies)) {
+            error.position = error.position.max(apart(a.position, b.position));
+            let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));
+            error.turn = error.turn.max(turn);
+            self.found.position = self.found.position.max(error.position);
+            self.found.turn = self.found.turn.max(error.turn);
+        }
+        self.found.compared += 1;
+        Ok(true)
+    }
+
+    /// What was found so far.
+    pub fn found(&self) -> &Verification {
+        &self.found
+    }
+}

@@ -1,0 +1,67 @@
+//! The stress suite, the part that is cheap enough for every change: verdicts are as they have to be, the same seed
+//! gives the same bits, and random mechanisms keep their invariants.
+
+use triad_lab::stress::{self, Treatment, Verdict};
+
+/// Cases of the quick form that take long without optimization; `triad stress --quick` runs them.
+const SLOW: &[&str] = &[
+    "four-bars",
+    "chain-2000",
+    "tree-1023",
+    "net",
+    "four-bar-999",
+    "hub",
+    "friction-smooth",
+    "free-body-turns",
+    "intermediate-axis-turns",
+    "pendulum-2000-s",
+    "chain-of-ten",
+    "spring-1e10",
+    "spring-damped",
+];
+
+#[test]
+fn every_case_goes_as_it_has_to() {
+    for case in stress::cases().iter().filter(|case| !SLOW.contains(&case.name)) {
+        let entry = stress::run(case, &Treatment::default(), true);
+        assert!(entry.as_expected(), "{}: {:?}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
+    }
+}
+
+#[test]
+fn names_of_cases_are_unique() {
+    let mut names: Vec<&str> = stress::cases().iter().map(|case| case.name).collect();
+    let count = names.len();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), count);
+}
+
+#[test]
+fn a_seed_means_the_same_bits() {
+    let once = stress::random::run(7, &Treatment::default());
+    let again = stress::random::run(7, &Treatment::default());
+    assert_eq!(serde_json::to_string(&once).unwrap(), serde_json::to_string(&again).unwrap());
+}
+
+#[test]
+fn random_mechanisms_are_never_silently_wrong() {
+    let seeds = if cfg!(debug_assertions) { 15 } else { 100 };
+    for seed in 0..seeds {
+        let entry = stress::random::run(seed, &Treatment::default());
+        let outcome = entry.outcome;
+        assert!(outcome.verdict < Verdict::Wrong, "seed {seed} ({}): {}", entry.summary, outcome.reason);
+    }
+}
+
+#[test]
+fn no_treatment_is_silently_wrong() {
+    let cases = stress::cases();
+    for name in ["slider-crank-equal", "micrometre"] {
+        let case = cases.iter().find(|case| case.name == name).unwrap();
+        for (treatment, how) in stress::comparison() {
+            let outcome = stress::run(case, &how, true).outcome;
+            assert!(outcome.verdict < Verdict::Wrong, "{name}, {treatment}: {}", outcome.reason);
+        }
+    }
+}
