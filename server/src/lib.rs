@@ -11,7 +11,6 @@ pub mod grading;
 pub mod scenes;
 pub mod store;
 pub mod stream;
-pub mod urdf;
 pub mod variants;
 
 pub mod session;

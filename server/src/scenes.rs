@@ -8,6 +8,7 @@ use triad_engine::analysis::AnalysisError;
 use triad_engine::catalogue;
 use triad_engine::scene::{self, Scene};
 use triad_lab::paper::PaperError;
+use triad_urdf::UrdfError;
 
 use crate::limits::Limits;
 use crate::problem::{Problem, suggest};
@@ -30,6 +31,37 @@ impl From<PaperError> for Problem {
             other @ PaperError::Singular { .. } => {
                 Self::new(StatusCode::UNPROCESSABLE_ENTITY, other.code(), other.to_string(), other.hint())
             }
+        }
+    }
+}
+
+impl From<UrdfError> for Problem {
+    fn from(error: UrdfError) -> Self {
+        let detail = error.to_string();
+        let (status, code, line, hint) = match &error {
+            UrdfError::TooLong { .. } => {
+                (StatusCode::PAYLOAD_TOO_LARGE, "urdf-too-long", None, "import a smaller robot".to_owned())
+            }
+            UrdfError::Xml { line, .. } => (
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "not-xml",
+                Some(*line),
+                "a xacro file must be expanded first: xacro robot.xacro > robot.urdf".to_owned(),
+            ),
+            UrdfError::Wrong { line, hint, .. } => {
+                (StatusCode::UNPROCESSABLE_ENTITY, "not-a-robot", Some(*line), (*hint).to_owned())
+            }
+            UrdfError::Unknown { name, known, .. } => (
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "unknown-in-side-car",
+                None,
+                suggest(name, known.iter().map(String::as_str)),
+            ),
+        };
+        let problem = Self::new(status, code, detail.clone(), hint);
+        match line {
+            Some(line) => problem.at(format!("line={line}"), detail),
+            None => problem,
         }
     }
 }

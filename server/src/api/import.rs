@@ -3,6 +3,7 @@
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use triad_urdf::SideCar;
 use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -10,7 +11,6 @@ use utoipa_axum::routes;
 use super::extract::Json;
 use crate::app::App;
 use crate::problem::{Problem, ProblemDocument};
-use crate::urdf::{self, LeftOut, SideCar};
 use crate::{blocking, session};
 
 pub(super) fn routes() -> OpenApiRouter<App> {
@@ -27,6 +27,23 @@ struct Robot {
     #[serde(default)]
     #[schema(value_type = Object)]
     with: SideCar,
+}
+
+/// Something that could not be carried over.
+#[derive(Debug, Serialize, ToSchema)]
+struct LeftOut {
+    /// Its line in the URDF.
+    line: u32,
+    /// What it belongs to, such as `joint elbow`.
+    of: String,
+    /// What is missing, and what it means.
+    what: String,
+}
+
+impl From<triad_urdf::LeftOut> for LeftOut {
+    fn from(triad_urdf::LeftOut { line, of, what }: triad_urdf::LeftOut) -> Self {
+        Self { line, of, what }
+    }
 }
 
 /// A robot as a scene.
@@ -49,10 +66,11 @@ async fn import(
     Json(robot): Json<Robot>,
 ) -> Result<axum::Json<ImportedView>, Problem> {
     blocking(move || {
-        let imported = urdf::import(&robot.urdf, &robot.with)?;
+        let imported = triad_urdf::import(&robot.urdf, &robot.with)?;
         session::bounded(&imported.scene, &app.limits)?;
         let scene = serde_json::to_value(&imported.scene).map_err(Problem::internal)?;
-        Ok(axum::Json(ImportedView { scene, left_out: imported.left_out }))
+        let left_out = imported.left_out.into_iter().map(LeftOut::from).collect();
+        Ok(axum::Json(ImportedView { scene, left_out }))
     })
     .await
 }

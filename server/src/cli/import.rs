@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
+use triad_urdf::{self as urdf, SideCar};
 
 use super::Outcome;
 use super::terminal::{print_json, print_line};
 use crate::problem::Problem;
 use crate::scenes;
-use crate::urdf::{self, SideCar};
 
 #[derive(Debug, Args)]
 pub(super) struct Import {

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use nalgebra::{Isometry3, Vector3};
-use triad_engine::scene::{
+use triad_scene::{
     AxisRows, Body, Coordinates, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
 };
 

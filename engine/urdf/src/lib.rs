@@ -8,12 +8,8 @@ mod read;
 
 use std::collections::BTreeMap;
 
-use axum::http::StatusCode;
 use serde::{Deserialize, Serialize};
-use triad_engine::scene::{Driver, Joint, Load, Scene, Settings};
-use utoipa::ToSchema;
-
-use crate::problem::Problem;
+use triad_scene::{Driver, Joint, Load, Scene, Settings};
 
 /// Bytes of a URDF.
 pub const MAX_TEXT: usize = 4 << 20;
@@ -63,7 +59,7 @@ pub struct Imported {
 }
 
 /// Something that could not be carried over.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Its line in the URDF.
     pub line: u32,
@@ -112,38 +108,27 @@ pub enum UrdfError {
     },
 }
 
-impl From<UrdfError> for Problem {
-    fn from(error: UrdfError) -> Self {
-        let detail = error.to_string();
-        let (status, code, line, hint) = match &error {
-            UrdfError::TooLong { .. } => {
-                (StatusCode::PAYLOAD_TOO_LARGE, "urdf-too-long", None, "import a smaller robot".to_owned())
-            }
-            UrdfError::Xml { line, .. } => (
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "not-xml",
-                Some(*line),
-                "a xacro file must be expanded first: xacro robot.xacro > robot.urdf".to_owned(),
-            ),
-            UrdfError::Wrong { line, hint, .. } => {
-                (StatusCode::UNPROCESSABLE_ENTITY, "not-a-robot", Some(*line), (*hint).to_owned())
-            }
-            UrdfError::Unknown { name, known, .. } => (
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "unknown-in-side-car",
-                None,
-                crate::problem::suggest(name, known.iter().map(String::as_str)),
-            ),
-        };
-        let problem = Self::new(status, code, detail.clone(), hint);
-        match line {
-            Some(line) => problem.at(format!("line={line}"), detail),
-            None => problem,
-        }
-    }
-}
-
 /// Reads a URDF, with what a side-car adds.
+///
+/// ```
+/// use triad_urdf::{SideCar, import};
+///
+/// let urdf = r#"
+///     <robot name="arm">
+///       <link name="base"/>
+///       <link name="upper"><inertial>
+///         <mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+///       </inertial></link>
+///       <joint name="shoulder" type="continuous">
+///         <parent link="base"/><child link="upper"/><origin xyz="0 0 0.5"/><axis xyz="0 1 0"/>
+///       </joint>
+///     </robot>"#;
+/// let robot = import(urdf, &SideCar::default())?;
+/// assert_eq!(robot.scene.bodies[0].position, [0.0, 0.0, 0.5]);
+/// assert_eq!(robot.scene.joints[0].body_i, "ground");
+/// assert!(robot.left_out.is_empty());
+/// # Ok::<(), triad_urdf::UrdfError>(())
+/// ```
 pub fn import(text: &str, side_car: &SideCar) -> Result<Imported, UrdfError> {
     if text.len() > MAX_TEXT {
         return Err(UrdfError::TooLong { bytes: text.len() });
