@@ -6,11 +6,12 @@ use crate::rank::Rank;
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::system::System;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
 /// Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CheckReport {
     /// Name of the scene.
     pub name: String,
@@ -31,7 +32,7 @@ pub struct CheckReport {
 }
 
 /// Dependent rows of one joint.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct RedundantRows {
     /// The joint.
     pub joint: String,

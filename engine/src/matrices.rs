@@ -8,12 +8,14 @@ use crate::equations::{column_names, row_names};
 use crate::jacobian::Jacobian;
 use crate::literal::for_mass_entries;
 use crate::system::System;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What stands at a place of a symmetric matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "MatrixPart")]
 pub enum Part {
     /// A number of M or S.
     Own,

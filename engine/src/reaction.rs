@@ -13,10 +13,11 @@ use crate::elimination::Elimination;
 use crate::model::BodyRef;
 use crate::row::equation_labels;
 use crate::system::System;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// One multiplier with the label of its equation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Multiplier {
     /// Label of the equation within its joint.
     pub label: String,

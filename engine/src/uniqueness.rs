@@ -12,6 +12,7 @@ pub use remedy::Remedy;
 use crate::elimination::Elimination;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use schemars::JsonSchema;
 use serde::Serialize;
 use triad_linalg::left_null_space;
 
@@ -57,7 +58,7 @@ impl UniquenessError {
 }
 
 /// A set of joints and drivers whose rows repeat each other.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Redundancy {
     /// How many rows are too many.
     pub rows: usize,

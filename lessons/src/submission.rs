@@ -50,6 +50,7 @@ pub struct Answer {
 /// Settings of a run, as chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "RunSettings")]
 pub struct Settings {
     /// The integrator.
     pub integrator: triad_engine::scene::IntegratorKind,
@@ -63,6 +64,7 @@ pub struct Settings {
 /// A value as typed: text keeps the digits that were written, a JSON number is taken as its shortest text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(untagged, expecting = "expected text such as \"12.3\", a number, or a list of these")]
+#[schemars(rename = "TypedValue")]
 pub enum Entry {
     /// Text as typed.
     Text(String),

@@ -8,14 +8,14 @@ use std::fmt;
 
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use schemars::JsonSchema;
 use serde::Serialize;
-use utoipa::ToSchema;
 
 /// One place in the input that is wrong.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Fault {
     /// Where: a JSON pointer into the request body, as a URI fragment.
-    #[schema(example = "#/scene/joints/0/axis")]
+    #[schemars(example = "#/scene/joints/0/axis")]
     pub pointer: String,
     /// What is wrong there.
     pub detail: String,
@@ -32,11 +32,12 @@ pub struct Problem {
 }
 
 /// The members of a problem document as they go over the wire.
-#[derive(Debug, Clone, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(rename = "Problem")]
 pub struct ProblemDocument {
     /// A stable name for this kind of problem, as a URI.
     #[serde(rename = "type")]
-    #[schema(example = "urn:triad:problem:unknown-lesson")]
+    #[schemars(example = "urn:triad:problem:unknown-lesson")]
     pub kind: String,
     /// A short summary, the same for every problem of this kind.
     pub title: String,
@@ -45,7 +46,7 @@ pub struct ProblemDocument {
     /// What happened this time.
     pub detail: String,
     /// The stable name of this kind of problem.
-    #[schema(example = "unknown-lesson")]
+    #[schemars(example = "unknown-lesson")]
     pub code: String,
     /// What to try.
     pub hint: String,

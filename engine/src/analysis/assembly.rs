@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::scene::{GROUND, Joint, JointKind, Scene};
 use crate::system::System;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// How much heavier a body is made that is to keep its velocity.
@@ -16,7 +17,7 @@ const HEAVY: f64 = 1e8;
 const STEPS: usize = 200;
 
 /// A body's place after assembly, in the terms in which its author writes it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Placement {
     /// The body.
     pub body: String,
@@ -35,7 +36,7 @@ pub struct Placement {
 }
 
 /// What assembly did.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Assembly {
     /// The bodies, in the scene's order.
     pub bodies: Vec<Placement>,

@@ -5,6 +5,7 @@ use crate::reaction::report::{Convention, ReactionReport, report};
 use crate::scene::Scene;
 use crate::simulation::BodyFrame;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Most steps of the search.
@@ -15,7 +16,7 @@ const BALANCED: f64 = 1e-10;
 const LARGEST: f64 = 0.2;
 
 /// A position of rest.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Equilibrium {
     /// Steps of the search.
     pub iterations: usize,

@@ -9,6 +9,7 @@ use crate::reaction::report::{Convention, ReactionReport, report};
 use crate::scene::Scene;
 use crate::simulation::BodyFrame;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Violation, relative to the mechanism's length, above which a position counts as not reached.
@@ -17,7 +18,7 @@ const OPEN: f64 = 1e-9;
 const MOST: usize = 100_000;
 
 /// A driven mechanism at one moment.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct KinematicState {
     /// Time, s.
     pub time: f64,
@@ -32,7 +33,7 @@ pub struct KinematicState {
 }
 
 /// A driven motion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Kinematics {
     /// The positions, in the order of time.
     pub states: Vec<KinematicState>,

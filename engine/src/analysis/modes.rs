@@ -4,14 +4,16 @@ use super::{AnalysisError, Stage, equilibrium};
 use crate::scene::Scene;
 use crate::simulation::BodyFrame;
 use nalgebra::{Complex, DMatrix, DVector, Matrix3, Schur, SymmetricEigen, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Damping or asymmetry below this part of the stiffness is none.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// The position that is looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "ModesAbout")]
 pub enum About {
     /// The equilibrium near the start.
     #[default]
@@ -21,7 +23,8 @@ pub enum About {
 }
 
 /// The part of a mode that one body takes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ModeShape")]
 pub struct Motion {
     /// Displacement of the centre of mass, m; of a mode with damping, its part in phase.
     pub translation: [f64; 3],
@@ -34,7 +37,7 @@ pub struct Motion {
 }
 
 /// One mode, moving as e^(λt).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Mode {
     /// What it does, in a word: `oscillates`, `decays`, `grows` or `drifts`.
     pub kind: &'static str,
@@ -49,7 +52,7 @@ pub struct Mode {
 }
 
 /// All modes of a position.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Modes {
     /// Degrees of freedom.
     pub freedoms: usize,

@@ -5,6 +5,7 @@ use crate::model::{BodyRef, DriverKind, ModelJoint};
 use crate::system::{Group, System};
 use crate::uniqueness::{NullSpace, RANK_TOLERANCE, Redundancy, TOLERANCE, UniquenessError};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_linalg::orthonormal_basis;
 
@@ -58,7 +59,8 @@ pub struct Convention {
 }
 
 /// One component of a force or moment.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ReactionComponent")]
 pub struct Component {
     /// Value, N or N m; where it is not unique, that of the smallest multipliers that give the same motion.
     pub value: f64,
@@ -67,7 +69,7 @@ pub struct Component {
 }
 
 /// The reaction of a joint or driver.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Reaction {
     /// The joint or driver.
     pub joint: String,
@@ -92,7 +94,7 @@ pub struct Reaction {
 }
 
 /// Every reaction at one moment.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ReactionReport {
     /// Time, s.
     pub time: f64,

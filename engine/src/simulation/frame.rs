@@ -2,10 +2,11 @@
 
 use super::Simulation;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A body at one moment, in the world frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BodyFrame {
     /// Centre of mass, m.
     pub position: [f64; 3],

@@ -9,13 +9,14 @@ use crate::model::{BodyRef, ModelJoint};
 use crate::scene::{AxisRows, JointKind};
 use crate::system::{Row, System};
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A functional counts as independent of others if more than this part of it is left.
 const INDEPENDENT: f64 = 1e-4;
 
 /// A change of one joint.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Remedy {
     /// The joint.
     pub joint: String,

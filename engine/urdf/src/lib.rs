@@ -8,6 +8,7 @@ mod read;
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_scene::{Driver, Joint, Load, Scene, Settings};
 
@@ -17,8 +18,9 @@ pub const MAX_TEXT: usize = 4 << 20;
 pub const MAX_LINKS: usize = 2_000;
 
 /// What a URDF does not say.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(rename = "UrdfSupplement")]
 pub struct SideCar {
     /// Whether the root link is the ground or moves freely.
     pub root: Root,
@@ -39,8 +41,9 @@ pub struct SideCar {
 }
 
 /// What the root link is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "UrdfRoot")]
 pub enum Root {
     /// Part of the ground.
     #[default]
@@ -59,7 +62,7 @@ pub struct Imported {
 }
 
 /// Something that could not be carried over.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LeftOut {
     /// Its line in the URDF.
     pub line: u32,

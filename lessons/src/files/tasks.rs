@@ -30,6 +30,7 @@ pub struct ImplementFile {
 /// A part of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
+#[schemars(rename = "EquationPart")]
 pub enum Part {
     /// Φ, one number for each row.
     Phi,

@@ -16,6 +16,7 @@ use crate::lesson::Lesson;
 
 /// The states that are dealt to a student, with everything that is needed to write the equations.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Instances")]
 pub struct DealView {
     /// `triad-states-1`.
     pub format: &'static str,
@@ -43,6 +44,7 @@ pub struct DealView {
 
 /// A body.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "InstanceBody")]
 pub struct DealBody {
     /// Name.
     pub name: String,
@@ -58,6 +60,7 @@ pub struct DealBody {
 
 /// A row of a joint: one or three equations.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "InstanceRow")]
 pub struct DealRow {
     /// The joint and the label of the row.
     pub name: String,
@@ -76,6 +79,7 @@ pub struct DealRow {
 
 /// A point or a vector of a body, less another one if there is one.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "InstanceFeature")]
 pub struct DealFeature {
     /// The body, or `ground`.
     pub body: String,
@@ -91,6 +95,7 @@ pub struct DealFeature {
 /// A number, or a prescribed one: its value and two derivatives at each state.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
+#[schemars(rename = "InstanceNumber")]
 pub enum DealNumber {
     /// Always the same.
     Constant(f64),
@@ -105,6 +110,7 @@ pub enum DealNumber {
 
 /// A state.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "InstanceState")]
 pub struct DealState {
     /// Time, s.
     pub t: f64,

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_engine::scene::IntegratorKind;
+use triad_engine::scene::{IntegratorKind, Scene};
 
 use super::Lesson;
 use crate::exercise::{Body, Choice, Question, Trajectory, Tuning};
@@ -61,6 +61,7 @@ pub struct LessonSummary {
 
 /// A lesson as a student sees it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Lesson")]
 pub struct LessonView {
     /// Title, summary and so on.
     #[serde(flatten)]
@@ -70,6 +71,7 @@ pub struct LessonView {
     /// The text as safe HTML.
     pub html: String,
     /// The scenario.
+    #[schemars(with = "Scene")]
     pub scene: serde_json::Value,
     /// Predict, run, check, explain; may be empty.
     pub steps: Vec<StepView>,
@@ -83,6 +85,7 @@ pub struct LessonView {
 
 /// A step as a student sees it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "LessonStep")]
 pub struct StepView {
     /// What to do here.
     pub kind: StepKind,
@@ -92,6 +95,7 @@ pub struct StepView {
 
 /// The questions as a student sees them.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Exercise")]
 pub struct ExerciseView {
     /// Share of the points that passes.
     pub pass_mark: f64,
@@ -101,6 +105,7 @@ pub struct ExerciseView {
 
 /// A question as a student sees it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Question")]
 pub struct QuestionView {
     /// Id under which the answer is sent.
     pub id: String,
@@ -144,6 +149,7 @@ pub struct QuestionView {
 
 /// An option as a student sees it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "ChoiceOption")]
 pub struct OptionView {
     /// Id to send.
     pub id: String,
@@ -153,6 +159,7 @@ pub struct OptionView {
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "TableColumn")]
 pub struct ColumnView {
     /// Its name in the first line.
     pub name: String,
@@ -162,9 +169,9 @@ pub struct ColumnView {
 
 /// What may be chosen for a run.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "TuningChoices")]
 pub struct TuningView {
     /// Integrators.
-    #[schemars(with = "Vec<String>")]
     pub integrators: Vec<IntegratorKind>,
     /// Whether Baumgarte's stabilization may be chosen.
     pub baumgarte: bool,

@@ -2,25 +2,31 @@
 
 use axum::extract::State;
 use axum::http::StatusCode;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::Serialize;
 use serde_json::Value;
-use triad_engine::analysis::{self, About, AnalysisError};
+use triad_engine::analysis::{self, About, AnalysisError, Assembly, Equilibrium, Kinematics, Modes};
 use triad_engine::reaction::report::Convention;
 use triad_engine::scene::Scene;
-use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas, of};
 use super::extract::Json;
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
+use crate::problem::Problem;
 use crate::{blocking, session};
 
 /// Output times that a kinematic analysis over HTTP may have.
 const MOST_TIMES: f64 = 5_001.0;
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.request::<AnalysisRequest>();
+    schemas.answer::<Assembly>();
+    schemas.answer::<Kinematics>();
+    schemas.answer::<Equilibrium>();
+    schemas.answer::<Modes>();
     OpenApiRouter::new()
         .routes(routes!(assembly))
         .routes(routes!(kinematics))
@@ -29,15 +35,14 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 }
 
 /// A scene to analyse.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Asked {
+struct AnalysisRequest {
     /// The scene; its schema is at /api/v1/schema/scene.
-    #[schema(value_type = Object)]
+    #[schemars(with = "Scene")]
     scene: Value,
     /// Modes about the `equilibrium` near the start, or about the `start` itself.
     #[serde(default)]
-    #[schema(value_type = Option<String>, example = "equilibrium")]
     about: About,
     /// Bodies that an assembly must not move.
     #[serde(default)]
@@ -45,42 +50,54 @@ struct Asked {
 }
 
 /// Consistent positions and velocities from a rough start.
-#[utoipa::path(post, path = "/analyses/assembly", tag = "analyses", request_body = Asked, responses(
-    (status = 200, description = "Where each body came to lie, and how far it was moved", body = Object),
-    (status = 422, description = "The scene cannot be assembled", body = ProblemDocument)))]
-async fn assembly(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+#[utoipa::path(post, path = "/analyses/assembly", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+    (status = 200, description = "Where each body came to lie, and how far it was moved", body = ref(of::<Assembly>())),
+    (status = 422, description = "The scene cannot be assembled", body = ref(PROBLEM))))]
+async fn assembly(
+    State(app): State<App>,
+    Json(asked): Json<AnalysisRequest>,
+) -> Result<axum::Json<Value>, Problem> {
     analyse(app, asked, |scene, asked| analysis::assemble(scene, &asked.pinned)).await
 }
 
 /// Positions, velocities, accelerations and driving forces of a scene whose drivers leave it no freedom.
-#[utoipa::path(post, path = "/analyses/kinematics", tag = "analyses", request_body = Asked, responses(
+#[utoipa::path(post, path = "/analyses/kinematics", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
     (status = 200, description = "One state for each output time, with the reactions of joints and drivers",
-        body = Object),
-    (status = 422, description = "The scene is free to move, or too long", body = ProblemDocument)))]
-async fn kinematics(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+        body = ref(of::<Kinematics>())),
+    (status = 422, description = "The scene is free to move, or too long", body = ref(PROBLEM))))]
+async fn kinematics(
+    State(app): State<App>,
+    Json(asked): Json<AnalysisRequest>,
+) -> Result<axum::Json<Value>, Problem> {
     analyse(app, asked, |scene, _| analysis::kinematics(scene, Convention::default())).await
 }
 
 /// A position of rest near the start, whether it is stable, and the reactions there.
-#[utoipa::path(post, path = "/analyses/equilibrium", tag = "analyses", request_body = Asked, responses(
-    (status = 200, description = "The position and its reactions", body = Object),
-    (status = 422, description = "No position of rest was found", body = ProblemDocument)))]
-async fn equilibrium(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+#[utoipa::path(post, path = "/analyses/equilibrium", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+    (status = 200, description = "The position and its reactions", body = ref(of::<Equilibrium>())),
+    (status = 422, description = "No position of rest was found", body = ref(PROBLEM))))]
+async fn equilibrium(
+    State(app): State<App>,
+    Json(asked): Json<AnalysisRequest>,
+) -> Result<axum::Json<Value>, Problem> {
     analyse(app, asked, |scene, _| analysis::equilibrium(scene)).await
 }
 
 /// Small motions about a position: frequencies, damping and shapes.
-#[utoipa::path(post, path = "/analyses/modes", tag = "analyses", request_body = Asked, responses(
-    (status = 200, description = "The modes, slowest first", body = Object),
-    (status = 422, description = "The scene has no modes there", body = ProblemDocument)))]
-async fn modes(State(app): State<App>, Json(asked): Json<Asked>) -> Result<axum::Json<Value>, Problem> {
+#[utoipa::path(post, path = "/analyses/modes", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+    (status = 200, description = "The modes, slowest first", body = ref(of::<Modes>())),
+    (status = 422, description = "The scene has no modes there", body = ref(PROBLEM))))]
+async fn modes(
+    State(app): State<App>,
+    Json(asked): Json<AnalysisRequest>,
+) -> Result<axum::Json<Value>, Problem> {
     analyse(app, asked, |scene, asked| analysis::modes(scene, asked.about)).await
 }
 
 async fn analyse<T: Serialize>(
     app: App,
-    asked: Asked,
-    run: impl FnOnce(&Scene, &Asked) -> Result<T, AnalysisError> + Send + 'static,
+    asked: AnalysisRequest,
+    run: impl FnOnce(&Scene, &AnalysisRequest) -> Result<T, AnalysisError> + Send + 'static,
 ) -> Result<axum::Json<Value>, Problem> {
     blocking(move || {
         let scene = Scene::from_json(&asked.scene.to_string())?;

@@ -14,14 +14,16 @@ use tokio::time::{MissedTickBehavior, interval};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas};
 use super::extract::At;
-use super::stream::{Line, Lost, Notice, PING_INTERVAL, upgrade};
+use super::stream::{Line, Lost, PING_INTERVAL, upgrade};
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
-use crate::room::{Seat, Stage};
+use crate::problem::Problem;
+use crate::room::{LectureMessage, Seat, Stage};
 use crate::stream::{Delivery, Watcher};
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<LectureMessage<'_>>();
     OpenApiRouter::new().routes(routes!(follow))
 }
 
@@ -37,9 +39,9 @@ struct Wish {
 #[utoipa::path(get, path = "/rooms/{code}/stream", tag = "rooms", params(("code" = String, Path),
     ("recording" = Option<bool>, Query, description = "Send the recording for the 3-D view too")), responses(
     (status = 101, description = "The socket is open"),
-    (status = 404, description = "No such room", body = ProblemDocument),
-    (status = 426, description = "The request is not a WebSocket's", body = ProblemDocument),
-    (status = 503, description = "The room is full", body = ProblemDocument)))]
+    (status = 404, description = "No such room", body = ref(PROBLEM)),
+    (status = 426, description = "The request is not a WebSocket's", body = ref(PROBLEM)),
+    (status = 503, description = "The room is full", body = ref(PROBLEM))))]
 async fn follow(
     State(app): State<App>,
     At(code): At<String>,
@@ -75,11 +77,11 @@ async fn follow_on(mut line: Line, mut seat: Seat, recording: bool) -> Result<()
                 let stage = changed.map(|()| seat.stage.borrow_and_update().clone()).unwrap_or(Stage::Closed);
                 watcher = match stage {
                     Stage::Closed => {
-                        line.tell(&Notice::Closed).await?;
+                        line.tell(&LectureMessage::Closed).await?;
                         return line.send(Message::Close(None)).await;
                     }
                     Stage::Session(session) if recording => {
-                        line.tell(&Notice::Reset).await?;
+                        line.tell(&LectureMessage::Reset).await?;
                         Some(session.watch())
                     }
                     Stage::Session(_) | Stage::Empty => None,
@@ -99,7 +101,7 @@ async fn follow_on(mut line: Line, mut seat: Seat, recording: bool) -> Result<()
             },
             delivery = next(&mut watcher) => match delivery {
                 Some(Delivery::Blocks(blocks)) => line.blocks(blocks).await?,
-                Some(Delivery::Restarted) => line.tell(&Notice::Reset).await?,
+                Some(Delivery::Restarted) => line.tell(&LectureMessage::Reset).await?,
                 // The session is gone; the presenter may show another.
                 None => watcher = None,
             },

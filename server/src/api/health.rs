@@ -2,19 +2,21 @@
 
 use axum::Json as Answer;
 use axum::extract::State;
+use schemars::JsonSchema;
 use serde::Serialize;
-use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{Schemas, of};
 use crate::app::App;
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<Health>();
     OpenApiRouter::new().routes(routes!(health))
 }
 
 /// How the server is.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Health {
     /// `ok`.
     status: &'static str,
@@ -30,7 +32,7 @@ struct Health {
 
 /// How the server is.
 #[utoipa::path(get, path = "/health", tag = "server", responses(
-    (status = 200, description = "It is well", body = Health)))]
+    (status = 200, description = "It is well", body = ref(of::<Health>()))))]
 async fn health(State(app): State<App>) -> Answer<Health> {
     Answer(Health {
         status: "ok",

@@ -9,21 +9,27 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::IntoResponse;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_lessons::DealView;
 use triad_lessons::course::CourseError;
 use triad_lessons::lesson::{Lesson, LessonSummary, LessonView};
 use triad_lessons::starter::Language;
-use utoipa::{IntoParams, ToSchema};
+use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas, of};
 use super::extract::{Asked, At};
 use crate::app::App;
 use crate::blocking;
-use crate::problem::{Problem, ProblemDocument, suggest};
+use crate::problem::{Problem, suggest};
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<LessonList>();
+    schemas.answer::<LessonView>();
+    schemas.answer::<Hint>();
+    schemas.answer::<DealView>();
     OpenApiRouter::new()
         .routes(routes!(list))
         .routes(routes!(show))
@@ -58,11 +64,15 @@ pub(crate) fn unknown(course: &triad_lessons::Course, name: &str) -> Problem {
     )
 }
 
+/// The lessons of a course.
+#[derive(Debug, Serialize, JsonSchema)]
+struct LessonList(Vec<LessonSummary>);
+
 /// The lessons, in the order of the course.
 #[utoipa::path(get, path = "/lessons", tag = "lessons", responses(
-    (status = 200, description = "Slug, number, title, summary, minutes and objectives of each", body = Vec<Object>)))]
-async fn list(State(app): State<App>) -> Answer<Vec<LessonSummary>> {
-    Answer(app.course.lessons().iter().map(Lesson::summary).collect())
+    (status = 200, description = "Slug, number, title, summary, minutes and objectives of each", body = ref(of::<LessonList>()))))]
+async fn list(State(app): State<App>) -> Answer<LessonList> {
+    Answer(LessonList(app.course.lessons().iter().map(Lesson::summary).collect()))
 }
 
 /// Whose numbers.
@@ -89,8 +99,8 @@ pub(super) fn variant(app: &App, name: &str, seed: Option<&str>) -> Result<Arc<L
 
 /// A lesson: its text, its scenario and its exercise, without the answers.
 #[utoipa::path(get, path = "/lessons/{slug}", tag = "lessons", params(("slug" = String, Path), Whose), responses(
-    (status = 200, description = "The lesson", body = Object),
-    (status = 404, description = "No such lesson", body = ProblemDocument)))]
+    (status = 200, description = "The lesson", body = ref(of::<LessonView>())),
+    (status = 404, description = "No such lesson", body = ref(PROBLEM))))]
 async fn show(
     State(app): State<App>,
     At(slug): At<String>,
@@ -100,7 +110,7 @@ async fn show(
 }
 
 /// One hint.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct Hint {
     /// Its text.
     html: String,
@@ -109,8 +119,8 @@ struct Hint {
 /// A hint to a question; the first is number 1.
 #[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/hints/{k}", tag = "lessons",
     params(("slug" = String, Path), ("id" = String, Path), ("k" = usize, Path), Whose), responses(
-    (status = 200, description = "The hint", body = Hint),
-    (status = 404, description = "No such lesson, question or hint", body = ProblemDocument)))]
+    (status = 200, description = "The hint", body = ref(of::<Hint>())),
+    (status = 404, description = "No such lesson, question or hint", body = ref(PROBLEM))))]
 async fn hint(
     State(app): State<App>,
     At((slug, id, k)): At<(String, String, usize)>,
@@ -132,8 +142,8 @@ async fn hint(
 /// The states at which a student's own program evaluates the equations.
 #[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/states", tag = "lessons",
     params(("slug" = String, Path), ("id" = String, Path), Whose), responses(
-    (status = 200, description = "The mechanism in numbers, names of rows and columns, and the states", body = Object),
-    (status = 404, description = "No such lesson, or no such question of kind implement", body = ProblemDocument)))]
+    (status = 200, description = "The mechanism in numbers, names of rows and columns, and the states", body = ref(of::<DealView>())),
+    (status = 404, description = "No such lesson, or no such question of kind implement", body = ref(PROBLEM))))]
 async fn states(
     State(app): State<App>,
     At((slug, id)): At<(String, String)>,
@@ -157,7 +167,7 @@ pub(crate) fn deal(lesson: &Lesson, id: &str) -> Result<DealView, Problem> {
     params(("slug" = String, Path), ("id" = String, Path), ("language" = String, Path,
     description = "python, octave (the same as matlab) or julia")), responses(
     (status = 200, description = "The program", body = String, content_type = "text/plain"),
-    (status = 404, description = "No such lesson, question or language", body = ProblemDocument)))]
+    (status = 404, description = "No such lesson, question or language", body = ref(PROBLEM))))]
 async fn starter(
     State(app): State<App>,
     At((slug, id, language)): At<(String, String, String)>,

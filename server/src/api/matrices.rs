@@ -2,17 +2,18 @@
 
 use axum::extract::State;
 use axum::http::StatusCode;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_engine::check::dependent_sets;
 use triad_engine::matrices::{Part, Symmetric};
 use triad_engine::simulation::Simulation;
-use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas, of};
 use super::extract::{Asked, At};
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
+use crate::problem::Problem;
 use crate::session::Session;
 
 /// Rows of the largest matrix that is told in full.
@@ -20,7 +21,9 @@ const MOST_ROWS: usize = 3_000;
 /// Its largest number of places.
 const MOST_PLACES: usize = 60_000;
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<JacobianView>();
+    schemas.answer::<SymmetricView>();
     OpenApiRouter::new().routes(routes!(jacobian)).routes(routes!(augmented)).routes(routes!(schur))
 }
 
@@ -34,7 +37,8 @@ pub(super) struct When {
 }
 
 /// The Jacobian of the constraints: a sparse matrix whose rows and columns have names.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Jacobian")]
 pub(super) struct JacobianView {
     /// Time, s.
     time: f64,
@@ -43,18 +47,16 @@ pub(super) struct JacobianView {
     /// What each column is: its body, and the coordinate.
     columns: Vec<String>,
     /// Row, column, value, and whether the entry never changes; entries that are not listed are zero by structure.
-    #[schema(value_type = Vec<Vec<Object>>)]
     entries: Vec<(usize, usize, f64, bool)>,
     /// Rank near the start.
     rank: usize,
     /// Rows of which some say again what others say.
-    redundant: Vec<RedundantView>,
+    redundant: Vec<RedundantSet>,
 }
 
 /// Rows of one form of which some say again what others say.
-#[derive(Debug, Serialize, ToSchema)]
-#[schema(as = RedundantSet)]
-struct RedundantView {
+#[derive(Debug, Serialize, JsonSchema)]
+struct RedundantSet {
     /// The rows, as indices.
     rows: Vec<usize>,
     /// How many of them are too many.
@@ -64,8 +66,8 @@ struct RedundantView {
 /// The Jacobian.
 #[utoipa::path(get, path = "/sessions/{id}/jacobian", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
-    responses((status = 200, description = "Pattern and values", body = JacobianView),
-    (status = 422, description = "The state of that time is not kept", body = ProblemDocument)))]
+    responses((status = 200, description = "Pattern and values", body = ref(of::<JacobianView>())),
+    (status = 422, description = "The state of that time is not kept", body = ref(PROBLEM))))]
 async fn jacobian(
     State(app): State<App>,
     At(id): At<String>,
@@ -81,7 +83,7 @@ pub(super) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<Ja
             let sets = dependent_sets(run.system(), run.rank());
             let redundant = sets
                 .into_iter()
-                .map(|set| RedundantView { rows: set.equations.collect(), dependent: set.dependent })
+                .map(|set| RedundantSet { rows: set.equations.collect(), dependent: set.dependent })
                 .collect();
             let system = run.system();
             let freedoms = 6 * system.bodies.len() - run.rank().rank;
@@ -100,14 +102,14 @@ pub(super) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<Ja
 }
 
 /// A symmetric matrix: what stands on and below its diagonal.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "SymmetricMatrix")]
 pub(super) struct SymmetricView {
     /// Time, s.
     time: f64,
     /// What each row is, and each column alike.
     names: Vec<String>,
     /// Row, column, value, and what it is: `own`, `constant`, `changing` or `fill`.
-    #[schema(value_type = Vec<Vec<Object>>)]
     places: Vec<(usize, usize, f64, Part)>,
     /// Places on or below the diagonal that a factorization fills.
     fill: usize,
@@ -116,8 +118,8 @@ pub(super) struct SymmetricView {
 /// The augmented matrix of the equations of motion, with the fill of eliminating coordinates first.
 #[utoipa::path(get, path = "/sessions/{id}/augmented", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
-    responses((status = 200, description = "Pattern and values", body = SymmetricView),
-    (status = 422, description = "It is too large, or the state of that time is not kept", body = ProblemDocument)))]
+    responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
+    (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
 async fn augmented(
     State(app): State<App>,
     At(id): At<String>,
@@ -129,8 +131,8 @@ async fn augmented(
 /// The matrix S that the solver factors, in its order of elimination, with the fill of its factor.
 #[utoipa::path(get, path = "/sessions/{id}/schur", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
-    responses((status = 200, description = "Pattern and values", body = SymmetricView),
-    (status = 422, description = "It is too large, or the state of that time is not kept", body = ProblemDocument)))]
+    responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
+    (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
 async fn schur(
     State(app): State<App>,
     At(id): At<String>,

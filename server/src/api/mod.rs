@@ -3,6 +3,7 @@
 mod analyses;
 mod bounds;
 mod changes;
+mod describe;
 mod extract;
 mod follow;
 mod health;
@@ -24,15 +25,16 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use serde_json::Value;
 use utoipa::OpenApi;
-use utoipa::openapi::OpenApi as Document;
 use utoipa_axum::router::OpenApiRouter;
 
 use crate::app::App;
 use crate::page;
-use crate::problem::Problem;
+use crate::problem::{Problem, ProblemDocument};
 use crate::reports;
 
+use describe::Schemas;
 pub(crate) use extract::parse;
 pub(crate) use lessons::{deal, starter_of, unknown as unknown_lesson};
 
@@ -57,30 +59,33 @@ pub(crate) use lessons::{deal, starter_of, unknown as unknown_lesson};
 )]
 struct Head;
 
-fn described() -> (Router<App>, Document) {
-    OpenApiRouter::with_openapi(Head::openapi())
+fn described() -> (Router<App>, Value) {
+    let mut schemas = Schemas::new();
+    schemas.answer::<ProblemDocument>();
+    let (routes, document) = OpenApiRouter::with_openapi(Head::openapi())
         .nest(
             "/api/v1",
             OpenApiRouter::new()
-                .merge(lessons::routes())
-                .merge(submissions::routes())
-                .merge(scenes::routes())
-                .merge(import::routes())
-                .merge(sessions::routes())
-                .merge(changes::routes())
-                .merge(analyses::routes())
-                .merge(reactions::routes())
-                .merge(matrices::routes())
-                .merge(stream::routes())
-                .merge(rooms::routes())
-                .merge(follow::routes())
-                .merge(health::routes()),
+                .merge(lessons::routes(&mut schemas))
+                .merge(submissions::routes(&mut schemas))
+                .merge(scenes::routes(&mut schemas))
+                .merge(import::routes(&mut schemas))
+                .merge(sessions::routes(&mut schemas))
+                .merge(changes::routes(&mut schemas))
+                .merge(analyses::routes(&mut schemas))
+                .merge(reactions::routes(&mut schemas))
+                .merge(matrices::routes(&mut schemas))
+                .merge(stream::routes(&mut schemas))
+                .merge(rooms::routes(&mut schemas))
+                .merge(follow::routes(&mut schemas))
+                .merge(health::routes(&mut schemas)),
         )
-        .split_for_parts()
+        .split_for_parts();
+    (routes, schemas.complete(document))
 }
 
 /// The description of the interface (OpenAPI 3.1).
-pub fn openapi() -> Document {
+pub fn openapi() -> Value {
     described().1
 }
 

@@ -5,21 +5,30 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use triad_engine::simulation::Simulation;
-use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas, of};
 use super::extract::{Asked, At, Json};
-use super::matrices::{When, jacobian_of, symmetric_of};
-use super::reactions::{Wanted, multipliers_of, reactions_of};
+use super::matrices::{JacobianView, SymmetricView, When, jacobian_of, symmetric_of};
+use super::reactions::{MultipliersList, ReactionsView, Wanted, multipliers_of, reactions_of};
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
+use crate::problem::Problem;
 use crate::room::{Board, DeskView, NewQuestion, Room, Vote};
+use crate::session::SceneView;
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.request::<NewRoom>();
+    schemas.answer::<OpenedRoom>();
+    schemas.answer::<Board>();
+    schemas.request::<NewView>();
+    schemas.answer::<DeskView>();
+    schemas.request::<NewQuestion>();
+    schemas.request::<Vote>();
     OpenApiRouter::new()
         .routes(routes!(open))
         .routes(routes!(board, close))
@@ -37,15 +46,17 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 }
 
 /// The session that a lecture shows.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "NewLecture")]
 struct NewRoom {
     /// Its id; who knows it may show it.
     session: String,
 }
 
 /// A room that was opened.
-#[derive(Debug, Serialize, ToSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "OpenedLecture")]
 struct OpenedRoom {
     /// What followers type to join.
     code: String,
@@ -56,10 +67,10 @@ struct OpenedRoom {
 }
 
 /// Open a lecture room for a session.
-#[utoipa::path(post, path = "/rooms", tag = "rooms", request_body = NewRoom, responses(
-    (status = 201, description = "The room, and the presenter's key", body = OpenedRoom),
-    (status = 404, description = "No such session", body = ProblemDocument),
-    (status = 503, description = "All rooms are in use", body = ProblemDocument)))]
+#[utoipa::path(post, path = "/rooms", tag = "rooms", request_body(content = ref(of::<NewRoom>())), responses(
+    (status = 201, description = "The room, and the presenter's key", body = ref(of::<OpenedRoom>())),
+    (status = 404, description = "No such session", body = ref(PROBLEM)),
+    (status = 503, description = "All rooms are in use", body = ref(PROBLEM))))]
 async fn open(State(app): State<App>, Json(new): Json<NewRoom>) -> Result<impl IntoResponse, Problem> {
     let room = app.rooms.open(app.sessions.get(&new.session)?, &app.limits)?;
     let opened = OpenedRoom {
@@ -72,8 +83,8 @@ async fn open(State(app): State<App>, Json(new): Json<NewRoom>) -> Result<impl I
 
 /// What is shown and asked in a room.
 #[utoipa::path(get, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "What followers are told", body = Board),
-    (status = 404, description = "No such room", body = ProblemDocument)))]
+    (status = 200, description = "What followers are told", body = ref(of::<Board>())),
+    (status = 404, description = "No such room", body = ref(PROBLEM))))]
 async fn board(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Board>, Problem> {
     Ok(axum::Json(app.rooms.get(&code)?.board()))
 }
@@ -81,7 +92,7 @@ async fn board(State(app): State<App>, At(code): At<String>) -> Result<axum::Jso
 /// End a lecture. For the presenter.
 #[utoipa::path(delete, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 204, description = "It is over"),
-    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn close(
     State(app): State<App>,
     At(code): At<String>,
@@ -93,21 +104,21 @@ async fn close(
 }
 
 /// What the presenter shows.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "NewLectureView")]
 struct NewView {
     /// Another session than before.
     session: Option<String>,
     /// Time, selection and panels in the page's own words.
-    #[schema(value_type = Option<Object>)]
     view: Option<Value>,
 }
 
 /// Show something else. For the presenter.
 #[utoipa::path(put, path = "/rooms/{code}/view", tag = "rooms", params(("code" = String, Path)),
-    request_body = NewView, responses(
+    request_body(content = ref(of::<NewView>())), responses(
     (status = 204, description = "Followers are being told"),
-    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn show(
     State(app): State<App>,
     At(code): At<String>,
@@ -126,8 +137,8 @@ async fn show(
 
 /// How many follow, and how the answers stand. For the presenter.
 #[utoipa::path(get, path = "/rooms/{code}/desk", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "Followers and answers", body = DeskView),
-    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+    (status = 200, description = "Followers and answers", body = ref(of::<DeskView>())),
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn desk(
     State(app): State<App>,
     At(code): At<String>,
@@ -138,10 +149,10 @@ async fn desk(
 
 /// Ask a question. For the presenter.
 #[utoipa::path(put, path = "/rooms/{code}/question", tag = "rooms", params(("code" = String, Path)),
-    request_body = NewQuestion, responses(
+    request_body(content = ref(of::<NewQuestion>())), responses(
     (status = 204, description = "It is asked"),
-    (status = 403, description = "The key is missing or wrong", body = ProblemDocument),
-    (status = 422, description = "The question was refused", body = ProblemDocument)))]
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM)),
+    (status = 422, description = "The question was refused", body = ref(PROBLEM))))]
 async fn ask(
     State(app): State<App>,
     At(code): At<String>,
@@ -155,7 +166,7 @@ async fn ask(
 /// Take the question away. For the presenter.
 #[utoipa::path(delete, path = "/rooms/{code}/question", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 204, description = "It is gone"),
-    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn forget(
     State(app): State<App>,
     At(code): At<String>,
@@ -168,7 +179,7 @@ async fn forget(
 /// Tell everybody how the answers stand and which is right. For the presenter.
 #[utoipa::path(post, path = "/rooms/{code}/reveal", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 204, description = "Everybody is told"),
-    (status = 403, description = "The key is missing or wrong", body = ProblemDocument)))]
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn reveal(
     State(app): State<App>,
     At(code): At<String>,
@@ -180,9 +191,9 @@ async fn reveal(
 
 /// Answer the question.
 #[utoipa::path(post, path = "/rooms/{code}/answers", tag = "rooms", params(("code" = String, Path)),
-    request_body = Vote, responses(
+    request_body(content = ref(of::<Vote>())), responses(
     (status = 204, description = "It is counted"),
-    (status = 409, description = "There is no such question any more", body = ProblemDocument)))]
+    (status = 409, description = "There is no such question any more", body = ref(PROBLEM))))]
 async fn answer(
     State(app): State<App>,
     At(code): At<String>,
@@ -202,7 +213,7 @@ fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Room>, Problem>
 
 /// The scene that is shown, as it is now.
 #[utoipa::path(get, path = "/rooms/{code}/scene", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "As /sessions/{id}/scene", body = Object)))]
+    (status = 200, description = "As /sessions/{id}/scene", body = ref(of::<SceneView>()))))]
 async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Value>, Problem> {
     let told =
         app.rooms.get(&code)?.told("scene", |session| async move { as_json(session.scene().await?) }).await;
@@ -211,7 +222,7 @@ async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Jso
 
 /// The Jacobian of the session that is shown.
 #[utoipa::path(get, path = "/rooms/{code}/jacobian", tag = "rooms", params(("code" = String, Path),
-    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/jacobian", body = Object)))]
+    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/jacobian", body = ref(of::<JacobianView>()))))]
 async fn jacobian(
     State(app): State<App>,
     At(code): At<String>,
@@ -228,7 +239,7 @@ async fn jacobian(
 
 /// The augmented matrix of the session that is shown.
 #[utoipa::path(get, path = "/rooms/{code}/augmented", tag = "rooms", params(("code" = String, Path),
-    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/augmented", body = Object)))]
+    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/augmented", body = ref(of::<SymmetricView>()))))]
 async fn augmented(
     State(app): State<App>,
     At(code): At<String>,
@@ -239,7 +250,7 @@ async fn augmented(
 
 /// The matrix that the solver factors, of the session that is shown.
 #[utoipa::path(get, path = "/rooms/{code}/schur", tag = "rooms", params(("code" = String, Path),
-    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/schur", body = Object)))]
+    ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/schur", body = ref(of::<SymmetricView>()))))]
 async fn schur(
     State(app): State<App>,
     At(code): At<String>,
@@ -266,7 +277,7 @@ async fn symmetric(
 /// The multipliers of the session that is shown.
 #[utoipa::path(get, path = "/rooms/{code}/multipliers", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)),
-    responses((status = 200, description = "As /sessions/{id}/multipliers", body = Object)))]
+    responses((status = 200, description = "As /sessions/{id}/multipliers", body = ref(of::<MultipliersList>()))))]
 async fn multipliers(
     State(app): State<App>,
     At(code): At<String>,
@@ -283,7 +294,7 @@ async fn multipliers(
 #[utoipa::path(get, path = "/rooms/{code}/reactions", tag = "rooms", params(("code" = String, Path),
     ("on" = Option<String>, Query), ("about" = Option<String>, Query), ("in" = Option<String>, Query),
     ("at" = Option<f64>, Query)),
-    responses((status = 200, description = "As /sessions/{id}/reactions", body = Object)))]
+    responses((status = 200, description = "As /sessions/{id}/reactions", body = ref(of::<ReactionsView>()))))]
 async fn reactions(
     State(app): State<App>,
     At(code): At<String>,

@@ -5,15 +5,16 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use triad_engine::scene::{Scene, Stabilization};
-use utoipa::ToSchema;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas, of};
 use super::extract::{At, Json};
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
+use crate::problem::Problem;
 use crate::session::{Change, SessionState, Source};
 use crate::{blocking, scenes};
 
@@ -22,7 +23,11 @@ const MOST_STEPS: u32 = 100_000;
 /// Simulated seconds a second that a session may play.
 const SPEEDS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.request::<NewSession>();
+    schemas.request::<StepRequest>();
+    schemas.request::<PlayRequest>();
+    schemas.answer::<SessionState>();
     OpenApiRouter::new()
         .routes(routes!(create))
         .routes(routes!(show, delete))
@@ -33,7 +38,7 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 }
 
 /// What to simulate: exactly one of `lesson`, `builtin` and `scene`.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct NewSession {
     /// The scenario of a lesson, by the lesson's slug.
@@ -41,10 +46,10 @@ struct NewSession {
     /// With `lesson`: whose numbers, a student's name or another seed; without it, those that everybody sees.
     seed: Option<String>,
     /// A built-in scene, by name.
-    #[schema(example = "n-four-bar:2")]
+    #[schemars(example = "n-four-bar:2")]
     builtin: Option<String>,
     /// A scene; its schema is at /api/v1/schema/scene.
-    #[schema(value_type = Option<Object>)]
+    #[schemars(with = "Option<Scene>")]
     scene: Option<serde_json::Value>,
     /// Settings that replace those of the scene.
     #[serde(default)]
@@ -55,7 +60,7 @@ struct NewSession {
 }
 
 /// Settings that replace those of the scene.
-#[derive(Debug, Default, Deserialize, ToSchema)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct Overrides {
     /// End of the simulation, s.
@@ -65,7 +70,6 @@ struct Overrides {
     /// Tolerance of the integrator.
     tolerance: Option<f64>,
     /// How the constraints are kept.
-    #[schema(value_type = Option<Object>)]
     stabilization: Option<Stabilization>,
 }
 
@@ -80,11 +84,11 @@ impl Overrides {
 }
 
 /// Start a live simulation.
-#[utoipa::path(post, path = "/sessions", tag = "sessions", request_body = NewSession, responses(
-    (status = 201, description = "The session, at its start", body = SessionState,
+#[utoipa::path(post, path = "/sessions", tag = "sessions", request_body(content = ref(of::<NewSession>())), responses(
+    (status = 201, description = "The session, at its start", body = ref(of::<SessionState>()),
         headers(("location" = String, description = "Its address"))),
-    (status = 422, description = "The scene was refused", body = ProblemDocument),
-    (status = 503, description = "All sessions are in use", body = ProblemDocument)))]
+    (status = 422, description = "The scene was refused", body = ref(PROBLEM)),
+    (status = 503, description = "All sessions are in use", body = ref(PROBLEM))))]
 async fn create(
     State(app): State<App>,
     Json(wanted): Json<NewSession>,
@@ -137,8 +141,8 @@ fn choose(
 
 /// A session's state.
 #[utoipa::path(get, path = "/sessions/{id}", tag = "sessions", params(("id" = String, Path)), responses(
-    (status = 200, description = "The state now", body = SessionState),
-    (status = 404, description = "No such session", body = ProblemDocument)))]
+    (status = 200, description = "The state now", body = ref(of::<SessionState>())),
+    (status = 404, description = "No such session", body = ref(PROBLEM))))]
 async fn show(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.state()))
 }
@@ -146,16 +150,16 @@ async fn show(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<A
 /// Close a session.
 #[utoipa::path(delete, path = "/sessions/{id}", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 204, description = "It is closed"),
-    (status = 404, description = "No such session", body = ProblemDocument)))]
+    (status = 404, description = "No such session", body = ref(PROBLEM))))]
 async fn delete(State(app): State<App>, At(id): At<String>) -> Result<StatusCode, Problem> {
     app.sessions.remove(&id)?;
     Ok(StatusCode::NO_CONTENT)
 }
 
 /// How far to step: `steps` of the integrator or simulated `seconds`; one step if neither is given.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Stride {
+struct StepRequest {
     /// Integrator steps, 1 to 100000.
     steps: Option<u32>,
     /// Simulated seconds, above 0.
@@ -164,19 +168,19 @@ struct Stride {
 
 /// Step a session; it is paused first.
 #[utoipa::path(post, path = "/sessions/{id}/step", tag = "sessions", params(("id" = String, Path)),
-    request_body = Stride, responses(
-    (status = 200, description = "The state after it", body = SessionState),
-    (status = 409, description = "The simulation has stopped", body = ProblemDocument),
-    (status = 422, description = "The engine could not go on; the last good state is kept", body = ProblemDocument)))]
+    request_body(content = ref(of::<StepRequest>())), responses(
+    (status = 200, description = "The state after it", body = ref(of::<SessionState>())),
+    (status = 409, description = "The simulation has stopped", body = ref(PROBLEM)),
+    (status = 422, description = "The engine could not go on; the last good state is kept", body = ref(PROBLEM))))]
 async fn step(
     State(app): State<App>,
     At(id): At<String>,
-    Json(stride): Json<Stride>,
+    Json(step): Json<StepRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
-    let state = match (stride.steps, stride.seconds) {
+    let state = match (step.steps, step.seconds) {
         (_, None) => {
-            let steps = stride.steps.unwrap_or(1);
+            let steps = step.steps.unwrap_or(1);
             if !(1..=MOST_STEPS).contains(&steps) {
                 return Err(out_of_range(
                     "/steps",
@@ -212,25 +216,25 @@ fn out_of_range(pointer: &str, detail: String) -> Problem {
 }
 
 /// How fast to play.
-#[derive(Debug, Deserialize, ToSchema)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Pace {
+struct PlayRequest {
     /// Simulated seconds a second, 0.001 to 1000; 1 if it is not given.
     speed: Option<f64>,
 }
 
 /// Let time run.
 #[utoipa::path(post, path = "/sessions/{id}/play", tag = "sessions", params(("id" = String, Path)),
-    request_body = Pace, responses(
-    (status = 200, description = "The state at that moment", body = SessionState),
-    (status = 409, description = "The simulation has stopped", body = ProblemDocument)))]
+    request_body(content = ref(of::<PlayRequest>())), responses(
+    (status = 200, description = "The state at that moment", body = ref(of::<SessionState>())),
+    (status = 409, description = "The simulation has stopped", body = ref(PROBLEM))))]
 async fn play(
     State(app): State<App>,
     At(id): At<String>,
-    Json(pace): Json<Pace>,
+    Json(play): Json<PlayRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
-    let speed = pace.speed.unwrap_or(1.0);
+    let speed = play.speed.unwrap_or(1.0);
     if !SPEEDS.contains(&speed) {
         return Err(out_of_range("/speed", format!("speed must be from 0.001 to 1000, not {speed}")));
     }
@@ -239,14 +243,14 @@ async fn play(
 
 /// Stop time.
 #[utoipa::path(post, path = "/sessions/{id}/pause", tag = "sessions", params(("id" = String, Path)), responses(
-    (status = 200, description = "The state at that moment", body = SessionState)))]
+    (status = 200, description = "The state at that moment", body = ref(of::<SessionState>()))))]
 async fn pause(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.pause().await?))
 }
 
 /// Go back to the start; the recording begins anew.
 #[utoipa::path(post, path = "/sessions/{id}/reset", tag = "sessions", params(("id" = String, Path)), responses(
-    (status = 200, description = "The state at the start", body = SessionState)))]
+    (status = 200, description = "The state at the start", body = ref(of::<SessionState>()))))]
 async fn reset(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.reset().await?))
 }

@@ -12,15 +12,17 @@ use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{FromRequestParts, Request, State};
 use axum::http::StatusCode;
 use axum::response::Response;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tokio::sync::watch;
 use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas};
 use super::extract::At;
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
+use crate::problem::Problem;
 use crate::session::SessionState;
 use crate::stream::{Delivery, Watcher};
 
@@ -29,24 +31,28 @@ const STATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Between two pings, so that nobody between us closes a quiet connection.
 pub(super) const PING_INTERVAL: Duration = Duration::from_secs(20);
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<SessionMessage<'_>>();
     OpenApiRouter::new().routes(routes!(stream))
 }
 
 /// What a watcher is told in text.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case")]
-pub(super) enum Notice<'a> {
+enum SessionMessage<'a> {
+    /// The session's state.
     State(&'a SessionState),
+    /// The recording begins anew: the viewer must forget the old one.
     Reset,
+    /// The session is closed.
     Closed,
 }
 
 /// Watch a session: a WebSocket of RRD blocks (binary) and states (text).
 #[utoipa::path(get, path = "/sessions/{id}/stream", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 101, description = "The socket is open"),
-    (status = 404, description = "No such session", body = ProblemDocument),
-    (status = 426, description = "The request is not a WebSocket's", body = ProblemDocument)))]
+    (status = 404, description = "No such session", body = ref(PROBLEM)),
+    (status = 426, description = "The request is not a WebSocket's", body = ref(PROBLEM))))]
 async fn stream(State(app): State<App>, At(id): At<String>, request: Request) -> Result<Response, Problem> {
     let session = app.sessions.get(&id)?;
     let upgrade = upgrade(&app, request).await?;
@@ -99,13 +105,13 @@ impl Line {
                 },
                 delivery = watcher.next() => match delivery {
                     Some(Delivery::Blocks(blocks)) => self.blocks(blocks).await,
-                    Some(Delivery::Restarted) => self.tell(&Notice::Reset).await,
+                    Some(Delivery::Restarted) => self.tell(&SessionMessage::Reset).await,
                     None => return,
                 },
                 _ = beat.tick() => match states.has_changed() {
                     Ok(true) => {
                         let state = Arc::clone(&states.borrow_and_update());
-                        self.tell(&Notice::State(&state)).await
+                        self.tell(&SessionMessage::State(&state)).await
                     }
                     Ok(false) if last_ping.elapsed() > PING_INTERVAL => {
                         last_ping = Instant::now();
@@ -114,7 +120,7 @@ impl Line {
                     Ok(false) => Ok(()),
                     Err(_) => {
                         // The worker is gone, and with it the session.
-                        drop(self.tell(&Notice::Closed).await);
+                        drop(self.tell(&SessionMessage::Closed).await);
                         drop(self.send(Message::Close(None)).await);
                         return;
                     }
@@ -133,8 +139,8 @@ impl Line {
         Ok(())
     }
 
-    pub async fn tell(&mut self, notice: &Notice<'_>) -> Result<(), Lost> {
-        let text = serde_json::to_string(notice).map_err(|_| Lost)?;
+    pub async fn tell(&mut self, message: &impl Serialize) -> Result<(), Lost> {
+        let text = serde_json::to_string(message).map_err(|_| Lost)?;
         self.send(Message::Text(text.into())).await
     }
 

@@ -3,29 +3,49 @@
 // The documentation macro writes out paths of its own.
 #![allow(unused_qualifications)]
 
+use std::collections::BTreeMap;
+
 use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::IntoResponse;
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use triad_lessons::Verdict;
+use triad_lessons::submission::{Entry, Settings};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::describe::{PROBLEM, Schemas, of};
 use super::extract::{Asked, At, Json};
 use super::lessons;
 use crate::app::App;
-use crate::problem::{Problem, ProblemDocument};
+use crate::problem::Problem;
 use crate::store::{Query, Submission};
 use crate::{blocking, grading};
 
 /// Longest name of a student, in characters.
 const LONGEST_NAME: usize = 100;
 
-pub(super) fn routes() -> OpenApiRouter<App> {
+pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.request::<triad_lessons::Submission>();
+    schemas.answer::<GradedSubmission>();
+    schemas.answer::<SubmissionList>();
     OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list))
+}
+
+/// The verdict of a submission.
+#[derive(Debug, Serialize, JsonSchema)]
+struct GradedSubmission {
+    /// Its name; null where nothing was graded, hence nothing kept.
+    id: Option<String>,
+    /// When it came, RFC 3339 in UTC.
+    submitted_at: String,
+    /// What it earned.
+    #[serde(flatten)]
+    verdict: Verdict,
 }
 
 /// Hand in answers to a lesson's exercise.
@@ -35,12 +55,12 @@ pub(super) fn routes() -> OpenApiRouter<App> {
 /// Where the author opens the right answers (to those who passed, or after so many attempts), each question has its
 /// `reference_html`.
 #[utoipa::path(post, path = "/lessons/{slug}/submissions", tag = "submissions", params(("slug" = String, Path)),
-    request_body(content = Object, example = json!({"student": "ada", "answers": {"tension": {"value": "29.4", "unit": "N"}}})),
+    request_body(content = ref(of::<triad_lessons::Submission>()), example = json!({"student": "ada", "answers": {"tension": {"value": "29.4", "unit": "N"}}})),
     responses(
-    (status = 201, description = "Graded and kept", body = Object),
-    (status = 200, description = "Not gradable: says what to correct", body = Object),
-    (status = 404, description = "No such lesson", body = ProblemDocument),
-    (status = 422, description = "Not a submission", body = ProblemDocument)))]
+    (status = 201, description = "Graded and kept", body = ref(of::<GradedSubmission>())),
+    (status = 200, description = "Not gradable: says what to correct", body = ref(of::<GradedSubmission>())),
+    (status = 404, description = "No such lesson", body = ref(PROBLEM)),
+    (status = 422, description = "Not a submission", body = ref(PROBLEM))))]
 async fn submit(
     State(app): State<App>,
     At(slug): At<String>,
@@ -54,12 +74,14 @@ async fn submit(
         let id = uuid::Uuid::new_v4().simple().to_string();
         let submitted_at = format!("{:.3}", jiff::Timestamp::now());
         let gradable = verdict.gradable;
+        verdict.student = Some(student.clone());
         let described = |verdict: &Verdict| {
-            let mut document = serde_json::to_value(verdict).map_err(Problem::internal)?;
-            document["student"] = json!(student);
-            document["submitted_at"] = json!(submitted_at);
-            document["id"] = if gradable { json!(id) } else { Value::Null };
-            Ok::<_, Problem>(document)
+            let graded = GradedSubmission {
+                id: gradable.then(|| id.clone()),
+                submitted_at: submitted_at.clone(),
+                verdict: verdict.clone(),
+            };
+            serde_json::to_value(graded).map_err(Problem::internal)
         };
         // What is kept can be listed by anybody: it goes without the right answers.
         let kept = described(&verdict)?;
@@ -118,23 +140,68 @@ struct Filter {
 fn without_files(mut answers: Value) -> Value {
     for answer in answers.as_object_mut().into_iter().flat_map(|map| map.values_mut()) {
         if let Some(length) = answer["file"].as_str().map(str::len) {
-            answer["file"] = json!({"bytes": length});
+            answer["file"] = json!(KeptFile { bytes: length });
         }
     }
     answers
 }
 
+/// A submission that is kept, with its verdict.
+#[derive(Debug, Serialize, JsonSchema)]
+struct KeptSubmission {
+    /// What was handed in, by the question's id.
+    #[schemars(with = "BTreeMap<String, KeptAnswer>")]
+    answers: Value,
+    /// The verdict, as it was given.
+    #[serde(flatten)]
+    #[schemars(with = "GradedSubmission")]
+    verdict: Value,
+}
+
+/// The answer to one question, as it is kept.
+#[derive(Serialize, JsonSchema)]
+struct KeptAnswer {
+    /// A number, a list of numbers, or a formula, as typed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<Entry>,
+    /// The unit of the value, as typed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
+    /// The id of the option that was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<String>,
+    /// The file that was handed in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<KeptFile>,
+    /// Settings of a run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    settings: Option<Settings>,
+}
+
+/// A file that was handed in.
+#[derive(Debug, Serialize, JsonSchema)]
+struct KeptFile {
+    /// Its length.
+    bytes: usize,
+}
+
+/// Submissions, newest first.
+#[derive(Debug, Serialize, JsonSchema)]
+struct SubmissionList(Vec<KeptSubmission>);
+
 /// Submissions with their verdicts, newest first.
 #[utoipa::path(get, path = "/submissions", tag = "submissions", params(Filter), responses(
-    (status = 200, description = "The verdicts, and the answers they are about", body = Vec<Object>)))]
-async fn list(State(app): State<App>, Asked(filter): Asked<Filter>) -> Result<Answer<Vec<Value>>, Problem> {
+    (status = 200, description = "The verdicts, and the answers they are about", body = ref(of::<SubmissionList>()))))]
+async fn list(
+    State(app): State<App>,
+    Asked(filter): Asked<Filter>,
+) -> Result<Answer<SubmissionList>, Problem> {
     let limit = filter.limit.unwrap_or(100).min(app.limits.submissions);
     let query = Query { student: filter.student, lesson: filter.lesson, limit };
     let found = blocking(move || Ok(app.store.list(&query)?)).await?;
-    let documents = found.into_iter().map(|submission| {
-        let mut document = submission.verdict;
-        document["answers"] = without_files(submission.answers);
-        document
+    let kept = found.into_iter().map(|submission| KeptSubmission {
+        answers: without_files(submission.answers),
+        verdict: submission.verdict,
     });
-    Ok(Answer(documents.collect()))
+    Ok(Answer(SubmissionList(kept.collect())))
 }

@@ -22,10 +22,10 @@ use std::time::{Duration, Instant};
 
 use axum::extract::ws::Utf8Bytes;
 use axum::http::StatusCode;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use tokio::sync::watch;
-use utoipa::ToSchema;
 
 use crate::problem::Problem;
 use crate::session::{Links, Session, SessionState, Source};
@@ -77,8 +77,8 @@ struct Desk {
 }
 
 /// What followers are told beside the run.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-#[schema(as = RoomBoard)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(rename = "LectureState")]
 pub struct Board {
     /// What followers type to join.
     pub code: String,
@@ -87,15 +87,14 @@ pub struct Board {
     /// Where the scene came from.
     pub source: Option<Source>,
     /// What the presenter looks at, in the page's own words.
-    #[schema(value_type = Object)]
     pub view: Value,
     /// The question that is asked.
     pub question: Option<QuestionView>,
 }
 
 /// What only the presenter is told.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-#[schema(as = RoomDesk)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(rename = "PresenterState")]
 pub struct DeskView {
     /// How many follow now.
     pub followers: usize,
@@ -276,7 +275,7 @@ impl Room {
     }
 
     fn publish(&self) {
-        self.board.send_replace(text("room", &self.board()));
+        self.board.send_replace(LectureMessage::Room(&self.board()).text());
     }
 
     fn desk(&self) -> MutexGuard<'_, Desk> {
@@ -303,15 +302,25 @@ impl Drop for Seat {
     }
 }
 
-/// A message to followers, written once for all.
-fn text(kind: &str, what: &impl Serialize) -> Utf8Bytes {
-    #[derive(Serialize)]
-    struct Typed<'a, T> {
-        r#type: &'a str,
-        #[serde(flatten)]
-        what: &'a T,
+/// What followers are sent in text.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum LectureMessage<'a> {
+    /// What is shown and asked beside the run.
+    Room(&'a Board),
+    /// The state of the session that is shown.
+    State(&'a SessionState),
+    /// A recording begins: the viewer must forget the one before.
+    Reset,
+    /// The lecture is over.
+    Closed,
+}
+
+impl LectureMessage<'_> {
+    /// The message as it is sent, written once for all followers.
+    fn text(&self) -> Utf8Bytes {
+        serde_json::to_string(self).unwrap_or_default().into()
     }
-    serde_json::to_string(&Typed { r#type: kind, what }).unwrap_or_default().into()
 }
 
 /// Writes each state of the session that is shown, at most ten a second, until the room is gone.
@@ -343,7 +352,7 @@ async fn tell_states(room: Weak<Room>, mut stage: watch::Receiver<Stage>) {
                 break;
             }
             let state = Arc::clone(&states.borrow_and_update());
-            room.state.send_replace(text("state", &anonymous(&state, &room.code)));
+            room.state.send_replace(LectureMessage::State(&anonymous(&state, &room.code)).text());
             drop(room);
             tokio::time::sleep(STATE_INTERVAL).await;
         }

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use axum::http::StatusCode;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use crate::problem::Problem;
 
@@ -16,11 +16,11 @@ const LONGEST_VOTER: usize = 64;
 const CHOICES: std::ops::RangeInclusive<usize> = 2..=8;
 
 /// A question to be asked.
-#[derive(Debug, Clone, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NewQuestion {
     /// What is asked.
-    #[schema(example = "Which sign has Fx of the pin at this moment?")]
+    #[schemars(example = "Which sign has Fx of the pin at this moment?")]
     pub text: String,
     /// What can be answered, two to eight choices.
     pub choices: Vec<String>,
@@ -30,7 +30,7 @@ pub struct NewQuestion {
 }
 
 /// A follower's answer.
-#[derive(Debug, Clone, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Vote {
     /// The question's number.
@@ -42,8 +42,8 @@ pub struct Vote {
 }
 
 /// A question as everybody sees it.
-#[derive(Debug, Clone, Serialize, ToSchema)]
-#[schema(as = RoomQuestion)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(rename = "LectureQuestion")]
 pub struct QuestionView {
     /// Its number.
     pub number: u64,
@@ -57,8 +57,8 @@ pub struct QuestionView {
 }
 
 /// How the answers stand.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
-#[schema(as = RoomTally)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "Tally")]
 pub struct Tally {
     /// The question's number.
     pub number: u64,

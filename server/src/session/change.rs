@@ -3,32 +3,34 @@
 use std::collections::BTreeMap;
 
 use axum::http::StatusCode;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 use triad_engine::model::Model;
 use triad_engine::scene::{Load, OnChange, Scene, WrittenScene};
-use utoipa::ToSchema;
 
 use crate::problem::Problem;
 
 /// Other values for numbers of the scene.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(rename = "SceneChange")]
 pub struct Change {
     /// Values of the parameters that the scene's author offers, by name.
-    #[schema(example = json!({"mass": 2.5}))]
+    #[schemars(example = json!({"mass": 2.5}))]
     pub values: BTreeMap<String, f64>,
     /// Values of any other numbers, by JSON pointers into the scene; also `/coordinates`, `/simulation/integrator`
     /// and `/simulation/stabilization`.
-    #[schema(value_type = Object, example = json!({"/simulation/tolerance": 1e-6}))]
+    #[schemars(example = json!({"/simulation/tolerance": 1e-6}))]
     pub places: BTreeMap<String, Value>,
     /// What happens to the run: as the parameters say if it is not given, and a restart for other numbers.
     pub then: Option<Then>,
 }
 
 /// What happens to a run whose scene is changed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "AfterChange")]
 pub enum Then {
     /// It starts over.
     Restart,
@@ -70,7 +72,8 @@ pub(super) fn as_it_runs(scene: &Scene) -> Scene {
 }
 
 /// A number that may be changed, as it is now.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "SessionParameter")]
 pub struct ParameterView {
     /// Name in requests.
     pub name: String,
@@ -95,15 +98,16 @@ pub struct ParameterView {
 }
 
 /// A session's scene as it is now.
-#[derive(Debug, Clone, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(rename = "SessionScene")]
 pub struct SceneView {
     /// The parameters that its author offers.
     pub parameters: Vec<ParameterView>,
     /// The scene with everything written out that may be changed.
-    #[schema(value_type = Object)]
+    #[schemars(with = "Scene")]
     pub scene: Value,
     /// The same, before any change.
-    #[schema(value_type = Object)]
+    #[schemars(with = "Scene")]
     pub original: Value,
 }
 
@@ -130,17 +134,16 @@ impl SceneView {
 }
 
 /// A spring from a point of a body to a place in the world.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "Drag")]
 pub struct Pull {
     /// The body.
     pub body: String,
     /// The point, from the centre of mass along the body's principal axes, m.
     #[serde(default)]
-    #[schema(value_type = Vec<f64>)]
     pub point: [f64; 3],
     /// Where it is pulled to, in the world, m.
-    #[schema(value_type = Vec<f64>)]
     pub to: [f64; 3],
     /// Stiffness, N/m; one that suits the body's mass if it is not given.
     #[serde(default)]

@@ -1,8 +1,8 @@
 //! What a session tells about itself.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use triad_engine::simulation::Simulation;
-use utoipa::ToSchema;
 
 use super::change::Pull;
 use super::film::Film;
@@ -10,8 +10,9 @@ use crate::problem::{Problem, ProblemDocument};
 use crate::stream::{Arrows, Camera};
 
 /// Where a session's scene came from.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "SceneSource")]
 pub enum Source {
     /// A lesson, by its slug.
     Lesson(String),
@@ -22,37 +23,30 @@ pub enum Source {
 }
 
 /// A body at the session's time.
-#[derive(Debug, Clone, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BodyState {
     /// Name.
     pub name: String,
     /// Centre of mass in the world, m.
-    #[schema(value_type = Vec<f64>)]
     pub position: [f64; 3],
     /// First principal axis in the world.
-    #[schema(value_type = Vec<f64>)]
     pub u: [f64; 3],
     /// Second principal axis in the world.
-    #[schema(value_type = Vec<f64>)]
     pub v: [f64; 3],
     /// Third principal axis in the world.
-    #[schema(value_type = Vec<f64>)]
     pub w: [f64; 3],
     /// Velocity of the centre of mass in the world, m/s.
-    #[schema(value_type = Vec<f64>)]
     pub velocity: [f64; 3],
     /// Angular velocity in the world, rad/s.
-    #[schema(value_type = Vec<f64>)]
     pub angular_velocity: [f64; 3],
     /// Acceleration of the centre of mass in the world, m/s².
-    #[schema(value_type = Vec<f64>)]
     pub acceleration: [f64; 3],
     /// Mass, kg.
     pub mass: f64,
 }
 
 /// What a joint or driver does to a body, in the world.
-#[derive(Debug, Clone, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct JointForce {
     /// The joint or driver.
     pub joint: String,
@@ -61,18 +55,15 @@ pub struct JointForce {
     /// The body at the other side, which feels both reversed.
     pub by: String,
     /// The joint's point, m.
-    #[schema(value_type = Vec<f64>)]
     pub at: [f64; 3],
     /// Force, N.
-    #[schema(value_type = Vec<f64>)]
     pub force: [f64; 3],
     /// Moment about the joint's point, N m.
-    #[schema(value_type = Vec<f64>)]
     pub moment: [f64; 3],
 }
 
 /// How forces are drawn in the viewer, for the page to do alike.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Drawing {
     /// Which, and how they are told.
     #[serde(flatten)]
@@ -104,7 +95,7 @@ impl Drawing {
 const MOST_FORCES: usize = 64;
 
 /// Where to go from here.
-#[derive(Debug, Clone, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Links {
     /// This session.
     #[serde(rename = "self")]
@@ -138,7 +129,7 @@ impl Links {
 }
 
 /// A session at one moment.
-#[derive(Debug, Clone, Serialize, ToSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SessionState {
     /// Its name in addresses.
     pub id: String,
@@ -200,7 +191,6 @@ pub struct SessionState {
     /// Forces in joints and drivers; empty for scenes of more than 64 of them.
     pub forces: Vec<JointForce>,
     /// Acceleration of gravity, m/s².
-    #[schema(value_type = Vec<f64>)]
     pub gravity: [f64; 3],
     /// Where to go from here.
     pub links: Links,

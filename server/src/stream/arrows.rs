@@ -3,14 +3,14 @@
 //! One scale for the whole scene. An arrow that would be longer than the longest is drawn as two in a row. A moment is
 //! three quarters of a circle that turns as it does; one that would be larger than the largest is drawn as two circles.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::cast::{Cast, Tie};
 use super::sample::{Reaction, Sample};
 
 /// Which forces are drawn and how they are told.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Arrows {
     /// On the first or on the second body of each joint.
@@ -24,8 +24,9 @@ pub struct Arrows {
 }
 
 /// The body that is acted on.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "ArrowSide")]
 pub enum On {
     /// Body i.
     I,
@@ -35,8 +36,9 @@ pub enum On {
 }
 
 /// The point about which moments are taken.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "MomentPoint")]
 pub enum Point {
     /// The joint's.
     #[default]
@@ -46,8 +48,9 @@ pub enum Point {
 }
 
 /// Which forces are drawn.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
+#[schemars(rename = "DrawnForces")]
 pub enum Drawn {
     /// None.
     None,

@@ -9,8 +9,8 @@ use rerun::blueprint::{
 use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg, StoreKind};
 use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 use super::cast::Cast;
 use super::geometry::single;
@@ -44,7 +44,7 @@ pub(super) fn send(recording: &RecordingStream, cast: &Cast, from: Camera) -> Re
 }
 
 /// From where the mechanism is looked at.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Camera {
     /// Nearly from the front where it hangs in a vertical x-y plane, from above a corner otherwise.

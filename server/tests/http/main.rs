@@ -5,8 +5,10 @@
 
 mod bad_input;
 mod changes;
+mod described;
 mod document;
 mod lessons;
+mod schema;
 mod secrets;
 mod sessions;
 mod streams;
