@@ -1,5 +1,5 @@
-import { applyTheme } from "./core/prefs";
 import { loadMaths } from "./core/maths";
+import { applyTheme } from "./core/prefs";
 import { startRouter } from "./core/router";
 import { homePage } from "./pages/home";
 import { lessonPage } from "./pages/lesson";
@@ -14,15 +14,34 @@ const head = document.getElementById("header");
 const main = document.getElementById("main");
 if (head && main) {
   header(head);
-  startRouter(main, [
-    { pattern: /^\/$/, open: homePage },
-    { pattern: /^\/lessons\/([^/]+)$/, open: lessonPage },
-    { pattern: /^\/lessons\/([^/]+)\/scene$/, open: lazily("Scene", () => import("./pages/scene").then((page) => page.lessonScenePage)) },
-    { pattern: /^\/room$/, open: lazily("Join a lecture", () => import("./pages/room").then((page) => page.joinPage)) },
-    { pattern: /^\/room\/([^/]+)$/, open: lazily("Lecture", () => import("./pages/room").then((page) => page.roomPage)) },
-    { pattern: /^\/scenes$/, open: lazily("Scenes", () => import("./pages/scenes").then((page) => page.scenesPage)) },
-    { pattern: /^\/scenes\/([^/]+)$/, open: lazily("Scene", () => import("./pages/scene").then((page) => page.scenePage)) },
-  ], missingPage);
+  startRouter(
+    main,
+    [
+      { pattern: /^\/$/, open: homePage },
+      { pattern: /^\/lessons\/([^/]+)$/, open: lessonPage },
+      {
+        pattern: /^\/lessons\/([^/]+)\/scene$/,
+        open: lazily("Scene", () => import("./pages/scene").then((page) => page.lessonScenePage)),
+      },
+      {
+        pattern: /^\/room$/,
+        open: lazily("Join a lecture", () => import("./pages/room").then((page) => page.joinPage)),
+      },
+      {
+        pattern: /^\/room\/([^/]+)$/,
+        open: lazily("Lecture", () => import("./pages/room").then((page) => page.roomPage)),
+      },
+      {
+        pattern: /^\/scenes$/,
+        open: lazily("Scenes", () => import("./pages/scenes").then((page) => page.scenesPage)),
+      },
+      {
+        pattern: /^\/scenes\/([^/]+)$/,
+        open: lazily("Scene", () => import("./pages/scene").then((page) => page.scenePage)),
+      },
+    ],
+    missingPage,
+  );
 }
 
 type Open = Parameters<typeof startRouter>[2];

@@ -1,8 +1,25 @@
 // The one door to the server. Every failure becomes an ApiError that carries a Problem.
 import type { Numbers, SceneView, Then } from "./numbers";
 import type {
-  Answer, Board, Camera, CheckReport, Drawing, Jacobian, JointMultipliers, LeftOut, Lesson, LessonSummary, Problem, Scene,
-  Pull, Reactions, SceneSummary, SessionState, Symmetric, Tally, Verdict,
+  Answer,
+  Board,
+  Camera,
+  CheckReport,
+  Drawing,
+  Jacobian,
+  JointMultipliers,
+  LeftOut,
+  Lesson,
+  LessonSummary,
+  Problem,
+  Pull,
+  Reactions,
+  Scene,
+  SceneSummary,
+  SessionState,
+  Symmetric,
+  Tally,
+  Verdict,
 } from "./types";
 
 const BASE = "/api/v1";
@@ -26,7 +43,11 @@ export class ApiError extends Error {
 export function problemOf(error: unknown): Problem {
   if (error instanceof ApiError) return error.problem;
   const detail = error instanceof Error ? error.message : String(error);
-  return { title: "Something in this page failed", detail, hint: "Reload the page; if it happens again, report the text above." };
+  return {
+    title: "Something in this page failed",
+    detail,
+    hint: "Reload the page; if it happens again, report the text above.",
+  };
 }
 
 async function failure(response: Response): Promise<ApiError> {
@@ -45,14 +66,22 @@ async function failure(response: Response): Promise<ApiError> {
   }
 }
 
-async function call<T>(method: string, path: string, body?: unknown, signal?: AbortSignal, key?: string): Promise<T> {
+async function call<T>(
+  method: string,
+  path: string,
+  body?: unknown,
+  signal?: AbortSignal,
+  key?: string,
+): Promise<T> {
   let response: Response;
   try {
     const headers: Record<string, string> = { accept: "application/json, application/problem+json" };
     if (body !== undefined) headers["content-type"] = "application/json";
     if (key !== undefined) headers.authorization = `Bearer ${key}`;
     response = await fetch(path.startsWith("/api/") ? path : BASE + path, {
-      method, headers, signal: signal ?? null,
+      method,
+      headers,
+      signal: signal ?? null,
       body: body === undefined ? null : typeof body === "string" ? body : JSON.stringify(body),
     });
   } catch (error) {
@@ -73,19 +102,26 @@ const id = encodeURIComponent;
 const when = (at: number | undefined): string => (at === undefined ? "" : `?at=${at}`);
 
 /** Whose numbers: a student's name, or another seed. */
-const whose = (seed?: string): string => seed ? `?${new URLSearchParams({ seed })}` : "";
+const whose = (seed?: string): string => (seed ? `?${new URLSearchParams({ seed })}` : "");
 
 export type SessionSource = { lesson: string; seed?: string } | { builtin: string } | { scene: unknown };
 
 export const api = {
   lessons: (signal?: AbortSignal) => call<LessonSummary[]>("GET", "/lessons", undefined, signal),
-  lesson: (slug: string, seed: string, signal?: AbortSignal) => call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
+  lesson: (slug: string, seed: string, signal?: AbortSignal) =>
+    call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
   hint: (slug: string, question: string, k: number, seed?: string) =>
     call<{ html: string }>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}${whose(seed)}`),
-  statesUrl: (slug: string, question: string, seed?: string): string => `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
-  starterUrl: (slug: string, question: string, language: string): string => `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
+  statesUrl: (slug: string, question: string, seed?: string): string =>
+    `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
+  starterUrl: (slug: string, question: string, language: string): string =>
+    `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
   submit: (slug: string, student: string, answers: Record<string, Answer>, seed?: string) =>
-    call<Verdict>("POST", `/lessons/${id(slug)}/submissions`, seed === undefined ? { student, answers } : { student, seed, answers }),
+    call<Verdict>(
+      "POST",
+      `/lessons/${id(slug)}/submissions`,
+      seed === undefined ? { student, answers } : { student, seed, answers },
+    ),
   submissions: (query: { student: string; lesson?: string; limit?: number }, signal?: AbortSignal) => {
     const search = new URLSearchParams({ student: query.student });
     if (query.lesson) search.set("lesson", query.lesson);
@@ -97,25 +133,39 @@ export const api = {
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
-  analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", asked: { scene: unknown }) => call<T>("POST", `/analyses/${kind}`, asked),
-  importUrdf: (urdf: string, side: unknown) => call<{ scene: Scene; left_out: LeftOut[] }>("POST", "/import/urdf", side === undefined ? { urdf } : { urdf, with: side }),
+  analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", asked: { scene: unknown }) =>
+    call<T>("POST", `/analyses/${kind}`, asked),
+  importUrdf: (urdf: string, side: unknown) =>
+    call<{ scene: Scene; left_out: LeftOut[] }>(
+      "POST",
+      "/import/urdf",
+      side === undefined ? { urdf } : { urdf, with: side },
+    ),
   sceneSchema: () => call<unknown>("GET", "/schema/scene"),
 
   // What is asked of a run is asked at its address: a session's own, or a lecture room's.
-  createSession: (source: SessionSource, change?: Numbers) => call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
+  createSession: (source: SessionSource, change?: Numbers) =>
+    call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
   state: (run: string) => call<SessionState>("GET", run),
   sceneOf: (run: string) => call<SceneView>("GET", `${run}/scene`),
   jacobian: (run: string, at?: number) => call<Jacobian>("GET", `${run}/jacobian${when(at)}`),
-  symmetric: (run: string, which: "augmented" | "schur", at?: number) => call<Symmetric>("GET", `${run}/${which}${when(at)}`),
+  symmetric: (run: string, which: "augmented" | "schur", at?: number) =>
+    call<Symmetric>("GET", `${run}/${which}${when(at)}`),
   multipliers: (run: string, at?: number) => call<JointMultipliers[]>("GET", `${run}/multipliers${when(at)}`),
   reactions: (run: string, asked: { on: string; about: string; in: string }, at?: number) =>
-    call<Reactions>("GET", `${run}/reactions?${new URLSearchParams({ ...asked, ...(at === undefined ? {} : { at: String(at) }) })}`),
-  change: (run: string, numbers: Numbers, then?: Then) => call<SessionState>("POST", `${run}/parameters`, then ? { ...numbers, then } : numbers),
-  draw: (run: string, arrows: Pick<Drawing, "on" | "about" | "drawn" | "marked"> | undefined, fit: boolean) => call<SessionState>("PUT", `${run}/drawing`, arrows ? { arrows, fit } : { fit }),
+    call<Reactions>(
+      "GET",
+      `${run}/reactions?${new URLSearchParams({ ...asked, ...(at === undefined ? {} : { at: String(at) }) })}`,
+    ),
+  change: (run: string, numbers: Numbers, then?: Then) =>
+    call<SessionState>("POST", `${run}/parameters`, then ? { ...numbers, then } : numbers),
+  draw: (run: string, arrows: Pick<Drawing, "on" | "about" | "drawn" | "marked"> | undefined, fit: boolean) =>
+    call<SessionState>("PUT", `${run}/drawing`, arrows ? { arrows, fit } : { fit }),
   lookFrom: (run: string, from: Camera) => call<SessionState>("PUT", `${run}/camera`, { from }),
   pull: (run: string, pull: Pull) => call<SessionState>("PUT", `${run}/pull`, pull),
   release: (run: string) => call<SessionState>("DELETE", `${run}/pull`),
-  step: (run: string, by: { steps: number } | { seconds: number }) => call<SessionState>("POST", `${run}/step`, by),
+  step: (run: string, by: { steps: number } | { seconds: number }) =>
+    call<SessionState>("POST", `${run}/step`, by),
   play: (run: string, speed: number) => call<SessionState>("POST", `${run}/play`, { speed }),
   pause: (run: string) => call<SessionState>("POST", `${run}/pause`),
   reset: (run: string) => call<SessionState>("POST", `${run}/reset`),
@@ -124,15 +174,29 @@ export const api = {
     void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
-  openRoom: (session: string) => call<{ code: string; key: string; page: string }>("POST", "/rooms", { session }),
+  openRoom: (session: string) =>
+    call<{ code: string; key: string; page: string }>("POST", "/rooms", { session }),
   room: (code: string, signal?: AbortSignal) => call<Board>("GET", `/rooms/${id(code)}`, undefined, signal),
-  closeRoom: (code: string, key: string) => call<void>("DELETE", `/rooms/${id(code)}`, undefined, undefined, key),
-  show: (code: string, key: string, what: { session?: string; view?: unknown }) => call<void>("PUT", `/rooms/${id(code)}/view`, what, undefined, key),
-  desk: (code: string, key: string) => call<{ followers: number; tally: Tally | null }>("GET", `/rooms/${id(code)}/desk`, undefined, undefined, key),
-  ask: (code: string, key: string, question: { text: string; choices: string[]; right: number | null }) => call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),
-  reveal: (code: string, key: string) => call<void>("POST", `/rooms/${id(code)}/reveal`, undefined, undefined, key),
-  forgetQuestion: (code: string, key: string) => call<void>("DELETE", `/rooms/${id(code)}/question`, undefined, undefined, key),
-  answer: (code: string, vote: { question: number; voter: string; choice: number }) => call<void>("POST", `/rooms/${id(code)}/answers`, vote),
+  closeRoom: (code: string, key: string) =>
+    call<void>("DELETE", `/rooms/${id(code)}`, undefined, undefined, key),
+  show: (code: string, key: string, what: { session?: string; view?: unknown }) =>
+    call<void>("PUT", `/rooms/${id(code)}/view`, what, undefined, key),
+  desk: (code: string, key: string) =>
+    call<{ followers: number; tally: Tally | null }>(
+      "GET",
+      `/rooms/${id(code)}/desk`,
+      undefined,
+      undefined,
+      key,
+    ),
+  ask: (code: string, key: string, question: { text: string; choices: string[]; right: number | null }) =>
+    call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),
+  reveal: (code: string, key: string) =>
+    call<void>("POST", `/rooms/${id(code)}/reveal`, undefined, undefined, key),
+  forgetQuestion: (code: string, key: string) =>
+    call<void>("DELETE", `/rooms/${id(code)}/question`, undefined, undefined, key),
+  answer: (code: string, vote: { question: number; voter: string; choice: number }) =>
+    call<void>("POST", `/rooms/${id(code)}/answers`, vote),
 
   /** The address of a stream, as the browser opens it. */
   streamUrl: (path: string): string => {

@@ -6,7 +6,9 @@ export type Child = Node | string | number | null | undefined | false;
 
 /** Makes an element. `on…` functions become listeners; false, null and undefined are left out. */
 export function h<K extends keyof HTMLElementTagNameMap>(
-  tag: K, props?: Record<string, Value> | null, ...children: Child[]
+  tag: K,
+  props?: Record<string, Value> | null,
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(props ?? {})) {
@@ -21,7 +23,9 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 const SVG = "http://www.w3.org/2000/svg";
 
 export function svg<K extends keyof SVGElementTagNameMap>(
-  tag: K, props: Record<string, string | number>, ...children: Child[]
+  tag: K,
+  props: Record<string, string | number>,
+  ...children: Child[]
 ): SVGElementTagNameMap[K] {
   const element = document.createElementNS(SVG, tag);
   for (const [key, value] of Object.entries(props)) element.setAttribute(key, String(value));

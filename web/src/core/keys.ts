@@ -38,7 +38,12 @@ const ACTIVATED_BY_SPACE = "button, a[href], summary, input, select, [role=tab],
 function taken(event: KeyboardEvent): boolean {
   const target = event.target;
   if (!(target instanceof HTMLElement)) return false;
-  if (target.isContentEditable || target.closest("textarea, input:not([type=range]):not([type=radio]):not([type=checkbox]), select, dialog, [data-keys]")) {
+  if (
+    target.isContentEditable ||
+    target.closest(
+      "textarea, input:not([type=range]):not([type=radio]):not([type=checkbox]), select, dialog, [data-keys]",
+    )
+  ) {
     return true;
   }
   if (event.key === " ") return target.closest(ACTIVATED_BY_SPACE) !== null;
@@ -52,18 +57,22 @@ function inViewer(event: KeyboardEvent): boolean {
 }
 
 // Heard before anything else, because the viewer stops the events that it sees.
-addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;
-  if (inViewer(event) && event.key === "Tab") {
-    // The browser moves the focus on: nobody is caught inside the canvas.
+addEventListener(
+  "keydown",
+  (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;
+    if (inViewer(event) && event.key === "Tab") {
+      // The browser moves the focus on: nobody is caught inside the canvas.
+      event.stopImmediatePropagation();
+      return;
+    }
+    if (!shortcuts.on() && event.key !== "?") return;
+    if (taken(event) || document.querySelector("dialog[open]")) return;
+    const shortcut = active.get(event.key);
+    if (!shortcut) return;
+    event.preventDefault();
     event.stopImmediatePropagation();
-    return;
-  }
-  if (!shortcuts.on() && event.key !== "?") return;
-  if (taken(event) || document.querySelector("dialog[open]")) return;
-  const shortcut = active.get(event.key);
-  if (!shortcut) return;
-  event.preventDefault();
-  event.stopImmediatePropagation();
-  shortcut.run();
-}, { capture: true });
+    shortcut.run();
+  },
+  { capture: true },
+);

@@ -1,11 +1,17 @@
 import { describe, expect, it } from "vitest";
-import { pack, unpack, type Seen } from "./link";
+import { pack, type Seen, unpack } from "./link";
 
 describe("a link", () => {
   it("says the same when it is read again", async () => {
     const seen: Seen = {
       numbers: { values: { mass: 2.5 }, places: { "/simulation/stabilization": { kind: "projection" } } },
-      time: 1.25, joint: "pin “A”", panel: "multipliers", picture: "sketch", drawn: "body:bob", told: "i.center.body", scene: '{"name":"x"}',
+      time: 1.25,
+      joint: "pin “A”",
+      panel: "multipliers",
+      picture: "sketch",
+      drawn: "body:bob",
+      told: "i.center.body",
+      scene: '{"name":"x"}',
     };
     const text = await pack(seen);
     expect(text).toMatch(/^[\w-]+$/);
@@ -14,7 +20,12 @@ describe("a link", () => {
   it("that is broken or forged says nothing harmful", async () => {
     expect(await unpack("%%%")).toBeUndefined();
     expect(await unpack("AAAA")).toBeUndefined();
-    const forged = await pack({ time: -1, joint: 7, numbers: { values: { mass: "x" }, places: {} }, picture: "evil" } as unknown as Seen);
+    const forged = await pack({
+      time: -1,
+      joint: 7,
+      numbers: { values: { mass: "x" }, places: {} },
+      picture: "evil",
+    } as unknown as Seen);
     expect(await unpack(forged)).toEqual({});
   });
   it("does not unpack without bound", async () => {

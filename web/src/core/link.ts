@@ -40,7 +40,9 @@ export async function unpack(text: string): Promise<Seen | undefined> {
   try {
     const raw = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(raw, (sign) => sign.charCodeAt(0));
-    const json = new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), MOST_TEXT));
+    const json = new TextDecoder().decode(
+      await through(bytes, new DecompressionStream("deflate-raw"), MOST_TEXT),
+    );
     return seenOf(JSON.parse(json));
   } catch {
     return undefined;
@@ -67,20 +69,31 @@ export function seenOf(value: unknown): Seen | undefined {
   if (typeof value !== "object" || value === null || Array.isArray(value)) return undefined;
   const given = value as Record<string, unknown>;
   const seen: Seen = {};
-  for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const) if (typeof given[key] === "string") seen[key] = given[key];
+  for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const)
+    if (typeof given[key] === "string") seen[key] = given[key];
   if (given.back === true) seen.back = true;
   if (given.picture === "sketch" || given.picture === "viewer") seen.picture = given.picture;
-  if (typeof given.time === "number" && Number.isFinite(given.time) && given.time >= 0) seen.time = given.time;
+  if (typeof given.time === "number" && Number.isFinite(given.time) && given.time >= 0)
+    seen.time = given.time;
   const numbers = given.numbers as { values?: unknown; places?: unknown } | undefined;
-  if (isRecord(numbers?.values) && isRecord(numbers.places) && Object.values(numbers.values).every((part) => typeof part === "number")) {
+  if (
+    isRecord(numbers?.values) &&
+    isRecord(numbers.places) &&
+    Object.values(numbers.values).every((part) => typeof part === "number")
+  ) {
     seen.numbers = { values: numbers.values as Record<string, number>, places: numbers.places };
   }
   return seen;
 }
 
-const isRecord = (value: unknown): value is Record<string, unknown> => typeof value === "object" && value !== null && !Array.isArray(value);
+const isRecord = (value: unknown): value is Record<string, unknown> =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
 
-async function through(bytes: Uint8Array<ArrayBuffer>, change: CompressionStream | DecompressionStream, most: number): Promise<Uint8Array<ArrayBuffer>> {
+async function through(
+  bytes: Uint8Array<ArrayBuffer>,
+  change: CompressionStream | DecompressionStream,
+  most: number,
+): Promise<Uint8Array<ArrayBuffer>> {
   const reader = new Blob([bytes]).stream().pipeThrough(change).getReader();
   const parts: Uint8Array[] = [];
   let size = 0;

@@ -4,13 +4,16 @@ type Katex = typeof import("katex").default;
 let loading: Promise<Katex> | undefined;
 
 export function loadMaths(): Promise<Katex> {
-  loading ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(([module]) => module.default);
+  loading ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(
+    ([module]) => module.default,
+  );
   return loading;
 }
 
 const MARKED = ".math.inline, .math.display";
 
-export const hasMaths = (html: string): boolean => html.includes("math inline") || html.includes("math display");
+export const hasMaths = (html: string): boolean =>
+  html.includes("math inline") || html.includes("math display");
 
 /** Sets all marked mathematics under `root`; where it cannot be read, the LaTeX stays visible. */
 export async function setMaths(root: HTMLElement): Promise<void> {
@@ -23,7 +26,11 @@ export async function setMaths(root: HTMLElement): Promise<void> {
     try {
       katex.render(source, node, {
         displayMode: node.classList.contains("display"),
-        throwOnError: true, trust: false, strict: false, maxExpand: 500, output: "htmlAndMathml",
+        throwOnError: true,
+        trust: false,
+        strict: false,
+        maxExpand: 500,
+        output: "htmlAndMathml",
       });
       if (node.classList.contains("display")) makeScrollable(node);
     } catch {

@@ -28,8 +28,10 @@ export interface SceneView {
 }
 
 export const none = (): Numbers => ({ values: {}, places: {} });
-export const isNone = (set: Numbers): boolean => Object.keys(set.values).length + Object.keys(set.places).length === 0;
-export const count = (set: Numbers): number => Object.keys(set.values).length + Object.keys(set.places).length;
+export const isNone = (set: Numbers): boolean =>
+  Object.keys(set.values).length + Object.keys(set.places).length === 0;
+export const count = (set: Numbers): number =>
+  Object.keys(set.values).length + Object.keys(set.places).length;
 
 /** The value at a JSON pointer. */
 export function at(document: unknown, pointer: string): unknown {
@@ -90,12 +92,18 @@ export function leaves(scene: unknown, most = 4000): Leaf[] {
       const triple = value.length === 3 && value.every((part) => typeof part === "number");
       value.forEach((part: unknown, k) => {
         const name = (part as { name?: string } | null)?.name;
-        walk(part, `${pointer}/${k}`, [...names, name ?? (triple ? (["x", "y", "z"][k] ?? String(k)) : String(k + 1))]);
+        walk(part, `${pointer}/${k}`, [
+          ...names,
+          name ?? (triple ? (["x", "y", "z"][k] ?? String(k)) : String(k + 1)),
+        ]);
       });
     } else if (typeof value === "object" && value !== null) {
       for (const [key, part] of Object.entries(value)) {
         if (LEFT_OUT.has(key)) continue;
-        walk(part, `${pointer}/${key.replaceAll("~", "~0").replaceAll("/", "~1")}`, [...names, key.replaceAll("_", " ")]);
+        walk(part, `${pointer}/${key.replaceAll("~", "~0").replaceAll("/", "~1")}`, [
+          ...names,
+          key.replaceAll("_", " "),
+        ]);
       }
     }
   };

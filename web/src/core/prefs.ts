@@ -1,6 +1,18 @@
 // What the browser remembers. Private windows may refuse storage: then nothing is remembered.
 
-type Key = "theme" | "projector" | "student" | "shortcuts" | "picture" | `draft:${string}` | `tab:${string}` | "scene-draft" | `scene-draft:${string}` | `said:${string}` | "place" | "voter";
+type Key =
+  | "theme"
+  | "projector"
+  | "student"
+  | "shortcuts"
+  | "picture"
+  | `draft:${string}`
+  | `tab:${string}`
+  | "scene-draft"
+  | `scene-draft:${string}`
+  | `said:${string}`
+  | "place"
+  | "voter";
 
 export function recall(key: Key): string | null {
   try {

@@ -44,7 +44,8 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
     current = page ?? missing(outlet, [path]);
     announceTitle(current.title);
     for (const link of document.querySelectorAll<HTMLAnchorElement>("#header nav a")) {
-      const here = link.pathname === "/" ? path === "/" || path.startsWith("/lessons") : path.startsWith(link.pathname);
+      const here =
+        link.pathname === "/" ? path === "/" || path.startsWith("/lessons") : path.startsWith(link.pathname);
       if (here) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }

@@ -18,7 +18,16 @@ export interface Option {
 
 export interface Question {
   id: string;
-  kind: "number" | "vector" | "matrix" | "choice" | "formula" | "implement" | "trajectory" | "model" | "tuning";
+  kind:
+    | "number"
+    | "vector"
+    | "matrix"
+    | "choice"
+    | "formula"
+    | "implement"
+    | "trajectory"
+    | "model"
+    | "tuning";
   prompt_html: string;
   /** The unit that the answer is read in. */
   unit?: string | null;
@@ -282,7 +291,11 @@ export interface Reaction {
 export interface Reactions {
   time: number;
   reactions: Reaction[];
-  redundancies: { rows: number; joints: string[]; remedies: { joint: string; becomes: string; gives_up: string }[] }[];
+  redundancies: {
+    rows: number;
+    joints: string[];
+    remedies: { joint: string; becomes: string; gives_up: string }[];
+  }[];
 }
 
 export interface CheckReport {

@@ -1,5 +1,5 @@
 // A scene as text: line numbers, checked as one types, errors at their place.
-import { api, ApiError } from "../core/api";
+import { ApiError, api } from "../core/api";
 import { h } from "../core/dom";
 import { plural } from "../core/format";
 import type { CheckReport, Problem } from "../core/types";
@@ -20,7 +20,13 @@ export interface Editor {
 /** `sound` is told of a text that the server has checked and can run. */
 export function sceneEditor(changed: (text: string) => void, sound: (text: string) => void): Editor {
   const area = h("textarea", {
-    class: "code", spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off", "aria-label": "Scene, JSON", rows: "24",
+    class: "code",
+    spellcheck: "false",
+    autocapitalize: "off",
+    autocomplete: "off",
+    wrap: "off",
+    "aria-label": "Scene, JSON",
+    rows: "24",
   });
   const gutter = h("div", { class: "gutter", "aria-hidden": "true" });
   const result = h("div", { class: "check", "aria-live": "polite" });
@@ -63,7 +69,13 @@ export function sceneEditor(changed: (text: string) => void, sound: (text: strin
     } catch (error) {
       if (asking.signal.aborted) return;
       if (error instanceof ApiError) {
-        mark(new Set((error.problem.errors ?? []).flatMap((place) => (place.pointer ? [lineOf(text, locate(text, place.pointer))] : []))));
+        mark(
+          new Set(
+            (error.problem.errors ?? []).flatMap((place) =>
+              place.pointer ? [lineOf(text, locate(text, place.pointer))] : [],
+            ),
+          ),
+        );
       }
       result.replaceChildren(problemNotice(error, [], { open: goTo }));
     }
@@ -83,7 +95,18 @@ export function sceneEditor(changed: (text: string) => void, sound: (text: strin
   });
 
   return {
-    root: h("div", { class: "editor" }, h("div", { class: "code-box" }, h("div", { class: "gutter-box" }, gutter), area, suggestions(area, () => area.dispatchEvent(new Event("input")))), result),
+    root: h(
+      "div",
+      { class: "editor" },
+      h(
+        "div",
+        { class: "code-box" },
+        h("div", { class: "gutter-box" }, gutter),
+        area,
+        suggestions(area, () => area.dispatchEvent(new Event("input"))),
+      ),
+      result,
+    ),
     text: () => area.value,
     set: (text) => {
       area.value = text;
@@ -114,26 +137,71 @@ function syntaxProblem(text: string): { problem: Problem; line: number } | undef
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
     const position = /position (\d+)/.exec(message)?.[1];
-    const line = position ? lineOf(text, Number(position)) : /line (\d+)/.exec(message)?.[1] ? Number(/line (\d+)/.exec(message)?.[1]) : text.split("\n").length;
+    const line = position
+      ? lineOf(text, Number(position))
+      : /line (\d+)/.exec(message)?.[1]
+        ? Number(/line (\d+)/.exec(message)?.[1])
+        : text.split("\n").length;
     return {
       line,
-      problem: { title: `Line ${line} is not JSON yet`, detail: message.replace(/ in JSON at position.*$/, ""), hint: "Look for a missing comma, quote or bracket just before this place." },
+      problem: {
+        title: `Line ${line} is not JSON yet`,
+        detail: message.replace(/ in JSON at position.*$/, ""),
+        hint: "Look for a missing comma, quote or bracket just before this place.",
+      },
     };
   }
 }
 
 function reportView(report: CheckReport): HTMLElement {
-  const figure = (label: string, value: number): HTMLElement => h("div", { class: "figure" }, h("dt", null, label), h("dd", null, String(value)));
+  const figure = (label: string, value: number): HTMLElement =>
+    h("div", { class: "figure" }, h("dt", null, label), h("dd", null, String(value)));
   const redundant = report.redundant.reduce((sum, entry) => sum + entry.rows.length, 0);
-  return h("section", { class: "report", "aria-label": "Result of the check" },
-    h("p", { class: "report-title" }, icon("check"), `This scene can run. It has ${plural(report.degrees_of_freedom, "degree")} of freedom.`),
-    h("dl", { class: "figures" },
-      figure("Bodies", report.bodies), figure("Coordinates", report.coordinates), figure("Rows", report.rows), figure("Rank", report.rank),
-      figure("Degrees of freedom", report.degrees_of_freedom), figure("Redundant rows", redundant)),
+  return h(
+    "section",
+    { class: "report", "aria-label": "Result of the check" },
+    h(
+      "p",
+      { class: "report-title" },
+      icon("check"),
+      `This scene can run. It has ${plural(report.degrees_of_freedom, "degree")} of freedom.`,
+    ),
+    h(
+      "dl",
+      { class: "figures" },
+      figure("Bodies", report.bodies),
+      figure("Coordinates", report.coordinates),
+      figure("Rows", report.rows),
+      figure("Rank", report.rank),
+      figure("Degrees of freedom", report.degrees_of_freedom),
+      figure("Redundant rows", redundant),
+    ),
     report.redundant.length > 0
-      ? h("div", null, h("h2", null, "Redundant rows"),
-        h("ul", null, ...report.redundant.map((entry) => h("li", null, h("b", null, entry.joint), `: ${entry.rows.join(", ")}`))),
-        h("p", { class: "help" }, "These rows repeat what others already demand. The run is right, but how their joints share the load is not unique."))
+      ? h(
+          "div",
+          null,
+          h("h2", null, "Redundant rows"),
+          h(
+            "ul",
+            null,
+            ...report.redundant.map((entry) =>
+              h("li", null, h("b", null, entry.joint), `: ${entry.rows.join(", ")}`),
+            ),
+          ),
+          h(
+            "p",
+            { class: "help" },
+            "These rows repeat what others already demand. The run is right, but how their joints share the load is not unique.",
+          ),
+        )
       : null,
-    report.notes.length > 0 ? h("div", null, h("h2", null, "Notes of the engine"), h("ul", null, ...report.notes.map((note) => h("li", null, note)))) : null);
+    report.notes.length > 0
+      ? h(
+          "div",
+          null,
+          h("h2", null, "Notes of the engine"),
+          h("ul", null, ...report.notes.map((note) => h("li", null, note))),
+        )
+      : null,
+  );
 }

@@ -11,7 +11,10 @@ const TEXT = `{
 }`;
 
 describe("locate", () => {
-  const found = (pointer: string): string => TEXT.slice(locate(TEXT, pointer)).split(/[,\n}\]]/)[0]?.trim() ?? "";
+  const found = (pointer: string): string =>
+    TEXT.slice(locate(TEXT, pointer))
+      .split(/[,\n}\]]/)[0]
+      ?.trim() ?? "";
 
   it("finds members, elements and escaped names", () => {
     expect(found("/bodies/1/mass")).toBe("-2");
@@ -34,7 +37,19 @@ describe("locate", () => {
 
 describe("pretty", () => {
   it("keeps vectors on one line and the value the same", () => {
-    const value = { gravity: [0, -9.81, 0], bodies: [{ name: "b", tensor: [[1, 0, 0], [0, 1e-3, 0], [0, 0, 1]] }] };
+    const value = {
+      gravity: [0, -9.81, 0],
+      bodies: [
+        {
+          name: "b",
+          tensor: [
+            [1, 0, 0],
+            [0, 1e-3, 0],
+            [0, 0, 1],
+          ],
+        },
+      ],
+    };
     expect(pretty(value)).toContain('"gravity": [0, -9.81, 0]');
     expect(JSON.parse(pretty(value))).toEqual(value);
   });

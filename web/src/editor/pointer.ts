@@ -2,7 +2,11 @@
 
 /** Offset of the value that `pointer` names, or of the deepest part of it that exists. */
 export function locate(text: string, pointer: string): number {
-  const steps = pointer.replace(/^#/, "").split("/").slice(1).map((step) => step.replaceAll("~1", "/").replaceAll("~0", "~"));
+  const steps = pointer
+    .replace(/^#/, "")
+    .split("/")
+    .slice(1)
+    .map((step) => step.replaceAll("~1", "/").replaceAll("~0", "~"));
   let at = space(text, 0);
   for (const step of steps) {
     const next = child(text, at, step);
@@ -76,6 +80,8 @@ function skipValue(text: string, start: number): number {
 
 /** JSON as a person would write it: short arrays of numbers stay on one line. */
 export function pretty(value: unknown): string {
-  return JSON.stringify(value, null, 2)
-    .replace(/\[\s+((?:-?[\d.eE+-]+,?\s+)+)\]/g, (_, inside: string) => `[${inside.trim().replace(/\s+/g, " ")}]`);
+  return JSON.stringify(value, null, 2).replace(
+    /\[\s+((?:-?[\d.eE+-]+,?\s+)+)\]/g,
+    (_, inside: string) => `[${inside.trim().replace(/\s+/g, " ")}]`,
+  );
 }

@@ -5,15 +5,35 @@ const schema = {
   properties: {
     name: { type: "string", description: "Short name" },
     bodies: { type: "array", items: { $ref: "#/$defs/Body" } },
-    loads: { type: "array", items: { oneOf: [
-      { properties: { type: { const: "spring" }, stiffness: { type: "number" } } },
-      { properties: { type: { const: "force" }, force: { type: "number" } } }] } },
+    loads: {
+      type: "array",
+      items: {
+        oneOf: [
+          { properties: { type: { const: "spring" }, stiffness: { type: "number" } } },
+          { properties: { type: { const: "force" }, force: { type: "number" } } },
+        ],
+      },
+    },
   },
-  $defs: { Body: { properties: { name: { type: "string" }, mass: { type: "number", description: "Mass, kg" }, coordinates: { anyOf: [{ $ref: "#/$defs/Kind" }, { type: "null" }] } } },
-    Kind: { oneOf: [{ const: "full", description: "12" }, { const: "reduced", description: "9" }] } },
+  $defs: {
+    Body: {
+      properties: {
+        name: { type: "string" },
+        mass: { type: "number", description: "Mass, kg" },
+        coordinates: { anyOf: [{ $ref: "#/$defs/Kind" }, { type: "null" }] },
+      },
+    },
+    Kind: {
+      oneOf: [
+        { const: "full", description: "12" },
+        { const: "reduced", description: "9" },
+      ],
+    },
+  },
 };
 /** The cursor is where | stands. */
-const at = (marked: string): ReturnType<typeof complete> => complete(schema, marked.replace("|", ""), marked.indexOf("|"));
+const at = (marked: string): ReturnType<typeof complete> =>
+  complete(schema, marked.replace("|", ""), marked.indexOf("|"));
 const texts = (marked: string): string[] => at(marked)?.offers.map((offer) => offer.text) ?? [];
 
 describe("completion", () => {

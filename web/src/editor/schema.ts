@@ -38,34 +38,57 @@ export function complete(schema: unknown, text: string, cursor: number): Complet
   const here = place.path.reduce((at, step) => at.flatMap((one) => below(root, one, step)), flat(root, root));
   const typed = text.slice(place.from, cursor).replaceAll('"', "").toLowerCase();
   const offers = place.key ? keys(root, narrowed(root, here, text, place.path), text, place) : words(here);
-  const fit = offers.filter((offer) => offer.text.toLowerCase().includes(typed) && offer.text !== text.slice(place.from, place.to));
+  const fit = offers.filter(
+    (offer) => offer.text.toLowerCase().includes(typed) && offer.text !== text.slice(place.from, place.to),
+  );
   return fit.length > 0 ? { from: place.from, to: place.to, offers: fit } : undefined;
 }
 
 /** The schemas that a schema amounts to, references and alternatives resolved. */
 function flat(root: Schema, schema: Schema, depth = 0): Schema[] {
   if (depth > 8) return [];
-  const own = schema.properties || schema.items || schema.prefixItems || schema.enum || schema.const !== undefined || schema.type ? [schema] : [];
+  const own =
+    schema.properties ||
+    schema.items ||
+    schema.prefixItems ||
+    schema.enum ||
+    schema.const !== undefined ||
+    schema.type
+      ? [schema]
+      : [];
   const referred = schema.$ref ? [root.$defs?.[schema.$ref.replace("#/$defs/", "")]] : [];
-  return [...own, ...[...referred, ...(schema.anyOf ?? []), ...(schema.oneOf ?? []), ...(schema.allOf ?? [])].flatMap((one) => (one ? flat(root, one, depth + 1) : []))];
+  return [
+    ...own,
+    ...[...referred, ...(schema.anyOf ?? []), ...(schema.oneOf ?? []), ...(schema.allOf ?? [])].flatMap(
+      (one) => (one ? flat(root, one, depth + 1) : []),
+    ),
+  ];
 }
 
 function below(root: Schema, schema: Schema, step: string): Schema[] {
-  const next = schema.properties?.[step] ?? (/^\d+$/.test(step) ? schema.prefixItems?.[Number(step)] ?? schema.items : undefined)
-    ?? (typeof schema.additionalProperties === "object" ? schema.additionalProperties : undefined);
+  const next =
+    schema.properties?.[step] ??
+    (/^\d+$/.test(step) ? (schema.prefixItems?.[Number(step)] ?? schema.items) : undefined) ??
+    (typeof schema.additionalProperties === "object" ? schema.additionalProperties : undefined);
   return next ? flat(root, next) : [];
 }
 
 /** Of several kinds of object, those that the words already written leave possible, such as "type": "spring". */
 function narrowed(root: Schema, here: Schema[], text: string, path: string[]): Schema[] {
   const objects = here.filter((one) => one.properties);
-  const fitting = objects.filter((one) => Object.entries(one.properties ?? {}).every(([key, value]) => {
-    const said = flat(root, value).map((part) => part.const).find((word) => typeof word === "string");
-    if (typeof said !== "string") return true;
-    const at = locate(text, `/${[...path, key].join("/")}`);
-    const written = /^"((?:[^"\\]|\\.)*)"/.exec(text.slice(at))?.[1];
-    return written === undefined || written === said || !new RegExp(`"${key}"\\s*:\\s*$`).test(text.slice(0, at));
-  }));
+  const fitting = objects.filter((one) =>
+    Object.entries(one.properties ?? {}).every(([key, value]) => {
+      const said = flat(root, value)
+        .map((part) => part.const)
+        .find((word) => typeof word === "string");
+      if (typeof said !== "string") return true;
+      const at = locate(text, `/${[...path, key].join("/")}`);
+      const written = /^"((?:[^"\\]|\\.)*)"/.exec(text.slice(at))?.[1];
+      return (
+        written === undefined || written === said || !new RegExp(`"${key}"\\s*:\\s*$`).test(text.slice(0, at))
+      );
+    }),
+  );
   return fitting.length > 0 ? fitting : objects;
 }
 
@@ -74,20 +97,28 @@ function keys(root: Schema, here: Schema[], text: string, place: Place): Offer[]
   for (const one of here) {
     for (const [key, value] of Object.entries(one.properties ?? {})) {
       if (found.has(key) || place.siblings.has(key)) continue;
-      const about = value.description ?? flat(root, value).map((part) => part.description).find(Boolean) ?? "";
+      const about =
+        value.description ??
+        flat(root, value)
+          .map((part) => part.description)
+          .find(Boolean) ??
+        "";
       found.set(key, { text: `"${key}": `, about });
     }
   }
   // Where a value follows already only the name is replaced.
-  if (/^\s*:/.test(text.slice(place.to))) for (const offer of found.values()) offer.text = offer.text.replace(": ", "");
+  if (/^\s*:/.test(text.slice(place.to)))
+    for (const offer of found.values()) offer.text = offer.text.replace(": ", "");
   return [...found.values()];
 }
 
 function words(here: Schema[]): Offer[] {
   const found = new Map<string, Offer>();
   for (const one of here) {
-    for (const word of [...(one.enum ?? []), ...(one.const === undefined ? [] : [one.const])]) found.set(JSON.stringify(word), { text: JSON.stringify(word), about: one.description ?? "" });
-    if (one.type === "boolean") for (const word of ["true", "false"]) found.set(word, { text: word, about: one.description ?? "" });
+    for (const word of [...(one.enum ?? []), ...(one.const === undefined ? [] : [one.const])])
+      found.set(JSON.stringify(word), { text: JSON.stringify(word), about: one.description ?? "" });
+    if (one.type === "boolean")
+      for (const word of ["true", "false"]) found.set(word, { text: word, about: one.description ?? "" });
   }
   return [...found.values()];
 }
@@ -128,7 +159,8 @@ export function placeOf(text: string, cursor: number): Place | undefined {
         level.keys.add(level.key);
       }
       at = end;
-    } else if (sign === "{" || sign === "[") levels.push({ object: sign === "{", key: undefined, index: 0, afterColon: false, keys: new Set() });
+    } else if (sign === "{" || sign === "[")
+      levels.push({ object: sign === "{", key: undefined, index: 0, afterColon: false, keys: new Set() });
     else if (sign === "}" || sign === "]") levels.pop();
     else if (sign === ":" && level) level.afterColon = true;
     else if (sign === "," && level) {
@@ -144,9 +176,9 @@ export function placeOf(text: string, cursor: number): Place | undefined {
     from = cursor - bare.length;
   }
   const to = from + (word?.length ?? cursor - from);
-  const path = levels.slice(0, -1).map((one) => (one.object ? one.key ?? "" : String(one.index)));
+  const path = levels.slice(0, -1).map((one) => (one.object ? (one.key ?? "") : String(one.index)));
   const key = level.object && !level.afterColon;
-  if (!key) path.push(level.object ? level.key ?? "" : String(level.index));
+  if (!key) path.push(level.object ? (level.key ?? "") : String(level.index));
   // Keys after the cursor count too.
   for (const match of siblingsAfter(text.slice(to))) level.keys.add(match);
   return { path, key, from, to, siblings: level.keys };

@@ -1,13 +1,19 @@
 // A list of what fits at the cursor, beside the text: arrows choose, Enter or Tab writes, Escape closes.
 import { api } from "../core/api";
 import { h, uid } from "../core/dom";
-import { complete, type Completion } from "./schema";
+import { type Completion, complete } from "./schema";
 
 const MOST = 12;
 
 export function suggestions(area: HTMLTextAreaElement, written: () => void): HTMLElement {
   const id = uid("suggest");
-  const list = h("ul", { class: "suggest", id, role: "listbox", "aria-label": "What fits here", hidden: true });
+  const list = h("ul", {
+    class: "suggest",
+    id,
+    role: "listbox",
+    "aria-label": "What fits here",
+    hidden: true,
+  });
   let schema: unknown;
   let asked = false;
   let shown: Completion | undefined;
@@ -37,26 +43,46 @@ export function suggestions(area: HTMLTextAreaElement, written: () => void): HTM
   };
   const open = (): void => {
     if (!schema) {
-      if (!asked) void api.sceneSchema().then((found) => {
-        schema = found;
-        open();
-      }).catch(() => {
-        // Without the schema one types without help; the check says what is wrong all the same.
-        asked = false;
-      });
+      if (!asked)
+        void api
+          .sceneSchema()
+          .then((found) => {
+            schema = found;
+            open();
+          })
+          .catch(() => {
+            // Without the schema one types without help; the check says what is wrong all the same.
+            asked = false;
+          });
       asked = true;
       return;
     }
-    const found = area.selectionStart === area.selectionEnd ? complete(schema, area.value, area.selectionStart) : undefined;
+    const found =
+      area.selectionStart === area.selectionEnd
+        ? complete(schema, area.value, area.selectionStart)
+        : undefined;
     if (!found) {
       close();
       return;
     }
     shown = { ...found, offers: found.offers.slice(0, MOST) };
-    list.replaceChildren(...shown.offers.map((offer, k) => h("li", { role: "option", id: `${id}-${k}`, onpointerdown: (event: PointerEvent) => {
-      event.preventDefault();
-      write(k);
-    } }, h("code", null, offer.text), h("span", null, offer.about))));
+    list.replaceChildren(
+      ...shown.offers.map((offer, k) =>
+        h(
+          "li",
+          {
+            role: "option",
+            id: `${id}-${k}`,
+            onpointerdown: (event: PointerEvent) => {
+              event.preventDefault();
+              write(k);
+            },
+          },
+          h("code", null, offer.text),
+          h("span", null, offer.about),
+        ),
+      ),
+    );
     list.hidden = false;
     place(list, area);
     mark(0);
@@ -68,7 +94,8 @@ export function suggestions(area: HTMLTextAreaElement, written: () => void): HTM
       return;
     }
     if (!shown) return;
-    if (event.key === "ArrowDown" || event.key === "ArrowUp") mark((at + (event.key === "ArrowDown" ? 1 : -1) + shown.offers.length) % shown.offers.length);
+    if (event.key === "ArrowDown" || event.key === "ArrowUp")
+      mark((at + (event.key === "ArrowDown" ? 1 : -1) + shown.offers.length) % shown.offers.length);
     else if (event.key === "Enter" || event.key === "Tab") write(at);
     else if (event.key === "Escape") close();
     else return;

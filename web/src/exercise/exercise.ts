@@ -8,7 +8,7 @@ import type { Lesson, Verdict } from "../core/types";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
 import { historyList } from "./history";
-import { questionField, type QuestionField } from "./question";
+import { type QuestionField, questionField } from "./question";
 import { verdictSummary } from "./verdict";
 
 /** Fills `root`; the returned function undoes what outlives it. */
@@ -17,7 +17,8 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
   if (questions.length === 0) return () => undefined;
   const total = questions.reduce((sum, question) => sum + question.points, 0);
   // Answers belong to the numbers that they are about.
-  const draftKey: `draft:${string}` = lesson.has_variants && lesson.seed ? `draft:${lesson.slug}:${lesson.seed}` : `draft:${lesson.slug}`;
+  const draftKey: `draft:${string}` =
+    lesson.has_variants && lesson.seed ? `draft:${lesson.slug}:${lesson.seed}` : `draft:${lesson.slug}`;
   const draft = readDraft(recall(draftKey));
   let ready = false;
 
@@ -32,24 +33,51 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
     }
     remember(draftKey, JSON.stringify(values));
   };
-  const fields: QuestionField[] = questions.map((question, at) => questionField(lesson, question, at + 1, { draft: draft[question.id], hints: Number(draft[`${question.id}#hints`]?.[0] ?? 0) }, saveDraft));
+  const fields: QuestionField[] = questions.map((question, at) =>
+    questionField(
+      lesson,
+      question,
+      at + 1,
+      { draft: draft[question.id], hints: Number(draft[`${question.id}#hints`]?.[0] ?? 0) },
+      saveDraft,
+    ),
+  );
   ready = true;
 
-  const name = h("input", { id: "student", class: "field", autocomplete: "name", maxlength: "80", required: true, value: student.get() });
+  const name = h("input", {
+    id: "student",
+    class: "field",
+    autocomplete: "name",
+    maxlength: "80",
+    required: true,
+    value: student.get(),
+  });
   const send = h("button", { class: "button primary" }, "Check my answers");
   const outcome = h("div", { class: "outcome", tabindex: "-1" });
   const past = historyList(lesson);
-  const form = h("form", { class: "questions", novalidate: true },
+  const form = h(
+    "form",
+    { class: "questions", novalidate: true },
     ...fields.map((field) => field.root),
-    h("div", { class: "send" },
+    h(
+      "div",
+      { class: "send" },
       h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), name),
-      send),
-    outcome);
+      send,
+    ),
+    outcome,
+  );
 
   const submit = async (): Promise<void> => {
     const who = name.value.trim();
     if (!who) {
-      outcome.replaceChildren(problemNotice({ title: "Who is answering?", detail: "Your submission is stored under your name.", hint: "Write your name next to the button." }));
+      outcome.replaceChildren(
+        problemNotice({
+          title: "Who is answering?",
+          detail: "Your submission is stored under your name.",
+          hint: "Write your name next to the button.",
+        }),
+      );
       name.focus();
       return;
     }
@@ -67,7 +95,12 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
     send.textContent = "Checking…";
     try {
       const answers = Object.fromEntries(fields.map((field) => [field.id, field.answer()]));
-      const verdict = await api.submit(lesson.slug, who, answers, lesson.has_variants ? lesson.seed : undefined);
+      const verdict = await api.submit(
+        lesson.slug,
+        who,
+        answers,
+        lesson.has_variants ? lesson.seed : undefined,
+      );
       await showVerdict(verdict);
       past.add(verdict);
     } catch (error) {
@@ -86,7 +119,7 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
     await setMaths(form);
     outcome.focus({ preventScroll: true });
     const worst = fields.find((field) => byId.get(field.id)?.verdict !== "right");
-    (verdict.passed && !worst ? outcome : worst?.root ?? outcome).scrollIntoView({ block: "nearest" });
+    (verdict.passed && !worst ? outcome : (worst?.root ?? outcome)).scrollIntoView({ block: "nearest" });
   };
 
   form.addEventListener("submit", (event) => {
@@ -100,9 +133,23 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
   };
   addEventListener("triad:student", renamed);
 
-  root.append(...[
-    h("div", { class: "section-head" }, h("h2", null, "Exercise"), h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}${lesson.exercise.pass_mark ? `; ${points(lesson.exercise.pass_mark * total)} to pass` : ""}`)),
-    whose(lesson), form, past.root].filter((part) => part !== null));
+  root.append(
+    ...[
+      h(
+        "div",
+        { class: "section-head" },
+        h("h2", null, "Exercise"),
+        h(
+          "p",
+          null,
+          `${plural(questions.length, "question")}, ${plural(total, "point")}${lesson.exercise.pass_mark ? `; ${points(lesson.exercise.pass_mark * total)} to pass` : ""}`,
+        ),
+      ),
+      whose(lesson),
+      form,
+      past.root,
+    ].filter((part) => part !== null),
+  );
   void past.load();
   return () => removeEventListener("triad:student", renamed);
 }
@@ -110,10 +157,22 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
 /** Says whose numbers these are; without a name, asks for one. */
 function whose(lesson: Lesson): HTMLElement | null {
   if (!lesson.has_variants) return null;
-  if (lesson.seed) return h("p", { class: "whose" }, "These are the numbers of ", h("b", null, lesson.seed), ". Everybody has their own.");
+  if (lesson.seed)
+    return h(
+      "p",
+      { class: "whose" },
+      "These are the numbers of ",
+      h("b", null, lesson.seed),
+      ". Everybody has their own.",
+    );
   const name = h("input", { id: "whose", class: "field", autocomplete: "name", maxlength: "80" });
-  const form = h("form", { class: "whose" }, h("label", { for: "whose" }, "Everybody has their own numbers in this exercise. Your name:"), name,
-    h("button", { class: "button small" }, "Show my numbers"));
+  const form = h(
+    "form",
+    { class: "whose" },
+    h("label", { for: "whose" }, "Everybody has their own numbers in this exercise. Your name:"),
+    name,
+    h("button", { class: "button small" }, "Show my numbers"),
+  );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     if (name.value.trim()) setStudent(name.value);
@@ -133,10 +192,13 @@ function readDraft(text: string | null): Record<string, string[]> {
   try {
     const value: unknown = JSON.parse(text);
     if (typeof value !== "object" || value === null) return {};
-    return Object.fromEntries(Object.entries(value).filter((entry): entry is [string, string[]] =>
-      Array.isArray(entry[1]) && entry[1].every((part) => typeof part === "string")));
+    return Object.fromEntries(
+      Object.entries(value).filter(
+        (entry): entry is [string, string[]] =>
+          Array.isArray(entry[1]) && entry[1].every((part) => typeof part === "string"),
+      ),
+    );
   } catch {
     return {};
   }
 }
-

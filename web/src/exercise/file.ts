@@ -12,7 +12,11 @@ const LARGEST = 1 << 20;
 const LONGEST_DRAFT = 100_000;
 
 const ASKED: Record<string, { label: string; accept: string; say: string }> = {
-  implement: { label: "What your program wrote (JSON or CSV)", accept: ".json,.csv,.txt", say: "answer.json" },
+  implement: {
+    label: "What your program wrote (JSON or CSV)",
+    accept: ".json,.csv,.txt",
+    say: "answer.json",
+  },
   trajectory: { label: "Your table (CSV)", accept: ".csv,.txt,.tsv", say: "a table" },
   model: { label: "Your scene (JSON)", accept: ".json", say: "a scene" },
 };
@@ -21,12 +25,23 @@ export function fileInput(question: Question, place: Place, draft: string[] | un
   const asked = ASKED[question.kind] ?? { label: "Your file", accept: "", say: "a file" };
   const { base } = place;
   const text = h("textarea", {
-    id: `${base}-text`, class: "field file-text", rows: question.kind === "model" ? "10" : "5", spellcheck: "false", autocapitalize: "off",
-    autocomplete: "off", "aria-label": asked.label, "aria-describedby": `${place.described} ${base}-told`,
+    id: `${base}-text`,
+    class: "field file-text",
+    rows: question.kind === "model" ? "10" : "5",
+    spellcheck: "false",
+    autocapitalize: "off",
+    autocomplete: "off",
+    "aria-label": asked.label,
+    "aria-describedby": `${place.described} ${base}-told`,
     placeholder: `Paste ${asked.say} here, or choose a file`,
   });
   text.value = draft?.[0] ?? "";
-  const pick = h("input", { type: "file", id: `${base}-file`, accept: asked.accept, "aria-label": `Choose a file: ${asked.label}` });
+  const pick = h("input", {
+    type: "file",
+    id: `${base}-file`,
+    accept: asked.accept,
+    "aria-label": `Choose a file: ${asked.label}`,
+  });
   const told = h("p", { class: "file-told", id: `${base}-told`, role: "status" });
   const clear = h("button", { type: "button", class: "button quiet small" }, "Clear");
 
@@ -35,8 +50,10 @@ export function fileInput(question: Question, place: Place, draft: string[] | un
     const large = bytes > LARGEST;
     text.toggleAttribute("aria-invalid", large);
     told.classList.toggle("is-bad", large);
-    told.textContent = !text.value.trim() ? ""
-      : large ? `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`
+    told.textContent = !text.value.trim()
+      ? ""
+      : large
+        ? `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`
         : `${name ? `${name}, ` : ""}${size(bytes)}, ${plural(text.value.trim().split("\n").length, "line")}`;
     clear.hidden = text.value === "";
   };
@@ -61,7 +78,14 @@ export function fileInput(question: Question, place: Place, draft: string[] | un
     text.dispatchEvent(new Event("input", { bubbles: true }));
     text.focus();
   });
-  const root = h("div", { class: "answer is-file" }, ...before(question, place), h("div", { class: "file-pick" }, pick, clear), text, told);
+  const root = h(
+    "div",
+    { class: "answer is-file" },
+    ...before(question, place),
+    h("div", { class: "file-pick" }, pick, clear),
+    text,
+    told,
+  );
   root.addEventListener("dragover", (event) => event.preventDefault());
   root.addEventListener("drop", (event) => {
     event.preventDefault();
@@ -75,22 +99,40 @@ export function fileInput(question: Question, place: Place, draft: string[] | un
   };
 }
 
-const size = (bytes: number): string => bytes < 2048 ? `${bytes} bytes` : bytes < 2 << 20 ? `${Math.round(bytes / 1024)} KiB` : `${(bytes / (1 << 20)).toFixed(1)} MiB`;
+const size = (bytes: number): string =>
+  bytes < 2048
+    ? `${bytes} bytes`
+    : bytes < 2 << 20
+      ? `${Math.round(bytes / 1024)} KiB`
+      : `${(bytes / (1 << 20)).toFixed(1)} MiB`;
 
 /** What is handed out before anything can be handed in. */
 function before(question: Question, { slug, seed }: Place): HTMLElement[] {
   if (question.kind === "implement") {
-    const link = (href: string, name: string, text: string): HTMLElement => h("a", { href, download: name, class: "button small" }, icon("save"), text);
-    return [h("div", { class: "handed-out" },
-      link(api.statesUrl(slug, question.id, seed), "states.json", seed ? "Your states" : "States"),
-      h("span", { class: "handed-label" }, "Starter:"),
-      link(api.starterUrl(slug, question.id, "python"), "starter.py", "Python"),
-      link(api.starterUrl(slug, question.id, "octave"), "starter.m", "MATLAB / Octave"),
-      link(api.starterUrl(slug, question.id, "julia"), "starter.jl", "Julia"))];
+    const link = (href: string, name: string, text: string): HTMLElement =>
+      h("a", { href, download: name, class: "button small" }, icon("save"), text);
+    return [
+      h(
+        "div",
+        { class: "handed-out" },
+        link(api.statesUrl(slug, question.id, seed), "states.json", seed ? "Your states" : "States"),
+        h("span", { class: "handed-label" }, "Starter:"),
+        link(api.starterUrl(slug, question.id, "python"), "starter.py", "Python"),
+        link(api.starterUrl(slug, question.id, "octave"), "starter.m", "MATLAB / Octave"),
+        link(api.starterUrl(slug, question.id, "julia"), "starter.jl", "Julia"),
+      ),
+    ];
   }
   if (question.kind === "trajectory" && question.columns) {
-    return [h("dl", { class: "columns" }, h("dt", null, "t"), h("dd", null, "time, s"),
-      ...question.columns.flatMap((column) => [h("dt", null, column.name), h("dd", null, column.what)]))];
+    return [
+      h(
+        "dl",
+        { class: "columns" },
+        h("dt", null, "t"),
+        h("dd", null, "time, s"),
+        ...question.columns.flatMap((column) => [h("dt", null, column.name), h("dd", null, column.what)]),
+      ),
+    ];
   }
   return [];
 }

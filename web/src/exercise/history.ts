@@ -23,7 +23,12 @@ export function historyList(lesson: Lesson): History {
     root.hidden = verdicts.length === 0;
     root.replaceChildren(
       h("h3", null, `Your submissions (${verdicts.length})`),
-      h("ol", { class: "history-list", reversed: true }, ...verdicts.map((verdict) => entry(lesson, verdict))));
+      h(
+        "ol",
+        { class: "history-list", reversed: true },
+        ...verdicts.map((verdict) => entry(lesson, verdict)),
+      ),
+    );
   };
 
   return {
@@ -39,7 +44,9 @@ export function historyList(lesson: Lesson): History {
         const stored = await api.submissions({ student: who, lesson: lesson.slug });
         if (who !== student.get()) return;
         // A verdict that arrived while the list was on its way is kept.
-        const fresh = verdicts.filter((verdict) => verdict.student === who && !stored.some((other) => other.id === verdict.id));
+        const fresh = verdicts.filter(
+          (verdict) => verdict.student === who && !stored.some((other) => other.id === verdict.id),
+        );
         verdicts = [...fresh, ...stored];
         verdicts.sort((a, b) => b.submitted_at.localeCompare(a.submitted_at));
         paint();
@@ -49,7 +56,8 @@ export function historyList(lesson: Lesson): History {
       }
     },
     add: (verdict) => {
-      if (!verdict.gradable || verdict.id === null || verdicts.some((before) => before.id === verdict.id)) return;
+      if (!verdict.gradable || verdict.id === null || verdicts.some((before) => before.id === verdict.id))
+        return;
       verdicts.unshift(verdict);
       paint();
     },
@@ -58,19 +66,48 @@ export function historyList(lesson: Lesson): History {
 
 function entry(lesson: Lesson, verdict: Verdict): HTMLElement {
   const right = verdict.questions.filter((question) => question.verdict === "right").length;
-  const details = h("details", { class: "history-entry" },
-    h("summary", null,
-      h("span", { class: `standing ${verdict.passed ? "is-right" : "is-open"}` }, icon(verdict.passed ? "check" : "dash"),
-        `${points(verdict.earned)} of ${points(verdict.possible)}`),
+  const details = h(
+    "details",
+    { class: "history-entry" },
+    h(
+      "summary",
+      null,
+      h(
+        "span",
+        { class: `standing ${verdict.passed ? "is-right" : "is-open"}` },
+        icon(verdict.passed ? "check" : "dash"),
+        `${points(verdict.earned)} of ${points(verdict.possible)}`,
+      ),
       h("time", { datetime: verdict.submitted_at }, dateTime(verdict.submitted_at)),
-      h("span", { class: "history-right" }, `${right} of ${plural(verdict.questions.length, "question")} right`)));
+      h(
+        "span",
+        { class: "history-right" },
+        `${right} of ${plural(verdict.questions.length, "question")} right`,
+      ),
+    ),
+  );
   details.addEventListener("toggle", () => {
     if (!details.open || details.childElementCount > 1) return;
     const places = new Map(lesson.exercise.questions.map((question, at) => [question.id, at + 1]));
-    details.append(...verdict.questions.map((question) => h("div", { class: "history-question" },
-      h("p", { class: "history-label" }, `Question ${places.get(question.id) ?? question.id}`), verdictLine(question))));
+    details.append(
+      ...verdict.questions.map((question) =>
+        h(
+          "div",
+          { class: "history-question" },
+          h("p", { class: "history-label" }, `Question ${places.get(question.id) ?? question.id}`),
+          verdictLine(question),
+        ),
+      ),
+    );
     if (verdict.provenance?.engine) {
-      details.append(h("p", { class: "provenance" }, `Graded by engine ${verdict.provenance.engine}`, verdict.provenance.lesson_hash ? `, lesson ${verdict.provenance.lesson_hash.slice(0, 12)}` : ""));
+      details.append(
+        h(
+          "p",
+          { class: "provenance" },
+          `Graded by engine ${verdict.provenance.engine}`,
+          verdict.provenance.lesson_hash ? `, lesson ${verdict.provenance.lesson_hash.slice(0, 12)}` : "",
+        ),
+      );
     }
     void setMaths(details);
   });

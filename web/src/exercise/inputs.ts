@@ -20,19 +20,41 @@ export interface Place {
 
 export function inputsOf(question: Question, place: Place, draft: string[] | undefined): Inputs {
   switch (question.kind) {
-    case "choice": return choice(question, place, draft);
-    case "vector": return grid(question, place, draft);
-    case "matrix": return grid(question, place, draft);
-    case "implement": case "trajectory": case "model": return fileInput(question, place, draft);
-    case "tuning": return tuningInput(question, place, draft);
-    default: return single(question, place, draft);
+    case "choice":
+      return choice(question, place, draft);
+    case "vector":
+      return grid(question, place, draft);
+    case "matrix":
+      return grid(question, place, draft);
+    case "implement":
+    case "trajectory":
+    case "model":
+      return fileInput(question, place, draft);
+    case "tuning":
+      return tuningInput(question, place, draft);
+    default:
+      return single(question, place, draft);
   }
 }
 
-export function textInput(id: string, label: string, described: string, value: string, cls = ""): HTMLInputElement {
+export function textInput(
+  id: string,
+  label: string,
+  described: string,
+  value: string,
+  cls = "",
+): HTMLInputElement {
   return h("input", {
-    id, class: `field number ${cls}`, inputmode: cls.includes("unit") ? "text" : "decimal", autocomplete: "off",
-    autocapitalize: "off", spellcheck: "false", "aria-label": label, "aria-describedby": described, value, maxlength: "64",
+    id,
+    class: `field number ${cls}`,
+    inputmode: cls.includes("unit") ? "text" : "decimal",
+    autocomplete: "off",
+    autocapitalize: "off",
+    spellcheck: "false",
+    "aria-label": label,
+    "aria-describedby": described,
+    value,
+    maxlength: "64",
   });
 }
 
@@ -48,7 +70,12 @@ function givenUnit(question: Question): HTMLElement | null {
 
 function single(question: Question, place: Place, draft: string[] | undefined): Inputs {
   const formula = question.kind === "formula";
-  const value = textInput(`${place.base}-value`, formula ? "Formula" : "Value", place.described, draft?.[0] ?? "");
+  const value = textInput(
+    `${place.base}-value`,
+    formula ? "Formula" : "Value",
+    place.described,
+    draft?.[0] ?? "",
+  );
   if (formula) {
     value.inputMode = "text";
     value.maxLength = 400;
@@ -72,21 +99,50 @@ function grid(question: Question, place: Place, draft: string[] | undefined): In
     const suffix = matrix ? `${row + 1}-${(k % columns) + 1}` : axes[row];
     return textInput(`${place.base}-${suffix}`, label, place.described, draft?.[k] ?? "");
   });
-  cells.forEach((cell, at) => cell.addEventListener("paste", (event) => {
-    const pieces = (event.clipboardData?.getData("text") ?? "").trim().split(/[\s;[\]]+|,(?=\s)/).filter(Boolean);
-    if (pieces.length < 2) return;
-    event.preventDefault();
-    pieces.slice(0, cells.length - at).forEach((piece, k) => { cells[at + k]!.value = piece.replace(/,$/, ""); });
-    cell.dispatchEvent(new Event("input", { bubbles: true }));
-  }));
+  cells.forEach((cell, at) =>
+    cell.addEventListener("paste", (event) => {
+      const pieces = (event.clipboardData?.getData("text") ?? "")
+        .trim()
+        .split(/[\s;[\]]+|,(?=\s)/)
+        .filter(Boolean);
+      if (pieces.length < 2) return;
+      event.preventDefault();
+      pieces.slice(0, cells.length - at).forEach((piece, k) => {
+        cells[at + k]!.value = piece.replace(/,$/, "");
+      });
+      cell.dispatchEvent(new Event("input", { bubbles: true }));
+    }),
+  );
   const unit = unitInput(question, place, draft?.[cells.length]);
   const after = unit ?? givenUnit(question);
   const root = matrix
-    ? h("div", { class: "answer is-matrix" },
-      h("div", { class: "matrix-field", role: "group", "aria-label": `${rows} rows, ${columns} columns`, style: `--columns:${columns}` }, ...cells), after)
-    : h("div", { class: "answer is-vector" },
-      ...cells.map((cell, k) => h("span", { class: "component" }, h("span", { "aria-hidden": "true" }, axes[k] ?? ""), cell)), after);
-  const lines = (): string[][] => Array.from({ length: rows }, (_, r) => cells.slice(r * columns, (r + 1) * columns).map((cell) => cell.value.trim()));
+    ? h(
+        "div",
+        { class: "answer is-matrix" },
+        h(
+          "div",
+          {
+            class: "matrix-field",
+            role: "group",
+            "aria-label": `${rows} rows, ${columns} columns`,
+            style: `--columns:${columns}`,
+          },
+          ...cells,
+        ),
+        after,
+      )
+    : h(
+        "div",
+        { class: "answer is-vector" },
+        ...cells.map((cell, k) =>
+          h("span", { class: "component" }, h("span", { "aria-hidden": "true" }, axes[k] ?? ""), cell),
+        ),
+        after,
+      );
+  const lines = (): string[][] =>
+    Array.from({ length: rows }, (_, r) =>
+      cells.slice(r * columns, (r + 1) * columns).map((cell) => cell.value.trim()),
+    );
   return {
     root,
     answer: () => withUnit({ value: matrix ? lines() : cells.map((cell) => cell.value.trim()) }, unit),
@@ -94,7 +150,10 @@ function grid(question: Question, place: Place, draft: string[] | undefined): In
   };
 }
 
-function withUnit<T extends { value: string | string[] | string[][] }>(answer: T, unit: HTMLInputElement | null): Answer {
+function withUnit<T extends { value: string | string[] | string[][] }>(
+  answer: T,
+  unit: HTMLInputElement | null,
+): Answer {
   return unit ? { ...answer, unit: unit.value.trim() } : answer;
 }
 

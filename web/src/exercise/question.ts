@@ -25,7 +25,13 @@ export interface Kept {
   hints: number;
 }
 
-export function questionField(lesson: Lesson, question: Question, number: number, kept: Kept, changed: () => void): QuestionField {
+export function questionField(
+  lesson: Lesson,
+  question: Question,
+  number: number,
+  kept: Kept,
+  changed: () => void,
+): QuestionField {
   const base = `q-${question.id}`;
   const ruleId = `${base}-rule`;
   const verdictId = `${base}-verdict`;
@@ -36,15 +42,21 @@ export function questionField(lesson: Lesson, question: Question, number: number
   inputs.root.addEventListener("input", changed);
   inputs.root.addEventListener("change", changed);
 
-  const root = h("fieldset", { class: "question", id: base, "aria-describedby": ruleId },
-    h("legend", null,
+  const root = h(
+    "fieldset",
+    { class: "question", id: base, "aria-describedby": ruleId },
+    h(
+      "legend",
+      null,
       h("span", { class: "question-number" }, `${number}`),
       authored(h("span", { class: "question-prompt" }), question.prompt_html),
-      h("span", { class: "question-points" }, plural(question.points, "point"))),
+      h("span", { class: "question-points" }, plural(question.points, "point")),
+    ),
     inputs.root,
     h("p", { class: "rule", id: ruleId }, question.rule),
     question.hints_available > 0 ? opened.root : null,
-    verdict);
+    verdict,
+  );
 
   return {
     id: question.id,
@@ -54,14 +66,16 @@ export function questionField(lesson: Lesson, question: Question, number: number
     hints: opened.shown,
     show: (result) => {
       root.classList.remove("is-right", "is-wrong", "is-blank", "is-invalid");
-      for (const input of root.querySelectorAll("input, textarea, select")) input.removeAttribute("aria-invalid");
+      for (const input of root.querySelectorAll("input, textarea, select"))
+        input.removeAttribute("aria-invalid");
       if (!result) {
         verdict.replaceChildren();
         return;
       }
       root.classList.add(`is-${result.verdict}`);
       if (result.verdict === "invalid" || result.verdict === "wrong") {
-        for (const input of root.querySelectorAll("input:not([type=radio], [type=file]), textarea")) input.setAttribute("aria-invalid", "true");
+        for (const input of root.querySelectorAll("input:not([type=radio], [type=file]), textarea"))
+          input.setAttribute("aria-invalid", "true");
       }
       verdict.replaceChildren(verdictLine(result));
     },
@@ -69,7 +83,12 @@ export function questionField(lesson: Lesson, question: Question, number: number
 }
 
 /** Hints one at a time; those that were open before are open again. */
-function hints(lesson: Lesson, question: Question, before: number, changed: () => void): { root: HTMLElement; shown: () => number } {
+function hints(
+  lesson: Lesson,
+  question: Question,
+  before: number,
+  changed: () => void,
+): { root: HTMLElement; shown: () => number } {
   let shown = 0;
   const list = h("ol", { class: "hints" });
   const more = h("button", { type: "button", class: "button quiet small" });

@@ -1,10 +1,12 @@
 // Settings of a run under a budget: integrator, tolerance, stabilization.
 import { h, uid } from "../core/dom";
 import type { Question } from "../core/types";
-import { textInput, type Inputs, type Place } from "./inputs";
+import { type Inputs, type Place, textInput } from "./inputs";
 
 const WORDS: Record<string, string> = {
-  dopri5: "Dormand-Prince, order 5", dop853: "Dormand-Prince, order 8", taylor: "Taylor series",
+  dopri5: "Dormand-Prince, order 5",
+  dop853: "Dormand-Prince, order 8",
+  taylor: "Taylor series",
 };
 
 export function tuningInput(question: Question, place: Place, draft: string[] | undefined): Inputs {
@@ -15,14 +17,21 @@ export function tuningInput(question: Question, place: Place, draft: string[] | 
     field.id = id;
     return h("div", { class: "setting" }, h("label", { for: id }, label), field);
   };
-  const integrator = h("select", { id: `${base}-integrator`, class: "field", "aria-describedby": described },
-    ...offered.integrators.map((kind) => h("option", { value: kind }, WORDS[kind] ?? kind)));
+  const integrator = h(
+    "select",
+    { id: `${base}-integrator`, class: "field", "aria-describedby": described },
+    ...offered.integrators.map((kind) => h("option", { value: kind }, WORDS[kind] ?? kind)),
+  );
   if (draft?.[0] && offered.integrators.includes(draft[0])) integrator.value = draft[0];
   const tolerance = textInput(`${base}-tolerance`, "Tolerance", described, draft?.[1] ?? "");
   tolerance.placeholder = "1e-6";
   tolerance.inputMode = "text";
-  const kind = h("select", { id: `${base}-stabilization`, class: "field", "aria-describedby": described },
-    h("option", { value: "projection" }, "Projection"), h("option", { value: "baumgarte" }, "Baumgarte"));
+  const kind = h(
+    "select",
+    { id: `${base}-stabilization`, class: "field", "aria-describedby": described },
+    h("option", { value: "projection" }, "Projection"),
+    h("option", { value: "baumgarte" }, "Baumgarte"),
+  );
   kind.value = draft?.[2] === "baumgarte" ? "baumgarte" : "projection";
   const alpha = textInput(`${base}-alpha`, "Alpha in 1/s", described, draft?.[3] ?? "");
   const beta = textInput(`${base}-beta`, "Beta in 1/s", described, draft?.[4] ?? "");
@@ -32,18 +41,32 @@ export function tuningInput(question: Question, place: Place, draft: string[] | 
   };
   kind.addEventListener("change", paint);
   paint();
-  const root = h("div", { class: "answer is-tuning" },
-    h("div", { class: "settings" }, labelled("Integrator", integrator), labelled("Tolerance", tolerance),
-      offered.baumgarte ? labelled("Stabilization", kind) : null),
-    offered.baumgarte ? parameters : null);
+  const root = h(
+    "div",
+    { class: "answer is-tuning" },
+    h(
+      "div",
+      { class: "settings" },
+      labelled("Integrator", integrator),
+      labelled("Tolerance", tolerance),
+      offered.baumgarte ? labelled("Stabilization", kind) : null,
+    ),
+    offered.baumgarte ? parameters : null,
+  );
   return {
     root,
-    answer: () => tolerance.value.trim() === "" ? { value: "" } : {
-      settings: {
-        integrator: integrator.value, tolerance: tolerance.value.trim(),
-        ...(offered.baumgarte && kind.value === "baumgarte" ? { baumgarte: [alpha.value.trim() || "0", beta.value.trim() || "0"] as [string, string] } : {}),
-      },
-    },
+    answer: () =>
+      tolerance.value.trim() === ""
+        ? { value: "" }
+        : {
+            settings: {
+              integrator: integrator.value,
+              tolerance: tolerance.value.trim(),
+              ...(offered.baumgarte && kind.value === "baumgarte"
+                ? { baumgarte: [alpha.value.trim() || "0", beta.value.trim() || "0"] as [string, string] }
+                : {}),
+            },
+          },
     draft: () => [integrator.value, tolerance.value, kind.value, alpha.value, beta.value],
   };
 }

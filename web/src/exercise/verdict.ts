@@ -2,7 +2,7 @@
 import { authored, h } from "../core/dom";
 import { points } from "../core/format";
 import type { QuestionVerdict, Verdict, VerdictKind } from "../core/types";
-import { icon, type IconName } from "../ui/icons";
+import { type IconName, icon } from "../ui/icons";
 
 const WORDS: Record<VerdictKind, { word: string; mark: IconName }> = {
   right: { word: "Right", mark: "check" },
@@ -21,22 +21,55 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   const first = text.firstElementChild;
   if (first && SAID.has(first.textContent ?? "")) first.remove();
   if (result.verdict === "wrong" && !text.textContent) text.append(h("p", null, UNKNOWN_SLIP));
-  return h("div", { class: `verdict is-${result.verdict}` },
-    h("p", { class: "verdict-head" }, icon(mark), h("strong", null, word),
-      h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`)),
+  return h(
+    "div",
+    { class: `verdict is-${result.verdict}` },
+    h(
+      "p",
+      { class: "verdict-head" },
+      icon(mark),
+      h("strong", null, word),
+      h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`),
+    ),
     text.textContent ? text : null,
     result.reference_html
-      ? h("details", { class: "reference" }, h("summary", null, "The reference answer"), authored(h("div", { class: "verdict-text" }), result.reference_html)) : null,
-    result.figure_svg ? authored(h("div", { class: "verdict-figure" }), result.figure_svg) : null);
+      ? h(
+          "details",
+          { class: "reference" },
+          h("summary", null, "The reference answer"),
+          authored(h("div", { class: "verdict-text" }), result.reference_html),
+        )
+      : null,
+    result.figure_svg ? authored(h("div", { class: "verdict-figure" }), result.figure_svg) : null,
+  );
 }
 
 export function verdictSummary(verdict: Verdict): HTMLElement {
   const score = `${points(verdict.earned)} of ${points(verdict.possible)} points`;
   const [cls, mark, title, text]: [string, IconName, string, string] = !verdict.gradable
-    ? ["is-invalid", "warn", "Not counted yet", "An answer was sent back, so nothing is stored and no attempt is used. Put it right and check again."]
+    ? [
+        "is-invalid",
+        "warn",
+        "Not counted yet",
+        "An answer was sent back, so nothing is stored and no attempt is used. Put it right and check again.",
+      ]
     : verdict.passed
-      ? ["is-right", "check", `Passed: ${score}`, "The result is stored. You can still change an answer and check again."]
-      : ["is-wrong", "dash", `${score} so far`, "Read the remarks at the questions, change what needs it, and check again."];
-  return h("div", { class: `summary ${cls}`, role: "status" }, icon(mark),
-    h("div", null, h("p", { class: "summary-title" }, title), h("p", null, text)));
+      ? [
+          "is-right",
+          "check",
+          `Passed: ${score}`,
+          "The result is stored. You can still change an answer and check again.",
+        ]
+      : [
+          "is-wrong",
+          "dash",
+          `${score} so far`,
+          "Read the remarks at the questions, change what needs it, and check again.",
+        ];
+  return h(
+    "div",
+    { class: `summary ${cls}`, role: "status" },
+    icon(mark),
+    h("div", null, h("p", { class: "summary-title" }, title), h("p", null, text)),
+  );
 }

@@ -1,5 +1,5 @@
 // A lecture as a follower sees it: the presenter's run, mirrored, or looked around in on one's own.
-import { api, ApiError } from "../core/api";
+import { ApiError, api } from "../core/api";
 import { announce } from "../core/dom";
 import { seenOf } from "../core/link";
 import type { Board, SessionState } from "../core/types";
@@ -27,7 +27,9 @@ export class Follower extends Session {
   }
 
   protected override streamUrl(): string {
-    return api.streamUrl(`/api/v1/rooms/${encodeURIComponent(this.code)}/stream${this.recording ? "?recording=true" : ""}`);
+    return api.streamUrl(
+      `/api/v1/rooms/${encodeURIComponent(this.code)}/stream${this.recording ? "?recording=true" : ""}`,
+    );
   }
 
   override resubscribe(): void {

@@ -1,11 +1,11 @@
 // The presenter's desk: opens a room for the run of this page, sends what is looked at, asks, reveals.
-import { api, ApiError } from "../core/api";
+import { ApiError, api } from "../core/api";
 import { announce, h, setText } from "../core/dom";
 import type { Seen } from "../core/link";
 import type { Tally } from "../core/types";
+import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { dialog } from "../ui/dialog";
 import type { Session } from "../workbench/session";
 import { histogram } from "./voter";
 
@@ -54,22 +54,67 @@ export function desk(session: Session, seen: () => Seen): Desk {
   const trouble = h("div", { "aria-live": "polite" });
   const followers = h("span", { class: "desk-count", role: "status" }, "nobody follows yet");
   const result = h("div", { class: "desk-result" });
-  const revealButton = h("button", { type: "button", class: "button primary", hidden: true, onclick: () => attempt((it) => api.reveal(it.code, it.key)) }, "Reveal");
-  const forgetButton = h("button", { type: "button", class: "button", hidden: true, onclick: () => void attempt(async (it) => {
-    await api.forgetQuestion(it.code, it.key);
-    asked = undefined;
-    showTally(null);
-  }) }, "Take it away");
+  const revealButton = h(
+    "button",
+    {
+      type: "button",
+      class: "button primary",
+      hidden: true,
+      onclick: () => attempt((it) => api.reveal(it.code, it.key)),
+    },
+    "Reveal",
+  );
+  const forgetButton = h(
+    "button",
+    {
+      type: "button",
+      class: "button",
+      hidden: true,
+      onclick: () =>
+        void attempt(async (it) => {
+          await api.forgetQuestion(it.code, it.key);
+          asked = undefined;
+          showTally(null);
+        }),
+    },
+    "Take it away",
+  );
   const code = h("b", { class: "desk-code" });
-  const root = h("section", { class: "desk", "aria-label": "Lecture", hidden: true },
-    h("div", { class: "row wrap between" },
+  const root = h(
+    "section",
+    { class: "desk", "aria-label": "Lecture", hidden: true },
+    h(
+      "div",
+      { class: "row wrap between" },
       h("p", { class: "row wrap" }, h("span", null, "Lecture room "), code, followers),
-      h("span", { class: "row wrap tight" },
-        h("button", { type: "button", class: "button", onclick: () => room && void invite(room) }, "How to join"),
-        h("button", { type: "button", class: "button", onclick: () => askDialog() }, "Ask a question"), revealButton, forgetButton,
-        h("button", { type: "button", class: "button quiet", onclick: () => void end() }, "End the lecture"))),
-    result, trouble);
-  const button = h("button", { type: "button", class: "button quiet small icon-only", "aria-label": "Lecture: let others follow this run", title: "Lecture: let others follow this run", onclick: () => void open() }, icon("lecture"));
+      h(
+        "span",
+        { class: "row wrap tight" },
+        h(
+          "button",
+          { type: "button", class: "button", onclick: () => room && void invite(room) },
+          "How to join",
+        ),
+        h("button", { type: "button", class: "button", onclick: () => askDialog() }, "Ask a question"),
+        revealButton,
+        forgetButton,
+        h("button", { type: "button", class: "button quiet", onclick: () => void end() }, "End the lecture"),
+      ),
+    ),
+    result,
+    trouble,
+  );
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "button quiet small icon-only",
+      "aria-label": "Lecture: let others follow this run",
+      title: "Lecture: let others follow this run",
+      onclick: () => void open(),
+    },
+    icon("lecture"),
+  );
 
   const paint = (): void => {
     root.hidden = !room;
@@ -110,11 +155,12 @@ export function desk(session: Session, seen: () => Seen): Desk {
       trouble.replaceChildren(problemNotice(error));
     }
   };
-  const end = (): Promise<void> => attempt(async (it) => {
-    await api.closeRoom(it.code, it.key);
-    forget();
-    announce("The lecture is over.");
-  });
+  const end = (): Promise<void> =>
+    attempt(async (it) => {
+      await api.closeRoom(it.code, it.key);
+      forget();
+      announce("The lecture is over.");
+    });
 
   /** Tells the room what is looked at: at most a few times a second, the newest counts. */
   const send = (): void => {
@@ -127,53 +173,99 @@ export function desk(session: Session, seen: () => Seen): Desk {
       if (!session.reviewing) delete view.time;
       const text = JSON.stringify(view);
       if (!id || (text === sent && id === shown)) return;
-      void attempt((it) => api.show(it.code, it.key, id === shown ? { view } : { session: id, view })).then(() => {
-        sent = text;
-        shown = id;
-      });
+      void attempt((it) => api.show(it.code, it.key, id === shown ? { view } : { session: id, view })).then(
+        () => {
+          sent = text;
+          shown = id;
+        },
+      );
     }, SEND_MS);
   };
 
   const askDialog = (): void => {
-    const text = h("input", { class: "field", id: "ask-text", maxlength: "400", value: session.joint ? `Which sign has Fx of ${session.joint} at this moment?` : "What happens next?" });
-    const choices = h("textarea", { class: "field", id: "ask-choices", rows: "4" }, "positive\nnegative\nzero");
-    const right = h("input", { class: "field compact", id: "ask-right", inputmode: "numeric", placeholder: "none" });
+    const text = h("input", {
+      class: "field",
+      id: "ask-text",
+      maxlength: "400",
+      value: session.joint ? `Which sign has Fx of ${session.joint} at this moment?` : "What happens next?",
+    });
+    const choices = h(
+      "textarea",
+      { class: "field", id: "ask-choices", rows: "4" },
+      "positive\nnegative\nzero",
+    );
+    const right = h("input", {
+      class: "field compact",
+      id: "ask-right",
+      inputmode: "numeric",
+      placeholder: "none",
+    });
     const wrong = h("div");
-    const form = h("form", { class: "stack" },
-      h("label", { for: "ask-text" }, "Question"), text,
-      h("label", { for: "ask-choices" }, "Choices, one a line"), choices,
-      h("label", { for: "ask-right" }, "Number of the right choice, shown at the reveal"), right, wrong,
-      h("div", { class: "row" }, h("button", { class: "button primary" }, "Ask")));
+    const form = h(
+      "form",
+      { class: "stack" },
+      h("label", { for: "ask-text" }, "Question"),
+      text,
+      h("label", { for: "ask-choices" }, "Choices, one a line"),
+      choices,
+      h("label", { for: "ask-right" }, "Number of the right choice, shown at the reveal"),
+      right,
+      wrong,
+      h("div", { class: "row" }, h("button", { class: "button primary" }, "Ask")),
+    );
     const box = dialog("Ask everybody", form);
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const question = { text: text.value.trim(), choices: choices.value.split("\n").map((line) => line.trim()).filter(Boolean) };
+      const question = {
+        text: text.value.trim(),
+        choices: choices.value
+          .split("\n")
+          .map((line) => line.trim())
+          .filter(Boolean),
+      };
       const index = right.value.trim() === "" ? null : Number(right.value) - 1;
       if (!room) return;
-      api.ask(room.code, room.key, { ...question, right: index }).then(() => {
-        asked = question;
-        box.close();
-        void look();
-      }).catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
+      api
+        .ask(room.code, room.key, { ...question, right: index })
+        .then(() => {
+          asked = question;
+          box.close();
+          void look();
+        })
+        .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
     });
     text.select();
   };
   const showTally = (tally: Tally | null): void => {
     revealButton.hidden = !tally || tally.revealed;
     forgetButton.hidden = !tally;
-    result.replaceChildren(...(tally ? [h("p", { class: "desk-question" }, asked?.text ?? "The question that is asked"), histogram(asked?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`), tally)] : []));
+    result.replaceChildren(
+      ...(tally
+        ? [
+            h("p", { class: "desk-question" }, asked?.text ?? "The question that is asked"),
+            histogram(asked?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`), tally),
+          ]
+        : []),
+    );
   };
-  const look = (): Promise<void> => attempt(async (it) => {
-    const told = await api.desk(it.code, it.key);
-    setText(followers, told.followers === 0 ? "nobody follows yet" : `${told.followers} ${told.followers === 1 ? "follows" : "follow"}`);
-    showTally(told.tally);
-  });
+  const look = (): Promise<void> =>
+    attempt(async (it) => {
+      const told = await api.desk(it.code, it.key);
+      setText(
+        followers,
+        told.followers === 0
+          ? "nobody follows yet"
+          : `${told.followers} ${told.followers === 1 ? "follows" : "follow"}`,
+      );
+      showTally(told.tally);
+    });
 
   const timer = window.setInterval(() => void look(), DESK_MS);
   const silence = (["shown", "told", "selected", "opened"] as const).map((event) => session.on(event, send));
   paint();
   return {
-    button, root,
+    button,
+    root,
     dispose: () => {
       clearInterval(timer);
       clearTimeout(waiting);
@@ -187,11 +279,32 @@ async function invite(room: Room): Promise<void> {
   const { qr } = await import("./qr");
   const address = new URL(`/room/${room.code}`, location.href).href;
   const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
-  const box = dialog("Join this lecture",
-    h("div", { class: "invite" }, qr(address),
-      h("div", { class: "stack" },
-        h("p", null, "Open ", h("b", null, new URL("/room", location.href).href.replace(/^https?:\/\//, "")), " and type"),
+  const box = dialog(
+    "Join this lecture",
+    h(
+      "div",
+      { class: "invite" },
+      qr(address),
+      h(
+        "div",
+        { class: "stack" },
+        h(
+          "p",
+          null,
+          "Open ",
+          h("b", null, new URL("/room", location.href).href.replace(/^https?:\/\//, "")),
+          " and type",
+        ),
         h("p", { class: "invite-code" }, room.code),
-        here ? h("p", { class: "notice is-note" }, "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.") : null)));
+        here
+          ? h(
+              "p",
+              { class: "notice is-note" },
+              "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.",
+            )
+          : null,
+      ),
+    ),
+  );
   box.classList.add("is-wide");
 }

@@ -5,6 +5,16 @@ import { svg } from "../core/dom";
 export function qr(text: string): SVGSVGElement {
   const code = encode(text, { ecc: "M", border: 2 });
   const d = code.data.flatMap((row, y) => row.map((dark, x) => (dark ? `M${x} ${y}h1v1h-1z` : ""))).join("");
-  return svg("svg", { viewBox: `0 0 ${code.size} ${code.size}`, class: "qr", role: "img", "aria-label": `QR code of ${text}`, "shape-rendering": "crispEdges" },
-    svg("rect", { width: code.size, height: code.size, fill: "#fff" }), svg("path", { d, fill: "#000" }));
+  return svg(
+    "svg",
+    {
+      viewBox: `0 0 ${code.size} ${code.size}`,
+      class: "qr",
+      role: "img",
+      "aria-label": `QR code of ${text}`,
+      "shape-rendering": "crispEdges",
+    },
+    svg("rect", { width: code.size, height: code.size, fill: "#fff" }),
+    svg("path", { d, fill: "#000" }),
+  );
 }

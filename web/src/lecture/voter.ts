@@ -16,7 +16,12 @@ function voter(): string {
 }
 
 export function ballot(code: string): { root: HTMLElement; show: (question: RoomQuestion | null) => void } {
-  const root = h("section", { class: "ballot", hidden: true, "aria-label": "Question", "aria-live": "polite" });
+  const root = h("section", {
+    class: "ballot",
+    hidden: true,
+    "aria-label": "Question",
+    "aria-live": "polite",
+  });
   let shown = "";
   let chosen: number | undefined;
 
@@ -28,17 +33,38 @@ export function ballot(code: string): { root: HTMLElement; show: (question: Room
     root.hidden = !question;
     if (!question) return;
     if (question.result) {
-      root.replaceChildren(h("h2", null, question.text), histogram(question.choices, question.result, chosen));
+      root.replaceChildren(
+        h("h2", null, question.text),
+        histogram(question.choices, question.result, chosen),
+      );
       return;
     }
-    const said = h("p", { class: "help", role: "status" }, "Your answer can be changed until the result is shown.");
-    const buttons = question.choices.map((choice, k) => h("button", { type: "button", class: "button choice", "aria-pressed": String(chosen === k), onclick: () => {
-      api.answer(code, { question: question.number, voter: voter(), choice: k }).then(() => {
-        chosen = k;
-        buttons.forEach((button, at) => button.setAttribute("aria-pressed", String(at === k)));
-        said.textContent = `Counted: ${choice}. It can be changed until the result is shown.`;
-      }).catch((error: unknown) => said.replaceChildren(problemNotice(error)));
-    } }, choice));
+    const said = h(
+      "p",
+      { class: "help", role: "status" },
+      "Your answer can be changed until the result is shown.",
+    );
+    const buttons = question.choices.map((choice, k) =>
+      h(
+        "button",
+        {
+          type: "button",
+          class: "button choice",
+          "aria-pressed": String(chosen === k),
+          onclick: () => {
+            api
+              .answer(code, { question: question.number, voter: voter(), choice: k })
+              .then(() => {
+                chosen = k;
+                buttons.forEach((button, at) => button.setAttribute("aria-pressed", String(at === k)));
+                said.textContent = `Counted: ${choice}. It can be changed until the result is shown.`;
+              })
+              .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
+          },
+        },
+        choice,
+      ),
+    );
     root.replaceChildren(h("h2", null, question.text), h("div", { class: "row wrap" }, ...buttons), said);
   };
   return { root, show };
@@ -48,12 +74,34 @@ export function ballot(code: string): { root: HTMLElement; show: (question: Room
 export function histogram(choices: string[], tally: Tally, mine?: number): HTMLElement {
   const all = tally.counts.reduce((sum, count) => sum + count, 0);
   const most = Math.max(1, ...tally.counts);
-  return h("table", { class: "histogram" }, h("caption", null, `${all} ${all === 1 ? "answer" : "answers"}`), h("tbody", null, ...choices.map((choice, k) => {
-    const count = tally.counts[k] ?? 0;
-    const right = tally.right === k && tally.revealed;
-    return h("tr", { class: right ? "is-right" : "" },
-      h("th", { scope: "row" }, choice, right ? h("span", { class: "mark" }, " right") : null, mine === k ? h("span", { class: "mark" }, " yours") : null),
-      h("td", { class: "bar-cell" }, h("span", { class: "bar", style: `inline-size:${(100 * count) / most}%` })),
-      h("td", { class: "number" }, String(count)));
-  })));
+  return h(
+    "table",
+    { class: "histogram" },
+    h("caption", null, `${all} ${all === 1 ? "answer" : "answers"}`),
+    h(
+      "tbody",
+      null,
+      ...choices.map((choice, k) => {
+        const count = tally.counts[k] ?? 0;
+        const right = tally.right === k && tally.revealed;
+        return h(
+          "tr",
+          { class: right ? "is-right" : "" },
+          h(
+            "th",
+            { scope: "row" },
+            choice,
+            right ? h("span", { class: "mark" }, " right") : null,
+            mine === k ? h("span", { class: "mark" }, " yours") : null,
+          ),
+          h(
+            "td",
+            { class: "bar-cell" },
+            h("span", { class: "bar", style: `inline-size:${(100 * count) / most}%` }),
+          ),
+          h("td", { class: "number" }, String(count)),
+        );
+      }),
+    ),
+  );
 }

@@ -23,33 +23,73 @@ export function homePage(outlet: HTMLElement): Page {
   const progress = h("p", { class: "contents-progress" });
   const place = lastPlace();
 
-  outlet.append(h("div", { class: "page home" },
-    h("section", { class: "hero" },
-      h("div", { class: "hero-text" },
-        h("h1", null, "Mechanisms in space, one constraint at a time"),
-        h("p", { class: "lead" },
-          "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
-          "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints."),
-        place ? h("p", { class: "go-on" }, h("a", { class: "button primary", href: place.href }, `Go on with “${place.title}”`)) : null),
-      heroDrawing()),
-    h("section", { "aria-labelledby": "lessons-title" },
-      h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), progress),
-      list),
-    h("section", { class: "aside-strip" },
-      h("div", null, h("h2", null, "Or build your own"),
-        h("p", null, "Run a built-in mechanism without a lesson, change it, or write a new one. Triad counts its degrees of freedom and names its redundant rows as you type.")),
-      h("a", { class: "button", href: "/scenes" }, icon("cube"), "Open the scenes"))));
+  outlet.append(
+    h(
+      "div",
+      { class: "page home" },
+      h(
+        "section",
+        { class: "hero" },
+        h(
+          "div",
+          { class: "hero-text" },
+          h("h1", null, "Mechanisms in space, one constraint at a time"),
+          h(
+            "p",
+            { class: "lead" },
+            "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
+            "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
+          ),
+          place
+            ? h(
+                "p",
+                { class: "go-on" },
+                h("a", { class: "button primary", href: place.href }, `Go on with “${place.title}”`),
+              )
+            : null,
+        ),
+        heroDrawing(),
+      ),
+      h(
+        "section",
+        { "aria-labelledby": "lessons-title" },
+        h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), progress),
+        list,
+      ),
+      h(
+        "section",
+        { class: "aside-strip" },
+        h(
+          "div",
+          null,
+          h("h2", null, "Or build your own"),
+          h(
+            "p",
+            null,
+            "Run a built-in mechanism without a lesson, change it, or write a new one. Triad counts its degrees of freedom and names its redundant rows as you type.",
+          ),
+        ),
+        h("a", { class: "button", href: "/scenes" }, icon("cube"), "Open the scenes"),
+      ),
+    ),
+  );
 
   let lessons: LessonSummary[] = [];
   const paint = (best: Map<string, Best>): void => {
     list.removeAttribute("aria-busy");
     if (lessons.length === 0) {
-      list.replaceChildren(empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."));
+      list.replaceChildren(
+        empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."),
+      );
       return;
     }
     const passed = lessons.filter((lesson) => best.get(lesson.slug)?.passed).length;
-    progress.textContent = student.get() ? `${passed} of ${lessons.length} passed` : plural(lessons.length, "lesson");
-    list.replaceChildren(h("ol", { class: "lesson-list" }, ...lessons.map((lesson) => row(lesson, best.get(lesson.slug)))));
+    progress.textContent = student.get()
+      ? `${passed} of ${lessons.length} passed`
+      : plural(lessons.length, "lesson");
+    list.replaceChildren(
+      h("ol", { class: "lesson-list" }, ...lessons.map((lesson) => row(lesson, best.get(lesson.slug)))),
+    );
   };
 
   const load = async (): Promise<void> => {
@@ -96,12 +136,18 @@ function bestOf(verdicts: Verdict[]): Map<string, Best> {
 }
 
 function row(lesson: LessonSummary, best: Best | undefined): HTMLElement {
-  return h("li", { class: "lesson-row" },
+  return h(
+    "li",
+    { class: "lesson-row" },
     h("span", { class: "lesson-number", "aria-hidden": "true" }, String(lesson.number)),
-    h("div", { class: "lesson-what" },
+    h(
+      "div",
+      { class: "lesson-what" },
       h("h3", null, h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, lesson.title)),
-      h("p", null, lesson.summary)),
-    h("div", { class: "lesson-meta" }, h("span", null, `${lesson.minutes} min`), standing(best)));
+      h("p", null, lesson.summary),
+    ),
+    h("div", { class: "lesson-meta" }, h("span", null, `${lesson.minutes} min`), standing(best)),
+  );
 }
 
 function standing(best: Best | undefined): HTMLElement {

@@ -1,13 +1,13 @@
 // One lesson: text, mechanism, exercise. The text comes first, everything else when it can be read.
-import { api, ApiError } from "../core/api";
+import { ApiError, api } from "../core/api";
 import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
-import { setTitle, type Page } from "../core/router";
+import { type Page, setTitle } from "../core/router";
 import type { Lesson, LessonSummary, Scene } from "../core/types";
+import { exerciseSection } from "../exercise/exercise";
 import { askedView } from "../ui/asked";
 import { problemNotice, skeleton } from "../ui/notice";
-import { exerciseSection } from "../exercise/exercise";
 import { keepPlace } from "./place";
 import { steps } from "./steps";
 
@@ -18,12 +18,22 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   const leaving = new AbortController();
   const undo: (() => void)[] = [];
   const text = h("article", { class: "reading", id: "text", "aria-busy": "true" }, skeleton(14));
-  const bench = h("section", { class: "bench", id: "mechanism", "aria-label": "Mechanism" }, benchPlaceholder());
+  const bench = h(
+    "section",
+    { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
+    benchPlaceholder(),
+  );
   const exercise = h("section", { class: "exercise", id: "exercise", "aria-label": "Exercise" });
   outlet.append(
     h("div", { class: "lesson" }, text, bench, exercise),
-    h("nav", { class: "jump", "aria-label": "Parts of this lesson" },
-      h("a", { href: "#text" }, "Text"), h("a", { href: "#mechanism" }, "Mechanism"), h("a", { href: "#exercise" }, "Exercise")));
+    h(
+      "nav",
+      { class: "jump", "aria-label": "Parts of this lesson" },
+      h("a", { href: "#text" }, "Text"),
+      h("a", { href: "#mechanism" }, "Mechanism"),
+      h("a", { href: "#exercise" }, "Exercise"),
+    ),
+  );
 
   let shown: Lesson | undefined;
 
@@ -33,7 +43,8 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       shown = lesson;
       setTitle(lesson.title);
       // A short wait for KaTeX saves a jump of the whole text; a long one would keep it from the reader.
-      if (hasMaths(lesson.html)) await Promise.race([loadMaths(), new Promise((done) => setTimeout(done, MATHS_PATIENCE_MS))]);
+      if (hasMaths(lesson.html))
+        await Promise.race([loadMaths(), new Promise((done) => setTimeout(done, MATHS_PATIENCE_MS))]);
       if (leaving.signal.aborted) return;
       showText(text, lesson);
       exercise.replaceChildren();
@@ -53,15 +64,26 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       text.replaceChildren(
         h("h1", null, missing ? "There is no such lesson" : "The lesson could not be loaded"),
         problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void load() }]),
-        h("p", null, h("a", { href: "/" }, "All lessons")));
+        h("p", null, h("a", { href: "/" }, "All lessons")),
+      );
       bench.hidden = missing;
     }
   };
 
   const openBench = async (lesson: Lesson): Promise<void> => {
-    const [{ workbench }, scene, seen] = await Promise.all([import("../workbench/workbench"), sceneOf(lesson, leaving.signal), askedView()]);
+    const [{ workbench }, scene, seen] = await Promise.all([
+      import("../workbench/workbench"),
+      sceneOf(lesson, leaving.signal),
+      askedView(),
+    ]);
     if (leaving.signal.aborted) return;
-    undo.push(workbench(bench, { source: lesson.seed ? { lesson: slug, seed: lesson.seed } : { lesson: slug }, scene, seen }));
+    undo.push(
+      workbench(bench, {
+        source: lesson.seed ? { lesson: slug, seed: lesson.seed } : { lesson: slug },
+        scene,
+        seen,
+      }),
+    );
   };
 
   // Another name, other numbers: text, mechanism and exercise are made anew.
@@ -85,7 +107,12 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
 }
 
 /** Where to go on: the lessons before and after this one. What to read before gets its title. */
-async function showNeighbours(text: HTMLElement, place: HTMLElement, slug: string, signal: AbortSignal): Promise<void> {
+async function showNeighbours(
+  text: HTMLElement,
+  place: HTMLElement,
+  slug: string,
+  signal: AbortSignal,
+): Promise<void> {
   const lessons = await api.lessons(signal).catch(() => []);
   const at = lessons.findIndex((lesson) => lesson.slug === slug);
   if (signal.aborted || at < 0) return;
@@ -93,9 +120,23 @@ async function showNeighbours(text: HTMLElement, place: HTMLElement, slug: strin
     const named = lessons.find((lesson) => before.pathname === `/lessons/${lesson.slug}`);
     if (named) before.textContent = named.title;
   }
-  const link = (which: string, lesson: LessonSummary | undefined): HTMLElement | null => lesson
-    ? h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, h("span", null, which), h("b", null, lesson.title)) : null;
-  place.append(h("nav", { class: "neighbours", "aria-label": "Other lessons" }, link("Lesson before", lessons[at - 1]), link("Next lesson", lessons[at + 1])));
+  const link = (which: string, lesson: LessonSummary | undefined): HTMLElement | null =>
+    lesson
+      ? h(
+          "a",
+          { href: `/lessons/${encodeURIComponent(lesson.slug)}` },
+          h("span", null, which),
+          h("b", null, lesson.title),
+        )
+      : null;
+  place.append(
+    h(
+      "nav",
+      { class: "neighbours", "aria-label": "Other lessons" },
+      link("Lesson before", lessons[at - 1]),
+      link("Next lesson", lessons[at + 1]),
+    ),
+  );
 }
 
 export function sceneOf(lesson: Lesson, signal: AbortSignal): Promise<Scene | undefined> {
@@ -105,17 +146,25 @@ export function sceneOf(lesson: Lesson, signal: AbortSignal): Promise<Scene | un
 
 /** Keeps the room that the workbench will take, so that nothing jumps when it arrives. */
 export function benchPlaceholder(): HTMLElement {
-  return h("div", { class: "bench-wait", "aria-hidden": "true" }, h("div", { class: "stage" }), h("div", { class: "transport" }));
+  return h(
+    "div",
+    { class: "bench-wait", "aria-hidden": "true" },
+    h("div", { class: "stage" }),
+    h("div", { class: "transport" }),
+  );
 }
 
-const afterPaint = (): Promise<void> => new Promise((done) => {
-  // A hidden tab paints no frame: the timer stands in.
-  const timer = setTimeout(done, 250);
-  requestAnimationFrame(() => requestAnimationFrame(() => {
-    clearTimeout(timer);
-    done();
-  }));
-});
+const afterPaint = (): Promise<void> =>
+  new Promise((done) => {
+    // A hidden tab paints no frame: the timer stands in.
+    const timer = setTimeout(done, 250);
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        clearTimeout(timer);
+        done();
+      }),
+    );
+  });
 
 function showText(place: HTMLElement, lesson: Lesson): void {
   place.removeAttribute("aria-busy");
@@ -124,16 +173,31 @@ function showText(place: HTMLElement, lesson: Lesson): void {
   const first = prose.firstElementChild;
   if (first?.tagName === "H1") first.remove();
   place.replaceChildren(
-    h("header", { class: "lesson-head" },
-      h("p", { class: "lesson-kicker" }, h("a", { href: "/" }, "Lessons"), ` / ${lesson.number}, about ${lesson.minutes} minutes`),
+    h(
+      "header",
+      { class: "lesson-head" },
+      h(
+        "p",
+        { class: "lesson-kicker" },
+        h("a", { href: "/" }, "Lessons"),
+        ` / ${lesson.number}, about ${lesson.minutes} minutes`,
+      ),
       h("h1", null, lesson.title),
-      lesson.prerequisites.length > 0 ? h("p", { class: "before" }, "Read before: ", ...joined(lesson.prerequisites)) : null,
+      lesson.prerequisites.length > 0
+        ? h("p", { class: "before" }, "Read before: ", ...joined(lesson.prerequisites))
+        : null,
       lesson.objectives.length > 0
-        ? h("div", { class: "objectives" }, h("h2", null, "After this lesson you can"),
-          h("ul", null, ...lesson.objectives.map((goal) => h("li", null, goal))))
-        : null),
+        ? h(
+            "div",
+            { class: "objectives" },
+            h("h2", null, "After this lesson you can"),
+            h("ul", null, ...lesson.objectives.map((goal) => h("li", null, goal))),
+          )
+        : null,
+    ),
     prose,
-    ...steps(lesson));
+    ...steps(lesson),
+  );
 }
 
 function joined(slugs: string[]): (HTMLElement | string)[] {

@@ -1,5 +1,5 @@
 // Where a student stopped reading, so that the first page can lead back there.
-import { placeIn, type Place } from "../core/place";
+import { type Place, placeIn } from "../core/place";
 import { recall, remember } from "../core/prefs";
 
 /** Parts of a lesson that an address can name. */
@@ -11,9 +11,14 @@ export function keepPlace(slug: string, title: string): () => void {
   let timer = 0;
   const note = (): void => {
     const middle = innerHeight / 2;
-    const passed = [...document.querySelectorAll<HTMLElement>(PARTS)].filter((part) => part.getBoundingClientRect().top < middle);
+    const passed = [...document.querySelectorAll<HTMLElement>(PARTS)].filter(
+      (part) => part.getBoundingClientRect().top < middle,
+    );
     const part = passed.at(-1)?.id;
-    remember("place", JSON.stringify({ title, href: `/lessons/${encodeURIComponent(slug)}${part ? `#${part}` : ""}` }));
+    remember(
+      "place",
+      JSON.stringify({ title, href: `/lessons/${encodeURIComponent(slug)}${part ? `#${part}` : ""}` }),
+    );
   };
   const soon = (): void => {
     clearTimeout(timer);

@@ -1,16 +1,16 @@
 // One scene: its text on one side, its run on the other.
-import { api, ApiError } from "../core/api";
+import { ApiError, api } from "../core/api";
 import { h } from "../core/dom";
 import type { Seen } from "../core/link";
 import { recall, remember, student } from "../core/prefs";
-import { setTitle, type Page } from "../core/router";
+import { type Page, setTitle } from "../core/router";
 import type { Scene } from "../core/types";
 import { sceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
 import { askedView } from "../ui/asked";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { workbench, type BenchOptions } from "../workbench/workbench";
+import { type BenchOptions, workbench } from "../workbench/workbench";
 import { benchPlaceholder, sceneOf } from "./lesson";
 import { OWN_SCENE } from "./scenes";
 
@@ -36,36 +36,77 @@ export function lessonScenePage(outlet: HTMLElement, params: string[]): Page {
 }
 
 function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
-  const draftKey = lesson ? `scene-draft:${lesson}` as const : own ? "scene-draft" as const : null;
+  const draftKey = lesson ? (`scene-draft:${lesson}` as const) : own ? ("scene-draft" as const) : null;
   const leaving = new AbortController();
   let endRun: (() => void) | undefined;
   let original = "";
 
   const title = h("h1", null, own ? "Your own scene" : name);
   const about = h("p", { class: "lead" });
-  const bench = h("section", { class: "bench", id: "mechanism", "aria-label": "Mechanism" }, benchPlaceholder());
-  const run = h("button", { type: "button", class: "button primary", onclick: () => runText() }, icon("play"), "Run this text");
-  const restore = h("button", { type: "button", class: "button", hidden: true, onclick: () => undoEdits() }, "Undo all changes");
+  const bench = h(
+    "section",
+    { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
+    benchPlaceholder(),
+  );
+  const run = h(
+    "button",
+    { type: "button", class: "button primary", onclick: () => runText() },
+    icon("play"),
+    "Run this text",
+  );
+  const restore = h(
+    "button",
+    { type: "button", class: "button", hidden: true, onclick: () => undoEdits() },
+    "Undo all changes",
+  );
   const state = h("p", { class: "help", role: "status" });
   let shownAs = "";
   const preview = h("input", { type: "checkbox", id: "preview" });
   preview.checked = true;
-  const editor = sceneEditor((text) => {
-    restore.hidden = text === original;
-    state.textContent = text === original ? "" : "Changed, not run yet.";
-    if (draftKey) remember(draftKey, text);
-  }, (text) => {
-    // What can run is shown at once, at its start; what is already shown stays.
-    if (!preview.checked || text === shownAs) return;
-    runText();
-  });
-  const side = h("article", { class: "reading is-editor" },
-    h("header", { class: "lesson-head" },
-      h("p", { class: "lesson-kicker" }, lesson ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, "Back to the lesson") : h("a", { href: "/scenes" }, "Scenes")),
-      title, about),
-    h("div", { class: "row wrap" }, run, restore, h("button", { type: "button", class: "button quiet", onclick: () => download() }, icon("save"), "Save the file"),
-      h("span", { class: "check-line" }, preview, h("label", { for: "preview" }, "Show it as I type")), state),
-    editor.root);
+  const editor = sceneEditor(
+    (text) => {
+      restore.hidden = text === original;
+      state.textContent = text === original ? "" : "Changed, not run yet.";
+      if (draftKey) remember(draftKey, text);
+    },
+    (text) => {
+      // What can run is shown at once, at its start; what is already shown stays.
+      if (!preview.checked || text === shownAs) return;
+      runText();
+    },
+  );
+  const side = h(
+    "article",
+    { class: "reading is-editor" },
+    h(
+      "header",
+      { class: "lesson-head" },
+      h(
+        "p",
+        { class: "lesson-kicker" },
+        lesson
+          ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, "Back to the lesson")
+          : h("a", { href: "/scenes" }, "Scenes"),
+      ),
+      title,
+      about,
+    ),
+    h(
+      "div",
+      { class: "row wrap" },
+      run,
+      restore,
+      h(
+        "button",
+        { type: "button", class: "button quiet", onclick: () => download() },
+        icon("save"),
+        "Save the file",
+      ),
+      h("span", { class: "check-line" }, preview, h("label", { for: "preview" }, "Show it as I type")),
+      state,
+    ),
+    editor.root,
+  );
   outlet.append(h("div", { class: "lesson is-scene" }, side, bench));
 
   const open = (options: BenchOptions): void => {
@@ -77,7 +118,12 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
       const scene = JSON.parse(editor.text()) as Scene;
       shownAs = editor.text();
       state.textContent = "";
-      open({ source: { scene }, scene, seen, own: { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) } });
+      open({
+        source: { scene },
+        scene,
+        seen,
+        own: { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) },
+      });
     } catch {
       state.textContent = "The text is not JSON yet: see the remark below it.";
     }
@@ -89,19 +135,25 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
     if (draftKey) remember(draftKey, null);
   };
   const download = (): void => {
-    const link = h("a", { href: URL.createObjectURL(new Blob([editor.text()], { type: "application/json" })), download: `${own ? "scene" : name.replaceAll(":", "-")}.json` });
+    const link = h("a", {
+      href: URL.createObjectURL(new Blob([editor.text()], { type: "application/json" })),
+      download: `${own ? "scene" : name.replaceAll(":", "-")}.json`,
+    });
     link.click();
     URL.revokeObjectURL(link.href);
   };
 
   const load = async (): Promise<void> => {
     try {
-      const scene = lesson ? await lessonScene(lesson, leaving.signal) : await api.scene(own ? STARTING_SCENE : name, leaving.signal);
+      const scene = lesson
+        ? await lessonScene(lesson, leaving.signal)
+        : await api.scene(own ? STARTING_SCENE : name, leaving.signal);
       original = pretty(scene);
       const seen = await askedView();
       const draft = draftKey ? ((own ? shownText(seen) : null) ?? recall(draftKey)) : null;
       if (own) {
-        about.textContent = "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
+        about.textContent =
+          "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
       } else {
         title.textContent = scene.title ?? name;
         about.textContent = scene.description ?? "";
@@ -115,9 +167,11 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
     } catch (error) {
       if (leaving.signal.aborted) return;
       const missing = error instanceof ApiError && error.gone;
-      side.replaceChildren(h("h1", null, missing ? "There is no such scene" : "The scene could not be loaded"),
+      side.replaceChildren(
+        h("h1", null, missing ? "There is no such scene" : "The scene could not be loaded"),
         problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void load() }]),
-        h("p", null, h("a", { href: "/scenes" }, "All scenes")));
+        h("p", null, h("a", { href: "/scenes" }, "All scenes")),
+      );
       bench.hidden = missing;
     }
   };

@@ -16,23 +16,46 @@ const FAMILY_START = "2";
 export function scenesPage(outlet: HTMLElement): Page {
   const leaving = new AbortController();
   const list = h("div", { class: "gallery", "aria-busy": "true" }, skeleton(6));
-  outlet.append(h("div", { class: "page" },
-    h("header", { class: "page-head" },
-      h("h1", null, "Scenes"),
-      h("p", { class: "lead" }, "Mechanisms without a lesson. Open one, run it, change its text and run it again."),
-      h("p", null, h("a", { class: "button", href: `/scenes/${OWN_SCENE}` }, recall("scene-draft") ? "Continue your own scene" : "Write your own scene")),
-      urdfImport(`/scenes/${OWN_SCENE}`)),
-    list));
+  outlet.append(
+    h(
+      "div",
+      { class: "page" },
+      h(
+        "header",
+        { class: "page-head" },
+        h("h1", null, "Scenes"),
+        h(
+          "p",
+          { class: "lead" },
+          "Mechanisms without a lesson. Open one, run it, change its text and run it again.",
+        ),
+        h(
+          "p",
+          null,
+          h(
+            "a",
+            { class: "button", href: `/scenes/${OWN_SCENE}` },
+            recall("scene-draft") ? "Continue your own scene" : "Write your own scene",
+          ),
+        ),
+        urdfImport(`/scenes/${OWN_SCENE}`),
+      ),
+      list,
+    ),
+  );
 
   const load = async (): Promise<void> => {
     try {
       const scenes = await api.scenes(leaving.signal);
       list.removeAttribute("aria-busy");
-      list.replaceChildren(scenes.length === 0
-        ? empty("No built-in scenes", "This server offers none. You can still write your own.")
-        : h("ul", { class: "scene-list" }, ...scenes.map(card)));
+      list.replaceChildren(
+        scenes.length === 0
+          ? empty("No built-in scenes", "This server offers none. You can still write your own.")
+          : h("ul", { class: "scene-list" }, ...scenes.map(card)),
+      );
     } catch (error) {
-      if (!leaving.signal.aborted) list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      if (!leaving.signal.aborted)
+        list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
     }
   };
   void load();
@@ -42,10 +65,17 @@ export function scenesPage(outlet: HTMLElement): Page {
 function card(scene: SceneSummary): HTMLElement {
   const family = FAMILY.exec(scene.name)?.[1];
   const name = family ? `${family}:${FAMILY_START}` : scene.name;
-  return h("li", { class: "scene-row" },
-    h("h2", null, h("a", { href: `/scenes/${encodeURIComponent(name)}` }, scene.title ?? titled(family ?? scene.name))),
+  return h(
+    "li",
+    { class: "scene-row" },
+    h(
+      "h2",
+      null,
+      h("a", { href: `/scenes/${encodeURIComponent(name)}` }, scene.title ?? titled(family ?? scene.name)),
+    ),
     h("p", null, scene.summary),
-    h("code", null, scene.name));
+    h("code", null, scene.name),
+  );
 }
 
 const titled = (name: string): string => {

@@ -10,21 +10,45 @@ export function steps(lesson: Lesson): HTMLElement[] {
   if (!lesson.steps?.length) return [];
   const again = h("p", { class: "step-again" });
   const items = lesson.steps.map((step, at) => {
-    const item = authored(h("li", null), `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`);
+    const item = authored(
+      h("li", null),
+      `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`,
+    );
     const asked = ASKED[step.kind];
     if (asked) item.append(said(`said:${lesson.slug}:${at}`, asked, step.kind === "predict" ? again : null));
     if (step.kind === "check") item.append(again);
     return item;
   });
-  return [h("section", { class: "prose steps", id: "steps" },
-    h("h2", null, "Work with the mechanism"),
-    h("p", { class: "help" }, "What you write here is for you: it stays in this browser and is not graded."),
-    h("ol", null, ...items),
-    h("p", { class: "help" }, "For what has no slider: ", h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}/scene` }, "open the scene as text"), "."))];
+  return [
+    h(
+      "section",
+      { class: "prose steps", id: "steps" },
+      h("h2", null, "Work with the mechanism"),
+      h(
+        "p",
+        { class: "help" },
+        "What you write here is for you: it stays in this browser and is not graded.",
+      ),
+      h("ol", null, ...items),
+      h(
+        "p",
+        { class: "help" },
+        "For what has no slider: ",
+        h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}/scene` }, "open the scene as text"),
+        ".",
+      ),
+    ),
+  ];
 }
 
 function said(key: `said:${string}`, label: string, again: HTMLElement | null): HTMLElement {
-  const area = h("textarea", { class: "field", rows: "2", maxlength: String(LONGEST), "aria-label": label, placeholder: label });
+  const area = h("textarea", {
+    class: "field",
+    rows: "2",
+    maxlength: String(LONGEST),
+    "aria-label": label,
+    placeholder: label,
+  });
   const show = (): void => {
     const words = area.value.trim();
     if (again) setText(again, words ? `You predicted: ${words}` : "");

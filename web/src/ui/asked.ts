@@ -4,6 +4,10 @@ import { banner } from "./notice";
 
 export async function askedView(): Promise<Seen | undefined> {
   const seen = await asked();
-  if (seen === undefined) banner("This link is damaged: the lesson or scene is shown from its start.", { label: "Fine", run: () => banner(null) });
+  if (seen === undefined)
+    banner("This link is damaged: the lesson or scene is shown from its start.", {
+      label: "Fine",
+      run: () => banner(null),
+    });
   return seen ?? undefined;
 }

@@ -3,10 +3,21 @@ import { h } from "../core/dom";
 import { icon } from "./icons";
 
 export function dialog(title: string, ...children: HTMLElement[]): HTMLDialogElement {
-  const box = h("dialog", { class: "dialog", "aria-labelledby": "dialog-title" },
-    h("div", { class: "dialog-head" }, h("h2", { id: "dialog-title" }, title),
-      h("button", { type: "button", class: "header-button square", "aria-label": "Close", onclick: () => box.close() }, icon("close"))),
-    ...children);
+  const box = h(
+    "dialog",
+    { class: "dialog", "aria-labelledby": "dialog-title" },
+    h(
+      "div",
+      { class: "dialog-head" },
+      h("h2", { id: "dialog-title" }, title),
+      h(
+        "button",
+        { type: "button", class: "header-button square", "aria-label": "Close", onclick: () => box.close() },
+        icon("close"),
+      ),
+    ),
+    ...children,
+  );
   box.addEventListener("close", () => box.remove());
   box.addEventListener("click", (event) => {
     if (event.target === box) box.close();

@@ -1,6 +1,6 @@
 // What the page says when something went wrong, is empty, or is on its way.
 import { problemOf } from "../core/api";
-import { h, type Child } from "../core/dom";
+import { type Child, h } from "../core/dom";
 import type { Problem } from "../core/types";
 import { icon } from "./icons";
 
@@ -18,17 +18,40 @@ export interface PointerLink {
 export function problemNotice(error: unknown, actions: Action[] = [], link?: PointerLink): HTMLElement {
   const problem: Problem = isProblem(error) ? error : problemOf(error);
   const places = (problem.errors ?? []).filter((place) => place.detail !== problem.detail || place.pointer);
-  return h("section", { class: "notice is-problem", role: "alert" },
+  return h(
+    "section",
+    { class: "notice is-problem", role: "alert" },
     icon("warn"),
-    h("div", { class: "notice-body" },
+    h(
+      "div",
+      { class: "notice-body" },
       h("p", { class: "notice-title" }, problem.title),
       problem.detail && problem.detail !== problem.title ? h("p", null, problem.detail) : null,
       places.length > 0
-        ? h("ul", { class: "places" }, ...places.map((place) => h("li", null, pointer(place.pointer, link), place.detail === problem.detail ? null : ` ${place.detail}`)))
+        ? h(
+            "ul",
+            { class: "places" },
+            ...places.map((place) =>
+              h(
+                "li",
+                null,
+                pointer(place.pointer, link),
+                place.detail === problem.detail ? null : ` ${place.detail}`,
+              ),
+            ),
+          )
         : null,
-      problem.hint ? h("p", { class: "notice-hint" }, h("strong", null, "What to try: "), problem.hint) : null,
+      problem.hint
+        ? h("p", { class: "notice-hint" }, h("strong", null, "What to try: "), problem.hint)
+        : null,
       actions.length > 0
-        ? h("div", { class: "notice-actions" }, ...actions.map((action) => h("button", { type: "button", class: "button", onclick: action.run }, action.label)))
+        ? h(
+            "div",
+            { class: "notice-actions" },
+            ...actions.map((action) =>
+              h("button", { type: "button", class: "button", onclick: action.run }, action.label),
+            ),
+          )
         : null,
       problem.trace_id ? h("p", { class: "notice-trace" }, `Trace ${problem.trace_id}`) : null,
     ),
@@ -39,15 +62,34 @@ function pointer(path: string | undefined, link?: PointerLink): Child {
   if (!path) return null;
   const shown = path.replace(/^#/, "") || "/";
   if (!link) return h("code", null, shown);
-  return h("button", { type: "button", class: "pointer", title: "Show this place in the scene", onclick: () => link.open(shown) }, shown);
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "pointer",
+      title: "Show this place in the scene",
+      onclick: () => link.open(shown),
+    },
+    shown,
+  );
 }
 
 function isProblem(value: unknown): value is Problem {
-  return typeof value === "object" && value !== null && !(value instanceof Error) && typeof (value as Problem).title === "string";
+  return (
+    typeof value === "object" &&
+    value !== null &&
+    !(value instanceof Error) &&
+    typeof (value as Problem).title === "string"
+  );
 }
 
 export function note(...children: Child[]): HTMLElement {
-  return h("section", { class: "notice is-note" }, icon("info"), h("div", { class: "notice-body" }, ...children));
+  return h(
+    "section",
+    { class: "notice is-note" },
+    icon("info"),
+    h("div", { class: "notice-body" }, ...children),
+  );
 }
 
 export function empty(title: string, text: string, ...more: Child[]): HTMLElement {
@@ -57,8 +99,13 @@ export function empty(title: string, text: string, ...more: Child[]): HTMLElemen
 /** Grey lines that take the place of text that is on its way. */
 export function skeleton(lines: number): HTMLElement {
   const widths = [92, 100, 97, 64, 99, 88, 95, 52];
-  return h("div", { class: "skeleton", "aria-hidden": "true" },
-    ...Array.from({ length: lines }, (_, k) => h("span", { style: `inline-size:${widths[k % widths.length]}%` })));
+  return h(
+    "div",
+    { class: "skeleton", "aria-hidden": "true" },
+    ...Array.from({ length: lines }, (_, k) =>
+      h("span", { style: `inline-size:${widths[k % widths.length]}%` }),
+    ),
+  );
 }
 
 const slot = (): HTMLElement | null => document.getElementById("banner");
@@ -71,7 +118,15 @@ export function banner(text: string | null, action?: Action): void {
     place.replaceChildren();
     return;
   }
-  place.replaceChildren(h("div", { class: "banner", role: "status" },
-    icon("warn"), h("span", null, text),
-    action ? h("button", { type: "button", class: "button small", onclick: action.run }, action.label) : null));
+  place.replaceChildren(
+    h(
+      "div",
+      { class: "banner", role: "status" },
+      icon("warn"),
+      h("span", null, text),
+      action
+        ? h("button", { type: "button", class: "button small", onclick: action.run }, action.label)
+        : null,
+    ),
+  );
 }

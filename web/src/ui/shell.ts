@@ -10,7 +10,11 @@ export function header(root: HTMLElement): void {
   const brandMark = h("span", { class: "brand-mark", "aria-hidden": "true" });
   brandMark.innerHTML = mark;
   const name = h("button", { type: "button", class: "header-button", id: "who", onclick: askName });
-  const themeButton = h("button", { type: "button", class: "header-button square", onclick: () => toggleTheme() });
+  const themeButton = h("button", {
+    type: "button",
+    class: "header-button square",
+    onclick: () => toggleTheme(),
+  });
   const paintTheme = (): void => {
     const dark = theme() === "dark";
     themeButton.replaceChildren(icon(dark ? "sun" : "moon"));
@@ -18,7 +22,17 @@ export function header(root: HTMLElement): void {
     themeButton.setAttribute("aria-label", label);
     themeButton.title = label;
   };
-  const beamer = h("button", { type: "button", class: "header-button square wide-only", "aria-label": "Projector: big type and strong lines", title: "Projector: big type and strong lines (P)", onclick: toggleProjector }, icon("beamer"));
+  const beamer = h(
+    "button",
+    {
+      type: "button",
+      class: "header-button square wide-only",
+      "aria-label": "Projector: big type and strong lines",
+      title: "Projector: big type and strong lines (P)",
+      onclick: toggleProjector,
+    },
+    icon("beamer"),
+  );
   const paintBeamer = (): void => beamer.setAttribute("aria-pressed", String(projector()));
   onTheme(paintBeamer);
   paintBeamer();
@@ -28,12 +42,38 @@ export function header(root: HTMLElement): void {
   addEventListener("triad:student", () => paintName(name));
 
   root.append(
-    h("a", { class: "brand", href: "/", "aria-label": "Triad, all lessons" }, brandMark, h("span", null, "Triad")),
-    h("nav", { "aria-label": "Main" }, h("a", { href: "/" }, "Lessons"), h("a", { href: "/scenes" }, "Scenes"), h("a", { href: "/room" }, "Join")),
+    h(
+      "a",
+      { class: "brand", href: "/", "aria-label": "Triad, all lessons" },
+      brandMark,
+      h("span", null, "Triad"),
+    ),
+    h(
+      "nav",
+      { "aria-label": "Main" },
+      h("a", { href: "/" }, "Lessons"),
+      h("a", { href: "/scenes" }, "Scenes"),
+      h("a", { href: "/room" }, "Join"),
+    ),
     h("span", { class: "header-space" }),
-    name, beamer, themeButton,
-    h("button", { type: "button", class: "header-button square", "aria-label": "Keyboard and help", title: "Keyboard and help (?)", onclick: help }, icon("keys")));
-  bind([{ keys: ["p", "P"], shown: "P", says: "Projector: big type and strong lines", run: toggleProjector }]);
+    name,
+    beamer,
+    themeButton,
+    h(
+      "button",
+      {
+        type: "button",
+        class: "header-button square",
+        "aria-label": "Keyboard and help",
+        title: "Keyboard and help (?)",
+        onclick: help,
+      },
+      icon("keys"),
+    ),
+  );
+  bind([
+    { keys: ["p", "P"], shown: "P", says: "Projector: big type and strong lines", run: toggleProjector },
+  ]);
   bind([{ keys: ["?"], shown: "?", says: "Show this help", run: help }]);
 }
 
@@ -50,12 +90,25 @@ export function setStudent(name: string): void {
 }
 
 function askName(): void {
-  const input = h("input", { id: "name-input", class: "field", autocomplete: "name", maxlength: "80", value: student.get() });
-  const form = h("form", { class: "stack" },
+  const input = h("input", {
+    id: "name-input",
+    class: "field",
+    autocomplete: "name",
+    maxlength: "80",
+    value: student.get(),
+  });
+  const form = h(
+    "form",
+    { class: "stack" },
     h("label", { for: "name-input" }, "Your name, as your instructor knows it"),
     input,
-    h("p", { class: "help" }, "Your answers are stored under this name on the server that runs Triad. This browser remembers it."),
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Save")));
+    h(
+      "p",
+      { class: "help" },
+      "Your answers are stored under this name on the server that runs Triad. This browser remembers it.",
+    ),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, "Save")),
+  );
   const box = dialog("Who is working?", form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -66,15 +119,41 @@ function askName(): void {
 }
 
 function help(): void {
-  const rows = shortcuts.list().map((entry) => h("tr", null, h("td", null, ...entry.shown.split(" ").map((key) => h("kbd", null, key))), h("td", null, entry.says)));
+  const rows = shortcuts
+    .list()
+    .map((entry) =>
+      h(
+        "tr",
+        null,
+        h("td", null, ...entry.shown.split(" ").map((key) => h("kbd", null, key))),
+        h("td", null, entry.says),
+      ),
+    );
   const toggle = h("input", { type: "checkbox", id: "keys-on" });
   toggle.checked = shortcuts.on();
   toggle.addEventListener("change", () => shortcuts.set(toggle.checked));
-  dialog("Keyboard and help",
-    h("p", null, "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D view too: every number it shows stands in the tables below it."),
-    h("table", { class: "keys-table" },
-      h("thead", { class: "visually-hidden" }, h("tr", null, h("th", { scope: "col" }, "Key"), h("th", { scope: "col" }, "What it does"))),
-      h("tbody", null, ...rows)),
+  dialog(
+    "Keyboard and help",
+    h(
+      "p",
+      null,
+      "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D view too: every number it shows stands in the tables below it.",
+    ),
+    h(
+      "table",
+      { class: "keys-table" },
+      h(
+        "thead",
+        { class: "visually-hidden" },
+        h("tr", null, h("th", { scope: "col" }, "Key"), h("th", { scope: "col" }, "What it does")),
+      ),
+      h("tbody", null, ...rows),
+    ),
     h("p", { class: "check-line" }, toggle, h("label", { for: "keys-on" }, "Single-key shortcuts")),
-    h("p", { class: "help" }, "In the 3-D view: drag to turn, scroll to come closer, drag with the right button to move, double-click a body to look at it. The sketch is the same scene without 3-D."));
+    h(
+      "p",
+      { class: "help" },
+      "In the 3-D view: drag to turn, scroll to come closer, drag with the right button to move, double-click a body to look at it. The sketch is the same scene without 3-D.",
+    ),
+  );
 }

@@ -15,13 +15,34 @@ export interface LiveTable {
 
 export function liveTable(caption: string, head: string, columns: Column[], hideCaption = false): LiveTable {
   const body = h("tbody");
-  const table = h("table", { class: "data" },
+  const table = h(
+    "table",
+    { class: "data" },
     h("caption", { class: hideCaption ? "visually-hidden" : "" }, caption),
-    h("thead", null, h("tr", null, h("th", { scope: "col" }, head),
-      ...columns.map((column) => h("th", { scope: "col", class: column.number === false ? "" : "number" },
-        column.label, column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null)))),
-    body);
-  const root = h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": caption }, table);
+    h(
+      "thead",
+      null,
+      h(
+        "tr",
+        null,
+        h("th", { scope: "col" }, head),
+        ...columns.map((column) =>
+          h(
+            "th",
+            { scope: "col", class: column.number === false ? "" : "number" },
+            column.label,
+            column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null,
+          ),
+        ),
+      ),
+    ),
+    body,
+  );
+  const root = h(
+    "div",
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": caption },
+    table,
+  );
 
   const update: LiveTable["update"] = (rows) => {
     while (body.rows.length > rows.length) body.deleteRow(-1);
@@ -29,7 +50,8 @@ export function liveTable(caption: string, head: string, columns: Column[], hide
       let line = body.rows[at];
       if (!line) {
         line = h("tr", null, h("th", { scope: "row" }));
-        for (const column of columns) line.append(h("td", { class: column.number === false ? "" : "number" }));
+        for (const column of columns)
+          line.append(h("td", { class: column.number === false ? "" : "number" }));
         body.append(line);
       }
       const first = line.cells[0];

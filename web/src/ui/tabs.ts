@@ -33,9 +33,25 @@ export function tabs(label: string, list: Tab[], start: string | null, changed: 
   for (const [at, tab] of list.entries()) {
     const id = uid("tab");
     const panelId = uid("panel");
-    const button = h("button", { type: "button", class: "tab", role: "tab", id, "aria-controls": panelId, onclick: () => select(tab.key) }, tab.label);
+    const button = h(
+      "button",
+      {
+        type: "button",
+        class: "tab",
+        role: "tab",
+        id,
+        "aria-controls": panelId,
+        onclick: () => select(tab.key),
+      },
+      tab.label,
+    );
     button.addEventListener("keydown", (event) => {
-      const moves: Record<string, number> = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: list.length - 1 };
+      const moves: Record<string, number> = {
+        ArrowRight: at + 1,
+        ArrowLeft: at - 1,
+        Home: 0,
+        End: list.length - 1,
+      };
       const to = moves[event.key];
       if (to === undefined) return;
       event.preventDefault();

@@ -5,19 +5,38 @@ import { bind } from "../core/keys";
 import type { Camera } from "../core/types";
 import type { Session } from "./session";
 
-const SIDES: [Camera, string][] = [["corner", "corner"], ["front", "front"], ["side", "side"], ["above", "above"]];
+const SIDES: [Camera, string][] = [
+  ["corner", "corner"],
+  ["front", "front"],
+  ["side", "side"],
+  ["above", "above"],
+];
 
 export function cameras(session: Session): { root: HTMLElement; dispose: () => void } {
-  const select = h("select", { class: "field compact", "aria-label": "Look at the mechanism from", title: "Look at the mechanism from (C)" },
-    ...SIDES.map(([value, label]) => h("option", { value }, label)));
+  const select = h(
+    "select",
+    {
+      class: "field compact",
+      "aria-label": "Look at the mechanism from",
+      title: "Look at the mechanism from (C)",
+    },
+    ...SIDES.map(([value, label]) => h("option", { value }, label)),
+  );
   select.addEventListener("change", () => session.lookFrom(select.value as Camera));
   const silence = session.on("told", () => {
     select.value = session.camera;
   });
-  const release = bind([{ keys: ["c", "C"], shown: "C", says: "Camera: corner, front, side, above", run: () => {
-    const at = SIDES.findIndex(([side]) => side === session.camera);
-    session.lookFrom(SIDES[(at + 1) % SIDES.length]?.[0] ?? "corner");
-  } }]);
+  const release = bind([
+    {
+      keys: ["c", "C"],
+      shown: "C",
+      says: "Camera: corner, front, side, above",
+      run: () => {
+        const at = SIDES.findIndex(([side]) => side === session.camera);
+        session.lookFrom(SIDES[(at + 1) % SIDES.length]?.[0] ?? "corner");
+      },
+    },
+  ]);
   return {
     root: select,
     dispose: () => {

@@ -85,7 +85,11 @@ export class Clock extends Teller {
   protected startReplay(from: number): void {
     this.endReplay();
     this.cursor = from;
-    this.replay = { since: performance.now(), from, timer: window.setInterval(() => this.replayOn(), REPLAY_MS) };
+    this.replay = {
+      since: performance.now(),
+      from,
+      timer: window.setInterval(() => this.replayOn(), REPLAY_MS),
+    };
     this.emit("shown");
   }
 
@@ -143,6 +147,8 @@ export class Clock extends Teller {
     const lead = state.finished ? "The run is complete" : "Paused";
     const body = state.bodies[0];
     const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
-    announce(`${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`);
+    announce(
+      `${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`,
+    );
   }
 }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { columnsOf, difference, plotSvg, resample, ticks } from "./compare";
-import { swung, turned, type ModeMotion, type Placed } from "./pose";
+import { type ModeMotion, type Placed, swung, turned } from "./pose";
 import { norm } from "./vec";
 
 describe("two runs", () => {
@@ -11,7 +11,12 @@ describe("two runs", () => {
     expect(resample([1, 2], [3, 4], [0])).toEqual([null]);
   });
   it("make a picture that is well-formed whatever the names", () => {
-    const text = plotSvg("a < b & c", [0, 1], [{ label: "<x>", unit: "m", values: [0, null], color: "red", dash: [2, 2] }], { ink: "#000", line: "#ccc", paper: "#fff" });
+    const text = plotSvg(
+      "a < b & c",
+      [0, 1],
+      [{ label: "<x>", unit: "m", values: [0, null], color: "red", dash: [2, 2] }],
+      { ink: "#000", line: "#ccc", paper: "#fff" },
+    );
     expect(text).toContain("a &lt; b &amp; c");
     expect(text).not.toContain("NaN");
   });
@@ -23,7 +28,12 @@ describe("two runs", () => {
 
 describe("a mode", () => {
   const body = { position: [1, 0, 0], u: [1, 0, 0], v: [0, 1, 0], w: [0, 0, 1] } as const;
-  const shape: ModeMotion = { translation: [0, 1, 0], rotation: [0, 0, 1], translation_later: [0, 0, 1], rotation_later: [0, 0, 0] };
+  const shape: ModeMotion = {
+    translation: [0, 1, 0],
+    rotation: [0, 0, 1],
+    translation_later: [0, 0, 1],
+    rotation_later: [0, 0, 0],
+  };
   it("moves bodies by its parts and keeps their axes square", () => {
     const [start] = swung([body as unknown as Placed], [shape], 0, 0.5);
     expect(start?.position).toEqual([1, 0.5, 0]);
@@ -38,7 +48,13 @@ describe("a mode", () => {
 describe("a reference file", () => {
   it("is read with its names and remarks, and refused where it is no table", () => {
     const read = columnsOf("# from a paper\ntime,bob.x,bob.y\ns,m,m\n0,1,2\n1,3,4\n");
-    expect(read).toEqual({ times: [0, 1], columns: [{ label: "bob.x", values: [1, 3] }, { label: "bob.y", values: [2, 4] }] });
+    expect(read).toEqual({
+      times: [0, 1],
+      columns: [
+        { label: "bob.x", values: [1, 3] },
+        { label: "bob.y", values: [2, 4] },
+      ],
+    });
     expect(columnsOf("no table at all\n1\n2")).toBeUndefined();
   });
 });

@@ -65,7 +65,10 @@ export class Connection {
     this.retry += 1;
     if (this.retry > 1) {
       this.missed = true;
-      banner("The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.", { label: "Try now", run: () => void this.again() });
+      banner(
+        "The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.",
+        { label: "Try now", run: () => void this.again() },
+      );
     }
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.again(), wait);

@@ -9,11 +9,18 @@ export interface Fetched {
 }
 
 /** `ask` is given the run's address and the time, if it is not the present. */
-export function fetched<T>(session: Session, ask: (run: string, at: number | undefined) => Promise<T>, show: (value: T, of: SessionState) => void, failed: (error: unknown) => void, asked: () => string = () => ""): Fetched {
+export function fetched<T>(
+  session: Session,
+  ask: (run: string, at: number | undefined) => Promise<T>,
+  show: (value: T, of: SessionState) => void,
+  failed: (error: unknown) => void,
+  asked: () => string = () => "",
+): Fetched {
   let busy = false;
   let seen = "";
 
-  const keyOf = (state: SessionState): string => `${state.id}@${state.time}@${state.changes}@${session.reviewing}${asked()}`;
+  const keyOf = (state: SessionState): string =>
+    `${state.id}@${state.time}@${state.changes}@${session.reviewing}${asked()}`;
   const refresh = (): void => {
     const state = session.shown;
     if (!state || busy) return;

@@ -2,7 +2,7 @@
 import { svg } from "../core/dom";
 import { num } from "../core/format";
 import type { SessionState, Vec3 } from "../core/types";
-import { arrows, roundDown, type Arrow } from "./force-model";
+import { type Arrow, arrows, roundDown } from "./force-model";
 import type { Session } from "./session";
 import { add, cross, norm, scale, unit } from "./vec";
 
@@ -37,13 +37,19 @@ export function forceLayer(session: Session): ForceLayer {
     const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.told);
     // The scale is that of the newest state at all times: one for the whole scene.
     const drawing = session.latest?.drawing ?? state.drawing;
-    const sizes: Sizes = { force: drawing.force_scale * perMetre, moment: drawing.moment_scale * perMetre, longest: drawing.longest * perMetre };
+    const sizes: Sizes = {
+      force: drawing.force_scale * perMetre,
+      moment: drawing.moment_scale * perMetre,
+      longest: drawing.longest * perMetre,
+    };
     if (list.length === 0) {
       root.replaceChildren();
       return;
     }
     // A drawing of a drawing: the arrow points where the force points in space, foreshortened like everything else.
-    const parts = list.flatMap((arrow) => draw(arrow, project, sizes, perMetre, list.length <= 6 || arrow.label === session.joint));
+    const parts = list.flatMap((arrow) =>
+      draw(arrow, project, sizes, perMetre, list.length <= 6 || arrow.label === session.joint),
+    );
     root.replaceChildren(...parts, ...legend(sizes.force));
   };
   return { root, update };
@@ -65,8 +71,13 @@ function draw(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number, la
       const [ux, uy] = [dx / seen, dy / seen];
       const head = Math.min(HEAD, 0.6 * seen);
       const neck = [tip[0] - ux * head, tip[1] - uy * head] as const;
-      parts.push(svg("path", { class: `force is-${arrow.kind}`, d: `M${p(x)} ${p(y)}L${p(neck[0])} ${p(neck[1])}` }),
-        svg("path", { class: `force-head is-${arrow.kind}`, d: `M${p(tip[0])} ${p(tip[1])}L${p(neck[0] - uy * head * 0.5)} ${p(neck[1] + ux * head * 0.5)}L${p(neck[0] + uy * head * 0.5)} ${p(neck[1] - ux * head * 0.5)}Z` }));
+      parts.push(
+        svg("path", { class: `force is-${arrow.kind}`, d: `M${p(x)} ${p(y)}L${p(neck[0])} ${p(neck[1])}` }),
+        svg("path", {
+          class: `force-head is-${arrow.kind}`,
+          d: `M${p(tip[0])} ${p(tip[1])}L${p(neck[0] - uy * head * 0.5)} ${p(neck[1] + ux * head * 0.5)}L${p(neck[0] + uy * head * 0.5)} ${p(neck[1] - ux * head * 0.5)}Z`,
+        }),
+      );
       if (capped) parts.push(cut(x + dx * 0.55, y + dy * 0.55, ux, uy, arrow.kind));
       end = tip;
     }
@@ -78,7 +89,9 @@ function draw(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number, la
     const room = WIDE * words.length;
     const right = end[0] >= x ? end[0] + room < 790 : end[0] - room < 10;
     const text = svg("text", {
-      class: `force-label is-${arrow.kind}`, x: p(end[0] + (right ? 10 : -10)), y: p(Math.min(466, Math.max(24, end[1] + (end[1] > y ? 20 : -6)))),
+      class: `force-label is-${arrow.kind}`,
+      x: p(end[0] + (right ? 10 : -10)),
+      y: p(Math.min(466, Math.max(24, end[1] + (end[1] > y ? 20 : -6)))),
       "text-anchor": right ? "start" : "end",
     });
     text.textContent = words;
@@ -89,7 +102,8 @@ function draw(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number, la
 
 /** Two strokes across: this arrow would be longer than it is drawn. */
 function cut(x: number, y: number, ux: number, uy: number, kind: string): SVGElement {
-  const stroke = (at: number): string => `M${p(x + ux * at - uy * 8 - ux * 3)} ${p(y + uy * at + ux * 8 - uy * 3)}L${p(x + ux * at + uy * 8 + ux * 3)} ${p(y + uy * at - ux * 8 + uy * 3)}`;
+  const stroke = (at: number): string =>
+    `M${p(x + ux * at - uy * 8 - ux * 3)} ${p(y + uy * at + ux * 8 - uy * 3)}L${p(x + ux * at + uy * 8 + ux * 3)} ${p(y + uy * at - ux * 8 + uy * 3)}`;
   return svg("path", { class: `force-cut is-${kind}`, d: `${stroke(-3)}${stroke(4)}` });
 }
 
@@ -101,9 +115,13 @@ function turn(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number): S
   const wanted = norm(arrow.moment ?? [0, 0, 0]) * sizes.moment;
   const largest = sizes.longest / 2;
   const radius = Math.max(SMALLEST_CIRCLE, Math.min(largest, wanted)) / perMetre;
-  const at = (angle: number, r = radius): [number, number] => project(add(arrow.at, add(scale(a, r * Math.cos(angle)), scale(b, r * Math.sin(angle)))));
+  const at = (angle: number, r = radius): [number, number] =>
+    project(add(arrow.at, add(scale(a, r * Math.cos(angle)), scale(b, r * Math.sin(angle)))));
   const last = 1.5 * Math.PI;
-  const around = (r: number): string => Array.from({ length: 25 }, (_, k) => at((k / 24) * last, r)).map(([x, y], k) => `${k === 0 ? "M" : "L"}${p(x)} ${p(y)}`).join("");
+  const around = (r: number): string =>
+    Array.from({ length: 25 }, (_, k) => at((k / 24) * last, r))
+      .map(([x, y], k) => `${k === 0 ? "M" : "L"}${p(x)} ${p(y)}`)
+      .join("");
   const path = wanted > largest ? around(radius) + around(0.8 * radius) : around(radius);
   const [tx, ty] = at(last);
   const [sx, sy] = at(last - 0.3);
@@ -119,7 +137,13 @@ function legend(perNewton: number): SVGElement[] {
   const [x, y] = [18, 476];
   const text = svg("text", { class: "force-legend", x: p(x + length + 10), y: p(y + 6) });
   text.textContent = `${num(newtons)} N`;
-  return [svg("path", { class: "force-bar", d: `M${x} ${y - 6}V${y + 6}M${x} ${y}H${p(x + length)}M${p(x + length)} ${y - 6}V${y + 6}` }), text];
+  return [
+    svg("path", {
+      class: "force-bar",
+      d: `M${x} ${y - 6}V${y + 6}M${x} ${y}H${p(x + length)}M${p(x + length)} ${y - 6}V${y + 6}`,
+    }),
+    text,
+  ];
 }
 
 const p = (value: number): string => value.toFixed(1);

@@ -19,14 +19,23 @@ export interface Arrow {
 const NOTHING = 1e-7;
 
 /** The arrows of a state, as the server draws them too. */
-export function arrows(state: SessionState, drawn: Drawn, joint: string | null, told: { on: "i" | "j"; about: "joint" | "center" }): Arrow[] {
+export function arrows(
+  state: SessionState,
+  drawn: Drawn,
+  joint: string | null,
+  told: { on: "i" | "j"; about: "joint" | "center" },
+): Arrow[] {
   if (drawn.what === "none") return [];
   if (drawn.what === "body") return freeBody(state, drawn.body).arrows;
   const sign = told.on === "j" ? 1 : -1;
-  return state.forces.filter((entry) => drawn.what === "all" || entry.joint === joint)
+  return state.forces
+    .filter((entry) => drawn.what === "all" || entry.joint === joint)
     .map((entry) => {
       const arrow = reaction(entry, sign);
-      const body = told.about === "center" ? state.bodies.find((one) => one.name === (told.on === "j" ? entry.on : entry.by)) : undefined;
+      const body =
+        told.about === "center"
+          ? state.bodies.find((one) => one.name === (told.on === "j" ? entry.on : entry.by))
+          : undefined;
       return body ? moved(arrow, body.position) : arrow;
     });
 }
@@ -34,11 +43,16 @@ export function arrows(state: SessionState, drawn: Drawn, joint: string | null, 
 /** The same force and moment told about another point. */
 function moved(arrow: Arrow, point: Vec3): Arrow {
   const moment = momentAbout(arrow, point);
-  return { ...arrow, at: point, moment: norm(moment) > NOTHING * Math.max(1, norm(arrow.force)) ? moment : null };
+  return {
+    ...arrow,
+    at: point,
+    moment: norm(moment) > NOTHING * Math.max(1, norm(arrow.force)) ? moment : null,
+  };
 }
 
 function reaction(entry: JointForce, sign: number): Arrow {
-  const moment = norm(entry.moment) > NOTHING * Math.max(1, norm(entry.force)) ? scale(entry.moment, sign) : null;
+  const moment =
+    norm(entry.moment) > NOTHING * Math.max(1, norm(entry.force)) ? scale(entry.moment, sign) : null;
   return { label: entry.joint, kind: "reaction", at: entry.at, force: scale(entry.force, sign), moment };
 }
 
@@ -56,7 +70,8 @@ export function freeBody(state: SessionState, name: string): FreeBody {
   if (!body) return { arrows: [], sum: [0, 0, 0], inertia: [0, 0, 0] };
   const list: Arrow[] = [];
   const weight = scale(state.gravity, body.mass);
-  if (norm(weight) > 0) list.push({ label: "weight", kind: "weight", at: body.position, force: weight, moment: null });
+  if (norm(weight) > 0)
+    list.push({ label: "weight", kind: "weight", at: body.position, force: weight, moment: null });
   for (const entry of state.forces) {
     if (entry.on === name) list.push(reaction(entry, 1));
     else if (entry.by === name) list.push(reaction(entry, -1));
@@ -65,12 +80,14 @@ export function freeBody(state: SessionState, name: string): FreeBody {
   const known = list.reduce<Vec3>((sum, arrow) => add(sum, arrow.force), [0, 0, 0]);
   const rest = sub(inertia, known);
   const largest = Math.max(norm(inertia), ...list.map((arrow) => norm(arrow.force)), 1e-12);
-  if (norm(rest) > 1e-6 * largest) list.push({ label: "loads together", kind: "load", at: body.position, force: rest, moment: null });
+  if (norm(rest) > 1e-6 * largest)
+    list.push({ label: "loads together", kind: "load", at: body.position, force: rest, moment: null });
   return { arrows: list, sum: list.reduce<Vec3>((sum, arrow) => add(sum, arrow.force), [0, 0, 0]), inertia };
 }
 
 /** Moment of an arrow about another point. */
-export const momentAbout = (arrow: Arrow, point: Vec3): Vec3 => add(arrow.moment ?? [0, 0, 0], cross(sub(arrow.at, point), arrow.force));
+export const momentAbout = (arrow: Arrow, point: Vec3): Vec3 =>
+  add(arrow.moment ?? [0, 0, 0], cross(sub(arrow.at, point), arrow.force));
 
 /** The nearest of 1, 2, 5, 10 … that is not larger. */
 export function roundDown(value: number): number {

@@ -16,7 +16,8 @@ export class History {
     if (last && state.time === last.time) this.states[this.states.length - 1] = state;
     else this.states.push(state);
     // Every second state goes; the first and the last stay.
-    if (this.states.length > MOST) this.states = this.states.filter((_, k, all) => k % 2 === 0 || k === all.length - 1);
+    if (this.states.length > MOST)
+      this.states = this.states.filter((_, k, all) => k % 2 === 0 || k === all.length - 1);
   }
 
   clear(): void {
@@ -34,12 +35,19 @@ export class History {
     const [a, b] = [this.states[at], this.states[at + 1]];
     if (!a || !b || time <= a.time || b.bodies.length !== a.bodies.length) return a;
     const part = (time - a.time) / (b.time - a.time);
-    const mix = (p: Vec3, q: Vec3): Vec3 => [0, 1, 2].map((k) => (p[k] ?? 0) + part * ((q[k] ?? 0) - (p[k] ?? 0))) as Vec3;
+    const mix = (p: Vec3, q: Vec3): Vec3 =>
+      [0, 1, 2].map((k) => (p[k] ?? 0) + part * ((q[k] ?? 0) - (p[k] ?? 0))) as Vec3;
     return {
       ...a,
       bodies: a.bodies.map((body, k) => {
         const next = b.bodies[k] ?? body;
-        return { ...body, position: mix(body.position, next.position), u: mix(body.u, next.u), v: mix(body.v, next.v), w: mix(body.w, next.w) };
+        return {
+          ...body,
+          position: mix(body.position, next.position),
+          u: mix(body.u, next.u),
+          v: mix(body.v, next.v),
+          w: mix(body.w, next.w),
+        };
       }),
     };
   }

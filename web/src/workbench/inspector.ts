@@ -20,7 +20,10 @@ export interface InspectorTab {
   refresh: () => void;
 }
 
-export function inspector(session: Session, panelAsked?: string): { root: HTMLElement; current: () => string; select: (key: string) => void } {
+export function inspector(
+  session: Session,
+  panelAsked?: string,
+): { root: HTMLElement; current: () => string; select: (key: string) => void } {
   const made: Record<string, InspectorTab> = {
     parameters: parametersTab(session),
     state: stateTab(session),
@@ -31,19 +34,24 @@ export function inspector(session: Session, panelAsked?: string): { root: HTMLEl
     analyses: analysesTab(session),
   };
   const panel = (key: string): HTMLElement => h("div", null, made[key]?.root);
-  const bar = tabs("Inspector", [
-    { key: "parameters", label: "Parameters", panel: panel("parameters") },
-    { key: "state", label: "State", panel: panel("state") },
-    { key: "jacobian", label: "Jacobian", panel: panel("jacobian") },
-    { key: "multipliers", label: "Reactions", panel: panel("multipliers") },
-    { key: "bodies", label: "Bodies", panel: panel("bodies") },
-    { key: "plots", label: "Plots", panel: panel("plots") },
-    { key: "analyses", label: "Analyses", panel: panel("analyses") },
-  ].filter((tab) => session.steers || !STEERING.has(tab.key)), panelAsked ?? recall("tab:inspector"), (key) => {
-    if (session.steers) remember("tab:inspector", key);
-    made[key]?.refresh();
-    session.showPanel();
-  });
+  const bar = tabs(
+    "Inspector",
+    [
+      { key: "parameters", label: "Parameters", panel: panel("parameters") },
+      { key: "state", label: "State", panel: panel("state") },
+      { key: "jacobian", label: "Jacobian", panel: panel("jacobian") },
+      { key: "multipliers", label: "Reactions", panel: panel("multipliers") },
+      { key: "bodies", label: "Bodies", panel: panel("bodies") },
+      { key: "plots", label: "Plots", panel: panel("plots") },
+      { key: "analyses", label: "Analyses", panel: panel("analyses") },
+    ].filter((tab) => session.steers || !STEERING.has(tab.key)),
+    panelAsked ?? recall("tab:inspector"),
+    (key) => {
+      if (session.steers) remember("tab:inspector", key);
+      made[key]?.refresh();
+      session.showPanel();
+    },
+  );
 
   // A joint that was clicked in the viewer shows its force, unless its rows are being looked at.
   session.on("selected", () => {
@@ -55,10 +63,17 @@ export function inspector(session: Session, panelAsked?: string): { root: HTMLEl
     if (waiting) return;
     waiting = true;
     // Tables follow ten times a second: faster cannot be read.
-    setTimeout(() => {
-      waiting = false;
-      made[bar.current()]?.refresh();
-    }, session.moving ? 100 : 0);
+    setTimeout(
+      () => {
+        waiting = false;
+        made[bar.current()]?.refresh();
+      },
+      session.moving ? 100 : 0,
+    );
   });
-  return { root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root), current: bar.current, select: (key) => made[key] && bar.current() !== key ? bar.select(key) : undefined };
+  return {
+    root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root),
+    current: bar.current,
+    select: (key) => (made[key] && bar.current() !== key ? bar.select(key) : undefined),
+  };
 }

@@ -12,14 +12,28 @@ export function legend(session: Session): { root: HTMLElement; update: () => voi
   const update = (): void => {
     const drawing = session.latest?.drawing;
     const state = session.shown;
-    root.hidden = !drawing || !state || session.drawn.what === "none" || state.forces.length === 0 || session.pose !== undefined;
+    root.hidden =
+      !drawing ||
+      !state ||
+      session.drawn.what === "none" ||
+      state.forces.length === 0 ||
+      session.pose !== undefined;
     if (root.hidden || !drawing || !state) return;
-    const newtons = roundDown(0.4 * drawing.longest / drawing.force_scale);
-    const moments = roundDown(0.2 * drawing.longest / drawing.moment_scale);
+    const newtons = roundDown((0.4 * drawing.longest) / drawing.force_scale);
+    const moments = roundDown((0.2 * drawing.longest) / drawing.moment_scale);
     const turning = state.forces.some((entry) => norm(entry.moment) > 0);
-    setText(scale, `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. ${turning ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. ` : ""}Drawn double: more than shown.`);
-    const [arrow] = session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.told);
-    setText(told, arrow ? `${arrow.label}: ${num(norm(arrow.force), 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}` : "");
+    setText(
+      scale,
+      `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. ${turning ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. ` : ""}Drawn double: more than shown.`,
+    );
+    const [arrow] =
+      session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.told);
+    setText(
+      told,
+      arrow
+        ? `${arrow.label}: ${num(norm(arrow.force), 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`
+        : "",
+    );
   };
   return { root, update };
 }

@@ -1,7 +1,7 @@
 // A sparse matrix as a picture: filled where a value changes, framed where it is constant, hatched where a factor fills.
 import { h } from "../core/dom";
 import { onTheme } from "../core/prefs";
-import { cellAt, groupOf, groups, layout, type Layout, type Matrix } from "./matrix";
+import { cellAt, groupOf, groups, type Layout, layout, type Matrix } from "./matrix";
 
 export interface Cell {
   row: number;
@@ -14,13 +14,26 @@ export interface Picture {
   dispose: () => void;
 }
 
-const KEYS: Record<string, [number, number]> = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
+const KEYS: Record<string, [number, number]> = {
+  ArrowUp: [-1, 0],
+  ArrowDown: [1, 0],
+  ArrowLeft: [0, -1],
+  ArrowRight: [0, 1],
+};
 
 /** `read` hears of the cell that is pointed at, `choose` of a row that is clicked or entered. */
-export function matrixPicture(read: (cell: Cell | undefined) => void, choose: (row: number) => void): Picture {
+export function matrixPicture(
+  read: (cell: Cell | undefined) => void,
+  choose: (row: number) => void,
+): Picture {
   const canvas = h("canvas", {
-    class: "matrix", tabindex: "0", "data-keys": "own", role: "application", "aria-roledescription": "matrix picture",
-    "aria-label": "Matrix: arrow keys move from cell to cell, the value is read out below; Enter selects the joint of a row",
+    class: "matrix",
+    tabindex: "0",
+    "data-keys": "own",
+    role: "application",
+    "aria-roledescription": "matrix picture",
+    "aria-label":
+      "Matrix: arrow keys move from cell to cell, the value is read out below; Enter selects the joint of a row",
   });
   const holder = h("div", { class: "matrix-holder" }, canvas);
   let matrix: Matrix | undefined;
@@ -112,7 +125,14 @@ export function matrixPicture(read: (cell: Cell | undefined) => void, choose: (r
       }
       context.textAlign = "left";
       context.font = font(12);
-      if (!grid.named || group.count === 1) text(context, group.count === 1 && grid.named ? rows[group.from] ?? "" : group.name, 0, y + (group.count * cell) / 2, left - 10);
+      if (!grid.named || group.count === 1)
+        text(
+          context,
+          group.count === 1 && grid.named ? (rows[group.from] ?? "") : group.name,
+          0,
+          y + (group.count * cell) / 2,
+          left - 10,
+        );
       else text(context, group.name, 0, y + cell / 2, left * 0.46);
     }
     for (const group of groups(columns)) {
@@ -159,7 +179,15 @@ export function matrixPicture(read: (cell: Cell | undefined) => void, choose: (r
   canvas.addEventListener("pointermove", (event) => {
     if (!matrix || !grid) return;
     const box = canvas.getBoundingClientRect();
-    moveTo(cellAt(grid, matrix.rows.length, matrix.columns.length, event.clientX - box.left, event.clientY - box.top));
+    moveTo(
+      cellAt(
+        grid,
+        matrix.rows.length,
+        matrix.columns.length,
+        event.clientX - box.left,
+        event.clientY - box.top,
+      ),
+    );
   });
   canvas.addEventListener("click", () => {
     if (at) choose(at.row);
@@ -175,7 +203,14 @@ export function matrixPicture(read: (cell: Cell | undefined) => void, choose: (r
     event.preventDefault();
     const from = at ?? { row: 0, column: 0 };
     const clamp = (value: number, most: number): number => Math.max(0, Math.min(most - 1, value));
-    moveTo(at ? { row: clamp(from.row + move[0], matrix.rows.length), column: clamp(from.column + move[1], matrix.columns.length) } : from);
+    moveTo(
+      at
+        ? {
+            row: clamp(from.row + move[0], matrix.rows.length),
+            column: clamp(from.column + move[1], matrix.columns.length),
+          }
+        : from,
+    );
   });
   const sized = new ResizeObserver(draw);
   sized.observe(holder);
@@ -211,6 +246,7 @@ function line(context: CanvasRenderingContext2D, x1: number, y1: number, x2: num
 function text(context: CanvasRenderingContext2D, words: string, x: number, y: number, room: number): void {
   if (room < 8) return;
   let shown = words;
-  while (shown.length > 1 && context.measureText(shown).width > room) shown = `${shown.slice(0, shown.endsWith("…") ? -2 : -1)}…`;
+  while (shown.length > 1 && context.measureText(shown).width > room)
+    shown = `${shown.slice(0, shown.endsWith("…") ? -2 : -1)}…`;
   context.fillText(shown, x, y);
 }

@@ -53,7 +53,13 @@ export function layout(rows: number, columns: number, room: number, wide: boolea
   return { cell, left, top, named, width: left + cell * columns + 2, height: top + cell * rows + 2 };
 }
 
-export function cellAt(grid: Layout, rows: number, columns: number, x: number, y: number): { row: number; column: number } | undefined {
+export function cellAt(
+  grid: Layout,
+  rows: number,
+  columns: number,
+  x: number,
+  y: number,
+): { row: number; column: number } | undefined {
   const column = Math.floor((x - grid.left) / grid.cell);
   const row = Math.floor((y - grid.top) / grid.cell);
   if (row < 0 || column < 0 || row >= rows || column >= columns) return undefined;
@@ -80,20 +86,59 @@ export interface Matrix {
   at: (row: number, column: number) => Entry | undefined;
 }
 
-function indexed(rows: string[], columns: string[], entries: Entry[], constantRows: boolean[], redundant: Set<number>): Matrix {
+function indexed(
+  rows: string[],
+  columns: string[],
+  entries: Entry[],
+  constantRows: boolean[],
+  redundant: Set<number>,
+): Matrix {
   const places = new Map(entries.map((entry) => [entry.row * columns.length + entry.column, entry]));
-  return { rows, columns, entries, constantRows, redundant, at: (row, column) => places.get(row * columns.length + column) };
+  return {
+    rows,
+    columns,
+    entries,
+    constantRows,
+    redundant,
+    at: (row, column) => places.get(row * columns.length + column),
+  };
 }
 
 export function ofJacobian(jacobian: Jacobian): Matrix {
-  const entries = jacobian.entries.map(([row, column, value, constant]): Entry => ({ row, column, value, kind: constant ? "constant" : "changing" }));
-  return indexed(jacobian.rows, jacobian.columns, entries, constantRows(jacobian), new Set(jacobian.redundant.flatMap((set) => set.rows)));
+  const entries = jacobian.entries.map(
+    ([row, column, value, constant]): Entry => ({
+      row,
+      column,
+      value,
+      kind: constant ? "constant" : "changing",
+    }),
+  );
+  return indexed(
+    jacobian.rows,
+    jacobian.columns,
+    entries,
+    constantRows(jacobian),
+    new Set(jacobian.redundant.flatMap((set) => set.rows)),
+  );
 }
 
 /** Both halves of a symmetric matrix. */
 export function ofSymmetric(matrix: Symmetric): Matrix {
-  const entries = matrix.places.flatMap(([row, column, value, kind]): Entry[] => (row === column ? [{ row, column, value, kind }] : [{ row, column, value, kind }, { row: column, column: row, value, kind }]));
-  return indexed(matrix.names, matrix.names, entries, matrix.names.map(() => false), new Set());
+  const entries = matrix.places.flatMap(([row, column, value, kind]): Entry[] =>
+    row === column
+      ? [{ row, column, value, kind }]
+      : [
+          { row, column, value, kind },
+          { row: column, column: row, value, kind },
+        ],
+  );
+  return indexed(
+    matrix.names,
+    matrix.names,
+    entries,
+    matrix.names.map(() => false),
+    new Set(),
+  );
 }
 
 /** A row is constant when none of its entries changes. */

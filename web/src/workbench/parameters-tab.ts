@@ -1,7 +1,7 @@
 // What may be changed while it runs: the author's parameters as sliders, every other number for experts.
 import { announce, h, setText } from "../core/dom";
 import { num, plural } from "../core/format";
-import { count, none, type Numbers, type Parameter, type Then } from "../core/numbers";
+import { count, type Numbers, none, type Parameter, type Then } from "../core/numbers";
 import { empty, problemNotice } from "../ui/notice";
 import { expertPanel } from "./expert";
 import type { InspectorTab } from "./inspector";
@@ -21,8 +21,16 @@ export function parametersTab(session: Session): InspectorTab {
   const list = h("div", { class: "parameters" });
   const trouble = h("div", { "aria-live": "polite" });
   const state = h("p", { class: "help", role: "status" });
-  const undo = h("button", { type: "button", class: "button small", onclick: () => void attempt(() => session.undo()) }, "Undo");
-  const reset = h("button", { type: "button", class: "button small", onclick: () => void attempt(() => session.change(none())) }, "Reset all");
+  const undo = h(
+    "button",
+    { type: "button", class: "button small", onclick: () => void attempt(() => session.undo()) },
+    "Undo",
+  );
+  const reset = h(
+    "button",
+    { type: "button", class: "button small", onclick: () => void attempt(() => session.change(none())) },
+    "Reset all",
+  );
   let wanted: { to: Numbers; then?: Then | undefined } | undefined;
   let sending = false;
 
@@ -68,10 +76,19 @@ export function parametersTab(session: Session): InspectorTab {
     if (names.join("|") !== [...rows.keys()].join("|") || list.childElementCount === 0) {
       rows.clear();
       for (const parameter of view.parameters) rows.set(parameter.name, parameterRow(parameter, setValue));
-      list.replaceChildren(...(rows.size > 0 ? [...rows.values()].map((row) => row.root)
-        : [empty("No sliders here", "The author of this scene offers no parameters. Every number of it can be changed below.")]));
+      list.replaceChildren(
+        ...(rows.size > 0
+          ? [...rows.values()].map((row) => row.root)
+          : [
+              empty(
+                "No sliders here",
+                "The author of this scene offers no parameters. Every number of it can be changed below.",
+              ),
+            ]),
+      );
     }
-    for (const parameter of view.parameters) if (!sending) rows.get(parameter.name)?.show(parameter, parameter.value);
+    for (const parameter of view.parameters)
+      if (!sending) rows.get(parameter.name)?.show(parameter, parameter.value);
     const changed = count(session.numbers);
     setText(state, changed === 0 ? "As the author wrote it." : `${plural(changed, "number")} changed.`);
     undo.disabled = !session.canUndo;
@@ -80,13 +97,20 @@ export function parametersTab(session: Session): InspectorTab {
   session.on("scene", () => {
     paint();
     expert.refresh();
-    if (count(session.numbers) === 0 && session.canUndo) announce("All numbers stand as the author wrote them.");
+    if (count(session.numbers) === 0 && session.canUndo)
+      announce("All numbers stand as the author wrote them.");
   });
 
   return {
-    root: h("div", { class: "stack" },
+    root: h(
+      "div",
+      { class: "stack" },
       h("div", { class: "row between" }, state, h("div", { class: "row" }, undo, reset)),
-      trouble, list, hand.root, expert.root),
+      trouble,
+      list,
+      hand.root,
+      expert.root,
+    ),
     refresh: () => {
       paint();
       expert.refresh();
@@ -102,15 +126,53 @@ function parameterRow(start: Parameter, set: (name: string, value: number) => vo
   const log = start.step === null && low > 0 && high / low > 1e3;
   const place = (value: number): number => (log ? Math.log10(value) : value);
   const slider = h("input", {
-    type: "range", class: "slider", min: String(place(low)), max: String(place(high)), step: log ? "any" : String(step), "aria-label": label,
+    type: "range",
+    class: "slider",
+    min: String(place(low)),
+    max: String(place(high)),
+    step: log ? "any" : String(step),
+    "aria-label": label,
   });
-  const field = h("input", { type: "text", inputmode: "decimal", autocomplete: "off", class: "field number compact", "aria-label": `${label}${start.unit ? `, in ${start.unit}` : ""}` });
-  const initial = h("button", { type: "button", class: "button quiet small", hidden: true, onclick: () => set(name, start.initial) });
+  const field = h("input", {
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    class: "field number compact",
+    "aria-label": `${label}${start.unit ? `, in ${start.unit}` : ""}`,
+  });
+  const initial = h("button", {
+    type: "button",
+    class: "button quiet small",
+    hidden: true,
+    onclick: () => set(name, start.initial),
+  });
   const wrong = h("p", { class: "field-wrong", role: "alert" });
-  const root = h("div", { class: "parameter" },
-    h("div", { class: "parameter-head" }, h("span", { class: "parameter-label" }, label), initial,
-      h("span", { class: "help", title: start.on_change === "continue" ? "The run goes on from where it stands" : "The run starts over" }, start.on_change === "continue" ? "goes on" : "starts over")),
-    h("div", { class: "parameter-row" }, slider, h("span", { class: "parameter-value" }, field, h("span", { class: "unit" }, start.unit ?? ""))), wrong);
+  const root = h(
+    "div",
+    { class: "parameter" },
+    h(
+      "div",
+      { class: "parameter-head" },
+      h("span", { class: "parameter-label" }, label),
+      initial,
+      h(
+        "span",
+        {
+          class: "help",
+          title:
+            start.on_change === "continue" ? "The run goes on from where it stands" : "The run starts over",
+        },
+        start.on_change === "continue" ? "goes on" : "starts over",
+      ),
+    ),
+    h(
+      "div",
+      { class: "parameter-row" },
+      slider,
+      h("span", { class: "parameter-value" }, field, h("span", { class: "unit" }, start.unit ?? "")),
+    ),
+    wrong,
+  );
   setText(initial, `back to ${num(start.initial)}`);
 
   slider.addEventListener("input", () => {
@@ -138,7 +200,10 @@ function parameterRow(start: Parameter, set: (name: string, value: number) => vo
       if (document.activeElement !== slider) slider.value = String(place(value));
       if (document.activeElement !== field || field.value === "") field.value = plain(value);
       slider.setAttribute("aria-valuetext", `${num(value)}${parameter.unit ? ` ${parameter.unit}` : ""}`);
-      slider.style.setProperty("--done", `${(100 * (place(value) - place(low))) / (place(high) - place(low))}%`);
+      slider.style.setProperty(
+        "--done",
+        `${(100 * (place(value) - place(low))) / (place(high) - place(low))}%`,
+      );
       const same = value === parameter.initial;
       initial.hidden = same;
       root.classList.toggle("is-changed", !same);

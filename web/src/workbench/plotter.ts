@@ -16,7 +16,9 @@ const HEIGHT = 260;
 const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; cursor: { at: number } }>();
 
 export function draw(place: HTMLElement, drawing: Drawing): void {
-  const values = drawing.curves.map((curve) => curve.values.map((value) => (drawing.log && value !== null && value <= 0 ? null : value)));
+  const values = drawing.curves.map((curve) =>
+    curve.values.map((value) => (drawing.log && value !== null && value <= 0 ? null : value)),
+  );
   const data: uPlot.AlignedData = [drawing.times, ...values];
   let entry = plots.get(place);
   if (entry?.key !== drawing.key || !place.contains(entry.plot.root)) {
@@ -27,7 +29,8 @@ export function draw(place: HTMLElement, drawing: Drawing): void {
     plots.set(place, entry);
   }
   entry.cursor.at = drawing.cursor;
-  if (entry.plot.width !== place.clientWidth && place.clientWidth > 0) entry.plot.setSize({ width: place.clientWidth, height: HEIGHT });
+  if (entry.plot.width !== place.clientWidth && place.clientWidth > 0)
+    entry.plot.setSize({ width: place.clientWidth, height: HEIGHT });
   entry.plot.setData(data);
 }
 
@@ -36,38 +39,64 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
   const color = (name: string): string => css.getPropertyValue(name).trim();
   const font = `12px ${css.fontFamily}`;
   const axis: uPlot.Axis = {
-    stroke: color("--ink-2"), font, grid: { stroke: color("--line"), width: 1 }, ticks: { stroke: color("--line"), width: 1 },
+    stroke: color("--ink-2"),
+    font,
+    grid: { stroke: color("--line"), width: 1 },
+    ticks: { stroke: color("--line"), width: 1 },
   };
-  const plot = new uPlot({
-    width: place.clientWidth || 400, height: HEIGHT,
-    scales: { x: { time: false }, y: drawing.log ? { distr: 3 } : {} },
-    axes: [{ ...axis, label: "Time, s", labelFont: font, labelSize: 20 }, {
-      ...axis, size: 66, label: drawing.curves[0]?.unit || "", labelFont: font, labelSize: drawing.curves[0]?.unit ? 18 : 0,
-      values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))),
-    }],
-    series: [{ label: "Time" }, ...drawing.curves.map((curve): uPlot.Series => ({
-      label: curve.label, stroke: color(curve.color), width: 2, dash: curve.dash, points: { show: false },
-      value: (_, value) => (value === null ? "–" : short(value)),
-    }))],
-    hooks: {
-      draw: [(self) => {
-        const x = Math.round(self.valToPos(cursor.at, "x", true));
-        const { ctx, bbox } = self;
-        if (x < bbox.left || x > bbox.left + bbox.width) return;
-        ctx.save();
-        ctx.strokeStyle = color("--accent");
-        ctx.lineWidth = devicePixelRatio;
-        ctx.setLineDash([]);
-        ctx.beginPath();
-        ctx.moveTo(x, bbox.top);
-        ctx.lineTo(x, bbox.top + bbox.height);
-        ctx.stroke();
-        ctx.restore();
-      }],
+  const plot = new uPlot(
+    {
+      width: place.clientWidth || 400,
+      height: HEIGHT,
+      scales: { x: { time: false }, y: drawing.log ? { distr: 3 } : {} },
+      axes: [
+        { ...axis, label: "Time, s", labelFont: font, labelSize: 20 },
+        {
+          ...axis,
+          size: 66,
+          label: drawing.curves[0]?.unit || "",
+          labelFont: font,
+          labelSize: drawing.curves[0]?.unit ? 18 : 0,
+          values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))),
+        },
+      ],
+      series: [
+        { label: "Time" },
+        ...drawing.curves.map(
+          (curve): uPlot.Series => ({
+            label: curve.label,
+            stroke: color(curve.color),
+            width: 2,
+            dash: curve.dash,
+            points: { show: false },
+            value: (_, value) => (value === null ? "–" : short(value)),
+          }),
+        ),
+      ],
+      hooks: {
+        draw: [
+          (self) => {
+            const x = Math.round(self.valToPos(cursor.at, "x", true));
+            const { ctx, bbox } = self;
+            if (x < bbox.left || x > bbox.left + bbox.width) return;
+            ctx.save();
+            ctx.strokeStyle = color("--accent");
+            ctx.lineWidth = devicePixelRatio;
+            ctx.setLineDash([]);
+            ctx.beginPath();
+            ctx.moveTo(x, bbox.top);
+            ctx.lineTo(x, bbox.top + bbox.height);
+            ctx.stroke();
+            ctx.restore();
+          },
+        ],
+      },
+      cursor: { drag: { x: false, y: false } },
+      legend: { live: false },
     },
-    cursor: { drag: { x: false, y: false } },
-    legend: { live: false },
-  }, data, place);
+    data,
+    place,
+  );
   plot.over.addEventListener("click", (event) => drawing.seek(plot.posToVal(event.offsetX, "x")));
   return plot;
 }

@@ -23,7 +23,11 @@ export function turned(a: Vec3, rotation: Vec3): Vec3 {
 
 /** The state with its bodies elsewhere; forces belong to the run and are left out. */
 export function placed(state: SessionState, bodies: Placed[]): SessionState {
-  return { ...state, forces: [], bodies: state.bodies.map((body, k) => ({ ...body, ...(bodies[k] ?? body) })) };
+  return {
+    ...state,
+    forces: [],
+    bodies: state.bodies.map((body, k) => ({ ...body, ...(bodies[k] ?? body) })),
+  };
 }
 
 /** Bodies in a mode at a phase: what is in phase, and what follows a quarter of a period later. */
@@ -34,7 +38,12 @@ export function swung(bodies: Placed[], shape: ModeMotion[], phase: number, size
     if (!motion) return body;
     const shift = add(scale(motion.translation, now), scale(motion.translation_later, later));
     const turn = add(scale(motion.rotation, now), scale(motion.rotation_later, later));
-    return { position: add(body.position, shift), u: turned(body.u, turn), v: turned(body.v, turn), w: turned(body.w, turn) };
+    return {
+      position: add(body.position, shift),
+      u: turned(body.u, turn),
+      v: turned(body.v, turn),
+      w: turned(body.w, turn),
+    };
   });
 }
 

@@ -4,7 +4,7 @@ import type { Vec3 } from "../core/types";
 import { problemNotice } from "../ui/notice";
 import type { Session } from "./session";
 import type { Over } from "./sketch";
-import { add, along, out, scale, sub, type Axes } from "./vec";
+import { type Axes, add, along, out, scale, sub } from "./vec";
 
 /** The hand's spring as a line from the grabbed point to the hand. */
 export function pullLayer(session: Session): Over {
@@ -47,7 +47,12 @@ export interface Grip {
 }
 
 /** Makes bodies of the drawing follow the mouse. `move` turns a shift on the screen into one in the world. */
-export function dragging(session: Session, root: SVGSVGElement, grip: (target: Element, x: number, y: number) => Grip | undefined, move: (dx: number, dy: number) => Vec3): void {
+export function dragging(
+  session: Session,
+  root: SVGSVGElement,
+  grip: (target: Element, x: number, y: number) => Grip | undefined,
+  move: (dx: number, dy: number) => Vec3,
+): void {
   let held: { body: string; point: Vec3; from: Vec3; x: number; y: number } | undefined;
   let wanted: Vec3 | null | undefined;
   let sending = false;
@@ -70,7 +75,9 @@ export function dragging(session: Session, root: SVGSVGElement, grip: (target: E
   };
   const onScreen = (event: PointerEvent): [number, number] => {
     const matrix = root.getScreenCTM();
-    return matrix ? [(event.clientX - matrix.e) / matrix.a, (event.clientY - matrix.f) / matrix.d] : [event.offsetX, event.offsetY];
+    return matrix
+      ? [(event.clientX - matrix.e) / matrix.a, (event.clientY - matrix.f) / matrix.d]
+      : [event.offsetX, event.offsetY];
   };
 
   root.addEventListener("pointerdown", (event) => {
@@ -104,9 +111,22 @@ export function dragging(session: Session, root: SVGSVGElement, grip: (target: E
 /** The same by numbers. */
 export function pullPanel(session: Session): { root: HTMLElement; refresh: () => void } {
   const body = h("select", { class: "field compact", "aria-label": "Body to pull" });
-  const fields = ["x", "y", "z"].map((axis) => h("input", { type: "text", inputmode: "decimal", autocomplete: "off", class: "field number compact", value: "0", "aria-label": `Pull to ${axis}, in metres` }));
+  const fields = ["x", "y", "z"].map((axis) =>
+    h("input", {
+      type: "text",
+      inputmode: "decimal",
+      autocomplete: "off",
+      class: "field number compact",
+      value: "0",
+      "aria-label": `Pull to ${axis}, in metres`,
+    }),
+  );
   const trouble = h("div", { "aria-live": "polite" });
-  const release = h("button", { type: "button", class: "button small", onclick: () => void attempt(() => session.pull(null)) }, "Let go");
+  const release = h(
+    "button",
+    { type: "button", class: "button small", onclick: () => void attempt(() => session.pull(null)) },
+    "Let go",
+  );
   let offered = "";
 
   const attempt = async (run: () => Promise<void>): Promise<void> => {
@@ -120,7 +140,8 @@ export function pullPanel(session: Session): { root: HTMLElement; refresh: () =>
   const pull = (): void => {
     const to = fields.map((field) => Number(field.value.trim().replace(",", ".").replace("−", "-"))) as Vec3;
     fields.forEach((field, k) => field.setAttribute("aria-invalid", String(!Number.isFinite(to[k]))));
-    if (to.every(Number.isFinite)) void attempt(() => session.pull({ body: body.value, point: [0, 0, 0], to }));
+    if (to.every(Number.isFinite))
+      void attempt(() => session.pull({ body: body.value, point: [0, 0, 0], to }));
   };
   const here = (): void => {
     const found = session.latest?.bodies.find((entry) => entry.name === body.value);
@@ -138,14 +159,35 @@ export function pullPanel(session: Session): { root: HTMLElement; refresh: () =>
     }
     release.disabled = !session.latest?.pull;
   };
-  const root = h("details", { class: "expert" },
+  const root = h(
+    "details",
+    { class: "expert" },
     h("summary", null, "Pull a body"),
-    h("div", { class: "stack" },
-      h("p", { class: "help" }, "In the sketch, drag a body: a spring pulls it to the hand while the run goes on. Or pull the centre of mass by numbers, in metres."),
-      h("div", { class: "row wrap" }, body, h("span", null, "to"), ...fields, h("button", { type: "button", class: "button small", onclick: pull }, "Pull"), release),
-      trouble));
+    h(
+      "div",
+      { class: "stack" },
+      h(
+        "p",
+        { class: "help" },
+        "In the sketch, drag a body: a spring pulls it to the hand while the run goes on. Or pull the centre of mass by numbers, in metres.",
+      ),
+      h(
+        "div",
+        { class: "row wrap" },
+        body,
+        h("span", null, "to"),
+        ...fields,
+        h("button", { type: "button", class: "button small", onclick: pull }, "Pull"),
+        release,
+      ),
+      trouble,
+    ),
+  );
   return { root, refresh };
 }
 
 /** A shift on the screen in the plane of the drawing. */
-export const inPlane = (view: Axes, perMetre: number) => (dx: number, dy: number): Vec3 => add(scale(view[0], dx / perMetre), scale(view[1], -dy / perMetre));
+export const inPlane =
+  (view: Axes, perMetre: number) =>
+  (dx: number, dy: number): Vec3 =>
+    add(scale(view[0], dx / perMetre), scale(view[1], -dy / perMetre));

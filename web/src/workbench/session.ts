@@ -1,7 +1,7 @@
 // One live simulation on the server, steered from the page.
-import { api, ApiError, type SessionSource } from "../core/api";
+import { ApiError, api, type SessionSource } from "../core/api";
 import { announce } from "../core/dom";
-import { between, isNone, none, tidy, type Numbers, type SceneView, type Then } from "../core/numbers";
+import { between, isNone, type Numbers, none, type SceneView, type Then, tidy } from "../core/numbers";
 import type { Camera, Drawing, Pull, SessionState } from "../core/types";
 import { banner } from "../ui/notice";
 import { Clock } from "./clock";
@@ -32,7 +32,10 @@ export class Session extends Clock {
   private redrawing: "idle" | "busy" | "again" = "idle";
   private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all", marked: null });
 
-  constructor(readonly source: SessionSource, start?: Numbers) {
+  constructor(
+    readonly source: SessionSource,
+    start?: Numbers,
+  ) {
     super();
     this.numbers = start ?? none();
     this.connection = new Connection({
@@ -262,7 +265,14 @@ export class Session extends Clock {
 
   private arrows(): Pick<Drawing, "on" | "about" | "drawn" | "marked"> {
     const { told, drawn, joint } = this;
-    const which = drawn.what === "body" ? { body: drawn.body } : drawn.what !== "joint" ? drawn.what : joint === null ? "none" as const : { joint };
+    const which =
+      drawn.what === "body"
+        ? { body: drawn.body }
+        : drawn.what !== "joint"
+          ? drawn.what
+          : joint === null
+            ? ("none" as const)
+            : { joint };
     return { on: told.on, about: told.about, drawn: which, marked: joint };
   }
 
@@ -280,7 +290,8 @@ export class Session extends Clock {
     try {
       const state = await api.draw(run, arrows, fit);
       this.drawnAs = wanted;
-      if (this.latest && this.latest.id === state.id) this.latest = { ...this.latest, drawing: state.drawing };
+      if (this.latest && this.latest.id === state.id)
+        this.latest = { ...this.latest, drawing: state.drawing };
       this.emit("told");
     } catch {
       // The sketch and the tables tell it already; the next wish asks again.
@@ -320,7 +331,8 @@ export class Session extends Clock {
     }
     this.latest = state;
     this.past.add(state);
-    if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.busy) void this.readScene();
+    if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.busy)
+      void this.readScene();
     this.emit("shown");
     if (state.error && !before?.error) this.emit("problem", state.error);
     if (state.finished && before && !before.finished) this.tell();
@@ -355,7 +367,10 @@ export class Session extends Clock {
       this.connection.open();
       void this.redraw(false);
       announce("The simulation had expired on the server and was started anew, at time 0.");
-      banner("The simulation had expired on the server. A fresh one stands at time 0.", { label: "Fine", run: () => banner(null) });
+      banner("The simulation had expired on the server. A fresh one stands at time 0.", {
+        label: "Fine",
+        run: () => banner(null),
+      });
     } catch (error) {
       this.emit("problem", error);
     }

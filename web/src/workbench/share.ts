@@ -1,10 +1,10 @@
 // The button that copies a link to what is seen, and the way back from such a link.
 import { announce, h } from "../core/dom";
-import { linkTo, LONGEST, type Seen } from "../core/link";
+import { LONGEST, linkTo, type Seen } from "../core/link";
 import { isNone } from "../core/numbers";
+import type { Camera } from "../core/types";
 import { icon } from "../ui/icons";
 import { banner } from "../ui/notice";
-import type { Camera } from "../core/types";
 import type { Drawn } from "./force-model";
 import type { Session } from "./session";
 import type { Told } from "./told";
@@ -21,37 +21,57 @@ export interface Shared {
 }
 
 export function shareButton(shared: Shared): HTMLElement {
-  return h("button", {
-    type: "button", class: "button quiet small icon-only", "aria-label": "Copy a link to this view", title: "Copy a link to this view: numbers, time, joint, panel",
-    onclick: () => void copy(shared),
-  }, icon("link"));
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "button quiet small icon-only",
+      "aria-label": "Copy a link to this view",
+      title: "Copy a link to this view: numbers, time, joint, panel",
+      onclick: () => void copy(shared),
+    },
+    icon("link"),
+  );
 }
 
 async function copy(shared: Shared): Promise<void> {
   const link = await linkTo(shared.own?.path ?? location.pathname, seenIn(shared));
   if (link.length > LONGEST) {
-    banner(`This scene is too large for a link (${Math.round(link.length / 1000)} kB). Save its file and send that.`, { label: "Close", run: () => banner(null) });
+    banner(
+      `This scene is too large for a link (${Math.round(link.length / 1000)} kB). Save its file and send that.`,
+      { label: "Close", run: () => banner(null) },
+    );
     return;
   }
   try {
     await navigator.clipboard.writeText(link);
     announce("The link to this view is copied.");
-    banner(shared.session.bent
-      ? "The link is copied. This run was changed on its way; the link runs it with these numbers from the start."
-      : "The link to this view is copied: whoever opens it sees the same.", { label: "Fine", run: () => banner(null) });
+    banner(
+      shared.session.bent
+        ? "The link is copied. This run was changed on its way; the link runs it with these numbers from the start."
+        : "The link to this view is copied: whoever opens it sees the same.",
+      { label: "Fine", run: () => banner(null) },
+    );
     setTimeout(() => banner(null), GLANCE_MS);
   } catch {
     // Without leave to write to the clipboard the address itself becomes the link.
     history.replaceState(null, "", link);
-    banner("The browser does not let this page copy. The link stands in the address bar now.", { label: "Fine", run: () => banner(null) });
+    banner("The browser does not let this page copy. The link stands in the address bar now.", {
+      label: "Fine",
+      run: () => banner(null),
+    });
   }
 }
 
 export function seenIn({ session, panel, picture, own }: Shared): Seen {
   const { told, drawn, camera } = session;
   const seen: Seen = {
-    time: Number(session.time.toPrecision(12)), panel: panel(), picture: picture(),
-    told: `${told.on}.${told.about}.${told.in}`, drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what, camera,
+    time: Number(session.time.toPrecision(12)),
+    panel: panel(),
+    picture: picture(),
+    told: `${told.on}.${told.about}.${told.in}`,
+    drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what,
+    camera,
   };
   if (!isNone(session.numbers)) seen.numbers = session.numbers;
   if (session.joint !== null) seen.joint = session.joint;
@@ -62,7 +82,8 @@ export function seenIn({ session, panel, picture, own }: Shared): Seen {
 /** Brings a session that has just started to what a link shows. */
 export async function restore(session: Session, seen: Seen): Promise<void> {
   tell(session, seen);
-  if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera) session.lookFrom(seen.camera as Camera);
+  if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera)
+    session.lookFrom(seen.camera as Camera);
   if (seen.time) await session.goTo(seen.time);
 }
 
@@ -80,7 +101,9 @@ export function tell(session: Session, seen: Seen): void {
   }
   const drawn = drawnOf(seen.drawn);
   if (drawn) session.draw(drawn);
-  session.select(seen.joint && session.latest?.forces.some((entry) => entry.joint === seen.joint) ? seen.joint : null);
+  session.select(
+    seen.joint && session.latest?.forces.some((entry) => entry.joint === seen.joint) ? seen.joint : null,
+  );
 }
 
 export function drawnOf(text: string | undefined): Drawn | undefined {

@@ -1,8 +1,8 @@
 // The scene as a line drawing: at once, without WebGL, and while the 3-D view is on its way.
 import { svg } from "../core/dom";
 import type { BodyFrame, Scene, SceneBody, SceneJoint, SessionState, Shape, Vec3 } from "../core/types";
-import { inPlane, type Grip } from "./pull";
-import { add, along, axesOf, cross, dot, norm, out, scale, sub, unit, type Axes } from "./vec";
+import { type Grip, inPlane } from "./pull";
+import { type Axes, add, along, axesOf, cross, dot, norm, out, scale, sub, unit } from "./vec";
 
 interface Piece {
   body: number;
@@ -36,13 +36,19 @@ export interface Over {
 
 export function sketch(given: Scene | undefined, over: Over[], joint: (name: string) => void): Sketch {
   let scene = given;
-  const root = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "sketch", role: "img", "aria-label": "Line drawing of the mechanism" });
+  const root = svg("svg", {
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    class: "sketch",
+    role: "img",
+    "aria-label": "Line drawing of the mechanism",
+  });
   const view = viewAxes(given?.gravity);
   let pieces: Piece[] | undefined;
   let perMetre = 1;
   let project: (p: Vec3) => [number, number] = () => [WIDTH / 2, HEIGHT / 2];
 
-  const clickable = (element: SVGElement, name: string): void => element.addEventListener("click", () => joint(name));
+  const clickable = (element: SVGElement, name: string): void =>
+    element.addEventListener("click", () => joint(name));
 
   const build = (state: SessionState): Piece[] => {
     const made: Piece[] = [];
@@ -53,31 +59,47 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
     });
     const fixedJoints: { point: Vec3; name: string }[] = [];
     for (const entry of scene?.joints ?? []) {
-      const fixed = entry.body_i === GROUND ? entry.point_i : entry.body_j === GROUND ? entry.point_j : undefined;
+      const fixed =
+        entry.body_i === GROUND ? entry.point_i : entry.body_j === GROUND ? entry.point_j : undefined;
       const onGround = entry.body_i === GROUND || entry.body_j === GROUND;
       const carrier = state.bodies.findIndex((body) => body.name === entry.body_j);
       const frame = state.bodies[carrier];
       const point = fixed ?? entry.point;
       if (onGround && point) fixedJoints.push({ point, name: entry.name });
       else if (!onGround && frame) {
-        const pieces = jointOn(frame, carrier, scene?.bodies?.find((body) => body.name === frame.name), entry);
+        const pieces = jointOn(
+          frame,
+          carrier,
+          scene?.bodies?.find((body) => body.name === frame.name),
+          entry,
+        );
         for (const piece of pieces) clickable(piece.element, entry.name);
         made.push(...pieces);
       }
     }
     const grounds = fixedJoints.map((entry) => entry.point);
     // Everything that is drawn, where it stands now.
-    const reach = [...grounds, ...state.bodies.map((frame) => frame.position), ...made.flatMap((piece) => {
-      const frame = state.bodies[piece.body];
-      return frame ? piece.points.map((point) => add(frame.position, out([frame.u, frame.v, frame.w], point))) : [];
-    })];
-    const span = fit(reach.map((p) => flat(view, p)), grounds.map((p) => flat(view, p)));
+    const reach = [
+      ...grounds,
+      ...state.bodies.map((frame) => frame.position),
+      ...made.flatMap((piece) => {
+        const frame = state.bodies[piece.body];
+        return frame
+          ? piece.points.map((point) => add(frame.position, out([frame.u, frame.v, frame.w], point)))
+          : [];
+      }),
+    ];
+    const span = fit(
+      reach.map((p) => flat(view, p)),
+      grounds.map((p) => flat(view, p)),
+    );
     perMetre = span.scale;
     project = (p) => {
       const [x, y] = flat(view, p);
       return [WIDTH / 2 + (x - span.x) * span.scale, HEIGHT / 2 - (y - span.y) * span.scale];
     };
-    for (const piece of made) if (piece.element instanceof SVGElement) piece.element.style.setProperty("--px", String(span.scale));
+    for (const piece of made)
+      if (piece.element instanceof SVGElement) piece.element.style.setProperty("--px", String(span.scale));
     const axisLength = 46 / span.scale;
     state.bodies.forEach((_, at) => made.push(...triad(at, axisLength)));
     root.replaceChildren(
@@ -88,7 +110,8 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
         clickable(dot, name);
         return dot;
       }),
-      ...over.map((layer) => layer.root));
+      ...over.map((layer) => layer.root),
+    );
     return made;
   };
 
@@ -111,12 +134,23 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
   return {
     root,
     grip: (target, x, y) => {
-      const piece = pieces?.find((entry) => entry.element === target && !entry.element.matches(".sketch-axis, .sketch-joint"));
+      const piece = pieces?.find(
+        (entry) => entry.element === target && !entry.element.matches(".sketch-axis, .sketch-joint"),
+      );
       const frame = piece && last?.bodies[piece.body];
       if (!piece || !frame) return undefined;
       // The point in the plane through the piece's middle that lies under the mouse.
       const axes: Axes = [frame.u, frame.v, frame.w];
-      const middle = add(frame.position, out(axes, scale(piece.points.reduce((sum, point) => add(sum, point), [0, 0, 0] as Vec3), 1 / piece.points.length)));
+      const middle = add(
+        frame.position,
+        out(
+          axes,
+          scale(
+            piece.points.reduce((sum, point) => add(sum, point), [0, 0, 0] as Vec3),
+            1 / piece.points.length,
+          ),
+        ),
+      );
       const [mx, my] = project(middle);
       return { body: frame.name, at: add(middle, inPlane(view, perMetre)(x - mx, y - my)) };
     },
@@ -152,21 +186,54 @@ function piecesOf(shape: Shape, body: number, toBody: (p: Vec3) => Vec3): Piece[
   if (shape.kind === "rod") {
     const element = svg("line", { class: "sketch-rod" });
     element.style.setProperty("--r", String(shape.radius));
-    return [{ body, points: [toBody(shape.from), toBody(shape.to)], element, place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }) }];
+    return [
+      {
+        body,
+        points: [toBody(shape.from), toBody(shape.to)],
+        element,
+        place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }),
+      },
+    ];
   }
   if (shape.kind === "sphere") {
     const element = svg("circle", { class: "sketch-ball" });
     element.style.setProperty("--r", String(shape.radius));
-    return [{ body, points: [toBody(shape.center)], element, place: ([c]) => c && set(element, { cx: c[0], cy: c[1] }) }];
+    return [
+      {
+        body,
+        points: [toBody(shape.center)],
+        element,
+        place: ([c]) => c && set(element, { cx: c[0], cy: c[1] }),
+      },
+    ];
   }
   const [a, b, c] = scale(shape.size, 0.5);
-  const corner = (i: number): Vec3 => toBody(add(shape.center, [i & 1 ? a : -a, i & 2 ? b : -b, i & 4 ? c : -c]));
-  const edges = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]] as const;
+  const corner = (i: number): Vec3 =>
+    toBody(add(shape.center, [i & 1 ? a : -a, i & 2 ? b : -b, i & 4 ? c : -c]));
+  const edges = [
+    [0, 1],
+    [2, 3],
+    [4, 5],
+    [6, 7],
+    [0, 2],
+    [1, 3],
+    [4, 6],
+    [5, 7],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+  ] as const;
   const element = svg("path", { class: "sketch-box" });
-  return [{
-    body, points: Array.from({ length: 8 }, (_, i) => corner(i)), element,
-    place: (at) => set(element, { d: edges.map(([i, j]) => `M${at[i]?.join(" ")}L${at[j]?.join(" ")}`).join("") }),
-  }];
+  return [
+    {
+      body,
+      points: Array.from({ length: 8 }, (_, i) => corner(i)),
+      element,
+      place: (at) =>
+        set(element, { d: edges.map(([i, j]) => `M${at[i]?.join(" ")}L${at[j]?.join(" ")}`).join("") }),
+    },
+  ];
 }
 
 /** A joint between two moving bodies is carried by the second one. */
@@ -184,12 +251,18 @@ function triad(body: number, length: number): Piece[] {
     const element = svg("line", { class: `sketch-axis axis-${name}` });
     const tip: Vec3 = [0, 0, 0];
     tip[k] = length;
-    return { body, points: [[0, 0, 0], tip], element, place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }) };
+    return {
+      body,
+      points: [[0, 0, 0], tip],
+      element,
+      place: ([a, b]) => a && b && set(element, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }),
+    };
   });
 }
 
 function set(element: SVGElement, values: Record<string, string | number>): void {
-  for (const [key, value] of Object.entries(values)) element.setAttribute(key, typeof value === "number" ? value.toFixed(1) : value);
+  for (const [key, value] of Object.entries(values))
+    element.setAttribute(key, typeof value === "number" ? value.toFixed(1) : value);
 }
 
 /** To the right and up on the paper: looks along the horizontal, a little from the side and above. */
@@ -210,7 +283,8 @@ const flat = (view: Axes, p: Vec3): [number, number] => [dot(view[0], p), dot(vi
 /** Mechanisms swing about their ground: the circle that holds their first picture around it is kept in view. */
 function fit(points: [number, number][], about: [number, number][]): { x: number; y: number; scale: number } {
   const around = about.length > 0 ? about : points;
-  const middle = (k: 0 | 1): number => around.reduce((sum, point) => sum + point[k], 0) / Math.max(1, around.length);
+  const middle = (k: 0 | 1): number =>
+    around.reduce((sum, point) => sum + point[k], 0) / Math.max(1, around.length);
   const [x, y] = [middle(0), middle(1)];
   const reach = Math.max(0.2, ...points.map(([px, py]) => Math.hypot(px - x, py - y)));
   return { x, y, scale: Math.min(WIDTH, HEIGHT) / (reach * 2.2) };

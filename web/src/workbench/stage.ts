@@ -6,8 +6,8 @@ import { icon } from "../ui/icons";
 import { cameras } from "./cameras";
 import { forceLayer } from "./force-layer";
 import { legend } from "./legend";
-import type { Session } from "./session";
 import { dragging, pullLayer } from "./pull";
+import type { Session } from "./session";
 import { sketch } from "./sketch";
 import { ViewerUnavailable } from "./unavailable";
 import type { ViewerHandle } from "./viewer";
@@ -21,7 +21,9 @@ export interface Stage {
 }
 
 export function stage(session: Session, scene: Scene | undefined, picture?: "sketch" | "viewer"): Stage {
-  const drawing = sketch(scene, [forceLayer(session), pullLayer(session)], (joint) => session.select(session.joint === joint ? null : joint));
+  const drawing = sketch(scene, [forceLayer(session), pullLayer(session)], (joint) =>
+    session.select(session.joint === joint ? null : joint),
+  );
   if (session.steers) dragging(session, drawing.root, drawing.grip, drawing.move);
   const host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
@@ -30,7 +32,14 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
   const toggle = h("button", { type: "button", class: "button quiet small" });
   const scale = legend(session);
   const sides = cameras(session);
-  const root = h("div", { class: "stage" }, h("div", { class: "sketch-holder" }, drawing.root), host, scale.root, loading);
+  const root = h(
+    "div",
+    { class: "stage" },
+    h("div", { class: "sketch-holder" }, drawing.root),
+    host,
+    scale.root,
+    loading,
+  );
 
   let viewer: ViewerHandle | undefined;
   let wanted = picture ? picture === "viewer" : recall("picture") !== "sketch" && !savesData();
@@ -108,7 +117,10 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
       const opened = await openViewer(host, {
         progress: (fraction) => {
           bar.value = fraction;
-          setText(said, fraction < 1 ? `Loading the 3-D view, ${Math.round(fraction * 100)} %` : "Starting the 3-D view…");
+          setText(
+            said,
+            fraction < 1 ? `Loading the 3-D view, ${Math.round(fraction * 100)} %` : "Starting the 3-D view…",
+          );
         },
         selected: (path) => {
           const joint = /^\/?world\/joints\/([^/]+)/.exec(path)?.[1];
@@ -126,7 +138,10 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
       bar.hidden = true;
       host.replaceChildren();
       wanted = false;
-      setText(said, `${error instanceof ViewerUnavailable ? error.message : "The 3-D view could not be started."} The sketch and the tables show the same run.`);
+      setText(
+        said,
+        `${error instanceof ViewerUnavailable ? error.message : "The 3-D view could not be started."} The sketch and the tables show the same run.`,
+      );
       said.title = error instanceof Error ? error.message : String(error);
       announce("The 3-D view could not be loaded. The sketch and the tables show the same run.");
     } finally {
@@ -153,10 +168,13 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
     void start();
   });
 
-  const seen = new IntersectionObserver((entries) => {
-    visible = entries.some((entry) => entry.isIntersecting);
-    void start();
-  }, { rootMargin: "200px" });
+  const seen = new IntersectionObserver(
+    (entries) => {
+      visible = entries.some((entry) => entry.isIntersecting);
+      void start();
+    },
+    { rootMargin: "200px" },
+  );
   seen.observe(root);
 
   const undo = [

@@ -30,7 +30,14 @@ type Events = {
 /** Tells whoever listens. */
 export class Teller {
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
-    shown: new Set(), blocks: new Set(), opened: new Set(), problem: new Set(), selected: new Set(), scene: new Set(), told: new Set(), board: new Set(),
+    shown: new Set(),
+    blocks: new Set(),
+    opened: new Set(),
+    problem: new Set(),
+    selected: new Set(),
+    scene: new Set(),
+    told: new Set(),
+    board: new Set(),
   };
 
   on<K extends keyof Events>(event: K, listener: Events[K]): () => void {
@@ -39,6 +46,7 @@ export class Teller {
   }
 
   protected emit<K extends keyof Events>(event: K, ...what: Parameters<Events[K]>): void {
-    for (const listener of this.listeners[event]) (listener as (...what: Parameters<Events[K]>) => void)(...what);
+    for (const listener of this.listeners[event])
+      (listener as (...what: Parameters<Events[K]>) => void)(...what);
   }
 }

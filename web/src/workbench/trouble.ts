@@ -3,7 +3,7 @@ import { problemOf } from "../core/api";
 import { h } from "../core/dom";
 import { seconds } from "../core/format";
 import type { Problem } from "../core/types";
-import { problemNotice, type Action } from "../ui/notice";
+import { type Action, problemNotice } from "../ui/notice";
 import type { Session } from "./session";
 
 export function trouble(session: Session): HTMLElement {
@@ -23,15 +23,52 @@ export function trouble(session: Session): HTMLElement {
 
 function ways(session: Session, problem: Problem, clear: () => void): Action[] {
   const state = session.latest;
-  if (!state) return [{ label: "Try again", run: () => { clear(); void session.start(); } }];
+  if (!state)
+    return [
+      {
+        label: "Try again",
+        run: () => {
+          clear();
+          void session.start();
+        },
+      },
+    ];
   const stopped = state.error !== null && state.error !== undefined;
   return [
-    ...(stopped && session.past.all.length > 1 ? [{ label: `Look at the last good moments before ${seconds(state.time)}`, run: () => session.seek(Math.max(0, state.time - 1)) }] : []),
-    ...(stopped && session.canUndo ? [{ label: "Undo the last change", run: () => { clear(); void session.undo(); } }] : []),
-    { label: problem.code === "recording-full" ? "Start over with an empty recording" : "Reset to the start", run: () => { clear(); void session.reset(); } },
+    ...(stopped && session.past.all.length > 1
+      ? [
+          {
+            label: `Look at the last good moments before ${seconds(state.time)}`,
+            run: () => session.seek(Math.max(0, state.time - 1)),
+          },
+        ]
+      : []),
+    ...(stopped && session.canUndo
+      ? [
+          {
+            label: "Undo the last change",
+            run: () => {
+              clear();
+              void session.undo();
+            },
+          },
+        ]
+      : []),
+    {
+      label: problem.code === "recording-full" ? "Start over with an empty recording" : "Reset to the start",
+      run: () => {
+        clear();
+        void session.reset();
+      },
+    },
   ];
 }
 
 function isProblem(value: unknown): value is Problem {
-  return typeof value === "object" && value !== null && !(value instanceof Error) && typeof (value as Problem).title === "string";
+  return (
+    typeof value === "object" &&
+    value !== null &&
+    !(value instanceof Error) &&
+    typeof (value as Problem).title === "string"
+  );
 }

@@ -6,7 +6,11 @@ export const sub = (a: Vec3, b: Vec3): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] -
 export const scale = (a: Vec3, k: number): Vec3 => [a[0] * k, a[1] * k, a[2] * k];
 export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const norm = (a: Vec3): number => Math.sqrt(dot(a, a));
-export const cross = (a: Vec3, b: Vec3): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const cross = (a: Vec3, b: Vec3): Vec3 => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 
 export function unit(a: Vec3): Vec3 {
   const length = norm(a);
@@ -20,7 +24,8 @@ export type Axes = [Vec3, Vec3, Vec3];
 export const along = (axes: Axes, a: Vec3): Vec3 => [dot(axes[0], a), dot(axes[1], a), dot(axes[2], a)];
 
 /** The world vector with the components `a` along `axes`. */
-export const out = (axes: Axes, a: Vec3): Vec3 => add(add(scale(axes[0], a[0]), scale(axes[1], a[1])), scale(axes[2], a[2]));
+export const out = (axes: Axes, a: Vec3): Vec3 =>
+  add(add(scale(axes[0], a[0]), scale(axes[1], a[1])), scale(axes[2], a[2]));
 
 /** The axes of a body's frame from any of the three ways to state an orientation. */
 export function axesOf(orientation: Orientation | undefined): Axes {
@@ -35,7 +40,11 @@ export function axesOf(orientation: Orientation | undefined): Axes {
     const s = Math.sin(orientation.angle / 2);
     return fromQuaternion([Math.cos(orientation.angle / 2), axis[0] * s, axis[1] * s, axis[2] * s]);
   }
-  return [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  return [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ];
 }
 
 function fromQuaternion(q: [number, number, number, number]): Axes {

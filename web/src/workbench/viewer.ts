@@ -29,16 +29,24 @@ export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise
   const tamed = tameFocus(host);
   try {
     await viewer.start(null, host, {
-      width: "100%", height: "100%", hide_welcome_screen: true, render_backend: "webgl",
-      allow_fullscreen: false, theme: theme(),
+      width: "100%",
+      height: "100%",
+      hide_welcome_screen: true,
+      render_backend: "webgl",
+      allow_fullscreen: false,
+      theme: theme(),
     });
   } finally {
     restore();
     tamed();
   }
   viewer.canvas?.setAttribute("role", "img");
-  viewer.canvas?.setAttribute("aria-label", "3-D view of the mechanism. Its numbers stand in the tables of the inspector.");
-  for (const panel of ["top", "blueprint", "selection", "time"] as const) viewer.override_panel_state(panel, "hidden");
+  viewer.canvas?.setAttribute(
+    "aria-label",
+    "3-D view of the mechanism. Its numbers stand in the tables of the inspector.",
+  );
+  for (const panel of ["top", "blueprint", "selection", "time"] as const)
+    viewer.override_panel_state(panel, "hidden");
   return handle(viewer, hooks);
 }
 
@@ -96,13 +104,15 @@ function watchDownload(progress: (fraction: number) => void): () => void {
     const url = input instanceof Request ? input.url : String(input);
     if (!url.endsWith(".wasm") || !response.ok || !response.body) return response;
     let received = 0;
-    const counted = response.body.pipeThrough(new TransformStream<Uint8Array, Uint8Array>({
-      transform(chunk, controller) {
-        received += chunk.byteLength;
-        progress(Math.min(1, received / __VIEWER_BYTES__));
-        controller.enqueue(chunk);
-      },
-    }));
+    const counted = response.body.pipeThrough(
+      new TransformStream<Uint8Array, Uint8Array>({
+        transform(chunk, controller) {
+          received += chunk.byteLength;
+          progress(Math.min(1, received / __VIEWER_BYTES__));
+          controller.enqueue(chunk);
+        },
+      }),
+    );
     return new Response(counted, { status: response.status, headers: response.headers });
   };
   return () => {
@@ -117,9 +127,13 @@ function watchDownload(progress: (fraction: number) => void): () => void {
  */
 function tameFocus(host: HTMLElement): () => void {
   let inside = false;
-  document.addEventListener("pointerdown", (event) => {
-    inside = event.target instanceof Node && host.contains(event.target);
-  }, { capture: true });
+  document.addEventListener(
+    "pointerdown",
+    (event) => {
+      inside = event.target instanceof Node && host.contains(event.target);
+    },
+    { capture: true },
+  );
   const tame = (element: HTMLElement): void => {
     element.autofocus = false;
     element.focus = () => {

@@ -31,14 +31,30 @@ export function workbench(root: HTMLElement, options: BenchOptions): () => void 
 }
 
 /** Picture, controls and inspector of a run that somebody else starts. */
-export function bench(root: HTMLElement, session: Session, options: Partial<BenchOptions>): { dispose: () => void; selectPanel: (key: string) => void } {
+export function bench(
+  root: HTMLElement,
+  session: Session,
+  options: Partial<BenchOptions>,
+): { dispose: () => void; selectPanel: (key: string) => void } {
   const picture = stage(session, options.scene, options.seen?.picture);
   const details = inspector(session, options.seen?.panel);
   const shared = { session, panel: details.current, picture: picture.current, own: options.own };
   const lecture = session.steers ? desk(session, () => seenIn(shared)) : undefined;
-  const more = h("span", { class: "row tight" }, lecture?.button ?? null, session.steers ? shareButton(shared) : null, picture.toggle);
+  const more = h(
+    "span",
+    { class: "row tight" },
+    lecture?.button ?? null,
+    session.steers ? shareButton(shared) : null,
+    picture.toggle,
+  );
   const controls = transport(session, options.scene?.simulation?.duration, more);
-  root.replaceChildren(picture.root, controls.root, ...(lecture ? [lecture.root] : []), trouble(session), details.root);
+  root.replaceChildren(
+    picture.root,
+    controls.root,
+    ...(lecture ? [lecture.root] : []),
+    trouble(session),
+    details.root,
+  );
   return {
     selectPanel: details.select,
     dispose: () => {
