@@ -48,7 +48,8 @@ export function sceneEditor(changed: (text: string) => void, sound: (text: strin
     mark(new Set([line]));
   };
   const mark = (lines: Set<number>): void => {
-    [...gutter.children].forEach((child, k) => child.classList.toggle("is-marked", lines.has(k + 1)));
+    for (const [k, child] of [...gutter.children].entries())
+      child.classList.toggle("is-marked", lines.has(k + 1));
   };
 
   const check = async (): Promise<void> => {

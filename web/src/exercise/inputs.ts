@@ -99,7 +99,7 @@ function grid(question: Question, place: Place, draft: string[] | undefined): In
     const suffix = matrix ? `${row + 1}-${(k % columns) + 1}` : axes[row];
     return textInput(`${place.base}-${suffix}`, label, place.described, draft?.[k] ?? "");
   });
-  cells.forEach((cell, at) =>
+  for (const [at, cell] of cells.entries())
     cell.addEventListener("paste", (event) => {
       const pieces = (event.clipboardData?.getData("text") ?? "")
         .trim()
@@ -107,12 +107,10 @@ function grid(question: Question, place: Place, draft: string[] | undefined): In
         .filter(Boolean);
       if (pieces.length < 2) return;
       event.preventDefault();
-      pieces.slice(0, cells.length - at).forEach((piece, k) => {
-        cells[at + k]!.value = piece.replace(/,$/, "");
-      });
+      for (const [k, filled] of cells.slice(at, at + pieces.length).entries())
+        filled.value = (pieces[k] ?? "").replace(/,$/, "");
       cell.dispatchEvent(new Event("input", { bubbles: true }));
-    }),
-  );
+    });
   const unit = unitInput(question, place, draft?.[cells.length]);
   const after = unit ?? givenUnit(question);
   const root = matrix

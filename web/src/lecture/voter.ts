@@ -56,7 +56,8 @@ export function ballot(code: string): { root: HTMLElement; show: (question: Room
               .answer(code, { question: question.number, voter: voter(), choice: k })
               .then(() => {
                 chosen = k;
-                buttons.forEach((button, at) => button.setAttribute("aria-pressed", String(at === k)));
+                for (const [at, button] of buttons.entries())
+                  button.setAttribute("aria-pressed", String(at === k));
                 said.textContent = `Counted: ${choice}. It can be changed until the result is shown.`;
               })
               .catch((error: unknown) => said.replaceChildren(problemNotice(error)));

@@ -81,7 +81,7 @@ export function plotSvg(
   const x = (t: number): number => LEFT + ((t - x0) / (x1 - x0 || 1)) * (W - LEFT - RIGHT);
   const y = (v: number): number => H - BOTTOM - ((v - y0) / (y1 - y0)) * (H - TOP - BOTTOM);
   const text = (at: string, body: string): string =>
-    `<text ${at} fill="${colors.ink}">${escape(body)}</text>`;
+    `<text ${at} fill="${colors.ink}">${escapeXml(body)}</text>`;
   const grid = [
     ...ticks(x0, x1).map(
       (t) =>
@@ -111,7 +111,7 @@ export function plotSvg(
     (line, k) =>
       `<path d="M${LEFT + k * 190} 30h28" stroke="${line.color}" stroke-width="3"${line.dash.length > 0 ? ` stroke-dasharray="${line.dash.join(" ")}"` : ""}/>${text(`x="${LEFT + 36 + k * 190}" y="35"`, `${line.label}${line.unit ? `, ${line.unit}` : ""}`)}`,
   );
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${W} ${H}" width="${W}" height="${H}" font-family="sans-serif" font-size="16"><title>${escape(title)}</title><rect width="${W}" height="${H}" fill="${colors.paper}"/>${grid.join("")}${curves.join("")}${names.join("")}${text(`x="${(LEFT + W - RIGHT) / 2}" y="${H - 14}" text-anchor="middle"`, "Time, s")}</svg>\n`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${W} ${H}" width="${W}" height="${H}" font-family="sans-serif" font-size="16"><title>${escapeXml(title)}</title><rect width="${W}" height="${H}" fill="${colors.paper}"/>${grid.join("")}${curves.join("")}${names.join("")}${text(`x="${(LEFT + W - RIGHT) / 2}" y="${H - 14}" text-anchor="middle"`, "Time, s")}</svg>\n`;
 }
 
 /** About six round values from low to high. */
@@ -128,4 +128,4 @@ export function ticks(low: number, high: number): number[] {
 
 const r = (value: number): string => value.toFixed(1);
 const short = (value: number): string => String(Number(value.toPrecision(6))).replace("-", "−");
-const escape = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+const escapeXml = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");

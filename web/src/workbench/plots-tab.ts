@@ -266,7 +266,7 @@ export function plotsTab(session: Session): InspectorTab {
         [entry.time, ...shown.curves.map((curve) => curve.of(entry))].join(","),
       ),
     ];
-    saveBlob(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }), fileName(shown.label, "csv"));
+    saveBlob(new Blob([`${lines.join("\n")}\n`], { type: "text/csv" }), fileName(shown.label, "csv"));
   });
   keep.addEventListener("click", () => {
     const states = [...session.past.all];

@@ -139,7 +139,8 @@ export function pullPanel(session: Session): { root: HTMLElement; refresh: () =>
   };
   const pull = (): void => {
     const to = fields.map((field) => Number(field.value.trim().replace(",", ".").replace("−", "-"))) as Vec3;
-    fields.forEach((field, k) => field.setAttribute("aria-invalid", String(!Number.isFinite(to[k]))));
+    for (const [k, field] of fields.entries())
+      field.setAttribute("aria-invalid", String(!Number.isFinite(to[k])));
     if (to.every(Number.isFinite))
       void attempt(() => session.pull({ body: body.value, point: [0, 0, 0], to }));
   };

@@ -101,7 +101,7 @@ export function sketch(given: Scene | undefined, over: Over[], joint: (name: str
     for (const piece of made)
       if (piece.element instanceof SVGElement) piece.element.style.setProperty("--px", String(span.scale));
     const axisLength = 46 / span.scale;
-    state.bodies.forEach((_, at) => made.push(...triad(at, axisLength)));
+    made.push(...state.bodies.flatMap((_, at) => triad(at, axisLength)));
     root.replaceChildren(
       ...made.map((piece) => piece.element),
       ...fixedJoints.map(({ point, name }) => {
