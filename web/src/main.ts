@@ -3,7 +3,7 @@ import { applyTheme } from "./core/prefs";
 import { startRouter } from "./core/router";
 import { homePage } from "./pages/home";
 import { lessonPage } from "./pages/lesson";
-import { missingPage } from "./pages/missing";
+import { missingPage } from "./pages/not-found";
 import { header } from "./ui/shell";
 
 applyTheme();
@@ -25,11 +25,11 @@ if (head && main) {
       },
       {
         pattern: /^\/room$/,
-        open: lazily("Join a lecture", () => import("./pages/room").then((page) => page.joinPage)),
+        open: lazily("Join a lecture", () => import("./pages/lecture").then((page) => page.joinPage)),
       },
       {
         pattern: /^\/room\/([^/]+)$/,
-        open: lazily("Lecture", () => import("./pages/room").then((page) => page.roomPage)),
+        open: lazily("Lecture", () => import("./pages/lecture").then((page) => page.roomPage)),
       },
       {
         pattern: /^\/scenes$/,

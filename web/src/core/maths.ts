@@ -40,21 +40,19 @@ export async function setMaths(root: HTMLElement): Promise<void> {
   }
 }
 
-const wide = new Set<HTMLElement>();
+// Observed elements that leave the page are forgotten by the browser.
+const widths = new ResizeObserver((entries) => {
+  for (const entry of entries) measure(entry.target as HTMLElement);
+});
 
 /** A long formula scrolls by itself on a narrow screen, by keyboard too. */
 function makeScrollable(node: HTMLElement): void {
-  wide.add(node);
-  measure(node);
+  widths.observe(node);
   // The width is known for good when KaTeX's fonts have come.
   void document.fonts.ready.then(() => measure(node));
 }
 
 function measure(node: HTMLElement): void {
-  if (!node.isConnected) {
-    wide.delete(node);
-    return;
-  }
   const scrolls = node.scrollWidth > node.clientWidth;
   if (scrolls === node.hasAttribute("tabindex")) return;
   if (scrolls) {
@@ -63,5 +61,3 @@ function measure(node: HTMLElement): void {
     node.setAttribute("aria-label", "Formula, scrolls sideways");
   } else for (const name of ["tabindex", "role", "aria-label"]) node.removeAttribute(name);
 }
-
-addEventListener("resize", () => wide.forEach(measure));

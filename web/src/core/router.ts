@@ -10,12 +10,8 @@ export type Route = {
   open: (outlet: HTMLElement, params: string[]) => Page;
 };
 
-const announceTitle = (title: string): void => {
-  document.title = title === "Triad" ? title : `${title} · Triad`;
-};
-
 export function setTitle(title: string): void {
-  announceTitle(title);
+  document.title = title === "Triad" ? title : `${title} · Triad`;
 }
 
 export function navigate(path: string): void {
@@ -42,7 +38,7 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
       }
     }
     current = page ?? missing(outlet, [path]);
-    announceTitle(current.title);
+    setTitle(current.title);
     for (const link of document.querySelectorAll<HTMLAnchorElement>("#header nav a")) {
       const here =
         link.pathname === "/" ? path === "/" || path.startsWith("/lessons") : path.startsWith(link.pathname);

@@ -1,8 +1,8 @@
 // A scene as text: line numbers, checked as one types, errors at their place.
-import { ApiError, api } from "../core/api";
+import { ApiError, api } from "../api/client";
+import type { CheckReport, Problem } from "../api/types";
 import { h } from "../core/dom";
 import { plural } from "../core/format";
-import type { CheckReport, Problem } from "../core/types";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { lineOf, locate } from "./pointer";

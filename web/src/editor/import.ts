@@ -1,5 +1,5 @@
 // A robot from a URDF file, with an optional side-car that closes its loops: becomes the scene of one's own.
-import { api } from "../core/api";
+import { api } from "../api/client";
 import { h } from "../core/dom";
 import { plural } from "../core/format";
 import { remember } from "../core/prefs";

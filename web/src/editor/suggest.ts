@@ -1,5 +1,5 @@
 // A list of what fits at the cursor, beside the text: arrows choose, Enter or Tab writes, Escape closes.
-import { api } from "../core/api";
+import { api } from "../api/client";
 import { h, uid } from "../core/dom";
 import { type Completion, complete } from "./schema";
 

@@ -1,10 +1,10 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
-import { api, problemOf } from "../core/api";
+import { api, problemOf } from "../api/client";
+import type { Lesson, Verdict } from "../api/types";
 import { announce, h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { recall, remember, student } from "../core/prefs";
-import type { Lesson, Verdict } from "../core/types";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
 import { historyList } from "./history";

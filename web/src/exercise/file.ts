@@ -1,10 +1,10 @@
 // Questions that are answered by a file: what a program wrote, a table, a scene. Chosen from the disk or pasted.
-import { api } from "../core/api";
+import { api } from "../api/client";
+import type { Question } from "../api/types";
 import { announce, h } from "../core/dom";
 import { plural } from "../core/format";
-import type { Question } from "../core/types";
 import { icon } from "../ui/icons";
-import type { Inputs, Place } from "./inputs";
+import type { Inputs, QuestionContext } from "./field";
 
 /** Largest file that the server reads, in bytes. */
 const LARGEST = 1 << 20;
@@ -21,7 +21,7 @@ const ASKED: Record<string, { label: string; accept: string; say: string }> = {
   model: { label: "Your scene (JSON)", accept: ".json", say: "a scene" },
 };
 
-export function fileInput(question: Question, place: Place, draft: string[] | undefined): Inputs {
+export function fileInput(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   const asked = ASKED[question.kind] ?? { label: "Your file", accept: "", say: "a file" };
   const { base } = place;
   const text = h("textarea", {
@@ -107,7 +107,7 @@ const size = (bytes: number): string =>
       : `${(bytes / (1 << 20)).toFixed(1)} MiB`;
 
 /** What is handed out before anything can be handed in. */
-function before(question: Question, { slug, seed }: Place): HTMLElement[] {
+function before(question: Question, { slug, seed }: QuestionContext): HTMLElement[] {
   if (question.kind === "implement") {
     const link = (href: string, name: string, text: string): HTMLElement =>
       h("a", { href, download: name, class: "button small" }, icon("save"), text);

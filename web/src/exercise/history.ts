@@ -1,10 +1,10 @@
 // All submissions of one student to one lesson, from the server: they survive a reload.
-import { api } from "../core/api";
+import { api } from "../api/client";
+import type { Lesson, Verdict } from "../api/types";
 import { h } from "../core/dom";
 import { dateTime, plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
-import type { Lesson, Verdict } from "../core/types";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { verdictLine } from "./verdict";

@@ -1,24 +1,12 @@
 // The fields of one question, by kind: what is typed, pasted, chosen or uploaded becomes an answer.
+
+import type { Answer, Question } from "../api/types";
 import { authored, h } from "../core/dom";
-import type { Answer, Question } from "../core/types";
+import { type Inputs, type QuestionContext, textInput } from "./field";
 import { fileInput } from "./file";
 import { tuningInput } from "./tuning";
 
-export interface Inputs {
-  root: HTMLElement;
-  answer: () => Answer;
-  draft: () => string[];
-}
-
-/** Where a question belongs: its lesson, whose numbers it asks about, and the ids of what describes it. */
-export interface Place {
-  slug: string;
-  seed: string;
-  base: string;
-  described: string;
-}
-
-export function inputsOf(question: Question, place: Place, draft: string[] | undefined): Inputs {
+export function inputsOf(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   switch (question.kind) {
     case "choice":
       return choice(question, place, draft);
@@ -37,28 +25,11 @@ export function inputsOf(question: Question, place: Place, draft: string[] | und
   }
 }
 
-export function textInput(
-  id: string,
-  label: string,
-  described: string,
-  value: string,
-  cls = "",
-): HTMLInputElement {
-  return h("input", {
-    id,
-    class: `field number ${cls}`,
-    inputmode: cls.includes("unit") ? "text" : "decimal",
-    autocomplete: "off",
-    autocapitalize: "off",
-    spellcheck: "false",
-    "aria-label": label,
-    "aria-describedby": described,
-    value,
-    maxlength: "64",
-  });
-}
-
-function unitInput(question: Question, place: Place, draft: string | undefined): HTMLInputElement | null {
+function unitInput(
+  question: Question,
+  place: QuestionContext,
+  draft: string | undefined,
+): HTMLInputElement | null {
   if (!question.asks_unit) return null;
   return textInput(`${place.base}-unit`, "Unit", place.described, draft ?? "", "unit-field");
 }
@@ -68,7 +39,7 @@ function givenUnit(question: Question): HTMLElement | null {
   return question.unit ? h("span", { class: "given-unit" }, question.unit) : null;
 }
 
-function single(question: Question, place: Place, draft: string[] | undefined): Inputs {
+function single(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   const formula = question.kind === "formula";
   const value = textInput(
     `${place.base}-value`,
@@ -89,7 +60,7 @@ function single(question: Question, place: Place, draft: string[] | undefined): 
 }
 
 /** A vector in one line, a matrix in lines. Numbers that were copied elsewhere can be pasted into any cell. */
-function grid(question: Question, place: Place, draft: string[] | undefined): Inputs {
+function grid(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   const [rows, columns] = question.size ?? [3, 1];
   const matrix = question.kind === "matrix";
   const axes = rows === 3 ? ["x", "y", "z"] : Array.from({ length: rows }, (_, k) => String(k + 1));
@@ -155,7 +126,7 @@ function withUnit<T extends { value: string | string[] | string[][] }>(
   return unit ? { ...answer, unit: unit.value.trim() } : answer;
 }
 
-function choice(question: Question, { base }: Place, draft: string[] | undefined): Inputs {
+function choice(question: Question, { base }: QuestionContext, draft: string[] | undefined): Inputs {
   const radios = (question.options ?? []).map((option) => {
     const radio = h("input", { type: "radio", name: base, value: option.id, id: `${base}-${option.id}` });
     radio.checked = draft?.[0] === option.id;

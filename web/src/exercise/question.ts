@@ -1,9 +1,9 @@
 // One question as form fields, its hints one at a time, and its verdict.
-import { api } from "../core/api";
+import { api } from "../api/client";
+import type { Answer, Lesson, Question, QuestionVerdict } from "../api/types";
 import { announce, authored, h } from "../core/dom";
 import { plural } from "../core/format";
 import { setMaths } from "../core/maths";
-import type { Answer, Lesson, Question, QuestionVerdict } from "../core/types";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { inputsOf } from "./inputs";

@@ -1,7 +1,8 @@
 // Settings of a run under a budget: integrator, tolerance, stabilization.
+
+import type { Question } from "../api/types";
 import { h, uid } from "../core/dom";
-import type { Question } from "../core/types";
-import { type Inputs, type Place, textInput } from "./inputs";
+import { type Inputs, type QuestionContext, textInput } from "./field";
 
 const WORDS: Record<string, string> = {
   dopri5: "Dormand-Prince, order 5",
@@ -9,7 +10,7 @@ const WORDS: Record<string, string> = {
   taylor: "Taylor series",
 };
 
-export function tuningInput(question: Question, place: Place, draft: string[] | undefined): Inputs {
+export function tuningInput(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   const { base, described } = place;
   const offered = question.tuning ?? { integrators: [], baumgarte: false, budget: 0, error: 0 };
   const labelled = (label: string, field: HTMLElement): HTMLElement => {

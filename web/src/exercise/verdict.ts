@@ -1,7 +1,8 @@
 // A verdict in words and a mark: never by colour alone.
+
+import type { QuestionVerdict, Verdict, VerdictKind } from "../api/types";
 import { authored, h } from "../core/dom";
 import { points } from "../core/format";
-import type { QuestionVerdict, Verdict, VerdictKind } from "../core/types";
 import { type IconName, icon } from "../ui/icons";
 
 const WORDS: Record<VerdictKind, { word: string; mark: IconName }> = {

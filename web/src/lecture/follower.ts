@@ -1,10 +1,10 @@
 // A lecture as a follower sees it: the presenter's run, mirrored, or looked around in on one's own.
-import { ApiError, api } from "../core/api";
+import { ApiError, api } from "../api/client";
+import type { Board, SessionState } from "../api/types";
 import { announce } from "../core/dom";
-import { seenOf } from "../core/link";
-import type { Board, SessionState } from "../core/types";
-import { Session } from "../workbench/session";
-import { tell } from "../workbench/share";
+import { Session } from "../session/session";
+import { tell } from "../session/share";
+import { seenOf } from "../session/shared-view";
 
 export class Follower extends Session {
   override readonly steers = false;

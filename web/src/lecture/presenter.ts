@@ -1,12 +1,12 @@
 // The presenter's desk: opens a room for the run of this page, sends what is looked at, asks, reveals.
-import { ApiError, api } from "../core/api";
+import { ApiError, api } from "../api/client";
+import type { Tally } from "../api/types";
 import { announce, h, setText } from "../core/dom";
-import type { Seen } from "../core/link";
-import type { Tally } from "../core/types";
+import type { Session } from "../session/session";
+import type { Seen } from "../session/shared-view";
 import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import type { Session } from "../workbench/session";
 import { histogram } from "./voter";
 
 /** Between two messages to the room, ms. */

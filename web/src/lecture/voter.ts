@@ -1,8 +1,8 @@
 // The quick question as a follower answers it, and as everybody sees its result.
-import { api } from "../core/api";
+import { api } from "../api/client";
+import type { RoomQuestion, Tally } from "../api/types";
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
-import type { RoomQuestion, Tally } from "../core/types";
 import { problemNotice } from "../ui/notice";
 
 /** A name made up once, so that whoever answers again changes the answer and does not vote twice. */

@@ -1,14 +1,14 @@
 // The list of lessons, written like the contents page of a book, with how far one has come.
-import { api } from "../core/api";
+import { api } from "../api/client";
+import type { LessonSummary, Verdict } from "../api/types";
 import { h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { student } from "../core/prefs";
 import type { Page } from "../core/router";
-import type { LessonSummary, Verdict } from "../core/types";
 import { heroDrawing } from "../ui/hero";
 import { icon } from "../ui/icons";
 import { empty, problemNotice, skeleton } from "../ui/notice";
-import { lastPlace } from "./place";
+import { lastPlace } from "./reading-position";
 
 interface Best {
   earned: number;

@@ -1,14 +1,14 @@
 // One lesson: text, mechanism, exercise. The text comes first, everything else when it can be read.
-import { ApiError, api } from "../core/api";
+import { ApiError, api } from "../api/client";
+import type { Lesson, LessonSummary, Scene } from "../api/types";
 import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
-import type { Lesson, LessonSummary, Scene } from "../core/types";
 import { exerciseSection } from "../exercise/exercise";
-import { askedView } from "../ui/asked";
+import { askedView } from "../session/requested-view";
 import { problemNotice, skeleton } from "../ui/notice";
-import { keepPlace } from "./place";
+import { keepPlace } from "./reading-position";
 import { steps } from "./steps";
 
 const MATHS_PATIENCE_MS = 350;

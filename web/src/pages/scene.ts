@@ -1,13 +1,13 @@
 // One scene: its text on one side, its run on the other.
-import { ApiError, api } from "../core/api";
+import { ApiError, api } from "../api/client";
+import type { Scene } from "../api/types";
 import { h } from "../core/dom";
-import type { Seen } from "../core/link";
 import { recall, remember, student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
-import type { Scene } from "../core/types";
 import { sceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
-import { askedView } from "../ui/asked";
+import { askedView } from "../session/requested-view";
+import type { Seen } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { type BenchOptions, workbench } from "../workbench/workbench";

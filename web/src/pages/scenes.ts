@@ -1,9 +1,9 @@
 // The gallery of built-in mechanisms, and the door to one's own.
-import { api } from "../core/api";
+import { api } from "../api/client";
+import type { SceneSummary } from "../api/types";
 import { h } from "../core/dom";
 import { recall } from "../core/prefs";
 import type { Page } from "../core/router";
-import type { SceneSummary } from "../core/types";
 import { urdfImport } from "../editor/import";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 

@@ -1,7 +1,8 @@
 // Predict, run, check, explain: what the student says is kept in this browser, and a prediction is shown again at the check.
+
+import type { Lesson } from "../api/types";
 import { authored, h, setText } from "../core/dom";
 import { recall, remember } from "../core/prefs";
-import type { Lesson } from "../core/types";
 
 const LONGEST = 2000;
 const ASKED: Record<string, string> = { predict: "Your prediction", explain: "In your own words" };

@@ -1,7 +1,7 @@
 // What the page says when something went wrong, is empty, or is on its way.
-import { problemOf } from "../core/api";
+import { problemOf } from "../api/client";
+import type { Problem } from "../api/types";
 import { type Child, h } from "../core/dom";
-import type { Problem } from "../core/types";
 import { icon } from "./icons";
 
 export interface Action {

@@ -2,8 +2,8 @@
 import { h, setText } from "../core/dom";
 import { fixedPlain, seconds } from "../core/format";
 import { bind } from "../core/keys";
+import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
-import type { Session } from "./session";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const STRIDES = [0.01, 0.05, 0.1, 0.5, 1];

@@ -1,15 +1,15 @@
 // The mechanism's side of a page: picture, controls, inspector. One session, opened and closed here.
-import type { SessionSource } from "../core/api";
+import type { SessionSource } from "../api/client";
+import type { Scene } from "../api/types";
 import { h } from "../core/dom";
-import type { Seen } from "../core/link";
-import type { Scene } from "../core/types";
+import { inspector } from "../inspector/inspector";
 import { desk } from "../lecture/presenter";
-import { inspector } from "./inspector";
-import { Session } from "./session";
-import { restore, seenIn, shareButton } from "./share";
-import { stage } from "./stage";
+import { Session } from "../session/session";
+import { restore, seenIn, shareButton } from "../session/share";
+import type { Seen } from "../session/shared-view";
+import { stage } from "../stage/stage";
+import { trouble } from "./run-problems";
 import { transport } from "./transport";
-import { trouble } from "./trouble";
 
 export interface BenchOptions {
   source: SessionSource;

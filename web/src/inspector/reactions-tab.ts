@@ -1,0 +1,410 @@
+// Reactions joint by joint, said completely: on which body, about which point, in which frame, unique or not;
+// the multipliers that they are made of; and one body cut free with every force on it.
+import { api } from "../api/client";
+import type { Component, JointMultipliers, Reaction, Reactions, SessionState, Vec3 } from "../api/types";
+import { h, setText } from "../core/dom";
+import { num, seconds } from "../core/format";
+import { bind } from "../core/keys";
+import { type Drawn, freeBody, momentAbout } from "../mechanics/forces";
+import { norm } from "../mechanics/vec";
+import type { Told } from "../session/events";
+import { fetched } from "../session/live-query";
+import type { Session } from "../session/session";
+import { empty, problemNotice } from "../ui/notice";
+import type { Panel } from "../ui/panel";
+
+interface Answer {
+  multipliers: JointMultipliers[];
+  reactions: Reactions;
+}
+
+export function multipliersTab(session: Session): Panel {
+  const list = h("div", { class: "joints" });
+  const shared = h("div", { class: "stack" });
+  const cutFree = h("div", { class: "stack", hidden: true });
+  const when = h("p", { class: "when" });
+  let seenSelection: string | null = null;
+  let answer: Answer | undefined;
+  let of: SessionState | undefined;
+
+  const on = choice(
+    "Acting on",
+    [
+      ["j", "second body"],
+      ["i", "first body"],
+    ],
+    (value) => session.tellAs({ on: value as Told["on"] }),
+  );
+  const about = choice(
+    "Moment about",
+    [
+      ["joint", "the joint"],
+      ["center", "centre of mass"],
+    ],
+    (value) => session.tellAs({ about: value as Told["about"] }),
+  );
+  const frame = choice(
+    "Components in",
+    [
+      ["world", "world frame"],
+      ["joint", "joint’s axes"],
+      ["body", "body axes"],
+    ],
+    (value) => session.tellAs({ in: value as Told["in"] }),
+  );
+  const drawn = choice("Arrows", [], (value) =>
+    session.draw(
+      value.startsWith("body:")
+        ? { what: "body", body: value.slice(5) }
+        : { what: value as "none" | "joint" | "all" },
+    ),
+  );
+  const fit = h(
+    "button",
+    {
+      type: "button",
+      class: "button quiet small",
+      hidden: !session.steers,
+      title: "Takes the length of the arrows from the recording so far",
+      onclick: () => session.fitScale(),
+    },
+    "Fit the arrows",
+  );
+
+  const offer = (): void => {
+    const bodies = session.latest?.bodies.map((body) => body.name) ?? [];
+    drawn.offer([
+      ["joint", "selected joint"],
+      ["all", "all joints"],
+      ["none", "none"],
+      ...bodies.map((name): [string, string] => [`body:${name}`, `${name} cut free`]),
+    ]);
+    drawn.set(session.drawn.what === "body" ? `body:${session.drawn.body}` : session.drawn.what);
+    on.set(session.told.on);
+    about.set(session.told.about);
+    frame.set(session.told.in);
+  };
+
+  const paint = (): void => {
+    offer();
+    const state = session.shown;
+    if (!state) return;
+    seenSelection = session.joint;
+    const keep = heldFocus(list);
+    const cards = shownReactions(answer);
+    setText(when, `At ${seconds(of?.time ?? state.time)}.`);
+    list.replaceChildren(
+      ...(cards.length === 0
+        ? [empty("No joints", "This scene has no joint, hence no multiplier that is a joint force.")]
+        : cards.map((entry) =>
+            card(entry, session.joint === entry.joint, () =>
+              session.select(session.joint === entry.joint ? null : entry.joint),
+            ),
+          )),
+    );
+    keep();
+    paintShared(shared, answer?.reactions);
+    paintFreeBody(cutFree, state, session.drawn);
+  };
+
+  const source = fetched(
+    session,
+    async (run, at): Promise<Answer> => {
+      const { on: side, about: point, in: axes } = session.told;
+      const [multipliers, reactions] = await Promise.all([
+        api.multipliers(run, at),
+        api.reactions(run, { on: side, about: point, in: axes }, at),
+      ]);
+      return { multipliers, reactions };
+    },
+    (value, state) => {
+      answer = value;
+      of = state;
+      paint();
+    },
+    (error) => list.replaceChildren(problemNotice(error)),
+    () => `${session.told.on}${session.told.about}${session.told.in}`,
+  );
+  session.on("told", () => {
+    paint();
+    source.refresh();
+  });
+  bind([
+    {
+      keys: ["f", "F"],
+      shown: "F",
+      says: "Forces: selected joint, all joints, none",
+      run: () => session.draw(next(session.drawn)),
+    },
+  ]);
+
+  return {
+    root: h(
+      "div",
+      { class: "stack" },
+      h("div", { class: "switches" }, on.root, about.root, frame.root, drawn.root, fit),
+      shared,
+      cutFree,
+      list,
+      when,
+    ),
+    refresh: () => {
+      if (seenSelection !== session.joint) {
+        paint();
+        if (session.joint !== null && !session.moving)
+          list.querySelector(".joint.is-selected")?.scrollIntoView({ block: "nearest" });
+      }
+      paintFreeBody(cutFree, session.shown, session.drawn);
+      source.refresh();
+    },
+  };
+}
+
+const next = (drawn: Drawn): Drawn => ({
+  what: drawn.what === "joint" ? "all" : drawn.what === "all" ? "none" : "joint",
+});
+
+interface Shown extends Reaction {
+  rows: { label: string; value: number }[];
+}
+
+function shownReactions(answer: Answer | undefined): Shown[] {
+  return (answer?.reactions.reactions ?? []).map((entry) => ({
+    ...entry,
+    rows: answer?.multipliers.find((one) => one.joint === entry.joint)?.rows ?? [],
+  }));
+}
+
+/** The cards are made anew as time goes on; whoever stands in one with the keyboard stays there. */
+function heldFocus(list: HTMLElement): () => void {
+  const focused = document.activeElement;
+  if (!(focused instanceof HTMLElement) || !list.contains(focused)) return () => undefined;
+  const at = [...list.children].findIndex((child) => child.contains(focused));
+  const what = focused.classList.contains("joint-select") ? ".joint-select" : ".table-scroll";
+  return () => list.children[at]?.querySelector<HTMLElement>(what)?.focus({ preventScroll: true });
+}
+
+interface Choice {
+  root: HTMLElement;
+  offer: (options: [string, string][]) => void;
+  set: (value: string) => void;
+}
+
+function choice(label: string, options: [string, string][], changed: (value: string) => void): Choice {
+  const select = h("select", { class: "field compact" });
+  let offered = "";
+  const offer: Choice["offer"] = (list) => {
+    const key = list.map(([value]) => value).join("|");
+    if (key === offered) return;
+    offered = key;
+    select.replaceChildren(...list.map(([value, text]) => h("option", { value }, text)));
+  };
+  offer(options);
+  select.addEventListener("change", () => changed(select.value));
+  return {
+    root: h("label", { class: "switch" }, h("span", null, label), select),
+    offer,
+    set: (value) => {
+      if (select.value !== value) select.value = value;
+    },
+  };
+}
+
+function paintShared(place: HTMLElement, known: Reactions | undefined): void {
+  const sets = known?.redundancies ?? [];
+  const key = JSON.stringify(sets);
+  if (place.dataset.of === key) return;
+  place.dataset.of = key;
+  place.hidden = sets.length === 0;
+  place.replaceChildren(
+    ...sets.map((set) =>
+      h(
+        "section",
+        { class: "notice is-note shared" },
+        h(
+          "div",
+          { class: "notice-body" },
+          h(
+            "p",
+            { class: "notice-title" },
+            `${set.joints.join(" and ")} share ${set.rows === 1 ? "one row" : `${set.rows} rows`} too many: components marked ≈ are not unique.`,
+          ),
+          h(
+            "p",
+            null,
+            "The motion is the same however these joints share the load. What is shown is the smallest set of multipliers that gives it.",
+          ),
+          set.remedies.length > 0
+            ? h(
+                "p",
+                null,
+                h("strong", null, "To make them unique: "),
+                set.remedies
+                  .map(
+                    (remedy) => `let ${remedy.joint} be ${remedy.becomes}, which gives up ${remedy.gives_up}`,
+                  )
+                  .join("; "),
+                ".",
+              )
+            : null,
+        ),
+      ),
+    ),
+  );
+}
+
+function paintFreeBody(place: HTMLElement, state: SessionState | undefined, drawn: Drawn): void {
+  place.hidden = drawn.what !== "body";
+  if (drawn.what !== "body" || !state) return;
+  const body = state.bodies.find((entry) => entry.name === drawn.body);
+  if (!body) return;
+  const { arrows, sum, inertia } = freeBody(state, drawn.body);
+  const largest = Math.max(1e-300, ...arrows.map((arrow) => norm(arrow.force)));
+  // Beside the largest force this is rounding.
+  const clean = (part: number): number => (Math.abs(part) < 1e-12 * largest ? 0 : part);
+  const line = (label: string, force: Vec3, moment: Vec3 | null, strong = false): HTMLElement =>
+    h(
+      "tr",
+      { class: strong ? "strong" : "" },
+      h("th", { scope: "row" }, label),
+      ...[...force, ...(moment ?? [])].map((part) => h("td", { class: "number" }, num(clean(part), 5))),
+      moment ? null : h("td", { colspan: "3" }),
+    );
+  place.replaceChildren(
+    h("h3", null, `${drawn.body}, cut free`),
+    h(
+      "div",
+      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Forces on ${drawn.body}` },
+      h(
+        "table",
+        { class: "data" },
+        h(
+          "caption",
+          null,
+          "Forces in newtons and moments about the centre of mass in newton metres, world frame",
+        ),
+        h(
+          "thead",
+          null,
+          h(
+            "tr",
+            null,
+            h("th", { scope: "col" }, "Force"),
+            ...["Fx", "Fy", "Fz", "Mx", "My", "Mz"].map((name) =>
+              h("th", { scope: "col", class: "number" }, name),
+            ),
+          ),
+        ),
+        h(
+          "tbody",
+          null,
+          ...arrows.map((arrow) =>
+            line(arrow.label, arrow.force, arrow.kind === "load" ? null : momentAbout(arrow, body.position)),
+          ),
+          line("sum", sum, null, true),
+          line("mass × acceleration", inertia, null, true),
+        ),
+      ),
+    ),
+  );
+}
+
+function card(entry: Shown, selected: boolean, toggle: () => void): HTMLElement {
+  const axes = entry.expressed_in.includes("world")
+    ? ["x", "y", "z"]
+    : entry.expressed_in.includes("joint")
+      ? ["1", "2", "3"]
+      : ["u", "v", "w"];
+  // A moment beside the force, with an arm of a metre: less is rounding.
+  const all = values([...entry.force, ...entry.moment]);
+  const row = (label: string, symbol: string, parts: Component[], unit: string): HTMLElement =>
+    h(
+      "tr",
+      null,
+      h("th", { scope: "row" }, label),
+      ...parts.map((part, k) =>
+        h(
+          "td",
+          { class: part.unique ? "number" : "number is-shared", title: part.unique ? "" : "Not unique" },
+          h("span", { class: "component-name" }, `${symbol}${axes[k]} `),
+          part.unique ? "" : "≈ ",
+          num(tidy(part.value, all), 6),
+          part.unique ? null : h("span", { class: "visually-hidden" }, " not unique"),
+        ),
+      ),
+      h(
+        "td",
+        { class: "number strong" },
+        `${num(tidy(norm(parts.map((part) => part.value) as Vec3), all), 6)} `,
+        h("span", { class: "unit" }, unit),
+      ),
+    );
+
+  return h(
+    "article",
+    { class: selected ? "joint is-selected" : "joint" },
+    h(
+      "h3",
+      null,
+      h(
+        "button",
+        {
+          type: "button",
+          class: "joint-select",
+          "aria-pressed": String(selected),
+          title: "Draw its force, mark its rows in the Jacobian",
+          onclick: toggle,
+        },
+        entry.joint,
+      ),
+      entry.driver ? h("span", { class: "help" }, " driver") : null,
+    ),
+    h(
+      "p",
+      { class: "said" },
+      `On ${entry.on}, from ${entry.by}; moment about ${entry.about} at (${entry.about_at.map((part) => num(tidy(part, entry.about_at), 4)).join(", ")}) m; components in ${entry.expressed_in}.`,
+    ),
+    h(
+      "div",
+      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${entry.joint}` },
+      h(
+        "table",
+        { class: "data" },
+        h(
+          "thead",
+          { class: "visually-hidden" },
+          h(
+            "tr",
+            null,
+            h("th", { scope: "col" }, "Quantity"),
+            ...axes.map((axis) => h("th", { scope: "col" }, axis)),
+            h("th", { scope: "col" }, "Size"),
+          ),
+        ),
+        h("tbody", null, row("Force", "F", entry.force, "N"), row("Moment", "M", entry.moment, "N m")),
+      ),
+    ),
+    entry.rows.length > 0
+      ? h(
+          "ul",
+          { class: "lambdas", "aria-label": `Multipliers of ${entry.joint}` },
+          ...entry.rows.map((one) =>
+            h(
+              "li",
+              null,
+              h("span", null, one.label),
+              h("b", null, `λ = ${num(tidy(one.value, values(entry.rows)), 6)}`),
+            ),
+          ),
+        )
+      : null,
+  );
+}
+
+const values = (parts: { value: number }[]): number[] => parts.map((part) => part.value);
+
+/** Rounding beside the other components is nothing. */
+function tidy(value: number, beside: number[]): number {
+  const largest = Math.max(...beside.map(Math.abs));
+  return Math.abs(value) < 1e-14 * largest ? 0 : value;
+}

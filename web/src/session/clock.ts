@@ -1,0 +1,155 @@
+// What a run has shown so far, and which moment of it the page shows: now, an earlier one, or a replay.
+
+import type { SessionState } from "../api/types";
+import { announce } from "../core/dom";
+import { num, seconds } from "../core/format";
+import { Teller } from "./events";
+import { History } from "./history";
+
+/** Between two states of a running session, s. */
+const STATE_INTERVAL = 0.1;
+/** Between two moments of a replay that tables and plots see, ms. */
+const REPLAY_MS = 50;
+
+export class Clock extends Teller {
+  /** The newest state that the server reported. */
+  latest: SessionState | undefined;
+  readonly past = new History();
+  speed = 1;
+  /** A replay that has come to its end begins again. */
+  loop = false;
+  /** What is shown instead of the run: the result of an analysis, at a moment of the wall clock in ms. */
+  pose: ((now: number) => SessionState) | undefined;
+  protected cursor: number | null = null;
+  protected cameAt = 0;
+  private replay: { since: number; from: number; timer: number } | undefined;
+
+  /** What the page shows: the newest state, or the one under the cursor. */
+  get shown(): SessionState | undefined {
+    if (this.cursor === null) return this.latest;
+    return this.past.at(this.cursor) ?? this.latest;
+  }
+
+  /** True while the page looks at a time before the newest one. */
+  get reviewing(): boolean {
+    return this.cursor !== null;
+  }
+
+  /** True while what is shown goes on by itself. */
+  get moving(): boolean {
+    return this.replay !== undefined || (this.latest?.playing === true && this.cursor === null);
+  }
+
+  get replaying(): boolean {
+    return this.replay !== undefined;
+  }
+
+  /** The time under the cursor, s. */
+  get time(): number {
+    return this.cursor ?? this.latest?.time ?? 0;
+  }
+
+  /**
+   * The time to draw at, s. While time runs, states come ten times a second: the picture follows one
+   * interval behind and moves evenly between them.
+   */
+  get smoothTime(): number {
+    if (this.replay) return Math.min(this.replayed(this.replay), this.latest?.time ?? 0);
+    const state = this.latest;
+    if (!state?.playing || this.cursor !== null) return this.time;
+    const since = (performance.now() - this.cameAt) / 1000;
+    return state.time - state.speed * Math.max(0, STATE_INTERVAL - since);
+  }
+
+  /** Looks at an earlier time without computing anything again. */
+  seek(time: number): void {
+    this.endReplay();
+    const newest = this.latest?.time ?? 0;
+    this.cursor = time >= newest ? null : Math.max(0, time);
+    this.emit("shown");
+  }
+
+  /** One recorded moment back. */
+  back(): void {
+    const before = this.past.before(this.time);
+    if (before) this.seek(before.time);
+  }
+
+  /** One recorded moment on; false at the newest. */
+  onward(): boolean {
+    const after = this.cursor === null ? undefined : this.past.after(this.cursor);
+    if (after) this.seek(after.time);
+    return after !== undefined;
+  }
+
+  /** Shows what is recorded from a time on, at the speed of the page. */
+  protected startReplay(from: number): void {
+    this.endReplay();
+    this.cursor = from;
+    this.replay = {
+      since: performance.now(),
+      from,
+      timer: window.setInterval(() => this.replayOn(), REPLAY_MS),
+    };
+    this.emit("shown");
+  }
+
+  protected endReplay(): void {
+    if (!this.replay) return;
+    clearInterval(this.replay.timer);
+    this.replay = undefined;
+  }
+
+  private replayed(replay: { since: number; from: number }): number {
+    return replay.from + ((performance.now() - replay.since) / 1000) * this.speed;
+  }
+
+  private replayOn(): void {
+    const replay = this.replay;
+    const newest = this.latest?.time ?? 0;
+    if (!replay) return;
+    const time = this.replayed(replay);
+    if (time < newest) {
+      this.cursor = time;
+      this.emit("shown");
+    } else if (this.loop) this.startReplay(0);
+    else {
+      this.endReplay();
+      this.cursor = null;
+      this.replayEnded();
+      this.emit("shown");
+    }
+  }
+
+  /** A replay has reached the newest state. */
+  protected replayEnded(): void {
+    this.tell();
+  }
+
+  setSpeed(speed: number): void {
+    const replay = this.replay;
+    if (replay) {
+      replay.from = this.replayed(replay);
+      replay.since = performance.now();
+    }
+    this.speed = speed;
+  }
+
+  setPose(pose: Clock["pose"]): void {
+    if (this.pose === pose) return;
+    this.pose = pose;
+    this.emit("shown");
+  }
+
+  /** Says the state that is shown to a screen reader. */
+  protected tell(): void {
+    const state = this.shown;
+    if (!state) return;
+    const lead = state.finished ? "The run is complete" : "Paused";
+    const body = state.bodies[0];
+    const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
+    announce(
+      `${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`,
+    );
+  }
+}

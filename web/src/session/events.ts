@@ -1,0 +1,52 @@
+// What happens in a session, and who is told; how forces are told.
+import type { Drawn } from "../mechanics/forces";
+
+export interface Told {
+  on: "i" | "j";
+  about: "joint" | "center";
+  in: "world" | "joint" | "body";
+}
+
+export type { Drawn };
+
+type Events = {
+  /** A state arrived, or the cursor moved: what is shown has changed. */
+  shown: () => void;
+  /** Blocks of the recording, complete in themselves. */
+  blocks: (bytes: Uint8Array) => void;
+  /** Another joint was selected, in the viewer or in the page. */
+  selected: () => void;
+  /** A new connection, or a run from the start: a recording follows from its beginning. */
+  opened: () => void;
+  /** The scene's numbers are known, or were changed. */
+  scene: () => void;
+  /** Forces are told or drawn in another way. */
+  told: () => void;
+  /** A lecture's presenter shows or asks something else. */
+  board: () => void;
+  problem: (error: unknown) => void;
+};
+
+/** Tells whoever listens. */
+export class Teller {
+  private listeners: { [K in keyof Events]: Set<Events[K]> } = {
+    shown: new Set(),
+    blocks: new Set(),
+    opened: new Set(),
+    problem: new Set(),
+    selected: new Set(),
+    scene: new Set(),
+    told: new Set(),
+    board: new Set(),
+  };
+
+  on<K extends keyof Events>(event: K, listener: Events[K]): () => void {
+    this.listeners[event].add(listener);
+    return () => this.listeners[event].delete(listener);
+  }
+
+  protected emit<K extends keyof Events>(event: K, ...what: Parameters<Events[K]>): void {
+    for (const listener of this.listeners[event])
+      (listener as (...what: Parameters<Events[K]>) => void)(...what);
+  }
+}

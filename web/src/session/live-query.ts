@@ -1,0 +1,48 @@
+// Values of the moment that is shown, asked for only while somebody looks: one request at a time, newest moment wins.
+import type { SessionState } from "../api/types";
+import type { Session } from "./session";
+
+const PAUSE_MS = 300;
+
+export interface Fetched {
+  refresh: () => void;
+}
+
+/** `ask` is given the run's address and the time, if it is not the present. */
+export function fetched<T>(
+  session: Session,
+  ask: (run: string, at: number | undefined) => Promise<T>,
+  show: (value: T, of: SessionState) => void,
+  failed: (error: unknown) => void,
+  asked: () => string = () => "",
+): Fetched {
+  let busy = false;
+  let seen = "";
+
+  const keyOf = (state: SessionState): string =>
+    `${state.id}@${state.time}@${state.changes}@${session.reviewing}${asked()}`;
+  const refresh = (): void => {
+    const state = session.shown;
+    if (!state || busy) return;
+    const key = keyOf(state);
+    if (key === seen) return;
+    busy = true;
+    ask(state.links.self, session.reviewing ? state.time : undefined)
+      .then((value) => {
+        seen = key;
+        show(value, state);
+      })
+      .catch((error: unknown) => {
+        seen = key;
+        failed(error);
+      })
+      .finally(() => {
+        setTimeout(() => {
+          busy = false;
+          const now = session.shown;
+          if (now && !session.moving && keyOf(now) !== key) refresh();
+        }, PAUSE_MS);
+      });
+  };
+  return { refresh };
+}

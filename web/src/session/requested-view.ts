@@ -1,0 +1,14 @@
+// What the page's address asks to be shown, with a word where it cannot be read.
+
+import { banner } from "../ui/notice";
+import { asked, type Seen } from "./shared-view";
+
+export async function askedView(): Promise<Seen | undefined> {
+  const seen = await asked();
+  if (seen === undefined)
+    banner("This link is damaged: the lesson or scene is shown from its start.", {
+      label: "Fine",
+      run: () => banner(null),
+    });
+  return seen ?? undefined;
+}

@@ -1,0 +1,384 @@
+// One live simulation on the server, steered from the page.
+import { ApiError, api, type SessionSource } from "../api/client";
+import { between, isNone, type Numbers, none, type SceneView, type Then, tidy } from "../api/numbers";
+import type { Camera, Drawing, Pull, SessionState } from "../api/types";
+import { announce } from "../core/dom";
+import { banner } from "../ui/notice";
+import { Clock } from "./clock";
+import { Connection } from "./connection";
+import type { Drawn, Told } from "./events";
+
+export class Session extends Clock {
+  /** Name of the selected joint. */
+  joint: string | null = null;
+  /** How reactions are told: on which body, about which point, in which frame. */
+  told: Told = { on: "j", about: "joint", in: "world" };
+  /** Which forces are drawn. */
+  drawn: Drawn = { what: "all" };
+  camera: Camera = "corner";
+  /** The scene as it runs, its parameters, and the author's. */
+  view: SceneView | undefined;
+  /** What differs from the author's scene. */
+  numbers: Numbers;
+  /** Numbers were changed, or a body was pulled, in the middle of this run: from its start it would go otherwise. */
+  bent = false;
+  /** Whether this page steers the run; a follower of a lecture only watches. */
+  readonly steers: boolean = true;
+  protected readonly connection: Connection;
+  private before: Numbers[] = [];
+  private seenChanges = "";
+  private waiters: (() => void)[] = [];
+  private busy = false;
+  private redrawing: "idle" | "busy" | "again" = "idle";
+  private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all", marked: null });
+
+  constructor(
+    readonly source: SessionSource,
+    start?: Numbers,
+  ) {
+    super();
+    this.numbers = start ?? none();
+    this.connection = new Connection({
+      url: () => this.streamUrl(),
+      opened: () => this.emit("opened"),
+      blocks: (bytes) => this.emit("blocks", bytes),
+      text: (text) => this.read(JSON.parse(text) as { type?: string }),
+      comeBack: () => this.comeBack(),
+      gone: () => this.recreate(),
+    });
+    addEventListener("pagehide", this.drop);
+  }
+
+  /** Where this run is asked, once there is one. */
+  get address(): string | undefined {
+    return this.latest?.links.self;
+  }
+
+  async start(): Promise<void> {
+    try {
+      this.take(await this.create());
+      this.connection.open();
+    } catch (error) {
+      this.emit("problem", error);
+    }
+  }
+
+  protected create(): Promise<SessionState> {
+    return api.createSession(this.source, isNone(this.numbers) ? undefined : this.numbers);
+  }
+
+  protected streamUrl(): string | undefined {
+    return this.latest && api.streamUrl(this.latest.links.stream);
+  }
+
+  get canUndo(): boolean {
+    return this.before.length > 0;
+  }
+
+  /** Runs the scene with these deviations from what its author wrote. Throws what the server refuses. */
+  async change(to: Numbers, then?: Then): Promise<void> {
+    const from = this.numbers;
+    if (await this.put(to, then)) this.before.push(from);
+    await this.readScene();
+  }
+
+  async undo(): Promise<void> {
+    const to = this.before.pop();
+    if (!to) return;
+    await this.put(to);
+    await this.readScene();
+  }
+
+  private async put(to: Numbers, then?: Then): Promise<boolean> {
+    const view = this.view;
+    const run = this.address;
+    if (!view || !run) return false;
+    let sent = none();
+    await this.alone(async () => {
+      sent = between(this.numbers, to, view);
+      if (isNone(sent)) return;
+      this.toNewest();
+      this.take(await api.change(run, sent, then));
+      this.numbers = tidy(to, view);
+      this.bent = (this.latest?.time ?? 0) > 0;
+    });
+    return !isNone(sent);
+  }
+
+  /** Pulls a body, or lets it go. */
+  async pull(pull: Pull | null): Promise<void> {
+    const run = this.address;
+    if (!run) return;
+    await this.alone(async () => {
+      this.toNewest();
+      this.take(pull ? await api.pull(run, pull) : await api.release(run));
+      this.bent = true;
+    });
+  }
+
+  /** Waits for its turn instead of being dropped, as a request by a key may be. */
+  private async alone(request: () => Promise<void>): Promise<void> {
+    while (this.busy) await new Promise<void>((done) => this.waiters.push(done));
+    this.busy = true;
+    try {
+      await request();
+    } finally {
+      this.free();
+    }
+  }
+
+  private free(): void {
+    this.busy = false;
+    for (const done of this.waiters.splice(0)) done();
+  }
+
+  private async readScene(): Promise<void> {
+    const state = this.latest;
+    const key = state && `${state.id}@${state.changes}@${state.title}`;
+    if (!key || key === this.seenChanges) return;
+    this.seenChanges = key;
+    try {
+      this.view = await api.sceneOf(state.links.self);
+      this.emit("scene");
+    } catch {
+      // The run goes on without its panel of numbers; the next change asks again.
+      this.seenChanges = "";
+    }
+  }
+
+  close(): void {
+    this.drop();
+    removeEventListener("pagehide", this.drop);
+    banner(null);
+  }
+
+  play(): Promise<void> {
+    this.setPose(undefined);
+    const state = this.latest;
+    // What is recorded is shown again; only what is not is computed.
+    if (state && (this.reviewing || state.finished)) {
+      this.startReplay(this.cursor ?? 0);
+      return Promise.resolve();
+    }
+    return this.ask((run) => api.play(run, this.speed));
+  }
+
+  protected override replayEnded(): void {
+    if (this.latest?.finished) super.replayEnded();
+    else void this.play();
+  }
+
+  async pause(): Promise<void> {
+    if (this.replaying) {
+      this.seek(this.time);
+      this.tell();
+      return;
+    }
+    await this.ask((run) => api.pause(run));
+    this.tell();
+  }
+
+  toggle(): Promise<void> {
+    return this.moving ? this.pause() : this.play();
+  }
+
+  async step(by: { steps: number } | { seconds: number }): Promise<void> {
+    this.toNewest();
+    await this.ask((run) => api.step(run, by));
+    this.tell();
+  }
+
+  /** One moment on: the next recorded one while looking back, one step of the integrator otherwise. */
+  async forward(): Promise<void> {
+    if (!this.onward()) await this.step({ steps: 1 });
+  }
+
+  async reset(): Promise<void> {
+    this.toNewest();
+    await this.ask(async (run) => {
+      const state = await api.reset(run);
+      this.past.clear();
+      return state;
+    });
+    announce("Back at the start, time 0.");
+  }
+
+  protected toNewest(): void {
+    this.endReplay();
+    this.cursor = null;
+  }
+
+  override setSpeed(speed: number): void {
+    super.setSpeed(speed);
+    if (this.latest?.playing && !this.reviewing) void this.ask((run) => api.play(run, speed));
+  }
+
+  /** Runs up to a time ahead, or looks back at an earlier one. */
+  async goTo(time: number): Promise<void> {
+    const state = this.latest;
+    if (!state) return;
+    if (time <= state.time) {
+      this.seek(time);
+      return;
+    }
+    if (state.playing) await this.pause();
+    const from = this.latest?.time ?? state.time;
+    if (time > from) await this.step({ seconds: Math.min(time, state.duration) - from });
+  }
+
+  /** Selects a joint in every view; null selects none. */
+  select(joint: string | null): void {
+    if (this.joint === joint) return;
+    this.joint = joint;
+    this.emit("selected");
+    void this.redraw(false);
+  }
+
+  /** Tells reactions in another way, in every view. */
+  tellAs(change: Partial<Told>): void {
+    this.told = { ...this.told, ...change };
+    this.emit("told");
+    void this.redraw(false);
+  }
+
+  draw(drawn: Drawn): void {
+    this.drawn = drawn;
+    this.emit("told");
+    void this.redraw(false);
+  }
+
+  /** Another panel of the inspector is looked at. */
+  showPanel(): void {
+    this.emit("told");
+  }
+
+  fitScale(): void {
+    void this.redraw(true);
+  }
+
+  lookFrom(camera: Camera): void {
+    this.camera = camera;
+    this.emit("told");
+    const run = this.address;
+    if (run && this.steers) void this.ask(() => api.lookFrom(run, camera));
+  }
+
+  private arrows(): Pick<Drawing, "on" | "about" | "drawn" | "marked"> {
+    const { told, drawn, joint } = this;
+    const which =
+      drawn.what === "body"
+        ? { body: drawn.body }
+        : drawn.what !== "joint"
+          ? drawn.what
+          : joint === null
+            ? ("none" as const)
+            : { joint };
+    return { on: told.on, about: told.about, drawn: which, marked: joint };
+  }
+
+  /** Lets the server draw forces as the page tells them: one request at a time, the newest wish wins. */
+  private async redraw(fit: boolean): Promise<void> {
+    const run = this.address;
+    const arrows = this.arrows();
+    const wanted = JSON.stringify(arrows);
+    if (!run || !this.steers || (wanted === this.drawnAs && !fit)) return;
+    if (this.redrawing !== "idle") {
+      this.redrawing = "again";
+      return;
+    }
+    this.redrawing = "busy";
+    try {
+      const state = await api.draw(run, arrows, fit);
+      this.drawnAs = wanted;
+      if (this.latest && this.latest.id === state.id)
+        this.latest = { ...this.latest, drawing: state.drawing };
+      this.emit("told");
+    } catch {
+      // The sketch and the tables tell it already; the next wish asks again.
+    } finally {
+      const again = (this.redrawing as string) === "again";
+      this.redrawing = "idle";
+      if (again) void this.redraw(false);
+    }
+  }
+
+  /** Opens the stream anew: the server sends the recording from its beginning. */
+  resubscribe(): void {
+    if (this.latest) this.connection.open();
+  }
+
+  protected async ask(request: (run: string) => Promise<SessionState>): Promise<void> {
+    const run = this.address;
+    if (!run || this.busy) return;
+    this.busy = true;
+    try {
+      this.take(await request(run));
+    } catch (error) {
+      if (error instanceof ApiError && error.gone) await this.recreate();
+      else this.emit("problem", error);
+    } finally {
+      this.free();
+    }
+  }
+
+  protected take(state: SessionState): void {
+    const before = this.latest;
+    this.cameAt = performance.now();
+    if (before && (state.id !== before.id || state.title !== before.title || state.time < before.time)) {
+      this.past.clear();
+      this.toNewest();
+      this.bent = false;
+    }
+    this.latest = state;
+    this.past.add(state);
+    if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.busy)
+      void this.readScene();
+    this.emit("shown");
+    if (state.error && !before?.error) this.emit("problem", state.error);
+    if (state.finished && before && !before.finished) this.tell();
+  }
+
+  protected read(message: { type?: string }): void {
+    if (message.type === "reset") this.emit("opened");
+    // A step asked for by HTTP may overtake its own echo on the socket.
+    if (message.type === "state" && !this.busy) this.take(message as unknown as SessionState);
+  }
+
+  protected async comeBack(): Promise<"there" | "gone" | "silent"> {
+    const run = this.address;
+    if (!run) return "silent";
+    try {
+      this.take(await api.state(run));
+      return "there";
+    } catch (error) {
+      return error instanceof ApiError && error.gone ? "gone" : "silent";
+    }
+  }
+
+  /** The server forgot the session (it expired, or the server restarted): a fresh one takes its place. */
+  protected async recreate(): Promise<void> {
+    this.connection.close();
+    this.past.clear();
+    this.toNewest();
+    try {
+      this.latest = undefined;
+      this.drawnAs = "";
+      this.take(await this.create());
+      this.connection.open();
+      void this.redraw(false);
+      announce("The simulation had expired on the server and was started anew, at time 0.");
+      banner("The simulation had expired on the server. A fresh one stands at time 0.", {
+        label: "Fine",
+        run: () => banner(null),
+      });
+    } catch (error) {
+      this.emit("problem", error);
+    }
+  }
+
+  protected drop = (): void => {
+    this.connection.end();
+    this.endReplay();
+    if (this.address && this.steers) api.dropSession(this.address);
+  };
+}

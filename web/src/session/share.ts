@@ -1,0 +1,113 @@
+// The button that copies a link to what is seen, and the way back from such a link.
+
+import { isNone } from "../api/numbers";
+import type { Camera } from "../api/types";
+import { announce, h } from "../core/dom";
+import type { Drawn } from "../mechanics/forces";
+import { icon } from "../ui/icons";
+import { banner } from "../ui/notice";
+import type { Told } from "./events";
+import type { Session } from "./session";
+import { LONGEST, linkTo, type Seen } from "./shared-view";
+
+/** How long the word of success stays. */
+const GLANCE_MS = 6000;
+
+export interface Shared {
+  session: Session;
+  panel: () => string;
+  picture: () => "sketch" | "viewer";
+  /** Where a scene of one's own is opened, and its text. */
+  own?: { path: string; text: string } | undefined;
+}
+
+export function shareButton(shared: Shared): HTMLElement {
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "button quiet small icon-only",
+      "aria-label": "Copy a link to this view",
+      title: "Copy a link to this view: numbers, time, joint, panel",
+      onclick: () => void copy(shared),
+    },
+    icon("link"),
+  );
+}
+
+async function copy(shared: Shared): Promise<void> {
+  const link = await linkTo(shared.own?.path ?? location.pathname, seenIn(shared));
+  if (link.length > LONGEST) {
+    banner(
+      `This scene is too large for a link (${Math.round(link.length / 1000)} kB). Save its file and send that.`,
+      { label: "Close", run: () => banner(null) },
+    );
+    return;
+  }
+  try {
+    await navigator.clipboard.writeText(link);
+    announce("The link to this view is copied.");
+    banner(
+      shared.session.bent
+        ? "The link is copied. This run was changed on its way; the link runs it with these numbers from the start."
+        : "The link to this view is copied: whoever opens it sees the same.",
+      { label: "Fine", run: () => banner(null) },
+    );
+    setTimeout(() => banner(null), GLANCE_MS);
+  } catch {
+    // Without leave to write to the clipboard the address itself becomes the link.
+    history.replaceState(null, "", link);
+    banner("The browser does not let this page copy. The link stands in the address bar now.", {
+      label: "Fine",
+      run: () => banner(null),
+    });
+  }
+}
+
+export function seenIn({ session, panel, picture, own }: Shared): Seen {
+  const { told, drawn, camera } = session;
+  const seen: Seen = {
+    time: Number(session.time.toPrecision(12)),
+    panel: panel(),
+    picture: picture(),
+    told: `${told.on}.${told.about}.${told.in}`,
+    drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what,
+    camera,
+  };
+  if (!isNone(session.numbers)) seen.numbers = session.numbers;
+  if (session.joint !== null) seen.joint = session.joint;
+  if (own) seen.scene = own.text;
+  return seen;
+}
+
+/** Brings a session that has just started to what a link shows. */
+export async function restore(session: Session, seen: Seen): Promise<void> {
+  tell(session, seen);
+  if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera)
+    session.lookFrom(seen.camera as Camera);
+  if (seen.time) await session.goTo(seen.time);
+}
+
+const CAMERAS: Camera[] = ["corner", "front", "side", "above"];
+
+/** Selects, tells and draws forces as somebody else does. */
+export function tell(session: Session, seen: Seen): void {
+  if (seen.told) {
+    const [on, about, frame] = seen.told.split(".");
+    const told: Partial<Told> = {};
+    if (on === "i" || on === "j") told.on = on;
+    if (about === "joint" || about === "center") told.about = about;
+    if (frame === "world" || frame === "joint" || frame === "body") told.in = frame;
+    session.tellAs(told);
+  }
+  const drawn = drawnOf(seen.drawn);
+  if (drawn) session.draw(drawn);
+  session.select(
+    seen.joint && session.latest?.forces.some((entry) => entry.joint === seen.joint) ? seen.joint : null,
+  );
+}
+
+export function drawnOf(text: string | undefined): Drawn | undefined {
+  if (text?.startsWith("body:")) return { what: "body", body: text.slice(5) };
+  return text === "joint" || text === "all" || text === "none" ? { what: text } : undefined;
+}

@@ -1,0 +1,34 @@
+import { describe, expect, it } from "vitest";
+import { pack, type Seen, unpack } from "./shared-view";
+
+describe("a link", () => {
+  it("says the same when it is read again", async () => {
+    const seen: Seen = {
+      numbers: { values: { mass: 2.5 }, places: { "/simulation/stabilization": { kind: "projection" } } },
+      time: 1.25,
+      joint: "pin “A”",
+      panel: "multipliers",
+      picture: "sketch",
+      drawn: "body:bob",
+      told: "i.center.body",
+      scene: '{"name":"x"}',
+    };
+    const text = await pack(seen);
+    expect(text).toMatch(/^[\w-]+$/);
+    expect(await unpack(text)).toEqual(seen);
+  });
+  it("that is broken or forged says nothing harmful", async () => {
+    expect(await unpack("%%%")).toBeUndefined();
+    expect(await unpack("AAAA")).toBeUndefined();
+    const forged = await pack({
+      time: -1,
+      joint: 7,
+      numbers: { values: { mass: "x" }, places: {} },
+      picture: "evil",
+    } as unknown as Seen);
+    expect(await unpack(forged)).toEqual({});
+  });
+  it("does not unpack without bound", async () => {
+    expect(await unpack(await pack({ scene: "a".repeat(3_000_000) }))).toBeUndefined();
+  });
+});

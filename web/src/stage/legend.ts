@@ -1,0 +1,39 @@
+// What the arrows of the 3-D view mean, in words: one scale for the whole scene; and the selected joint in big type.
+import { h, setText } from "../core/dom";
+import { num } from "../core/format";
+import { arrows, roundDown } from "../mechanics/forces";
+import { norm } from "../mechanics/vec";
+import type { Session } from "../session/session";
+
+export function legend(session: Session): { root: HTMLElement; update: () => void } {
+  const scale = h("span");
+  const told = h("b", { class: "stage-told" });
+  const root = h("p", { class: "stage-legend", hidden: true }, told, scale);
+  const update = (): void => {
+    const drawing = session.latest?.drawing;
+    const state = session.shown;
+    root.hidden =
+      !drawing ||
+      !state ||
+      session.drawn.what === "none" ||
+      state.forces.length === 0 ||
+      session.pose !== undefined;
+    if (root.hidden || !drawing || !state) return;
+    const newtons = roundDown((0.4 * drawing.longest) / drawing.force_scale);
+    const moments = roundDown((0.2 * drawing.longest) / drawing.moment_scale);
+    const turning = state.forces.some((entry) => norm(entry.moment) > 0);
+    setText(
+      scale,
+      `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. ${turning ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. ` : ""}Drawn double: more than shown.`,
+    );
+    const [arrow] =
+      session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.told);
+    setText(
+      told,
+      arrow
+        ? `${arrow.label}: ${num(norm(arrow.force), 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`
+        : "",
+    );
+  };
+  return { root, update };
+}
