@@ -172,7 +172,7 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
         doubts.push(format!(
             "a singular position was passed at t = {time:.6} s, through which {} holds neither the constraints nor the \
              branch of the motion: what follows may be wrong; {instead}",
-            treatment.word()
+            treatment
         ));
     }
     let allowed = (ALLOWED * settings.tolerance).clamp(ALLOWED_WITHIN.0, ALLOWED_WITHIN.1);

@@ -12,7 +12,7 @@ use triad_engine::model::BodyRef;
 use triad_engine::reaction::report::{
     About, Component, Convention, ExpressedIn, Reaction, ReactionReport, Side,
 };
-use triad_engine::scene::{AxisRows, Joint, JointKind, Scene};
+use triad_engine::scene::{AxisRows, Joint, JointKind, Orientation, Scene};
 use triad_engine::simulation::Simulation;
 use triad_linalg::left_null_space;
 
@@ -40,9 +40,7 @@ fn four_bar_at(phi: f64) -> Scene {
         body.position = plus([i as f64, 0.0, 0.0], along, 0.5);
         body.velocity = plus([0.0; 3], turn, 0.5);
         body.angular_velocity = [0.0, 0.0, -rate];
-        let orientation = body.orientation.as_mut().unwrap();
-        orientation.u = Some(along);
-        orientation.v = Some([-along[1], along[0], 0.0]);
+        body.orientation = Some(Orientation::directors(along, [-along[1], along[0], 0.0]));
     }
     for i in 0..2 {
         let body = &mut scene.bodies[3 + i];
@@ -255,7 +253,7 @@ fn apply_remedies(scene: &Scene) {
     let mut changed = scene.clone();
     for remedy in report.redundancies.iter().flat_map(|r| &r.remedies) {
         let joint = changed.joints.iter_mut().find(|j| j.name == remedy.joint).unwrap();
-        let bare = Joint::between(&joint.name, remedy.becomes, &joint.body_i, &joint.body_j);
+        let bare = Joint::new(&joint.name, remedy.becomes, &joint.body_i, &joint.body_j);
         let axis = joint.axis.filter(|_| remedy.becomes != JointKind::Spherical);
         *joint = Joint { point: joint.point, axis, ..bare };
         println!(

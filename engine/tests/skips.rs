@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use triad_engine::catalogue;
-use triad_engine::scene::{GROUND, IntegratorKind, Joint, JointKind, Scene, Skip};
+use triad_engine::scene::{Ground, IntegratorKind, Joint, Orientation, Scene, Skip};
 use triad_engine::simulation::{LeftOut, Simulation};
 
 fn scene(name: &str) -> Scene {
@@ -59,9 +59,8 @@ fn turned(mut scene: Scene) -> Scene {
         body.position = turn(body.position);
         body.velocity = turn(body.velocity);
         body.angular_velocity = turn(body.angular_velocity);
-        if let Some(orientation) = &mut body.orientation {
-            orientation.u = orientation.u.map(turn);
-            orientation.v = orientation.v.map(turn);
+        if let Some(Orientation::Directors { u, v, .. }) = &mut body.orientation {
+            (*u, *v) = (turn(*u), turn(*v));
         }
     }
     for joint in &mut scene.joints {
@@ -154,7 +153,7 @@ fn bodies_tied_to_the_ground_are_ground() {
     base.angular_velocity = [0.0; 3];
     base.position = [0.1, -0.2, 0.3];
     scene.bodies.insert(0, base);
-    let mut weld = Joint::between("weld", JointKind::Fixed, GROUND, "base");
+    let mut weld = Joint::fixed("weld", Ground, "base");
     weld.point = Some([0.0, -0.2, 0.0]);
     scene.joints.push(weld);
     scene.joints[0].body_i = "base".to_owned();

@@ -38,8 +38,8 @@ pub enum PaperError {
     Singular {
         /// Name of the example.
         case: &'static str,
-        /// `full`, `reduced` or `shared`.
-        coordinates: &'static str,
+        /// The coordinates of all its bodies.
+        coordinates: Coordinates,
         /// Time reached, s.
         time: f64,
     },
@@ -111,7 +111,7 @@ pub fn run(case: &Case, coordinates: Coordinates, algebra: LinearAlgebra) -> Res
     let mut ode45 = Explicit::ode45(&mut plant, 0.0, &start, ODE45_TOLERANCE, end);
     while ode45.time() < end {
         if ode45.step(&mut plant, end).is_err() {
-            let (case, coordinates) = (case.name, word(coordinates));
+            let case = case.name;
             return Err(PaperError::Singular { case, coordinates, time: ode45.time() });
         }
         let y = ode45.state();
@@ -182,13 +182,4 @@ pub fn scene(case: &Case, coordinates: Coordinates) -> Result<Scene, PaperError>
         body.coordinates = None;
     }
     Ok(scene)
-}
-
-/// `full` or `reduced`.
-pub fn word(coordinates: Coordinates) -> &'static str {
-    match coordinates {
-        Coordinates::Full => "full",
-        Coordinates::Reduced => "reduced",
-        Coordinates::Shared => "shared",
-    }
 }

@@ -1,6 +1,6 @@
 //! Prescribed motions of a mechanism as their author writes them.
 
-use crate::{Motion, Triple, VectorMotion};
+use crate::{BodyHandle, JointHandle, Motion, Triple, VectorMotion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +80,77 @@ pub enum Driver {
 }
 
 impl Driver {
+    /// A point of a body (in its frame, m) follows a path in the world, m.
+    pub fn point(
+        name: impl Into<String>,
+        body: impl Into<BodyHandle>,
+        point: Triple,
+        motion: impl Into<VectorMotion>,
+    ) -> Self {
+        Self::Point { name: name.into(), body: body.into().into(), point, motion: motion.into() }
+    }
+
+    /// A unit vector of a body follows a unit vector of the world.
+    pub fn vector(
+        name: impl Into<String>,
+        body: impl Into<BodyHandle>,
+        vector: Triple,
+        motion: impl Into<VectorMotion>,
+    ) -> Self {
+        Self::Vector { name: name.into(), body: body.into().into(), vector, motion: motion.into() }
+    }
+
+    /// The angle φ of a revolute or cylindrical joint, rad, from its start.
+    ///
+    /// ```
+    /// use triad_scene::{Driver, Motion};
+    ///
+    /// let motor = Driver::angle("motor", "pin", Motion::ramp(0.0, 3.0));
+    /// assert_eq!(motor.name(), "motor");
+    /// ```
+    pub fn angle(name: impl Into<String>, joint: impl Into<JointHandle>, motion: impl Into<Motion>) -> Self {
+        Self::Angle { name: name.into(), joint: joint.into().into(), motion: motion.into() }
+    }
+
+    /// The displacement s of a prismatic or cylindrical joint along its axis, m.
+    pub fn slide(name: impl Into<String>, joint: impl Into<JointHandle>, motion: impl Into<Motion>) -> Self {
+        Self::Slide { name: name.into(), joint: joint.into().into(), motion: motion.into() }
+    }
+
+    /// The angle between a vector of each of two bodies, rad, through its cosine: it cannot pass 0 or π.
+    pub fn angle_cosine(
+        name: impl Into<String>,
+        (body_i, vector_i): (impl Into<BodyHandle>, Triple),
+        (body_j, vector_j): (impl Into<BodyHandle>, Triple),
+        motion: impl Into<Motion>,
+    ) -> Self {
+        Self::AngleCosine {
+            name: name.into(),
+            body_i: body_i.into().into(),
+            vector_i,
+            body_j: body_j.into().into(),
+            vector_j,
+            motion: motion.into(),
+        }
+    }
+
+    /// The angle between a vector of a body and a moving vector of the world, rad, through its cosine.
+    pub fn angle_to_world(
+        name: impl Into<String>,
+        body: impl Into<BodyHandle>,
+        vector: Triple,
+        reference: impl Into<VectorMotion>,
+        motion: impl Into<Motion>,
+    ) -> Self {
+        Self::AngleToWorld {
+            name: name.into(),
+            body: body.into().into(),
+            vector,
+            reference: reference.into(),
+            motion: motion.into(),
+        }
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         match self {

@@ -1,6 +1,6 @@
 //! Moments to look for, as their author writes them.
 
-use crate::Triple;
+use crate::{BodyHandle, JointHandle, Triple};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -72,4 +72,69 @@ pub enum Quantity {
         /// The joint.
         joint: String,
     },
+}
+
+impl Event {
+    /// The quantity passes a value, m or rad, in either direction; the run goes on.
+    ///
+    /// ```
+    /// use triad_scene::{Event, Passing, Quantity};
+    ///
+    /// let bottom = Event::new("bottom", Quantity::angle("pin"), 1.5).upwards().stop();
+    /// assert!(bottom.stop && bottom.passing == Passing::Upwards);
+    /// ```
+    pub fn new(name: impl Into<String>, of: Quantity, value: f64) -> Self {
+        Self { name: name.into(), of, value, passing: Passing::Either, stop: false }
+    }
+
+    /// Only from below.
+    #[must_use]
+    pub fn upwards(mut self) -> Self {
+        self.passing = Passing::Upwards;
+        self
+    }
+
+    /// Only from above.
+    #[must_use]
+    pub fn downwards(mut self) -> Self {
+        self.passing = Passing::Downwards;
+        self
+    }
+
+    /// The run ends there.
+    #[must_use]
+    pub fn stop(mut self) -> Self {
+        self.stop = true;
+        self
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+impl Quantity {
+    /// The coordinate of a point of a body (in its frame, m) along a direction of the world, m.
+    pub fn coordinate(body: impl Into<BodyHandle>, point: Triple, direction: Triple) -> Self {
+        Self::Coordinate { body: body.into().into(), point, direction }
+    }
+
+    /// The distance of a point of each of two bodies (in their frames, m), m.
+    pub fn distance(
+        (body_i, point_i): (impl Into<BodyHandle>, Triple),
+        (body_j, point_j): (impl Into<BodyHandle>, Triple),
+    ) -> Self {
+        Self::Distance { body_i: body_i.into().into(), point_i, body_j: body_j.into().into(), point_j }
+    }
+
+    /// The angle φ of a revolute, cylindrical or screw joint from its start, rad.
+    pub fn angle(joint: impl Into<JointHandle>) -> Self {
+        Self::Angle { joint: joint.into().into() }
+    }
+
+    /// The displacement s of a prismatic, cylindrical or screw joint along its axis, m.
+    pub fn slide(joint: impl Into<JointHandle>) -> Self {
+        Self::Slide { joint: joint.into().into() }
+    }
 }

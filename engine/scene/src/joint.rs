@@ -1,6 +1,6 @@
 //! Joints as their author writes them.
 
-use crate::Triple;
+use crate::{BodyHandle, JointHandle, Triple};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -113,12 +113,17 @@ pub struct Joint {
 
 impl Joint {
     /// A joint of which only name, kind and bodies are given.
-    pub fn between(name: &str, kind: JointKind, body_i: &str, body_j: &str) -> Self {
+    pub fn new(
+        name: impl Into<String>,
+        kind: JointKind,
+        body_i: impl Into<BodyHandle>,
+        body_j: impl Into<BodyHandle>,
+    ) -> Self {
         Self {
-            name: name.to_owned(),
+            name: name.into(),
             kind,
-            body_i: body_i.to_owned(),
-            body_j: body_j.to_owned(),
+            body_i: body_i.into().into(),
+            body_j: body_j.into().into(),
             point: None,
             points: None,
             point_i: None,
@@ -134,4 +139,149 @@ impl Joint {
             ratio: None,
         }
     }
+
+    /// The angle of the revolute joint `second` is `ratio` times that of `first`: φ₂ = ratio φ₁.
+    ///
+    /// ```
+    /// use triad_scene::Joint;
+    ///
+    /// let gear = Joint::gear("reduction", "motor", "arm", 0.1);
+    /// assert_eq!(gear.joints, Some(["motor".to_owned(), "arm".to_owned()]));
+    /// ```
+    pub fn gear(
+        name: impl Into<String>,
+        first: impl Into<JointHandle>,
+        second: impl Into<JointHandle>,
+        ratio: f64,
+    ) -> Self {
+        let mut gear = Self::new(name, JointKind::Gear, "", "");
+        gear.joints = Some([first.into().into(), second.into().into()]);
+        gear.ratio = Some(ratio);
+        gear
+    }
+
+    /// A common axis, along which body j moves by `pitch` metres a turn as it turns; positive for a right-handed thread.
+    pub fn screw(
+        name: impl Into<String>,
+        body_i: impl Into<BodyHandle>,
+        body_j: impl Into<BodyHandle>,
+        pitch: f64,
+    ) -> Self {
+        let mut screw = Self::new(name, JointKind::Screw, body_i, body_j);
+        screw.pitch = Some(pitch);
+        screw
+    }
+
+    /// The common point in the world at the start, m.
+    #[must_use]
+    pub fn at(mut self, point: Triple) -> Self {
+        self.point = Some(point);
+        self
+    }
+
+    /// Two points in the world at the start, m: the first fixed in body i, the second in body j.
+    #[must_use]
+    pub fn from_to(mut self, first: Triple, second: Triple) -> Self {
+        self.points = Some([first, second]);
+        self
+    }
+
+    /// The points in the frames of the two bodies, m; for the ground this is the world.
+    #[must_use]
+    pub fn at_local(mut self, point_i: Triple, point_j: Triple) -> Self {
+        (self.point_i, self.point_j) = (Some(point_i), Some(point_j));
+        self
+    }
+
+    /// The common axis in the world at the start: about which body j turns, along which it slides, or to which the plane
+    /// is normal.
+    #[must_use]
+    pub fn about(mut self, axis: Triple) -> Self {
+        self.axis = Some(axis);
+        self
+    }
+
+    /// The same as [`about`](Self::about), for joints that slide.
+    #[must_use]
+    pub fn along(self, axis: Triple) -> Self {
+        self.about(axis)
+    }
+
+    /// Two axes in the world at the start, at a right angle: the first fixed in body i, the second in body j.
+    #[must_use]
+    pub fn axes(mut self, first: Triple, second: Triple) -> Self {
+        self.axes = Some([first, second]);
+        self
+    }
+
+    /// The axes in the frames of the two bodies.
+    #[must_use]
+    pub fn about_local(mut self, axis_i: Triple, axis_j: Triple) -> Self {
+        (self.axis_i, self.axis_j) = (Some(axis_i), Some(axis_j));
+        self
+    }
+
+    /// Which rows hold the axis of a revolute joint.
+    #[must_use]
+    pub fn rows(mut self, rows: AxisRows) -> Self {
+        self.rows = Some(rows);
+        self
+    }
+
+    /// The length of a rod, m, if it is not the distance of its points at the start.
+    #[must_use]
+    pub fn length(mut self, length: f64) -> Self {
+        self.length = Some(length);
+        self
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+macro_rules! joints {
+    ($($(#[$text:meta])* $name:ident: $kind:ident;)*) => {
+        impl Joint {$(
+            $(#[$text])*
+            pub fn $name(
+                name: impl Into<String>,
+                body_i: impl Into<BodyHandle>,
+                body_j: impl Into<BodyHandle>,
+            ) -> Self {
+                Self::new(name, JointKind::$kind, body_i, body_j)
+            }
+        )*}
+    };
+}
+
+joints! {
+    /// A common point: three rows (CP). Give it [`at`](Self::at).
+    spherical: Spherical;
+    /// A common point and a common axis: body j turns by an angle φ. Give it [`at`](Self::at) and [`about`](Self::about).
+    ///
+    /// ```
+    /// use triad_scene::{Ground, Joint};
+    ///
+    /// let pin = Joint::revolute("pin", Ground, "rod").at([0.0; 3]).about([0.0, 0.0, 1.0]);
+    /// assert_eq!((pin.body_i.as_str(), pin.body_j.as_str()), ("ground", "rod"));
+    /// ```
+    revolute: Revolute;
+    /// A common point and two axes that stay perpendicular. Give it [`at`](Self::at) and [`axes`](Self::axes).
+    universal: Universal;
+    /// A common axis, along and about which body j moves. Give it [`at`](Self::at) and [`about`](Self::about).
+    cylindrical: Cylindrical;
+    /// A common axis, along which body j slides without turning. Give it [`at`](Self::at) and [`along`](Self::along).
+    prismatic: Prismatic;
+    /// A common plane, normal to the axis. Give it [`at`](Self::at) and [`about`](Self::about).
+    planar: Planar;
+    /// No relative motion. Give it [`at`](Self::at).
+    fixed: Fixed;
+    /// A rigid massless bar between a point of each body. Give it [`from_to`](Self::from_to).
+    rod: Rod;
+    /// The point of body j stays on a line of body i. Give it [`at`](Self::at) and [`along`](Self::along).
+    point_on_line: PointOnLine;
+    /// The point of body j stays in a plane of body i. Give it [`at`](Self::at) and [`about`](Self::about), the normal.
+    point_in_plane: PointInPlane;
 }

@@ -1,6 +1,6 @@
 //! Forces and moments as their author writes them.
 
-use crate::{Motion, Triple, VectorMotion};
+use crate::{BodyHandle, JointHandle, Motion, Triple, VectorMotion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +28,13 @@ pub struct Friction {
     /// Velocity at which Coulomb friction has reached three quarters, m/s or rad/s.
     #[serde(default = "default_smoothing")]
     pub smoothing: f64,
+}
+
+impl Friction {
+    /// Viscous (N s/m or N m s/rad) and Coulomb friction (N or N m), smoothed below 1 mm/s or 1 mrad/s.
+    pub fn new(viscous: f64, coulomb: f64) -> Self {
+        Self { viscous, coulomb, smoothing: default_smoothing() }
+    }
 }
 
 fn default_smoothing() -> f64 {
@@ -139,7 +146,140 @@ pub enum Load {
     },
 }
 
+/// Loads add up: a joint with a spring, a motor and friction has three of them.
 impl Load {
+    /// A force, N, at a point of a body (in its frame, m); it keeps its direction in the world, or turns with the body.
+    ///
+    /// ```
+    /// use triad_scene::{Load, LoadFrame};
+    ///
+    /// let thrust = Load::force("thrust", "rocket", [0.0, 0.0, -1.0], [0.0, 0.0, 30.0], LoadFrame::Body);
+    /// assert_eq!(thrust.name(), "thrust");
+    /// ```
+    pub fn force(
+        name: impl Into<String>,
+        body: impl Into<BodyHandle>,
+        point: Triple,
+        force: impl Into<VectorMotion>,
+        frame: LoadFrame,
+    ) -> Self {
+        Self::Force { name: name.into(), body: body.into().into(), point, force: force.into(), frame }
+    }
+
+    /// A moment, N m, on a body.
+    pub fn moment(
+        name: impl Into<String>,
+        body: impl Into<BodyHandle>,
+        moment: impl Into<VectorMotion>,
+        frame: LoadFrame,
+    ) -> Self {
+        Self::Moment { name: name.into(), body: body.into().into(), moment: moment.into(), frame }
+    }
+
+    /// A spring and a damper between a point of each of two bodies (in their frames, m), without force at the length of
+    /// the start: stiffness k in N/m, damping d in N s/m.
+    ///
+    /// ```
+    /// use triad_scene::{Ground, Load};
+    ///
+    /// let spring = Load::spring("s", (Ground, [0.0; 3]), ("mass", [0.0; 3]), 100.0, 0.5).free_length(0.2);
+    /// assert!(matches!(spring, Load::Spring { free_length: Some(0.2), .. }));
+    /// ```
+    pub fn spring(
+        name: impl Into<String>,
+        (body_i, point_i): (impl Into<BodyHandle>, Triple),
+        (body_j, point_j): (impl Into<BodyHandle>, Triple),
+        stiffness: f64,
+        damping: f64,
+    ) -> Self {
+        Self::Spring {
+            name: name.into(),
+            body_i: body_i.into().into(),
+            point_i,
+            body_j: body_j.into().into(),
+            point_j,
+            stiffness,
+            free_length: None,
+            damping,
+            force: None,
+        }
+    }
+
+    /// A spring and a damper about a revolute or cylindrical joint: k in N m/rad, d in N m s/rad.
+    pub fn torsion(
+        name: impl Into<String>,
+        joint: impl Into<JointHandle>,
+        stiffness: f64,
+        damping: f64,
+    ) -> Self {
+        let (name, joint) = (name.into(), joint.into().into());
+        Self::Torsion { name, joint, stiffness, free_angle: 0.0, damping, torque: None, friction: None }
+    }
+
+    /// A spring and a damper along a prismatic or cylindrical joint: k in N/m, d in N s/m.
+    pub fn slider(
+        name: impl Into<String>,
+        joint: impl Into<JointHandle>,
+        stiffness: f64,
+        damping: f64,
+    ) -> Self {
+        let (name, joint) = (name.into(), joint.into().into());
+        Self::Slider { name, joint, stiffness, free_length: 0.0, damping, force: None, friction: None }
+    }
+
+    /// A motor about a revolute or cylindrical joint: its torque on body j, N m.
+    ///
+    /// ```
+    /// use triad_scene::{Load, Motion};
+    ///
+    /// let motor = Load::motor("motor", "elbow", Motion::sine(2.0, 3.0));
+    /// assert!(matches!(motor, Load::Torsion { torque: Some(_), .. }));
+    /// ```
+    pub fn motor(name: impl Into<String>, joint: impl Into<JointHandle>, torque: impl Into<Motion>) -> Self {
+        let mut load = Self::torsion(name, joint, 0.0, 0.0);
+        if let Self::Torsion { torque: place, .. } = &mut load {
+            *place = Some(torque.into());
+        }
+        load
+    }
+
+    /// Friction about a revolute or cylindrical joint.
+    pub fn turning_friction(
+        name: impl Into<String>,
+        joint: impl Into<JointHandle>,
+        friction: Friction,
+    ) -> Self {
+        let mut load = Self::torsion(name, joint, 0.0, 0.0);
+        if let Self::Torsion { friction: place, .. } = &mut load {
+            *place = Some(friction);
+        }
+        load
+    }
+
+    /// Friction along a prismatic or cylindrical joint.
+    pub fn sliding_friction(
+        name: impl Into<String>,
+        joint: impl Into<JointHandle>,
+        friction: Friction,
+    ) -> Self {
+        let mut load = Self::slider(name, joint, 0.0, 0.0);
+        if let Self::Slider { friction: place, .. } = &mut load {
+            *place = Some(friction);
+        }
+        load
+    }
+
+    /// The length of a spring or slider without force, m; other loads have none and stay as they are.
+    #[must_use]
+    pub fn free_length(mut self, length: f64) -> Self {
+        match &mut self {
+            Self::Spring { free_length, .. } => *free_length = Some(length),
+            Self::Slider { free_length, .. } => *free_length = length,
+            Self::Force { .. } | Self::Moment { .. } | Self::Torsion { .. } => {}
+        }
+        self
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         match self {

@@ -87,3 +87,77 @@ pub enum VectorMotion {
         angle: Motion,
     },
 }
+
+impl Motion {
+    /// Always `value`. A plain number where a motion is asked for means the same.
+    pub const fn constant(value: f64) -> Self {
+        Self::Constant { value }
+    }
+
+    /// start + rate t.
+    ///
+    /// ```
+    /// use triad_scene::Motion;
+    ///
+    /// assert_eq!(Motion::ramp(0.0, 2.0), Motion::Ramp { start: 0.0, rate: 2.0 });
+    /// ```
+    pub const fn ramp(start: f64, rate: f64) -> Self {
+        Self::Ramp { start, rate }
+    }
+
+    /// c₀ + c₁ t + c₂ t² + …; at most 32 coefficients.
+    pub fn polynomial(coefficients: impl Into<Vec<f64>>) -> Self {
+        Self::Polynomial { coefficients: coefficients.into() }
+    }
+
+    /// amplitude sin(frequency t), frequency in rad/s.
+    pub const fn sine(amplitude: f64, frequency: f64) -> Self {
+        Self::Harmonic { mean: 0.0, amplitude, frequency, phase: 0.0 }
+    }
+
+    /// From one value, held until `start`, to another, reached at `end` (s), without a jump of the acceleration.
+    pub const fn smooth_step(from: f64, to: f64, start: f64, end: f64) -> Self {
+        Self::SmoothStep { from, to, start, end }
+    }
+
+    /// The natural cubic spline through values at times (s), which increase.
+    pub fn table(times: impl Into<Vec<f64>>, values: impl Into<Vec<f64>>) -> Self {
+        Self::Table { times: times.into(), values: values.into() }
+    }
+}
+
+impl From<f64> for Motion {
+    fn from(value: f64) -> Self {
+        Self::constant(value)
+    }
+}
+
+impl VectorMotion {
+    /// Always `vector`. Three plain numbers where the motion of a vector is asked for mean the same.
+    pub const fn fixed(vector: Triple) -> Self {
+        Self::Fixed { vector }
+    }
+
+    /// Three components, each with its own motion.
+    ///
+    /// ```
+    /// use triad_scene::{Motion, VectorMotion};
+    ///
+    /// let shaken = VectorMotion::components(Motion::sine(0.01, 50.0), 0.0, 1.0);
+    /// assert!(matches!(shaken, VectorMotion::Components { y: Motion::Constant { value: 0.0 }, .. }));
+    /// ```
+    pub fn components(x: impl Into<Motion>, y: impl Into<Motion>, z: impl Into<Motion>) -> Self {
+        Self::Components { x: x.into(), y: y.into(), z: z.into() }
+    }
+
+    /// A vector that turns about a fixed axis through an angle, rad.
+    pub fn turning(start: Triple, axis: Triple, angle: impl Into<Motion>) -> Self {
+        Self::Turning { start, axis, angle: angle.into() }
+    }
+}
+
+impl From<Triple> for VectorMotion {
+    fn from(vector: Triple) -> Self {
+        Self::fixed(vector)
+    }
+}

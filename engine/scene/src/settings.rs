@@ -2,6 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
 
 /// How to run a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -71,8 +73,8 @@ impl IntegratorKind {
     pub const ALL: [Self; 7] =
         [Self::Taylor, Self::Dop853, Self::Dopri5, Self::Ode45, Self::Radau, Self::Rattle, Self::Trapezoidal];
 
-    /// The word for it in a scene.
-    pub const fn word(self) -> &'static str {
+    /// What a scene writes for it.
+    const fn as_str(self) -> &'static str {
         match self {
             Self::Auto => "auto",
             Self::Taylor => "taylor",
@@ -84,12 +86,35 @@ impl IntegratorKind {
             Self::Trapezoidal => "trapezoidal",
         }
     }
+}
 
-    /// The integrator of that name.
-    pub fn named(word: &str) -> Option<Self> {
-        [Self::Auto].into_iter().chain(Self::ALL).find(|kind| kind.word() == word)
+impl fmt::Display for IntegratorKind {
+    /// As a scene writes it.
+    ///
+    /// ```
+    /// use triad_scene::IntegratorKind;
+    ///
+    /// assert_eq!(IntegratorKind::Dop853.to_string(), "dop853");
+    /// assert_eq!("radau".parse(), Ok(IntegratorKind::Radau));
+    /// assert!("euler".parse::<IntegratorKind>().is_err());
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
     }
 }
+
+impl FromStr for IntegratorKind {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        [Self::Auto].into_iter().chain(Self::ALL).find(|kind| kind.as_str() == word).ok_or(UnknownWord)
+    }
+}
+
+/// The text is none of the words of a scene for this choice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("it is none of the words for this choice")]
+pub struct UnknownWord;
 
 /// What keeps the constraints satisfied during a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -147,17 +172,6 @@ const fn augmented_alpha() -> f64 {
 }
 
 impl Stabilization {
-    /// The word for it in a scene.
-    pub const fn word(&self) -> &'static str {
-        match self {
-            Self::Projection => "projection",
-            Self::Baumgarte { .. } => "baumgarte",
-            Self::Partitioning => "partitioning",
-            Self::Penalty { .. } => "penalty",
-            Self::AugmentedLagrangian { .. } => "augmented-lagrangian",
-        }
-    }
-
     /// All of them, each with its usual strength.
     pub const ALL: [Self; 5] = [
         Self::Projection,
@@ -166,10 +180,33 @@ impl Stabilization {
         Self::Penalty { alpha: penalty_alpha(), omega: penalty_omega(), mu: penalty_mu() },
         Self::AugmentedLagrangian { alpha: augmented_alpha() },
     ];
+}
 
-    /// The treatment of that name with its usual strength.
-    pub fn named(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|treatment| treatment.word() == word)
+impl fmt::Display for Stabilization {
+    /// The `kind` that a scene writes, without its numbers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Projection => "projection",
+            Self::Baumgarte { .. } => "baumgarte",
+            Self::Partitioning => "partitioning",
+            Self::Penalty { .. } => "penalty",
+            Self::AugmentedLagrangian { .. } => "augmented-lagrangian",
+        })
+    }
+}
+
+impl FromStr for Stabilization {
+    type Err = UnknownWord;
+
+    /// The one of that `kind` with its usual strength.
+    ///
+    /// ```
+    /// use triad_scene::Stabilization;
+    ///
+    /// assert_eq!("baumgarte".parse(), Ok(Stabilization::Baumgarte { alpha: 10.0, beta: 10.0 }));
+    /// ```
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        Self::ALL.into_iter().find(|method| method.to_string() == word).ok_or(UnknownWord)
     }
 }
 

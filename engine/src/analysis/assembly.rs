@@ -5,7 +5,7 @@ use crate::constraints::ConstraintError;
 use crate::error::EngineError;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::scene::{GROUND, Joint, JointKind, Scene};
+use crate::scene::{Ground, Joint, Scene};
 use crate::system::System;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
@@ -59,7 +59,7 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
                 reason: "there is no such body".to_owned(),
             });
         };
-        let mut pin = Joint::between(&format!("keep {name} ({index})"), JointKind::Fixed, GROUND, name);
+        let mut pin = Joint::fixed(format!("keep {name} ({index})"), Ground, name);
         (pin.point, pin.axis) = (Some(body.position), Some([0.0, 0.0, 1.0]));
         held.joints.push(pin);
     }

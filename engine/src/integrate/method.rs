@@ -46,7 +46,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
     if let Stabilization::AugmentedLagrangian { .. } = treatment {
         let why = match settings.integrator {
             IntegratorKind::Auto | IntegratorKind::Trapezoidal => String::new(),
-            asked => format!("{} was asked for, but ", asked.word()),
+            asked => format!("{} was asked for, but ", asked),
         };
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
@@ -54,7 +54,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
     let obstacle = if treatment == Stabilization::Projection {
         settings.step.map(|_| "its steps have no fixed size".to_owned())
     } else {
-        Some(format!("{} belongs to Runge-Kutta methods", treatment.word()))
+        Some(format!("{} belongs to Runge-Kutta methods", treatment))
     };
     let System { curves, targets, loads, .. } = &mechanism.system;
     let prescribed = !(curves.is_empty() && targets.is_empty() && loads.is_empty());
@@ -80,7 +80,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
             (IntegratorKind::Dop853, format!("taylor was asked for, but {obstacle}"))
         }
         (asked, _) => match own_constraints(asked, treatment) {
-            Some(why) => (IntegratorKind::Dop853, format!("{} was asked for, but {why}", asked.word())),
+            Some(why) => (IntegratorKind::Dop853, format!("{} was asked for, but {why}", asked)),
             None => (asked, "the scene asks for it".to_owned()),
         },
     }

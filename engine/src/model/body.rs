@@ -1,7 +1,7 @@
 //! A body with its centre of mass, principal axes and start.
 
 use super::{ModelError, finite};
-use crate::scene::{Body, Coordinates, Inertia, Orientation, Triple};
+use crate::scene::{Body, Coordinates, Inertia, Orientation, Triple, WrittenOrientation};
 use nalgebra::{Matrix3, Quaternion, SymmetricEigen, Unit, UnitQuaternion, Vector3};
 
 /// How far from orthonormal directors may be, to be corrected instead of refused.
@@ -185,21 +185,18 @@ fn orientation(body: &Body, pointer: &str, notes: &mut Vec<String>) -> Result<Ma
         reason,
     };
     let Some(written) = &body.orientation else { return Ok(Matrix3::identity()) };
-    let numbers = [written.u, written.v, written.w, written.axis]
-        .into_iter()
-        .flatten()
-        .flatten()
-        .chain(written.quaternion.into_iter().flatten())
-        .chain(written.angle);
+    let keys = WrittenOrientation::from(written.clone());
+    let triples = [keys.u, keys.v, keys.w, keys.axis].into_iter().flatten().flatten();
+    let numbers = triples.chain(keys.quaternion.into_iter().flatten()).chain(keys.angle);
     finite(&numbers.collect::<Vec<_>>(), pointer)?;
     match *written {
-        Orientation { u: Some(u), v: Some(v), w, quaternion: None, axis: None, angle: None } => {
+        Orientation::Directors { u, v, w } => {
             from_directors(&Vector3::from(u), &Vector3::from(v), w.map(Vector3::from), |reason| {
                 notes.push(format!("body \"{}\": {reason}", body.name));
             })
             .map_err(fail)
         }
-        Orientation { u: None, v: None, w: None, quaternion: Some(q), axis: None, angle: None } => {
+        Orientation::Quaternion(q) => {
             let quaternion = Quaternion::new(q[0], q[1], q[2], q[3]);
             let norm = quaternion.norm();
             if (norm - 1.0).abs() > DIRECTOR_SLACK {
@@ -211,12 +208,14 @@ fn orientation(body: &Body, pointer: &str, notes: &mut Vec<String>) -> Result<Ma
             }
             Ok(UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix().into_inner())
         }
-        Orientation { u: None, v: None, w: None, quaternion: None, axis: Some(axis), angle: Some(angle) } => {
+        Orientation::Rotation { axis, angle } => {
             let axis = Unit::try_new(Vector3::from(axis), 1e-12)
                 .ok_or_else(|| fail("the axis of the rotation has no length".to_owned()))?;
             Ok(UnitQuaternion::from_axis_angle(&axis, angle).to_rotation_matrix().into_inner())
         }
-        _ => Err(fail("the orientation is given in none of the three ways, or in more than one".to_owned())),
+        Orientation::Unclear(_) => {
+            Err(fail("the orientation is given in none of the three ways, or in more than one".to_owned()))
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use nalgebra::{Isometry3, Vector3};
 use triad_scene::{
-    AxisRows, Body, Coordinates, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
+    AxisRows, Body, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
 };
 
 use super::read::{Geometry, Kind, Link, Robot, UrdfJoint, Visual};
@@ -41,20 +41,14 @@ pub(super) fn scene(
 ) -> Result<Scene, UrdfError> {
     check_names(robot, side_car)?;
     let placed = place(robot, side_car)?;
-    let mut scene = Scene {
-        name: slug(&robot.name),
-        title: robot.name.clone(),
-        description: "Imported from a URDF.".to_owned(),
-        gravity: side_car.gravity.unwrap_or([0.0, 0.0, -9.81]),
-        coordinates: Coordinates::default(),
-        bodies: Vec::new(),
-        joints: Vec::new(),
-        drivers: side_car.drivers.clone(),
-        loads: side_car.loads.clone(),
-        simulation: side_car.simulation.clone(),
-        parameters: Vec::new(),
-        events: Vec::new(),
-    };
+    let mut scene =
+        Scene::new(slug(&robot.name)).title(robot.name.as_str()).description("Imported from a URDF.");
+    if let Some(gravity) = side_car.gravity {
+        scene.gravity = gravity;
+    }
+    scene.drivers.clone_from(&side_car.drivers);
+    scene.loads.clone_from(&side_car.loads);
+    scene.simulation = side_car.simulation.clone();
     for link in &placed {
         add_body(&mut scene, link, left_out);
     }
@@ -230,26 +224,15 @@ fn add_body(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
     let row = |k: usize| [tensor[(k, 0)], tensor[(k, 1)], tensor[(k, 2)]];
     let inertia = (tensor.abs().max() > 0.0).then(|| Inertia::Tensor([row(0), row(1), row(2)]));
     let turn = placed.pose.rotation;
-    let orientation = (turn.angle() > 0.0).then(|| Orientation {
-        u: None,
-        v: None,
-        w: None,
-        quaternion: Some([turn.w, turn.i, turn.j, turn.k]),
-        axis: None,
-        angle: None,
-    });
-    scene.bodies.push(Body {
-        name: link.name.clone(),
-        mass: inertial.mass,
-        inertia,
-        center_of_mass: inertial.center.into(),
-        position: placed.pose.translation.vector.into(),
-        orientation,
-        velocity: placed.velocity.into(),
-        angular_velocity: placed.spin.into(),
-        coordinates: None,
-        shape: Vec::new(),
-    });
+    let mut body = Body::new(&link.name, inertial.mass)
+        .center_of_mass(inertial.center.into())
+        .position(placed.pose.translation.vector.into())
+        .velocity(placed.velocity.into())
+        .angular_velocity(placed.spin.into());
+    body.inertia = inertia;
+    body.orientation =
+        (turn.angle() > 0.0).then(|| Orientation::Quaternion([turn.w, turn.i, turn.j, turn.k]));
+    scene.add(body);
 }
 
 fn add_shapes(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
@@ -300,18 +283,16 @@ fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut 
         Kind::Floating => return,
     };
     let on_parent = parent.carrier.frame * joint.origin;
-    let mut written = Joint::between(&joint.name, kind, &parent.carrier.name, &placed.carrier.name);
-    written.point_i = Some(on_parent.translation.vector.into());
-    written.point_j = Some([0.0; 3]);
+    let mut written = Joint::new(&joint.name, kind, &parent.carrier.name, &placed.carrier.name)
+        .at_local(on_parent.translation.vector.into(), [0.0; 3]);
     if kind != JointKind::Fixed {
         // The motion of the joint leaves its axis as it is.
-        written.axis_i = Some((on_parent.rotation * joint.axis).into());
-        written.axis_j = Some(joint.axis.into());
+        written = written.about_local((on_parent.rotation * joint.axis).into(), joint.axis.into());
     }
     if kind == JointKind::Revolute {
-        written.rows = Some(AxisRows::TwoCar);
+        written = written.rows(AxisRows::TwoCar);
     }
-    scene.joints.push(written);
+    scene.add(written);
     add_friction(scene, joint, left_out);
 }
 
@@ -321,34 +302,17 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<LeftOut
     }
     let name = format!("{} friction", joint.name);
     let friction = Friction { viscous: joint.damping, coulomb: joint.friction, smoothing: SMOOTHING };
-    let friction = Some(friction);
     let of = joint.name.clone();
     let load = match joint.kind {
-        Kind::Revolute => Load::Torsion {
-            name,
-            joint: of,
-            stiffness: 0.0,
-            free_angle: 0.0,
-            damping: 0.0,
-            torque: None,
-            friction,
-        },
-        Kind::Prismatic => Load::Slider {
-            name,
-            joint: of,
-            stiffness: 0.0,
-            free_length: 0.0,
-            damping: 0.0,
-            force: None,
-            friction,
-        },
+        Kind::Revolute => Load::turning_friction(name, &of, friction),
+        Kind::Prismatic => Load::sliding_friction(name, &of, friction),
         Kind::Fixed | Kind::Floating | Kind::Planar => {
             let what = "<dynamics>: friction has a word only for turning and sliding joints".to_owned();
             left_out.push(LeftOut { line: joint.line, of: format!("joint {of}"), what });
             return;
         }
     };
-    scene.loads.push(load);
+    scene.add(load);
 }
 
 /// Joints that follow others.
@@ -357,11 +321,8 @@ fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<LeftOut>) {
         let Some((leader, factor, _)) = &joint.mimic else { continue };
         let turns = |name: &str| scene.joints.iter().any(|j| j.name == name && j.kind == JointKind::Revolute);
         if turns(leader) && turns(&joint.name) {
-            let mut gear =
-                Joint::between(&format!("{} follows {leader}", joint.name), JointKind::Gear, "", "");
-            gear.joints = Some([leader.clone(), joint.name.clone()]);
-            gear.ratio = Some(*factor);
-            scene.joints.push(gear);
+            let name = format!("{} follows {leader}", joint.name);
+            scene.add(Joint::gear(name, leader, &joint.name, *factor));
         } else {
             let what = format!("<mimic> of {leader}: only turning joints can follow each other");
             left_out.push(LeftOut { line: joint.line, of: format!("joint {}", joint.name), what });

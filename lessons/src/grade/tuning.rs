@@ -1,6 +1,6 @@
 //! Settings of a run under a budget: the run is made, its error and its work are measured and drawn.
 
-use triad_engine::scene::{IntegratorKind, Scene, Stabilization};
+use triad_engine::scene::{Scene, Stabilization};
 use triad_engine::simulation::Simulation;
 
 use super::Outcome;
@@ -101,8 +101,8 @@ fn short(x: f64) -> String {
 /// The scene with the settings that were chosen, or what cannot be chosen.
 fn chosen(task: &Tuning, settings: &Settings) -> Result<Scene, String> {
     if !task.integrators.contains(&settings.integrator) {
-        let known = task.integrators.iter().map(|k| word(*k)).collect::<Vec<_>>().join(", ");
-        return Err(format!("There is no choice {}; choose one of {known}.", word(settings.integrator)));
+        let known = task.integrators.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        return Err(format!("There is no choice {}; choose one of {known}.", settings.integrator));
     }
     let tolerance = positive(&settings.tolerance, "The tolerance")?;
     if !(1e-13..=1e-1).contains(&tolerance) {
@@ -138,11 +138,6 @@ fn positive(entry: &Entry, what: &str) -> Result<f64, String> {
     if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(format!("{what} is not negative.")) }
 }
 
-/// The word of an integrator as scenes write it.
-fn word(kind: IntegratorKind) -> String {
-    serde_json::to_value(kind).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
-}
-
 /// Makes the run, in pieces, and measures.
 fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<Made, String> {
     let mut simulation = Simulation::new(scene).map_err(|e| e.to_string())?;
@@ -169,11 +164,11 @@ fn picture(task: &Tuning, settings: &Settings, own: Made, reference: &[f64], cur
                 let made = make(task, &chosen(task, &settings).ok()?, reference).ok()?;
                 Some(Point { work: made.evaluations, error: made.error? })
             });
-            picture.curve(&word(*kind), points.collect());
+            picture.curve(&kind.to_string(), points.collect());
         }
     }
     if let Some(error) = own.error {
-        picture.own(&word(settings.integrator), Point { work: own.evaluations, error });
+        picture.own(&settings.integrator.to_string(), Point { work: own.evaluations, error });
     }
     picture.svg()
 }

@@ -318,7 +318,7 @@ fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[S
             s.evaluations, s.factorizations, s.solves, s.projections
         ),
     ];
-    lines.push(format!("  integrator             {}: {}", s.integrator.word(), s.reason));
+    lines.push(format!("  integrator             {}: {}", s.integrator, s.reason));
     if let Some((first, last)) = s.passages.first().zip(s.passages.last()) {
         let (count, joints) = (s.passages.len(), first.joints.join(", "));
         let times = if count == 1 {
@@ -330,7 +330,7 @@ fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[S
     }
     lines.extend(s.doubts.iter().map(|doubt| format!("  doubt                  {doubt}")));
     if let Some(v) = verified {
-        let (by, tolerance) = (v.integrator.word(), v.tolerance);
+        let (by, tolerance) = (v.integrator, v.tolerance);
         lines.push(format!(
             "  error estimate         {:.2e} m, {:.2e} rad ({by} at {tolerance:.0e}, {} times compared)",
             v.position, v.turn, v.compared

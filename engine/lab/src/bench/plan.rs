@@ -47,21 +47,15 @@ pub struct Method {
     pub coordinates: Coordinates,
 }
 
-/// A word of the scene format.
-pub fn word(value: &impl serde::Serialize) -> String {
-    let value = serde_json::to_value(value).unwrap_or_default();
-    value.as_str().or_else(|| value["kind"].as_str()).unwrap_or_default().to_owned()
-}
-
 impl fmt::Display for Method {
     /// The integrator, and whatever else is not the default.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&word(&self.integrator))?;
+        write!(f, "{}", self.integrator)?;
         if self.treatment != Stabilization::default() {
-            write!(f, " {}", word(&self.treatment))?;
+            write!(f, " {}", self.treatment)?;
         }
         if self.coordinates != Coordinates::default() {
-            write!(f, " {}", word(&self.coordinates))?;
+            write!(f, " {}", self.coordinates)?;
         }
         Ok(())
     }
@@ -127,7 +121,11 @@ impl Plan {
         // The augmented Lagrangian brings its own integrator along.
         let treatments = Stabilization::ALL.into_iter().skip(1).map(|treatment| Method {
             treatment,
-            ..method(if treatment.word() == "augmented-lagrangian" { Trapezoidal } else { Dop853 })
+            ..method(if matches!(treatment, Stabilization::AugmentedLagrangian { .. }) {
+                Trapezoidal
+            } else {
+                Dop853
+            })
         });
         let others = [Coordinates::Reduced, Coordinates::Shared]
             .into_iter()

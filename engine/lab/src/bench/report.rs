@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use triad_scene::IntegratorKind;
 
 use super::measure::Measured;
-use super::plan::{Method, word};
+use super::plan::Method;
 use super::plot;
 
 /// Errors to be reached, m.
@@ -94,9 +94,9 @@ pub fn csv(runs: &[Measured]) -> String {
             out,
             "{},{},{},{},{:e},{},{:.9},{:.9},{:.3},{},{},{},{},{},{}",
             run.scene,
-            word(&run.method.integrator),
-            word(&run.method.treatment),
-            word(&run.method.coordinates),
+            run.method.integrator,
+            run.method.treatment,
+            run.method.coordinates,
             run.tolerance,
             run.error.map_or_else(String::new, |e| format!("{e:.3e}")),
             run.median(),

@@ -175,14 +175,7 @@ fn falling() -> Result<Scene, CatalogueError> {
     scene.gravity = [0.0, 0.0, -9.81];
     for body in &mut scene.bodies {
         body.angular_velocity = [0.0; 3];
-        body.orientation = Some(Orientation {
-            u: None,
-            v: None,
-            w: None,
-            quaternion: None,
-            axis: Some([1.0, 2.0, 3.0]),
-            angle: Some(0.5),
-        });
+        body.orientation = Some(Orientation::rotation([1.0, 2.0, 3.0], 0.5));
     }
     Ok(scene)
 }

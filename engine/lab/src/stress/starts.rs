@@ -1,10 +1,10 @@
 //! Starts that are wrong: to be corrected with a note where that is possible, refused where it is not.
 
-use super::build::{DOWN, GROUND, directors, distance, pin, rod, scene};
+use super::build::{DOWN, GROUND, distance, pin, rod, scene};
 use super::trial::must_be_refused;
 use super::{Case, Outcome, Treatment, Trial, Verdict};
 use triad_engine::simulation::Simulation;
-use triad_scene::Scene;
+use triad_scene::{Orientation, Scene};
 
 const FAMILY: &str = "wrong starts";
 
@@ -119,21 +119,20 @@ fn velocities_off(treatment: &Treatment, _: bool) -> Outcome {
 
 fn not_orthonormal(treatment: &Treatment, _: bool) -> Outcome {
     let mut scene = double_pendulum();
-    scene.bodies[1].orientation = Some(directors([1.1, 0.05, 0.0], [-0.05, 0.93, 0.02]));
+    scene.bodies[1].orientation = Some(Orientation::directors([1.1, 0.05, 0.0], [-0.05, 0.93, 0.02]));
     corrected(scene, 0.2, "orthonormal", treatment)
 }
 
 fn left_handed(treatment: &Treatment, _: bool) -> Outcome {
     let mut scene = double_pendulum();
-    let mut orientation = directors([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    orientation.w = Some([0.0, 0.0, -1.0]);
-    scene.bodies[1].orientation = Some(orientation);
+    let (u, v) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    scene.bodies[1].orientation = Some(Orientation::Directors { u, v, w: Some([0.0, 0.0, -1.0]) });
     must_be_refused(&scene, treatment, "orientation-invalid", &["\"lower\""])
 }
 
 fn parallel(treatment: &Treatment, _: bool) -> Outcome {
     let mut scene = double_pendulum();
-    scene.bodies[0].orientation = Some(directors([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
+    scene.bodies[0].orientation = Some(Orientation::directors([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
     must_be_refused(&scene, treatment, "orientation-invalid", &["\"upper\""])
 }
 

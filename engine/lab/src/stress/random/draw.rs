@@ -4,27 +4,16 @@ use nalgebra::Vector3;
 use triad_linalg::random::Random;
 use triad_scene::{
     AxisRows, Body, Coordinates, Driver, GROUND, Inertia, Joint, JointKind, Load, LoadFrame, Motion,
-    Orientation, Scene, Settings, VectorMotion,
+    Orientation, Scene, VectorMotion,
 };
 
 /// The mechanism of a seed: one to seven bodies.
 pub fn scene(seed: u64) -> Scene {
     let mut random = Random::new(seed);
     let count = 1 + random.below(7);
-    let mut scene = Scene {
-        name: format!("random-{seed}"),
-        title: String::new(),
-        description: String::new(),
-        gravity: random.triple(10.0),
-        coordinates: Coordinates::Full,
-        bodies: (0..count).map(|i| body(&mut random, i)).collect(),
-        joints: Vec::new(),
-        drivers: Vec::new(),
-        events: Vec::new(),
-        parameters: Vec::new(),
-        loads: Vec::new(),
-        simulation: Settings { duration: 0.5, tolerance: 1e-10, ..Settings::default() },
-    };
+    let mut scene =
+        Scene::new(format!("random-{seed}")).gravity(random.triple(10.0)).duration(0.5).tolerance(1e-10);
+    scene.bodies = (0..count).map(|i| body(&mut random, i)).collect();
     for index in 0..count {
         let parent = if index == 0 || random.chance(0.2) {
             GROUND.to_owned()
@@ -45,7 +34,7 @@ pub fn scene(seed: u64) -> Scene {
             let kind = if random.chance(0.5) { JointKind::Spherical } else { JointKind::Rod };
             scene.joints.push(ends(
                 &mut random,
-                Joint::between(&format!("loop{index}"), kind, &other, &format!("b{first}")),
+                Joint::new(format!("loop{index}"), kind, &other, format!("b{first}")),
             ));
         }
     }
@@ -64,25 +53,14 @@ fn body(random: &mut Random, index: usize) -> Body {
     // Second moments of any positive size belong to some body.
     let [a, b, c] = [0; 3].map(|_| random.between(0.02, 0.6));
     let reduced = random.chance(0.3);
-    Body {
-        name: format!("b{index}"),
-        mass: random.between(0.3, 3.0),
-        inertia: Some(Inertia::Principal([b + c, c + a, a + b])),
-        center_of_mass: random.triple(0.3),
-        position: random.triple(1.5),
-        orientation: Some(Orientation {
-            u: None,
-            v: None,
-            w: None,
-            quaternion: None,
-            axis: Some(random.direction()),
-            angle: Some(random.between(-3.0, 3.0)),
-        }),
-        velocity: random.triple(1.0),
-        angular_velocity: random.triple(2.0),
-        coordinates: reduced.then_some(Coordinates::Reduced),
-        shape: Vec::new(),
-    }
+    let drawn = Body::new(format!("b{index}"), random.between(0.3, 3.0))
+        .inertia(Inertia::Principal([b + c, c + a, a + b]))
+        .center_of_mass(random.triple(0.3))
+        .position(random.triple(1.5))
+        .orientation(Orientation::rotation(random.direction(), random.between(-3.0, 3.0)))
+        .velocity(random.triple(1.0))
+        .angular_velocity(random.triple(2.0));
+    if reduced { drawn.coordinates(Coordinates::Reduced) } else { drawn }
 }
 
 const KINDS: [JointKind; 11] = [
@@ -102,7 +80,7 @@ const KINDS: [JointKind; 11] = [
 fn joint(random: &mut Random, name: &str, body_i: &str, body_j: &str) -> Joint {
     // Revolute joints are the commonest.
     let kind = if random.chance(0.3) { JointKind::Revolute } else { KINDS[random.below(KINDS.len())] };
-    let mut joint = Joint::between(name, kind, body_i, body_j);
+    let mut joint = Joint::new(name, kind, body_i, body_j);
     match kind {
         JointKind::Universal => {
             let first = Vector3::from(random.direction()).normalize();
@@ -145,10 +123,7 @@ fn add_gear(random: &mut Random, scene: &mut Scene) {
     }
     let first = random.below(hinges.len());
     let second = (first + 1) % hinges.len();
-    let mut gear = Joint::between("gear", JointKind::Gear, "", "");
-    gear.joints = Some([hinges[first].clone(), hinges[second].clone()]);
-    gear.ratio = Some(random.between(-2.0, 2.0));
-    scene.joints.push(gear);
+    scene.add(Joint::gear("gear", &hinges[first], &hinges[second], random.between(-2.0, 2.0)));
 }
 
 fn load(random: &mut Random, scene: &Scene, index: usize) -> Load {
