@@ -5,45 +5,42 @@
 //! their sources) and `wrong/*.toml` (wrong answers that must be recognised). The last three never leave the
 //! server: pages are built from [`Lesson::public_view`] only.
 //!
-//! Reading order: [`files`] (what an author writes), [`course`] and [`lesson`] (reading it), [`exercise`]
-//! (questions ready to grade), [`variant`] (the same questions with other numbers), [`tolerance`], [`units`], [`number`], [`expression`] (the parts of an answer),
-//! [`submission`], [`grade`], [`verdict`], and [`check`] (proving a course).
+//! The modules stand in reading order, and each uses only what stands before it: [`rendering`] (Markdown and figures as
+//! safe HTML), [`answers`] (what a student types), [`files`] (what an author writes), [`exercise`] (questions ready to
+//! grade), [`lesson`] (lessons, courses and their variants), [`tasks`] (questions answered by work), [`verdict`] (what
+//! is said about an answer, and its HTML), [`grading`], and [`check`] (proving a course).
+
+mod text;
+
+pub mod rendering;
+
+pub mod answers;
+
+pub mod files;
+
+mod random;
+
+mod scenario;
+
+pub mod exercise;
+
+pub mod lesson;
+
+pub mod tasks;
+
+pub mod verdict;
+
+pub mod grading;
 
 pub mod check;
-pub mod course;
-pub mod exercise;
-pub mod expression;
-pub mod figure;
-pub mod files;
-mod grade;
-mod implement;
-pub mod lesson;
-pub mod markdown;
-mod measure;
-pub mod number;
-mod opened;
-mod random;
-pub mod schema;
-pub mod skeleton;
-mod slip;
-pub mod starter;
-pub mod submission;
-mod table;
-pub mod tolerance;
-mod trajectory;
-pub mod units;
-pub mod variant;
-pub mod verdict;
 
 #[cfg(test)]
 mod tests;
 
-pub use check::{Problem, check_course, check_course_files, check_lesson, reference_submission};
-pub use course::{Course, CourseError};
-pub use grade::{GradeError, grade};
-pub use implement::DealView;
-pub use lesson::{Lesson, LessonError, LessonSummary, LessonView};
-pub use opened::open;
-pub use submission::{Submission, SubmissionError};
-pub use variant::{Parameters, VariantError};
-pub use verdict::{Mark, QuestionVerdict, Verdict};
+pub use answers::{Submission, SubmissionError};
+pub use check::{Fault, check_course, check_course_files, check_lesson, reference_submission};
+pub use exercise::Parameters;
+pub use grading::{GradeError, grade};
+pub use lesson::{Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, VariantError};
+pub use tasks::InstancesView;
+pub use verdict::{Mark, QuestionVerdict, Verdict, open};

@@ -29,7 +29,7 @@ impl Random {
 mod tests {
     use super::*;
 
-    /// Written down once: a change would give every student other numbers.
+    /// ParsedNumber down once: a change would give every student other numbers.
     #[test]
     fn the_numbers_stay_for_ever() {
         let mut random = Random::new("ada");

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use triad_lessons::starter::Language;
-use triad_lessons::submission::Answer;
+use triad_lessons::answers::Answer;
+use triad_lessons::tasks::starter::Language;
 use triad_lessons::{Course, Lesson, Mark, Submission, grade};
 
 const PYTHON: &str = r#"
@@ -65,7 +65,7 @@ fn graded(
     command: &mut Command,
     folder: &Path,
 ) -> (Mark, f64) {
-    let states = serde_json::to_string(&lesson.deal("program").unwrap().unwrap()).unwrap();
+    let states = serde_json::to_string(&lesson.instances("program").unwrap().unwrap()).unwrap();
     std::fs::write(folder.join("states.json"), states).unwrap();
     std::fs::write(folder.join(language.file()), text).unwrap();
     let _ = std::fs::remove_file(folder.join("answer.json"));

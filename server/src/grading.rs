@@ -2,8 +2,8 @@
 
 use axum::http::StatusCode;
 use triad_lessons::GradeError;
+use triad_lessons::answers::{Submission, SubmissionError};
 use triad_lessons::lesson::Lesson;
-use triad_lessons::submission::{Submission, SubmissionError};
 use triad_lessons::verdict::Verdict;
 
 use crate::problem::Problem;

@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use super::{Found, tasks};
-use crate::exercise::{Body, Quantity, Question};
-use crate::grade::grade;
-use crate::implement::{Deal, seed};
-use crate::lesson::Lesson;
-use crate::markdown::render_short;
-use crate::submission::{Answer, Entry, Submission};
-use crate::tolerance::Shape;
-use crate::trajectory::reference_csv;
-use crate::verdict::{Mark, QuestionVerdict};
+use thiserror::Error;
+
+use super::findings::Findings;
+use super::references::{judged, quantity_answer, reference_submission};
+use crate::answers::Submission;
+use crate::exercise::{Question, QuestionBody};
+use crate::files::WrongFile;
+use crate::grading::{grade, judge};
+use crate::verdict::Mark;
+use crate::verdict::feedback::Judgement;
 
 /// A student who fills in nothing must not pass.
-pub(super) fn starter_fails(found: &mut Found) {
+pub(super) fn blank_fails(found: &mut Findings) {
     match grade(found.lesson, &Submission::default()) {
         Ok(verdict) if !verdict.passed && verdict.earned == 0.0 && verdict.possible > 0.0 => {}
         Ok(_) => found.add(
@@ -30,53 +30,8 @@ pub(super) fn starter_fails(found: &mut Found) {
     }
 }
 
-/// The answers that must pass.
-pub fn reference_submission(lesson: &Lesson) -> Submission {
-    let questions = &lesson.exercise.questions;
-    let answers = questions.iter().map(|q| (q.id.clone(), reference_answer(lesson, q))).collect();
-    Submission { answers, ..Submission::default() }
-}
-
-/// The right answer to one question, as a student would send it.
-pub(super) fn reference_answer(lesson: &Lesson, question: &Question) -> Answer {
-    let file = |text: String| Answer { file: Some(text), ..Answer::default() };
-    match &question.body {
-        Body::Quantity(q) => Answer {
-            value: Some(entry(q, &q.reference)),
-            unit: Some(q.unit.text().to_owned()),
-            ..Answer::default()
-        },
-        Body::Choice { right, .. } => Answer { choice: Some(right.clone()), ..Answer::default() },
-        Body::Formula(f) => {
-            Answer { value: Some(Entry::Text(f.reference_text.clone())), ..Answer::default() }
-        }
-        Body::Implement(task) => {
-            let deal = Deal::new(task, &seed(lesson, &question.id));
-            let parts = deal.and_then(|deal| {
-                task.asks.iter().map(|part| Ok((*part, deal.answers(*part)?))).collect::<Result<_, String>>()
-            });
-            // What cannot be dealt is told by the check of the question itself.
-            parts.map(|parts| file(tasks::written(&parts, task.states))).unwrap_or_default()
-        }
-        Body::Trajectory(task) => reference_csv(task, 1000).map(file).unwrap_or_default(),
-        Body::Model(task) => file(task.reference.to_json()),
-        Body::Tuning(task) => Answer { settings: Some(task.reference.clone()), ..Answer::default() },
-    }
-}
-
-/// Values of a question's size as a student would send them, with all their digits.
-pub(super) fn entry(question: &Quantity, values: &[f64]) -> Entry {
-    let number = |x: &f64| Entry::Text(format!("{x:.15e}"));
-    let list = |values: &[f64]| Entry::List(values.iter().map(number).collect());
-    match question.shape {
-        Shape::Number => number(values.first().unwrap_or(&f64::NAN)),
-        Shape::Vector => list(values),
-        Shape::Matrix => Entry::List(values.chunks(question.size[1].max(1)).map(list).collect()),
-    }
-}
-
 /// The references must pass.
-pub(super) fn reference_passes(found: &mut Found) {
+pub(super) fn reference_passes(found: &mut Findings) {
     let Ok(verdict) = grade(found.lesson, &reference_submission(found.lesson)) else { return };
     for question in verdict.questions.iter().filter(|q| q.verdict != Mark::Right) {
         let what = format!("its own reference is judged {:?}", question.verdict);
@@ -87,95 +42,118 @@ pub(super) fn reference_passes(found: &mut Found) {
     }
 }
 
+/// Questions and the misconceptions that a wrong answer has shown.
+type Shown = BTreeSet<(String, String)>;
+
 /// Every wrong answer must fail with its own feedback, and every misconception must be shown by one.
-pub(super) fn wrong_answers_fail(found: &mut Found) {
+pub(super) fn wrong_answers_fail(found: &mut Findings) {
     let lesson = found.lesson;
-    let mut shown: BTreeSet<(String, String)> = BTreeSet::new();
+    let mut shown = Shown::new();
     for (name, wrong) in &lesson.wrong {
-        if wrong.about.trim().is_empty() {
-            found.add(name, 0, "about is empty", "say what the student was thinking");
-        }
-        if wrong.answers.is_empty() || !wrong.answers.keys().eq(wrong.expect.keys()) {
-            found.add(name, 0, "answers and expect do not name the same questions", "add one line for each");
-            continue;
-        }
-        let mut submission = reference_submission(lesson);
-        submission.answers.extend(wrong.answers.clone());
-        let verdict = match grade(lesson, &submission) {
-            Ok(verdict) => verdict,
-            Err(error) => {
-                found.add(name, 0, error.to_string(), "correct the id");
-                continue;
-            }
-        };
-        for (id, slip) in &wrong.expect {
-            let Some(given) = verdict.questions.iter().find(|q| q.id == *id) else { continue };
-            match recognised(lesson.question(id), slip, given) {
-                Ok(()) => {
-                    shown.insert((id.clone(), slip.clone()));
-                }
-                Err(what) => {
-                    found.add(name, 0, format!("{id}: {what}"), "correct the answer or the feedback");
-                }
-            }
-        }
+        wrong_answer_fails(name, wrong, &mut shown, found);
     }
     for question in &lesson.exercise.questions {
         // The engine computes these answers, so the check sends them itself.
-        let Body::Quantity(q) = &question.body else { continue };
+        let QuestionBody::Quantity(q) = &question.body else { continue };
         for m in q.misconceptions.iter().filter(|m| m.computed) {
-            let unit = Some(q.unit.text().to_owned());
-            let answer = Answer { value: Some(entry(q, &m.value)), unit, ..Answer::default() };
-            let given = tasks::judged(lesson, &question.id, answer);
-            if given.is_some_and(|given| recognised(Some(question), &m.id, &given).is_ok()) {
+            let given = judged(lesson, &question.id, quantity_answer(q, &m.value));
+            if given.is_some_and(|given| recognised(question, &m.id, &given).is_ok()) {
                 shown.insert((question.id.clone(), m.id.clone()));
             }
         }
     }
     for question in &lesson.exercise.questions {
-        let names: Vec<&String> = match &question.body {
-            Body::Quantity(q) => q.misconceptions.iter().map(|m| &m.id).collect(),
-            Body::Formula(f) => f.misconceptions.iter().map(|(id, ..)| id).collect(),
-            // Options have reasons; the slips of work are made up and tried out by the check itself.
-            Body::Choice { .. }
-            | Body::Implement(_)
-            | Body::Trajectory(_)
-            | Body::Model(_)
-            | Body::Tuning(_) => Vec::new(),
-        };
-        for name in names.into_iter().filter(|n| !shown.contains(&(question.id.clone(), (*n).clone()))) {
-            let what = format!("no wrong answer shows the misconception {name}");
-            found.question(&question.id, what, format!("add wrong/{name}.toml"));
+        for name in misconceptions(question) {
+            if !shown.contains(&(question.id.clone(), name.to_owned())) {
+                let what = format!("no wrong answer shows the misconception {name}");
+                found.question(&question.id, what, format!("add wrong/{name}.toml"));
+            }
         }
     }
     if lesson.wrong.len() < 2 {
-        found.add(
-            "wrong",
-            0,
-            "there are fewer than two wrong answers",
-            "add one file for each misconception",
-        );
+        let remedy = "add one file for each misconception";
+        found.add("wrong", 0, "there are fewer than two wrong answers", remedy);
     }
 }
 
-/// Whether an answer was judged wrong with the feedback of this slip.
-fn recognised(question: Option<&Question>, slip: &str, given: &QuestionVerdict) -> Result<(), String> {
-    if given.verdict != Mark::Wrong {
-        return Err(format!("the wrong answer is judged {:?}", given.verdict));
+/// One file of wrong answers, all other questions being answered by the reference.
+fn wrong_answer_fails(name: &str, wrong: &WrongFile, shown: &mut Shown, found: &mut Findings) {
+    let lesson = found.lesson;
+    if wrong.about.trim().is_empty() {
+        found.add(name, 0, "about is empty", "say what the student was thinking");
     }
-    if given.slip.as_deref() != Some(slip) {
-        let got = given.slip.as_deref().unwrap_or("nothing");
-        return Err(format!("expected the feedback of {slip}, recognised {got}"));
+    if wrong.answers.is_empty() || !wrong.answers.keys().eq(wrong.expect.keys()) {
+        found.add(name, 0, "answers and expect do not name the same questions", "add one line for each");
+        return;
     }
-    let feedback = match question.map(|q| &q.body) {
-        Some(Body::Quantity(q)) => q.misconceptions.iter().find(|m| m.id == slip).map(|m| &m.feedback),
-        Some(Body::Choice { options, .. }) => options.iter().find(|o| o.id == slip).map(|o| &o.reason),
-        Some(Body::Formula(f)) => f.misconceptions.iter().find(|(id, ..)| id == slip).map(|(.., text)| text),
+    let mut submission = reference_submission(lesson);
+    submission.answers.extend(wrong.answers.clone());
+    let judgements = match judge(lesson, &submission) {
+        Ok(judgements) => judgements,
+        Err(error) => return found.add(name, 0, error.to_string(), "correct the id"),
+    };
+    for (question, given) in lesson.exercise.questions.iter().zip(&judgements) {
+        let Some(expected) = wrong.expect.get(&question.id) else { continue };
+        match recognised(question, expected, given) {
+            Ok(()) => {
+                shown.insert((question.id.clone(), expected.clone()));
+            }
+            Err(complaint) => {
+                let what = format!("{}: {complaint}", question.id);
+                found.add(name, 0, what, "correct the answer or the feedback");
+            }
+        }
+    }
+}
+
+/// The misconceptions that an author names. Options have reasons; those of work are tried out by the check itself.
+fn misconceptions(question: &Question) -> Vec<&str> {
+    match &question.body {
+        QuestionBody::Quantity(q) => q.misconceptions.iter().map(|m| m.id.as_str()).collect(),
+        QuestionBody::Formula(f) => f.misconceptions.iter().map(|(id, ..)| id.as_str()).collect(),
+        QuestionBody::Choice { .. }
+        | QuestionBody::Implement(_)
+        | QuestionBody::Trajectory(_)
+        | QuestionBody::Model(_)
+        | QuestionBody::Tuning(_) => Vec::new(),
+    }
+}
+
+/// Why a wrong answer is not judged as its author expects.
+#[derive(Debug, Error)]
+enum NotRecognised {
+    #[error("the wrong answer is judged {0:?}")]
+    Mark(Mark),
+    #[error("expected the feedback of {expected}, recognised {got}")]
+    Other { expected: String, got: String },
+    #[error("the feedback of {0} does not come")]
+    NoFeedback(String),
+}
+
+/// Whether an answer was judged wrong with the feedback of this misconception.
+fn recognised(question: &Question, expected: &str, given: &Judgement) -> Result<(), NotRecognised> {
+    if given.mark != Mark::Wrong {
+        return Err(NotRecognised::Mark(given.mark));
+    }
+    if given.misconception.as_deref() != Some(expected) {
+        let got = given.misconception.clone().unwrap_or_else(|| "nothing".to_owned());
+        return Err(NotRecognised::Other { expected: expected.to_owned(), got });
+    }
+    let feedback = match &question.body {
+        QuestionBody::Quantity(q) => {
+            q.misconceptions.iter().find(|m| m.id == expected).map(|m| m.feedback.as_str())
+        }
+        QuestionBody::Choice { options, .. } => {
+            options.iter().find(|o| o.id == expected).map(|o| o.reason.as_str())
+        }
+        QuestionBody::Formula(f) => {
+            f.misconceptions.iter().find(|(id, ..)| id == expected).map(|(.., text)| text.as_str())
+        }
         _ => None,
     };
     match feedback {
-        Some(text) if !given.message_html.contains(&render_short(text)) => {
-            Err(format!("the feedback of {slip} does not come"))
+        Some(_) if given.feedback.authored() != feedback => {
+            Err(NotRecognised::NoFeedback(expected.to_owned()))
         }
         _ => Ok(()),
     }

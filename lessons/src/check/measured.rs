@@ -4,17 +4,18 @@
 //! reads the answer off the run is right. What has no closed form may be computed by the engine; then the error comes
 //! from a second run by another method.
 
+use thiserror::Error;
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
-use super::Found;
-use crate::exercise::Body;
+use super::findings::Findings;
+use crate::answers::tolerance::{distance, norm};
+use crate::exercise::QuestionBody;
 use crate::files::MeasuredFile;
-use crate::measure::{MOST_STEPS, measure};
-use crate::tolerance::norm;
+use crate::scenario::measure::{MAX_STEPS, MeasureError, measure};
 
 /// Reads the scenario, runs it as far as the questions ask, and compares.
-pub(super) fn scene(found: &mut Found) {
+pub(super) fn scene(found: &mut Findings) {
     let remedy = "try the scene with `triad check`";
     let scene = match Scene::from_json(&found.lesson.scene.to_string()) {
         Ok(scene) => scene,
@@ -24,7 +25,7 @@ pub(super) fn scene(found: &mut Found) {
         Ok(simulation) => simulation,
         Err(error) => return found.add("scene.json", 0, error.to_string(), remedy),
     };
-    simulation.set_step_limit(MOST_STEPS);
+    simulation.set_step_limit(MAX_STEPS);
     let mut wanted: Vec<(&str, &MeasuredFile)> = found
         .lesson
         .exercise
@@ -37,27 +38,40 @@ pub(super) fn scene(found: &mut Found) {
         if let Err(error) = simulation.advance_to(measured.time) {
             return found.add("scene.json", 0, error.to_string(), remedy);
         }
-        let outcome = measure(&scene, &mut simulation, measured).and_then(|value| compare(found, id, &value));
+        let outcome = measure(&scene, &mut simulation, measured)
+            .map_err(Disagreement::from)
+            .and_then(|value| compare(found, id, &value));
         if let Err(problem) = outcome {
             found.question(id, problem, "compare measured, value and the scene");
         }
     }
 }
 
-fn compare(found: &Found, id: &str, value: &[f64]) -> Result<(), String> {
-    let Some(Body::Quantity(quantity)) = found.lesson.question(id).map(|q| &q.body) else {
-        return Err("only numbers and vectors can be measured".to_owned());
+/// Why what the scenario shows does not prove an answer.
+#[derive(Debug, Error)]
+enum Disagreement {
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
+    #[error("only numbers and vectors can be measured")]
+    NoQuantity,
+    #[error("what is measured has another size; say component = \"x\" or \"size\"")]
+    Size,
+    #[error(
+        "the scene shows {value:?}, a tenth of the tolerance is {allowed:e}, the difference {difference:e}"
+    )]
+    Value { value: Vec<f64>, allowed: f64, difference: f64 },
+}
+
+/// Compares what was measured, in SI units, with the reference.
+fn compare(found: &Findings, id: &str, value: &[f64]) -> Result<(), Disagreement> {
+    let Some(QuestionBody::Quantity(quantity)) = found.lesson.question(id).map(|q| &q.body) else {
+        return Err(Disagreement::NoQuantity);
     };
     let value: Vec<f64> = value.iter().map(|x| x / quantity.unit.factor).collect();
     if value.len() != quantity.reference.len() {
-        return Err("what is measured has another size; say component = \"x\" or \"size\"".to_owned());
+        return Err(Disagreement::Size);
     }
-    let difference = norm(&value.iter().zip(&quantity.reference).map(|(a, b)| a - b).collect::<Vec<_>>());
-    let allowed = 0.1 * quantity.rule.allowed(norm(&quantity.reference));
-    if difference <= allowed {
-        return Ok(());
-    }
-    Err(format!(
-        "the scene shows {value:?}, a tenth of the tolerance is {allowed:e}, the difference {difference:e}"
-    ))
+    let difference = distance(&value, &quantity.reference);
+    let allowed = 0.1 * quantity.tolerance.allowed(norm(&quantity.reference));
+    if difference <= allowed { Ok(()) } else { Err(Disagreement::Value { value, allowed, difference }) }
 }

@@ -1,11 +1,13 @@
 //! One question as it is written.
 
-use super::Found;
-use crate::exercise::{Body, FormulaBody, Quantity, Question};
+use super::findings::Findings;
+use crate::answers::tolerance::norm;
+use crate::exercise::{Formula, Quantity, Question, QuestionBody};
 use crate::files::ProvenanceKind;
+use crate::grading::formula::same;
 
 /// Texts, source, tolerance and misconceptions of one question.
-pub(super) fn itself(question: &Question, found: &mut Found) {
+pub(super) fn itself(question: &Question, found: &mut Findings) {
     let id = &question.id;
     if question.prompt.trim().is_empty() {
         found.question(id, "its prompt is empty", "ask something");
@@ -21,37 +23,40 @@ pub(super) fn itself(question: &Question, found: &mut Found) {
         );
     }
     match &question.body {
-        Body::Quantity(q) => quantity(question, q, found),
-        Body::Choice { options, .. } => {
+        QuestionBody::Quantity(q) => quantity(question, q, found),
+        QuestionBody::Choice { options, .. } => {
             for option in options.iter().filter(|o| o.reason.trim().is_empty() || o.text.trim().is_empty()) {
                 found.question(id, format!("option {} has no text or no reason", option.id), "write both");
             }
         }
-        Body::Formula(f) => formula(id, f, found),
-        Body::Implement(_) | Body::Trajectory(_) | Body::Model(_) | Body::Tuning(_) => {}
+        QuestionBody::Formula(f) => formula(id, f, found),
+        QuestionBody::Implement(_)
+        | QuestionBody::Trajectory(_)
+        | QuestionBody::Model(_)
+        | QuestionBody::Tuning(_) => {}
     }
 }
 
 /// A number, vector or matrix.
-fn quantity(question: &Question, q: &Quantity, found: &mut Found) {
+fn quantity(question: &Question, q: &Quantity, found: &mut Findings) {
     let id = &question.id;
-    if question.provenance == ProvenanceKind::Argument && !q.rule.is_exact() {
+    if question.provenance == ProvenanceKind::Argument && !q.tolerance.is_exact() {
         found.question(id, "an argument is no source for a measured number", "derive, cite or compute it");
     }
-    let allowed = q.rule.allowed(crate::tolerance::norm(&q.reference));
+    let allowed = q.tolerance.allowed(norm(&q.reference));
     if !(q.error >= 0.0 && 10.0 * q.error <= allowed) {
         let what = format!("its tolerance is {allowed:e}, its reference error {:e}", q.error);
         found.question(id, what, "a tolerance is at least ten times the error of the reference");
     }
-    if q.rule.digits().is_some_and(|d| d > 8) {
+    if q.tolerance.digits().is_some_and(|d| d > 8) {
         found.question(id, "its tolerance asks for more than 8 digits", "widen it");
     }
     for (k, m) in q.misconceptions.iter().enumerate() {
-        if q.rule.accepts(&m.value, &q.reference) {
+        if q.tolerance.accepts(&m.value, &q.reference) {
             found.question(id, format!("the misconception {} is a right answer", m.id), "change its value");
         }
         for other in &q.misconceptions[..k] {
-            if q.rule.accepts(&m.value, &other.value) {
+            if q.tolerance.accepts(&m.value, &other.value) {
                 let what = format!("the misconceptions {} and {} cannot be told apart", other.id, m.id);
                 found.question(id, what, "join them or change the numbers");
             }
@@ -63,9 +68,9 @@ fn quantity(question: &Question, q: &Quantity, found: &mut Found) {
 }
 
 /// A formula: no misconception is right, no symbol is idle.
-fn formula(id: &str, f: &FormulaBody, found: &mut Found) {
+fn formula(id: &str, f: &Formula, found: &mut Findings) {
     for (name, wrong, _) in &f.misconceptions {
-        if crate::grade::same_formula(wrong, &f.reference, &f.ranges, id) {
+        if same(wrong, &f.reference, &f.ranges, id, 1.0) {
             found.question(id, format!("the misconception {name} is a right answer"), "change its value");
         }
     }

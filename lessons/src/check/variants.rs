@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::answers::{entry, reference_submission};
-use super::{Found, measured};
-use crate::exercise::Body;
-use crate::grade::grade;
+use super::findings::Findings;
+use super::measured;
+use super::references::{judged, quantity_answer, reference_submission};
+use crate::exercise::QuestionBody;
+use crate::grading::grade;
 use crate::lesson::Lesson;
-use crate::submission::{Answer, Submission};
 use crate::verdict::Mark;
 
 /// Variants that are graded.
@@ -18,7 +18,7 @@ const RUN: usize = 2;
 const RECOGNISED: f64 = 0.95;
 
 /// Every variant must be answerable, and its wrong answers must be recognised.
-pub(super) fn all_fit(found: &mut Found) {
+pub(super) fn all_fit(found: &mut Findings) {
     if found.lesson.parameters.is_empty() {
         return;
     }
@@ -41,11 +41,11 @@ pub(super) fn all_fit(found: &mut Found) {
         }
         count(&lesson, &mut recognised);
         if k < RUN {
-            let mut own = Found { lesson: &lesson, problems: Vec::new() };
+            let mut own = Findings::new(&lesson);
             measured::scene(&mut own);
-            for mut problem in own.problems {
-                problem.what = format!("{} (with {numbers})", problem.what);
-                found.problems.push(problem);
+            for mut fault in own.faults {
+                fault.what = format!("{} (with {numbers})", fault.what);
+                found.faults.push(fault);
             }
         }
     }
@@ -60,15 +60,12 @@ pub(super) fn all_fit(found: &mut Found) {
 /// Sends every misconception's own answer and counts which are recognised as themselves.
 fn count(lesson: &Lesson, recognised: &mut BTreeMap<(String, String), usize>) {
     for question in &lesson.exercise.questions {
-        let Body::Quantity(q) = &question.body else { continue };
+        let QuestionBody::Quantity(q) = &question.body else { continue };
         for m in &q.misconceptions {
-            let unit = Some(q.unit.text().to_owned());
-            let answer = Answer { value: Some(entry(q, &m.value)), unit, ..Answer::default() };
-            let answers = BTreeMap::from([(question.id.clone(), answer)]);
-            let verdict = grade(lesson, &Submission { answers, ..Submission::default() });
-            let slip = verdict.ok().and_then(|v| v.questions.into_iter().find(|v| v.id == question.id)?.slip);
+            let given = judged(lesson, &question.id, quantity_answer(q, &m.value));
+            let same = given.is_some_and(|given| given.misconception.as_ref() == Some(&m.id));
             let key = (question.id.clone(), m.id.clone());
-            *recognised.entry(key).or_default() += usize::from(slip.as_deref() == Some(m.id.as_str()));
+            *recognised.entry(key).or_default() += usize::from(same);
         }
     }
 }

@@ -1,137 +1,73 @@
 //! Questions that are answered by work, checked and with their scenes read.
 
-use std::collections::BTreeMap;
-
-use triad_engine::scene::{IntegratorKind, Scene};
-
-use super::{Body, Ground, Trouble, trouble};
-use crate::files::{Band, MeasuredFile, ModelFile, Part, QuestionFile, ReferenceFile, WatchFile};
-use crate::submission::Settings;
+use super::context::{BuildContext, BuildError, build_error};
+use super::question::{Implement, ModelTask, QuestionBody, Trajectory, Tuning};
+use crate::files::{QuestionFile, ReferenceFile, ScoreBand, WatchFile};
 
 /// Most coordinates of a mechanism whose equations are dealt.
-const MOST_COORDINATES: usize = 120;
+const MAX_COORDINATES: usize = 120;
 
-/// The equations of a mechanism at dealt states.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Implement {
-    /// The mechanism.
-    pub scene: Scene,
-    /// What is returned for each state, in a fixed order.
-    pub asks: Vec<Part>,
-    /// How many states.
-    pub states: usize,
-    /// States satisfy the constraints.
-    pub consistent: bool,
-    /// Largest difference, relative to the largest entry of the part (at least 1).
-    pub tolerance: f64,
+fn table<'a, T>(table: Option<&'a T>, name: &str) -> Result<&'a T, BuildError> {
+    table.ok_or_else(|| build_error(format!("it has no table {name}"), format!("add [question.{name}]")))
 }
 
-/// A table of a motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trajectory {
-    /// The mechanism.
-    pub scene: Scene,
-    /// The table covers 0 to this time, s.
-    pub end: f64,
-    /// The columns besides `t`.
-    pub columns: BTreeMap<String, MeasuredFile>,
-    /// Errors and the share of the points that each still earns, the best first.
-    pub bands: Vec<Band>,
-}
-
-/// A scene of the student's own.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ModelTask {
-    /// The author's scene.
-    pub reference: Scene,
-    /// What is demanded.
-    pub demands: ModelFile,
-}
-
-impl ModelTask {
-    /// What is watched.
-    pub fn watches(&self) -> &[WatchFile] {
-        &self.demands.watches
-    }
-}
-
-/// Settings under a budget.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Tuning {
-    /// The mechanism.
-    pub scene: Scene,
-    /// Evaluations that may be spent.
-    pub budget: u64,
-    /// Error to reach, SI.
-    pub error: f64,
-    /// What is watched, with the end of the run as its time.
-    pub watch: MeasuredFile,
-    /// Integrators to choose from.
-    pub integrators: Vec<IntegratorKind>,
-    /// Whether Baumgarte's stabilization may be chosen.
-    pub baumgarte: bool,
-    /// Settings that meet the demand.
-    pub reference: Settings,
-}
-
-fn table<'a, T>(table: Option<&'a T>, name: &str) -> Result<&'a T, Trouble> {
-    table.ok_or_else(|| trouble(format!("it has no table {name}"), format!("add [question.{name}]")))
-}
-
-pub(super) fn implement(question: &QuestionFile, ground: &Ground) -> Result<Body, Trouble> {
+pub(super) fn implement(question: &QuestionFile, context: &BuildContext) -> Result<QuestionBody, BuildError> {
     let file = table(question.implement.as_ref(), "implement")?;
-    let scene = ground.scene_of(file.scene.as_deref())?;
+    let scene = context.scene_of(file.scene.as_deref())?;
     let mut asks = file.asks.clone();
     asks.sort_unstable();
     asks.dedup();
     if asks.is_empty() || !(1..=20).contains(&file.states) || !(1e-12..=1e-2).contains(&file.tolerance) {
-        return Err(trouble(
+        return Err(build_error(
             "it asks for nothing, for too many states, or with an unusable tolerance",
             "give asks, 1 to 20 states and a tolerance between 1e-12 and 1e-2",
         ));
     }
     let coordinates = 12 * scene.bodies.len();
-    if coordinates > MOST_COORDINATES {
-        return Err(trouble(
+    if coordinates > MAX_COORDINATES {
+        return Err(build_error(
             format!("its mechanism has {coordinates} coordinates"),
             "take at most ten bodies",
         ));
     }
     let (states, consistent, tolerance) = (file.states, file.consistent, file.tolerance);
-    Ok(Body::Implement(Implement { scene, asks, states, consistent, tolerance }))
+    Ok(QuestionBody::Implement(Implement { scene, asks, states, consistent, tolerance }))
 }
 
-pub(super) fn trajectory(question: &QuestionFile, ground: &Ground) -> Result<Body, Trouble> {
+pub(super) fn trajectory(
+    question: &QuestionFile,
+    context: &BuildContext,
+) -> Result<QuestionBody, BuildError> {
     let file = table(question.trajectory.as_ref(), "trajectory")?;
-    let scene = ground.scene_of(file.scene.as_deref())?;
+    let scene = context.scene_of(file.scene.as_deref())?;
     let falling = file.bands.windows(2).all(|w| w[0].error < w[1].error && w[0].share > w[1].share);
-    let usable = |b: &Band| b.error > 0.0 && b.error < 1.0 && b.share > 0.0 && b.share <= 1.0;
+    let usable = |b: &ScoreBand| b.error > 0.0 && b.error < 1.0 && b.share > 0.0 && b.share <= 1.0;
     if !falling || !file.bands.iter().all(usable) || file.bands.first().is_none_or(|b| b.share != 1.0) {
         let remedy = "write bands = [{ error = 0.001, share = 1 }, { error = 0.01, share = 0.5 }]";
-        return Err(trouble("its bands do not go from the best to the worst", remedy));
+        return Err(build_error("its bands do not go from the best to the worst", remedy));
     }
     if file.columns.is_empty() || file.columns.len() > 12 || !(file.end > 0.0 && file.end <= 100.0) {
-        return Err(trouble(
+        return Err(build_error(
             "it has no columns, too many, or no end",
             "name 1 to 12 columns and an end up to 100 s",
         ));
     }
     if let Some((name, _)) = file.columns.iter().find(|(_, m)| m.component.is_none() || m.count.is_some()) {
         let remedy = "say component = \"x\", \"y\", \"z\" or \"size\"";
-        return Err(trouble(format!("the column {name} is not one number"), remedy));
+        return Err(build_error(format!("the column {name} is not one number"), remedy));
     }
     let (columns, bands) = (file.columns.clone(), file.bands.clone());
-    Ok(Body::Trajectory(Trajectory { scene, end: file.end, columns, bands }))
+    Ok(QuestionBody::Trajectory(Trajectory { scene, end: file.end, columns, bands }))
 }
 
-pub(super) fn model(question: &QuestionFile, ground: &Ground) -> Result<Body, Trouble> {
+pub(super) fn model(question: &QuestionFile, context: &BuildContext) -> Result<QuestionBody, BuildError> {
     let file = table(question.model.as_ref(), "model")?;
     if !file.reference.starts_with("reference/") {
-        return Err(trouble("its reference is not below reference/", "what lies elsewhere may be shown"));
+        return Err(build_error("its reference is not below reference/", "what lies elsewhere may be shown"));
     }
-    let reference = ground.scene_of(Some(&file.reference))?;
+    let reference = context.scene_of(Some(&file.reference))?;
     if !(1..=50).contains(&file.most_bodies) {
-        return Err(trouble("most_bodies is not 1 to 50", "correct it"));
+        return Err(build_error("most_bodies is not 1 to 50", "correct it"));
     }
     let latest = file.watches.iter().flat_map(|w| &w.times).fold(0.0f64, |a, t| a.max(*t));
     let usable = |w: &WatchFile| {
@@ -144,20 +80,20 @@ pub(super) fn model(question: &QuestionFile, ground: &Ground) -> Result<Body, Tr
     };
     if !file.watches.iter().all(usable) || latest > 60.0 {
         let remedy = "give times from 0 to 60 s and a tolerance between 0 and 0.5";
-        return Err(trouble("a watch cannot be used", remedy));
+        return Err(build_error("a watch cannot be used", remedy));
     }
-    Ok(Body::Model(ModelTask { reference, demands: file.clone() }))
+    Ok(QuestionBody::Model(ModelTask { reference, demands: file.clone() }))
 }
 
 pub(super) fn tuning(
     question: &QuestionFile,
     reference: &ReferenceFile,
-    ground: &Ground,
-) -> Result<Body, Trouble> {
+    context: &BuildContext,
+) -> Result<QuestionBody, BuildError> {
     let file = table(question.tuning.as_ref(), "tuning")?;
-    let scene = ground.scene_of(file.scene.as_deref())?;
+    let scene = context.scene_of(file.scene.as_deref())?;
     let settings = reference.settings.clone().ok_or_else(|| {
-        trouble(
+        build_error(
             "its reference has no settings",
             "add settings = { integrator = \"dop853\", tolerance = 1e-8 }",
         )
@@ -171,11 +107,11 @@ pub(super) fn tuning(
     if !sound {
         let remedy =
             "budget 1 to 1000000, error 1e-11 to 1, end up to 100 s, at most 20 bodies, some integrators";
-        return Err(trouble("its demands cannot be used", remedy));
+        return Err(build_error("its demands cannot be used", remedy));
     }
     let mut watch = file.watch.clone();
     watch.time = file.end;
-    Ok(Body::Tuning(Tuning {
+    Ok(QuestionBody::Tuning(Tuning {
         scene,
         budget: file.budget,
         error: file.error,

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::MeasuredFile;
-use crate::submission::Entry;
+use super::measured::MeasuredFile;
+use crate::answers::TypedValue;
 
 /// `[question.implement]`: the student's own program evaluates the equations at states that are dealt.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -15,23 +15,22 @@ pub struct ImplementFile {
     /// The mechanism: a file of the lesson such as `scenes/body.json`; without it, the lesson's scenario.
     pub scene: Option<String>,
     /// What the program returns for each state.
-    pub asks: Vec<Part>,
+    pub asks: Vec<EquationPart>,
     /// How many states are dealt, 1 to 20.
-    #[serde(default = "five")]
+    #[serde(default = "default_instances")]
     pub states: usize,
     /// Deal states that satisfy the constraints; otherwise any numbers, which find more mistakes.
     #[serde(default)]
     pub consistent: bool,
     /// Largest difference of an entry, relative to the largest entry of its part (at least 1); 1e-6 if not given.
-    #[serde(default = "micro")]
+    #[serde(default = "default_program_tolerance")]
     pub tolerance: f64,
 }
 
 /// A part of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-#[schemars(rename = "EquationPart")]
-pub enum Part {
+pub enum EquationPart {
     /// Φ, one number for each row.
     Phi,
     /// Φ_q, one line for each row.
@@ -44,7 +43,7 @@ pub enum Part {
     Acceleration,
 }
 
-impl Part {
+impl EquationPart {
     /// The key in the answer.
     pub fn key(self) -> &'static str {
         match self {
@@ -79,13 +78,13 @@ pub struct TrajectoryFile {
     /// The columns besides `t`, and what each is.
     pub columns: BTreeMap<String, MeasuredFile>,
     /// Error (relative, root of the mean square) up to which a share of the points is given, the best first.
-    pub bands: Vec<Band>,
+    pub bands: Vec<ScoreBand>,
 }
 
 /// A share of the points for an error that is small enough.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Band {
+pub struct ScoreBand {
     /// Largest error.
     pub error: f64,
     /// Share of the points.
@@ -99,7 +98,7 @@ pub struct ModelFile {
     /// The author's own scene, a file below `reference/`.
     pub reference: String,
     /// Most bodies that are run.
-    #[serde(default = "ten")]
+    #[serde(default = "default_bodies")]
     pub most_bodies: usize,
     /// The degrees of freedom must be those of the author's scene.
     #[serde(default = "yes")]
@@ -159,9 +158,9 @@ pub struct FollowFile {
     /// Symbols and the earlier questions (kind number) that they stand for.
     pub from: BTreeMap<String, String>,
     /// The answer as an expression in these symbols and the parameters: number, list or list of rows.
-    pub value: Entry,
+    pub value: TypedValue,
     /// Share of the points for a right step from a wrong value.
-    #[serde(default = "one")]
+    #[serde(default = "all_points")]
     pub share: f64,
 }
 
@@ -169,8 +168,9 @@ pub struct FollowFile {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WrongModelFile {
-    /// The slip.
-    pub slip: Slip,
+    /// What is wrong in it.
+    #[serde(rename = "slip")]
+    pub kind: WrongModel,
     /// For `wrong-end`: the other joint whose reaction is taken, or none to take the opposite point of the body.
     pub joint: Option<String>,
 }
@@ -178,7 +178,7 @@ pub struct WrongModelFile {
 /// What is wrong in a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Slip {
+pub enum WrongModel {
     /// The force or moment on the other body; of a motion, the other sign.
     OtherSide,
     /// Components in the frame of the body in the place of the ground's.
@@ -197,22 +197,27 @@ pub enum Slip {
     WrongEnd,
 }
 
-fn five() -> usize {
+/// Instances where the author gives no number.
+fn default_instances() -> usize {
     5
 }
 
-fn ten() -> usize {
+/// Bodies of a student's scene where the author gives no bound.
+fn default_bodies() -> usize {
     10
 }
 
-fn micro() -> f64 {
+/// Relative difference of a student's program where the author gives none.
+fn default_program_tolerance() -> f64 {
     1e-6
 }
 
+/// The degrees of freedom are compared unless the author says otherwise.
 fn yes() -> bool {
     true
 }
 
-fn one() -> f64 {
+/// All points for a right step from a wrong value, unless the author says otherwise.
+fn all_points() -> f64 {
     1.0
 }

@@ -4,12 +4,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_engine::scene::{IntegratorKind, Scene};
 
-use super::Lesson;
-use crate::exercise::{Body, Choice, Question, Trajectory, Tuning};
-use crate::files::{MeasuredFile, MotionKind, Part, QuestionKind, StepFile, StepKind};
-use crate::markdown;
-use crate::tolerance::{Shape, plain};
-use crate::variant::Parameters;
+use super::content::Lesson;
+use super::rules::{measurement, rule};
+use crate::answers::tolerance::ValueShape;
+use crate::exercise::{ChoiceOption, Parameters, Question, QuestionBody};
+use crate::files::{EquationPart, MeasuredFile, QuestionKind, StepFile, StepKind};
+use crate::rendering::markdown;
 
 impl Lesson {
     /// The entry for the list of lessons.
@@ -133,7 +133,7 @@ pub struct QuestionView {
     pub options: Option<Vec<OptionView>>,
     /// What a program returns for each state (implement).
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub asks: Vec<Part>,
+    pub asks: Vec<EquationPart>,
     /// Columns of the table besides `t` (trajectory).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<ColumnView>,
@@ -207,121 +207,33 @@ impl QuestionView {
             hints_available: question.hints.len(),
         };
         match &question.body {
-            Body::Quantity(q) => {
+            QuestionBody::Quantity(q) => {
                 view.asks_unit = q.asks_unit;
                 view.unit = (!q.asks_unit).then(|| q.unit.text().to_owned());
-                view.size = (q.shape != Shape::Number).then_some(q.size);
+                view.size = (q.shape != ValueShape::Number).then_some(q.size);
                 view.follows = q.follows.iter().flat_map(|f| f.from.values().cloned()).collect();
             }
-            Body::Choice { options, .. } => {
+            QuestionBody::Choice { options, .. } => {
                 let shown =
-                    |o: &Choice| OptionView { id: o.id.clone(), html: markdown::render_short(&o.text) };
+                    |o: &ChoiceOption| OptionView { id: o.id.clone(), html: markdown::render_short(&o.text) };
                 view.options = Some(options.iter().map(shown).collect());
             }
-            Body::Formula(f) => view.symbols.clone_from(&f.symbols),
-            Body::Implement(i) => view.asks.clone_from(&i.asks),
-            Body::Trajectory(t) => {
-                let column =
-                    |(name, m): (&String, &MeasuredFile)| ColumnView { name: name.clone(), what: what(m) };
+            QuestionBody::Formula(f) => view.symbols.clone_from(&f.symbols),
+            QuestionBody::Implement(i) => view.asks.clone_from(&i.asks),
+            QuestionBody::Trajectory(t) => {
+                let column = |(name, m): (&String, &MeasuredFile)| ColumnView {
+                    name: name.clone(),
+                    what: measurement(m),
+                };
                 view.columns = t.columns.iter().map(column).collect();
             }
-            Body::Model(_) => {}
-            Body::Tuning(t) => {
+            QuestionBody::Model(_) => {}
+            QuestionBody::Tuning(t) => {
                 let (integrators, baumgarte, budget, error) =
                     (t.integrators.clone(), t.baumgarte, t.budget, t.error);
                 view.tuning = Some(TuningView { integrators, baumgarte, budget, error });
             }
         }
         view
-    }
-}
-
-/// What counts as right, from what grades.
-fn rule(question: &Question) -> String {
-    match &question.body {
-        Body::Quantity(q) => {
-            let shown = if q.asks_unit { "" } else { q.unit.text() };
-            let mut rule = q.rule.sentence(q.shape, shown, q.frame.as_deref());
-            if q.follows.is_some() {
-                rule.push_str(" If your earlier answer was wrong, this one is judged with it.");
-            }
-            rule
-        }
-        Body::Choice { .. } => "Choose one option.".to_owned(),
-        Body::Formula(f) => format!(
-            "Any form of the right formula counts; it is compared with ours at many points. Symbols: {}.",
-            f.symbols.join(", ")
-        ),
-        Body::Implement(i) => {
-            let parts = i.asks.iter().map(|p| p.symbol()).collect::<Vec<_>>().join(", ");
-            format!(
-                "For each of {} states: {parts}. An entry is right if it differs from ours by at most {} of the \
-                 largest entry of its part (at least 1). Each part counts the same. JSON or CSV.",
-                i.states,
-                plain(i.tolerance)
-            )
-        }
-        Body::Trajectory(t) => trajectory_rule(t),
-        Body::Model(m) => {
-            let checks = if m.demands.degrees_of_freedom { "degrees of freedom, " } else { "" };
-            format!(
-                "The scene is run, up to {} bodies, and judged by what it does: {checks}joints, motion. Any scene \
-                 that does the same is right.",
-                m.demands.most_bodies
-            )
-        }
-        Body::Tuning(t) => tuning_rule(t),
-    }
-}
-
-fn trajectory_rule(t: &Trajectory) -> String {
-    let bands = t
-        .bands
-        .iter()
-        .map(|b| format!("{} % up to an error of {} %", plain(b.share * 100.0), plain(b.error * 100.0)));
-    format!(
-        "A table (CSV) from 0 to {} s with a first line of names: t, {}. The error is the root mean square of the \
-         difference, relative to that of the motion. Points: {}.",
-        plain(t.end),
-        t.columns.keys().cloned().collect::<Vec<_>>().join(", "),
-        bands.collect::<Vec<_>>().join(", ")
-    )
-}
-
-fn tuning_rule(t: &Tuning) -> String {
-    format!(
-        "Right if at {} s the error is at most {} and at most {} evaluations were used; half the points for one of \
-         the two.",
-        plain(t.watch.time),
-        plain(t.error),
-        t.budget
-    )
-}
-
-/// A measurement in words.
-fn what(measured: &MeasuredFile) -> String {
-    let component = measured.component.map_or(String::new(), |c| format!("{c:?}").to_lowercase());
-    match (&measured.body, &measured.joint) {
-        (Some(body), _) => {
-            let point = measured.point.map_or(String::new(), |p| {
-                format!(" of the point ({}, {}, {}) m", plain(p[0]), plain(p[1]), plain(p[2]))
-            });
-            let (motion, unit) = match measured.motion {
-                Some(MotionKind::Position) => ("position", "m"),
-                Some(MotionKind::Velocity) => ("velocity", "m/s"),
-                Some(MotionKind::AngularVelocity) => ("angular velocity", "rad/s"),
-                Some(MotionKind::U) => ("vector u", "no unit"),
-                Some(MotionKind::V) => ("vector v", "no unit"),
-                Some(MotionKind::W) => ("vector w", "no unit"),
-                None => ("motion", ""),
-            };
-            format!("{component} of the {motion}{point} of {body}, {unit}")
-        }
-        (None, Some(joint)) => {
-            let side = measured.force_on.as_ref().or(measured.moment_on.as_ref()).map_or("", String::as_str);
-            let (what, unit) = if measured.force_on.is_some() { ("force", "N") } else { ("moment", "N m") };
-            format!("{component} of the {what} of {joint} on {side}, {unit}")
-        }
-        _ => "energy, J".to_owned(),
     }
 }

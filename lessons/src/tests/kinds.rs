@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::lesson::Files;
-use crate::submission::{Answer, Entry};
+use crate::answers::{Answer, TypedValue};
+use crate::files::Files;
 use crate::{Course, Mark, QuestionVerdict, Submission, grade};
 
 const EXERCISE: &str = r#"
@@ -69,7 +69,7 @@ fn course() -> Course {
     Course::from_files(files).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn judged(id: &str, value: Entry, unit: Option<&str>) -> QuestionVerdict {
+fn judged(id: &str, value: TypedValue, unit: Option<&str>) -> QuestionVerdict {
     let answer = Answer { value: Some(value), unit: unit.map(str::to_owned), ..Answer::default() };
     let submission =
         Submission { answers: BTreeMap::from([(id.to_owned(), answer)]), ..Submission::default() };
@@ -78,12 +78,12 @@ fn judged(id: &str, value: Entry, unit: Option<&str>) -> QuestionVerdict {
     verdict.questions.into_iter().find(|q| q.id == id).unwrap()
 }
 
-fn text(text: &str) -> Entry {
-    Entry::Text(text.to_owned())
+fn text(text: &str) -> TypedValue {
+    TypedValue::Text(text.to_owned())
 }
 
-fn rows(rows: &[&[&str]]) -> Entry {
-    Entry::List(rows.iter().map(|row| Entry::List(row.iter().map(|x| text(x)).collect())).collect())
+fn rows(rows: &[&[&str]]) -> TypedValue {
+    TypedValue::List(rows.iter().map(|row| TypedValue::List(row.iter().map(|x| text(x)).collect())).collect())
 }
 
 #[test]
@@ -93,12 +93,12 @@ fn a_matrix_is_judged_as_a_whole_and_its_form_is_checked() {
     let scaled = judged("c", rows(&[&["100.0", "200.0"], &["0", "100.0"], &["0", "0"]]), Some("cm"));
     assert_eq!(scaled.verdict, Mark::Right);
     let transposed = judged("c", rows(&[&["1.00", "0"], &["2.00", "1.00"], &["0", "0"]]), None);
-    assert_eq!(transposed.slip.as_deref(), Some("transposed"));
+    assert_eq!(transposed.misconception.as_deref(), Some("transposed"));
     for (form, says) in [
         (rows(&[&["1", "0"], &["0", "1"]]), "3 rows of 2"),
         (rows(&[&["1"], &["2"], &["0"]]), "2 entries"),
         (text("1 2 0"), "3 rows of 2"),
-        (rows(&[&["1", ""], &["0", "1"], &["0", "0"]]), "Entry 2 is empty"),
+        (rows(&[&["1", ""], &["0", "1"], &["0", "0"]]), "TypedValue 2 is empty"),
     ] {
         let verdict = judged("c", form, Some("m"));
         assert_eq!(verdict.verdict, Mark::Invalid);
@@ -128,7 +128,7 @@ fn a_formula_is_judged_by_what_it_means() {
     for same in ["m*v^2/2", "0.5 m v^2", "v*m*v/2", "(m v)^2/(2 m)"] {
         assert_eq!(judged("energy", text(same), None).verdict, Mark::Right, "{same}");
     }
-    let slip = |formula: &str| judged("energy", text(formula), None).slip;
+    let slip = |formula: &str| judged("energy", text(formula), None).misconception;
     assert_eq!(slip("v^2 m").as_deref(), Some("no-half"));
     assert_eq!(slip("-m v^2/2").as_deref(), Some("opposite-sign"));
     assert!(judged("energy", text("v^2/2"), None).message_html.contains("depends on m"));

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use crate::answers::{Answer, RunSettings, TypedValue};
 use crate::lesson::Lesson;
-use crate::submission::{Answer, Entry, Settings};
 use crate::{Course, Mark, QuestionVerdict, Submission, grade, reference_submission};
 
 fn lesson(slug: &str) -> Lesson {
@@ -26,7 +26,7 @@ fn file(text: impl Into<String>) -> Answer {
 }
 
 fn value(text: &str) -> Answer {
-    Answer { value: Some(Entry::Text(text.to_owned())), ..Answer::default() }
+    Answer { value: Some(TypedValue::Text(text.to_owned())), ..Answer::default() }
 }
 
 /// The file of the reference, as JSON to be spoilt.
@@ -67,9 +67,9 @@ fn slips_of_a_program_are_recognised() {
         }
         judged(&lesson, "program", file(answer.to_string()))
     };
-    assert_eq!(spoilt("gamma", &|x| -x).slip.as_deref(), Some("gamma-gamma-sign"));
-    assert_eq!(spoilt("gamma", &|x| x / 2.0).slip.as_deref(), Some("gamma-gamma-half"));
-    assert_eq!(spoilt("phi", &|x| -x).slip.as_deref(), Some("phi-sign"));
+    assert_eq!(spoilt("gamma", &|x| -x).misconception.as_deref(), Some("gamma-gamma-sign"));
+    assert_eq!(spoilt("gamma", &|x| x / 2.0).misconception.as_deref(), Some("gamma-gamma-half"));
+    assert_eq!(spoilt("phi", &|x| -x).misconception.as_deref(), Some("phi-sign"));
     let mut transposed = reference(&lesson, "program");
     for state in transposed["states"].as_array_mut().unwrap() {
         let rows = state["jacobian"].as_array().unwrap().clone();
@@ -77,7 +77,7 @@ fn slips_of_a_program_are_recognised() {
         state["jacobian"] = serde_json::json!(columns);
     }
     let verdict = judged(&lesson, "program", file(transposed.to_string()));
-    assert_eq!(verdict.slip.as_deref(), Some("jacobian-transposed"), "{}", verdict.message_html);
+    assert_eq!(verdict.misconception.as_deref(), Some("jacobian-transposed"), "{}", verdict.message_html);
     // The states of another student are not one's own.
     let other = lesson.variant("emmy").unwrap();
     let copied = judged(&other, "program", file(reference(&lesson, "program").to_string()));
@@ -154,14 +154,14 @@ fn a_table_is_judged_by_bands_and_phase_is_told_from_amplitude() {
     let right = judge(pendulum(0.0, 1.0, 0.02));
     assert_eq!((right.verdict, right.earned), (Mark::Right, 4.0), "{}", right.message_html);
     let late = judge(pendulum(0.05, 1.0, 0.02));
-    assert_eq!(late.slip.as_deref(), Some("phase"), "{}", late.message_html);
+    assert_eq!(late.misconception.as_deref(), Some("phase"), "{}", late.message_html);
     assert!(late.message_html.contains("s too late"), "{}", late.message_html);
     let large = judge(pendulum(0.0, 1.2, 0.04));
-    assert_eq!(large.slip.as_deref(), Some("amplitude"), "{}", large.message_html);
+    assert_eq!(large.misconception.as_deref(), Some("amplitude"), "{}", large.message_html);
     let nearly = judge(pendulum(0.0, 1.006, 0.02));
     assert_eq!(nearly.earned, 0.7 * 4.0, "{}", nearly.message_html);
     let swapped = judge(pendulum(0.0, 1.0, 0.02).replace("x [m]; y", "y [m]; x"));
-    assert_eq!((swapped.verdict, swapped.earned, swapped.slip), (Mark::Wrong, 0.0, None));
+    assert_eq!((swapped.verdict, swapped.earned, swapped.misconception), (Mark::Wrong, 0.0, None));
 }
 
 #[test]
@@ -223,7 +223,8 @@ fn settings_are_run_and_drawn() {
     let lesson = lesson("work-and-precision");
     let settings = |word: &str, tolerance: &str| {
         let integrator = serde_json::from_value(serde_json::json!(word)).unwrap();
-        let settings = Settings { integrator, tolerance: Entry::Text(tolerance.to_owned()), baumgarte: None };
+        let settings =
+            RunSettings { integrator, tolerance: TypedValue::Text(tolerance.to_owned()), baumgarte: None };
         judged(&lesson, "tune", Answer { settings: Some(settings), ..Answer::default() })
     };
     let right = settings("dop853", "1e-8");
@@ -231,9 +232,9 @@ fn settings_are_run_and_drawn() {
     let picture = right.figure_svg.unwrap();
     assert!(picture.contains("dopri5") && picture.contains("your run"), "the curves open when it is right");
     let coarse = settings("dop853", "1e-4");
-    assert_eq!((coarse.slip.as_deref(), coarse.earned), (Some("too-coarse"), 0.5 * coarse.possible));
+    assert_eq!((coarse.misconception.as_deref(), coarse.earned), (Some("too-coarse"), 0.5 * coarse.possible));
     assert!(!coarse.figure_svg.unwrap().contains("polyline"), "the curves would be the answer");
-    assert_eq!(settings("dop853", "1e-11").slip.as_deref(), Some("too-dear"));
+    assert_eq!(settings("dop853", "1e-11").misconception.as_deref(), Some("too-dear"));
     assert_eq!(settings("dopri5", "1e-12").verdict, Mark::Wrong);
     for (word, tolerance, says) in [
         ("taylor", "1e-8", "no choice taylor"),
@@ -256,7 +257,7 @@ fn a_right_step_from_a_wrong_answer_is_a_right_step() {
     };
     let (speed, pull) = both("3.000", "18.00");
     assert_eq!(
-        (speed, pull.verdict, pull.slip.as_deref()),
+        (speed, pull.verdict, pull.misconception.as_deref()),
         (Mark::Wrong, Mark::Right, Some("follow-through"))
     );
     assert!(pull.message_html.contains("your own answer to question 2"), "{}", pull.message_html);
@@ -264,10 +265,10 @@ fn a_right_step_from_a_wrong_answer_is_a_right_step() {
     assert_eq!(both("4.4294", "18.00").1.verdict, Mark::Wrong);
     assert_eq!(both("3.000", "17.00").1.verdict, Mark::Wrong);
     // The right answer stays right.
-    assert_eq!(both("3.000", "39.24").1.slip, None);
+    assert_eq!(both("3.000", "39.24").1.misconception, None);
 }
 
-/// Written down once: a change would give every student other numbers, and last year's grades other questions.
+/// ParsedNumber down once: a change would give every student other numbers, and last year's grades other questions.
 #[test]
 fn variants_stay_for_ever() {
     let numbers = |slug: &str, seed: &str| {
@@ -277,7 +278,7 @@ fn variants_stay_for_ever() {
     for (slug, seed, golden) in GOLDEN {
         assert_eq!(numbers(slug, seed), *golden, "{slug} {seed}");
     }
-    let states = lesson("jacobian").variant("ada").unwrap().deal("program").unwrap().unwrap();
+    let states = lesson("jacobian").variant("ada").unwrap().instances("program").unwrap().unwrap();
     assert_eq!((states.seed.as_str(), states.rows.len(), states.columns.len()), ("ada", 21, 24));
     assert_eq!(states.states[0].q[..4], GOLDEN_STATE, "the first numbers of the first state");
 }
@@ -315,10 +316,10 @@ const GOLDEN_STATE: [f64; 4] = [0.968, -0.938, 0.385, -0.472];
 /// The wrong models say what a derivation on paper says.
 #[test]
 fn wrong_models_give_the_answers_of_the_slips() {
-    use crate::exercise::Body;
+    use crate::exercise::QuestionBody;
     let answers = |slug: &str, id: &str| -> BTreeMap<String, Vec<f64>> {
         let lesson = lesson(slug);
-        let Body::Quantity(q) = &lesson.question(id).unwrap().body else { panic!("{id}") };
+        let QuestionBody::Quantity(q) = &lesson.question(id).unwrap().body else { panic!("{id}") };
         q.misconceptions.iter().map(|m| (m.id.clone(), m.value.clone())).collect()
     };
     let near = |a: &[f64], b: &[f64]| {
@@ -334,8 +335,11 @@ fn wrong_models_give_the_answers_of_the_slips() {
     near(&arm["no-gravity"], &[-3.0 * 1.44 / 3.0 * 9.0]);
     near(&answers("points-and-vectors", "corner-start")["opposite-corner"], &[1.2, 1.7, 0.9]);
     // The wrong sign turns the body differently: no closed form, but surely not the same.
-    let Body::Quantity(turned) = &lesson("reduced-body").question("turned").unwrap().body.clone() else {
+    let QuestionBody::Quantity(turned) = &lesson("reduced-body").question("turned").unwrap().body.clone()
+    else {
         panic!()
     };
-    assert!(turned.error < 1e-8 && !turned.rule.accepts(&turned.misconceptions[0].value, &turned.reference));
+    assert!(
+        turned.error < 1e-8 && !turned.tolerance.accepts(&turned.misconceptions[0].value, &turned.reference)
+    );
 }

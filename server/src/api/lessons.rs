@@ -11,10 +11,10 @@ use axum::http::{StatusCode, header};
 use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use triad_lessons::DealView;
-use triad_lessons::course::CourseError;
+use triad_lessons::CourseError;
+use triad_lessons::InstancesView;
 use triad_lessons::lesson::{Lesson, LessonSummary, LessonView};
-use triad_lessons::starter::Language;
+use triad_lessons::tasks::starter::Language;
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -29,7 +29,7 @@ pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonList>();
     schemas.answer::<LessonView>();
     schemas.answer::<Hint>();
-    schemas.answer::<DealView>();
+    schemas.answer::<InstancesView>();
     OpenApiRouter::new()
         .routes(routes!(list))
         .routes(routes!(show))
@@ -142,13 +142,13 @@ async fn hint(
 /// The states at which a student's own program evaluates the equations.
 #[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/states", tag = "lessons",
     params(("slug" = String, Path), ("id" = String, Path), Whose), responses(
-    (status = 200, description = "The mechanism in numbers, names of rows and columns, and the states", body = ref(of::<DealView>())),
+    (status = 200, description = "The mechanism in numbers, names of rows and columns, and the states", body = ref(of::<InstancesView>())),
     (status = 404, description = "No such lesson, or no such question of kind implement", body = ref(PROBLEM))))]
 async fn states(
     State(app): State<App>,
     At((slug, id)): At<(String, String)>,
     Asked(whose): Asked<Whose>,
-) -> Result<Answer<DealView>, Problem> {
+) -> Result<Answer<InstancesView>, Problem> {
     let dealt = blocking(move || {
         let lesson = variant(&app, &slug, whose.seed())?;
         deal(&lesson, &id)
@@ -157,8 +157,8 @@ async fn states(
 }
 
 /// The states of a question.
-pub(crate) fn deal(lesson: &Lesson, id: &str) -> Result<DealView, Problem> {
-    let dealt = lesson.deal(id).ok_or_else(|| not_to_implement(lesson, id))?;
+pub(crate) fn deal(lesson: &Lesson, id: &str) -> Result<InstancesView, Problem> {
+    let dealt = lesson.instances(id).ok_or_else(|| not_to_implement(lesson, id))?;
     dealt.map_err(Problem::internal)
 }
 

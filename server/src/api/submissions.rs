@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use triad_lessons::Verdict;
-use triad_lessons::submission::{Entry, Settings};
+use triad_lessons::answers::{RunSettings, TypedValue};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -163,7 +163,7 @@ struct KeptSubmission {
 struct KeptAnswer {
     /// A number, a list of numbers, or a formula, as typed.
     #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<Entry>,
+    value: Option<TypedValue>,
     /// The unit of the value, as typed.
     #[serde(skip_serializing_if = "Option::is_none")]
     unit: Option<String>,
@@ -173,9 +173,9 @@ struct KeptAnswer {
     /// The file that was handed in.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<KeptFile>,
-    /// Settings of a run.
+    /// RunSettings of a run.
     #[serde(skip_serializing_if = "Option::is_none")]
-    settings: Option<Settings>,
+    settings: Option<RunSettings>,
 }
 
 /// A file that was handed in.

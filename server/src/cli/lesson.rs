@@ -107,7 +107,7 @@ pub(super) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome, Proble
         1
     };
     let folder = into.join(format!("{number:02}-{slug}"));
-    for (name, text) in triad_lessons::skeleton::files(number, slug) {
+    for (name, text) in triad_lessons::files::skeleton::files(number, slug) {
         write(&folder.join(name), &text)?;
     }
     if json {
@@ -145,10 +145,10 @@ pub(super) fn starter(course: &Course, options: &Starter, json: bool) -> Result<
 pub(super) fn schema(of: &str) -> Result<Outcome, Problem> {
     let schema = match of {
         "scene" => Some(triad_engine::scene::schema()),
-        other => triad_lessons::schema::of(other),
+        other => triad_lessons::files::schema::of(other),
     };
     let schema = schema.ok_or_else(|| {
-        let names = triad_lessons::schema::NAMES.join(", ");
+        let names = triad_lessons::files::schema::NAMES.join(", ");
         Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "unknown-schema",

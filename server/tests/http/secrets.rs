@@ -14,8 +14,8 @@ use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::time::timeout;
-use triad_lessons::exercise::Body as Question;
-use triad_lessons::submission::{Answer, Entry};
+use triad_lessons::answers::{Answer, TypedValue};
+use triad_lessons::exercise::QuestionBody as Question;
 use triad_lessons::{Course, Lesson, reference_submission};
 
 use crate::{Reply, get, post, server};
@@ -113,7 +113,7 @@ fn shown(lesson: &Lesson) -> BTreeSet<String> {
         all += &question.hints.join(" ");
     }
     // The equations contain the numbers of the states.
-    for dealt in lesson.exercise.questions.iter().filter_map(|q| lesson.deal(&q.id)) {
+    for dealt in lesson.exercise.questions.iter().filter_map(|q| lesson.instances(&q.id)) {
         all += &serde_json::to_string(&dealt.expect("states")).expect("JSON");
     }
     for step in &view.steps {
@@ -139,16 +139,16 @@ fn addresses(document: &Value, slug: &str, question: &str, session: &str, seed: 
 /// Wrong answers to every question, one of each kind.
 fn wrong(lesson: &Lesson) -> Value {
     let answers = lesson.exercise.questions.iter().map(|question| {
-        let text = |t: &str| Some(Entry::Text(t.to_owned()));
+        let text = |t: &str| Some(TypedValue::Text(t.to_owned()));
         let answer = match &question.body {
             Question::Quantity(q) if q.size == [1, 1] => {
                 Answer { value: text("123456.7"), ..Answer::default() }
             }
             Question::Quantity(q) => {
-                let row = |n: usize| Entry::List(vec![Entry::Text("123456.7".to_owned()); n]);
+                let row = |n: usize| TypedValue::List(vec![TypedValue::Text("123456.7".to_owned()); n]);
                 let value = match q.size {
                     [n, 1] => row(n),
-                    [rows, columns] => Entry::List(vec![row(columns); rows]),
+                    [rows, columns] => TypedValue::List(vec![row(columns); rows]),
                 };
                 Answer { value: Some(value), ..Answer::default() }
             }
@@ -160,9 +160,9 @@ fn wrong(lesson: &Lesson) -> Value {
                 Answer { file: Some("{\"states\": []}".to_owned()), ..Answer::default() }
             }
             Question::Tuning(t) => Answer {
-                settings: Some(triad_lessons::submission::Settings {
+                settings: Some(triad_lessons::answers::RunSettings {
                     integrator: t.integrators[0],
-                    tolerance: Entry::Number(0.1),
+                    tolerance: TypedValue::Number(0.1),
                     baumgarte: None,
                 }),
                 ..Answer::default()

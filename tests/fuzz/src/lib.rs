@@ -11,10 +11,12 @@ use std::collections::BTreeMap;
 
 use triad_engine::Scene;
 use triad_engine::simulation::Simulation;
+use triad_lessons::Lesson;
 use triad_lessons::Submission;
-use triad_lessons::expression::Expression;
-use triad_lessons::units::Unit;
-use triad_lessons::{Lesson, markdown, number};
+use triad_lessons::answers::expression::Expression;
+use triad_lessons::answers::number;
+use triad_lessons::answers::units::Unit;
+use triad_lessons::rendering::markdown;
 
 /// What can be fuzzed, by name.
 pub const TARGETS: [(&str, fn(&[u8])); 5] = [

@@ -1,0 +1,197 @@
+//! Tables of text as programs write them: CSV with a first line of names.
+
+use thiserror::Error;
+
+use crate::text::shorten;
+
+/// Most lines that are read.
+const MAX_LINES: usize = 200_000;
+/// Most rows of a table of numbers.
+const MAX_ROWS: usize = 20_000;
+/// Most columns.
+const MAX_COLUMNS: usize = 64;
+
+/// Why a text is no table of numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum TableError {
+    /// No line at all.
+    #[error("The file is empty.")]
+    Empty,
+    /// More columns than a table may have.
+    #[error("The first line has {count} columns; at most {MAX_COLUMNS} are read.")]
+    TooManyColumns {
+        /// Columns.
+        count: usize,
+    },
+    /// No names.
+    #[error("The first line is made of numbers; it must name the columns, for example t,x,y.")]
+    NoNames,
+    /// A line of another length.
+    #[error("Line {line} has {cells} cells, the first line names {columns} columns.")]
+    Uneven {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Its cells.
+        cells: usize,
+        /// Columns of the table.
+        columns: usize,
+    },
+    /// More lines than are read.
+    #[error("There are more than {MAX_LINES} lines.")]
+    TooManyLines,
+    /// More rows than a table of numbers may have.
+    #[error("There are {rows} rows; at most {MAX_ROWS} are read. Write fewer.")]
+    TooManyRows {
+        /// Rows.
+        rows: usize,
+    },
+    /// An infinite number.
+    #[error("Line {line}, column {column}: {cell} is not a finite number.")]
+    NotFinite {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Name of the column.
+        column: String,
+        /// The cell, shortened.
+        cell: String,
+    },
+    /// No number.
+    #[error("Line {line}, column {column}: \u{201c}{cell}\u{201d} is not a number.")]
+    NotANumber {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Name of the column.
+        column: String,
+        /// The cell, shortened.
+        cell: String,
+    },
+}
+
+/// Lines cut into cells, without empty lines and comments.
+pub(crate) struct Cells {
+    /// The names in the first line, without units in brackets, in small letters.
+    pub names: Vec<String>,
+    /// Number of the line in the file, from 1, and its cells.
+    pub lines: Vec<(usize, Vec<String>)>,
+}
+
+/// A table of numbers.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Table {
+    /// Names of the columns.
+    pub names: Vec<String>,
+    /// The rows.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Cuts a text into cells. Separators are semicolons, tabulators, commas or blanks, whichever the first line has; with
+/// semicolons or tabulators the decimal sign may be a comma.
+pub(crate) fn cells(text: &str) -> Result<Cells, TableError> {
+    let text = text.trim_start_matches('\u{feff}');
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(at, line)| (at + 1, line.trim()))
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with(['#', '%']));
+    let (_, head) = lines.next().ok_or(TableError::Empty)?;
+    let separator = [';', '\t', ','].into_iter().find(|s| head.contains(*s));
+    let cut = |line: &str| -> Vec<String> {
+        let clean = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
+        match separator {
+            Some(',') => line.split(',').map(clean).collect(),
+            Some(s) => line.split(s).map(|cell| clean(cell).replace(',', ".")).collect(),
+            None => line.split_whitespace().map(clean).collect(),
+        }
+    };
+    let bare = |name: &String| name.split(['[', '(']).next().unwrap_or_default().trim().to_lowercase();
+    let names: Vec<String> = cut(head).iter().map(bare).collect();
+    if names.len() > MAX_COLUMNS {
+        return Err(TableError::TooManyColumns { count: names.len() });
+    }
+    if names.iter().all(|name| name.parse::<f64>().is_ok()) {
+        return Err(TableError::NoNames);
+    }
+    let mut found = Vec::new();
+    for (number, line) in lines {
+        let cells = cut(line);
+        if cells.len() != names.len() {
+            return Err(TableError::Uneven { line: number, cells: cells.len(), columns: names.len() });
+        }
+        if found.len() >= MAX_LINES {
+            return Err(TableError::TooManyLines);
+        }
+        found.push((number, cells));
+    }
+    Ok(Cells { names, lines: found })
+}
+
+/// A number in a cell.
+pub(crate) fn number(cell: &str, line: usize, name: &str) -> Result<f64, TableError> {
+    let place = || (name.to_owned(), shorten(cell));
+    match cell.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        Ok(_) => {
+            let (column, cell) = place();
+            Err(TableError::NotFinite { line, column, cell })
+        }
+        Err(_) => {
+            let (column, cell) = place();
+            Err(TableError::NotANumber { line, column, cell })
+        }
+    }
+}
+
+/// Reads a table of numbers.
+pub(crate) fn read(text: &str) -> Result<Table, TableError> {
+    let Cells { names, lines } = cells(text)?;
+    if lines.len() > MAX_ROWS {
+        return Err(TableError::TooManyRows { rows: lines.len() });
+    }
+    let mut rows = Vec::with_capacity(lines.len());
+    for (line, cells) in lines {
+        let row = cells.iter().zip(&names).map(|(cell, name)| number(cell, line, name));
+        rows.push(row.collect::<Result<Vec<f64>, TableError>>()?);
+    }
+    Ok(Table { names, rows })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separators_units_and_comments_are_understood() {
+        for text in [
+            "t,x\n0,1.5\n1,2\n",
+            "\u{feff}t [s]; X (m)\n# comment\n0;1,5\n\n1;2\n",
+            "t\tx\r\n0\t1.5\r\n1\t2",
+            "t x\n 0   1.5\n1 2e0",
+            "\"t\",\"x\"\n0,1.5\n1,2",
+        ] {
+            let table = read(text).unwrap_or_else(|e| panic!("{text:?}: {e}"));
+            assert_eq!(
+                (table.names, table.rows),
+                (vec!["t".into(), "x".into()], vec![vec![0.0, 1.5], vec![1.0, 2.0]])
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        for (text, says) in [
+            ("", "empty"),
+            ("0,1\n1,2", "must name the columns"),
+            ("t,x\n0,1\n1", "Line 3 has 1 cells"),
+            ("t,x\n0,one", "Line 2, column x: \u{201c}one\u{201d}"),
+            ("t,x\n0,NaN", "not a finite number"),
+        ] {
+            assert!(
+                read(text).unwrap_err().to_string().contains(says),
+                "{text:?}: {}",
+                read(text).unwrap_err()
+            );
+        }
+        let long = format!("t,x\n{}", "0,1\n".repeat(MAX_ROWS + 1));
+        assert!(read(&long).unwrap_err().to_string().contains("Write fewer"));
+    }
+}

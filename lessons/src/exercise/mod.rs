@@ -1,0 +1,20 @@
+//! Questions ready to grade: [`question`] (what they are), [`parameters`] (numbers drawn for a student), and how both
+//! are made from an author's files.
+
+mod build;
+mod closed;
+mod context;
+pub mod parameters;
+mod quantity;
+pub mod question;
+mod tasks;
+
+pub(crate) use build::build;
+pub(crate) use context::BuildContext;
+pub use context::QuestionError;
+pub use parameters::Parameters;
+pub(crate) use quantity::numbers;
+pub use question::{
+    ChoiceOption, Exercise, Formula, Implement, Misconception, ModelTask, Quantity, Question, QuestionBody,
+    Trajectory, Tuning,
+};

@@ -1,0 +1,58 @@
+//! `course.toml` and `lesson.toml`.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// `course.toml`: the course as a whole.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CourseFile {
+    /// Version of this file format; 1.
+    pub format_version: u32,
+    /// Title of the course.
+    pub title: String,
+}
+
+/// `NN-slug/lesson.toml`: what a lesson is about.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LessonFile {
+    /// Title.
+    pub title: String,
+    /// One sentence for the list of lessons.
+    pub summary: String,
+    /// How long a student needs, in minutes (10 to 40).
+    pub minutes: u32,
+    /// What the student can do afterwards; each begins with a verb.
+    pub objectives: Vec<String>,
+    /// Slugs of the lessons that come before.
+    #[serde(default)]
+    pub prerequisites: Vec<String>,
+    /// Predict, run, check, explain.
+    #[serde(default, rename = "step")]
+    pub steps: Vec<StepFile>,
+}
+
+/// One step of working with the scenario.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StepFile {
+    /// What the student does here.
+    pub kind: StepKind,
+    /// What to do, in Markdown.
+    pub text: String,
+}
+
+/// The four steps of a lesson.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StepKind {
+    /// Commit to an expectation before the run.
+    Predict,
+    /// Run the scenario.
+    Run,
+    /// Compare with the expectation.
+    Check,
+    /// Say why.
+    Explain,
+}

@@ -1,0 +1,30 @@
+//! The files of a course exactly as an author writes them. Unknown keys are refused.
+//!
+//! [`lesson`] (what a lesson is about), [`exercise`] (its questions), [`tasks`] (questions answered by work),
+//! [`mod@reference`] (right and wrong answers), [`measured`] (where a scenario shows a value); [`schema`] describes them
+//! for editors and [`skeleton`] begins new ones.
+
+use std::collections::BTreeMap;
+
+pub mod exercise;
+pub mod lesson;
+pub mod measured;
+pub mod reference;
+pub mod schema;
+pub mod skeleton;
+pub mod tasks;
+
+pub use exercise::{
+    ExerciseFile, MisconceptionFile, OpensFile, OptionFile, ParameterFile, PatchFile, QuestionFile,
+    QuestionKind, ToleranceFile,
+};
+pub use lesson::{CourseFile, LessonFile, StepFile, StepKind};
+pub use measured::{Component, CountKind, MeasuredFile, MotionKind};
+pub use reference::{ProvenanceKind, ReferenceFile, WrongFile};
+pub use tasks::{
+    EquationPart, FollowFile, ImplementFile, ModelFile, ScoreBand, TrajectoryFile, TuningFile, WatchFile,
+    WrongModel, WrongModelFile,
+};
+
+/// The files of one folder: path below it, content.
+pub type Files = BTreeMap<String, Vec<u8>>;

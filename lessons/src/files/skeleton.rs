@@ -1,0 +1,51 @@
+//! The skeleton of a new lesson: everything that the check wants, with TODO where the author's own words belong.
+
+use std::collections::BTreeMap;
+
+/// The files of a new lesson, by path below its folder.
+pub fn files(number: u32, slug: &str) -> BTreeMap<String, String> {
+    let title: String = slug.replace('-', " ");
+    let fill = |text: &str| {
+        text.replace("{{number}}", &number.to_string()).replace("{{slug}}", slug).replace("{{title}}", &title)
+    };
+    [
+        ("lesson.toml", include_str!("../../skeleton/lesson.toml")),
+        ("lesson.md", include_str!("../../skeleton/lesson.md")),
+        ("scene.json", include_str!("../../skeleton/scene.json")),
+        ("exercise.toml", include_str!("../../skeleton/exercise.toml")),
+        ("reference/answers.toml", include_str!("../../skeleton/answers.toml")),
+        ("wrong/weight-only.toml", include_str!("../../skeleton/weight-only.toml")),
+        ("wrong/other-side.toml", include_str!("../../skeleton/other-side.toml")),
+        ("figures/sketch.svg", include_str!("../../skeleton/sketch.svg")),
+    ]
+    .into_iter()
+    .map(|(name, text)| (name.to_owned(), fill(text)))
+    .collect()
+}
+
+/// What marks a place that the author still has to fill.
+pub const TODO: &str = "TODO";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Course, check_lesson};
+
+    fn problems(change: impl Fn(String) -> String) -> Vec<String> {
+        let mut all = BTreeMap::new();
+        all.insert("course.toml".to_owned(), b"format_version = 1\ntitle = \"x\"\n".to_vec());
+        for (name, text) in files(1, "my-lesson") {
+            all.insert(format!("01-my-lesson/{name}"), change(text).into_bytes());
+        }
+        let course = Course::from_files(all).unwrap_or_else(|e| panic!("{e}"));
+        check_lesson(&course, &course.lessons()[0]).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn a_new_lesson_says_what_is_to_be_filled_and_passes_when_it_is() {
+        let open = problems(|text| text);
+        assert!(!open.is_empty() && open.iter().all(|p| p.contains("TODO")), "{open:#?}");
+        let filled = problems(|text| text.replace("TODO", "ParsedNumber by the author, with care."));
+        assert!(filled.is_empty(), "{filled:#?}");
+    }
+}

@@ -1,0 +1,64 @@
+//! Formulas: two are the same if they agree at many random points of the symbols' ranges.
+
+use crate::answers::expression::Expression;
+use crate::answers::{Answer, TypedValue};
+use crate::exercise::Formula;
+use crate::random::Random;
+use crate::verdict::feedback::{Feedback, FormulaFinding, Judgement};
+use crate::verdict::invalid::InvalidClosed;
+
+/// Points at which formulas are compared.
+const POINTS: usize = 24;
+/// Relative difference below which two values agree.
+const AGREEMENT: f64 = 1e-9;
+
+/// Judges a formula; `seed` makes the points of each question its own.
+pub(super) fn judge(
+    question: &Formula,
+    seed: &str,
+    note: &str,
+    answer: &Answer,
+) -> Result<Judgement, InvalidClosed> {
+    let Some(TypedValue::Text(text)) = &answer.value else { return Err(InvalidClosed::NoFormula) };
+    let names: Vec<&str> = question.symbols.iter().map(String::as_str).collect();
+    let formula = Expression::parse(text, &names)?;
+    let is = |other: &Expression, factor| same(&formula, other, &question.ranges, seed, factor);
+    if is(&question.reference, 1.0) {
+        return Ok(Judgement::right(Feedback::Right { note: note.to_owned() }));
+    }
+    let wrong = |id: Option<&str>, finding| Ok(Judgement::wrong(0.0, id, Feedback::Formula(finding)));
+    if let Some((id, _, feedback)) = question.misconceptions.iter().find(|(_, wrong, _)| is(wrong, 1.0)) {
+        return wrong(Some(id), FormulaFinding::Misconception { feedback: feedback.clone() });
+    }
+    if is(&question.reference, -1.0) {
+        return wrong(Some("opposite-sign"), FormulaFinding::OppositeSign);
+    }
+    let missing: Vec<&str> = (0..names.len())
+        .filter(|k| question.reference.uses(*k) && !formula.uses(*k))
+        .map(|k| names[k])
+        .collect();
+    match missing.as_slice() {
+        [one] => wrong(None, FormulaFinding::MissingSymbol { symbol: (*one).to_owned() }),
+        _ => wrong(None, FormulaFinding::Unknown),
+    }
+}
+
+/// Whether `a` equals `factor` times `b` at all points where `b` is defined.
+pub(crate) fn same(a: &Expression, b: &Expression, ranges: &[[f64; 2]], seed: &str, factor: f64) -> bool {
+    let mut random = Random::new(seed);
+    let mut defined = 0;
+    for _ in 0..POINTS {
+        let point: Vec<f64> = ranges.iter().map(|[low, high]| low + (high - low) * random.unit()).collect();
+        let (x, y) = (a.eval(&point), factor * b.eval(&point));
+        if !y.is_finite() {
+            continue;
+        }
+        defined += 1;
+        // `!(<=)` also refuses an `x` that is not a number.
+        let agrees = (x - y).abs() <= AGREEMENT * (x.abs() + y.abs()) + 1e-300;
+        if !agrees {
+            return false;
+        }
+    }
+    defined >= POINTS / 2
+}

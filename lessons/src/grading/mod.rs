@@ -1,0 +1,128 @@
+//! Grading: a submission against a lesson, always with the same result. What is said is data; the verdict's HTML is made
+//! of it in one place.
+
+mod closed;
+mod follow;
+pub(crate) mod formula;
+mod model;
+mod picture;
+mod program;
+mod quantity;
+mod trajectory;
+mod tuning;
+
+use thiserror::Error;
+
+use crate::answers::{Answer, Submission};
+use crate::exercise::{Question, QuestionBody};
+use crate::lesson::Lesson;
+use crate::tasks::instances;
+use crate::text::shorten;
+use crate::verdict::feedback::Judgement;
+use crate::verdict::{Mark, Provenance, QuestionVerdict, Verdict, html};
+
+/// Why a submission cannot be graded as a whole.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum GradeError {
+    /// An answer to a question that the lesson does not ask.
+    #[error("answers.{id}: lesson {lesson} has no question {id}; its questions are {known}")]
+    UnknownQuestion {
+        /// Slug of the lesson.
+        lesson: String,
+        /// The id as sent.
+        id: String,
+        /// The ids of the lesson.
+        known: String,
+    },
+}
+
+impl GradeError {
+    /// Stable short name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnknownQuestion { .. } => "unknown-question",
+        }
+    }
+}
+
+/// Grades a submission.
+pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeError> {
+    let judgements = judge(lesson, submission)?;
+    let questions: Vec<QuestionVerdict> =
+        lesson.exercise.questions.iter().zip(judgements).map(|(q, j)| sent(q, j)).collect();
+    let earned: f64 = questions.iter().map(|q| q.earned).sum();
+    let possible: f64 = questions.iter().map(|q| q.possible).sum();
+    let gradable = questions.iter().all(|q| q.verdict != Mark::Invalid);
+    Ok(Verdict {
+        lesson: lesson.slug.clone(),
+        student: submission.student.clone(),
+        earned,
+        possible,
+        // The last digits of a sum of points are rounding.
+        passed: gradable && earned >= lesson.exercise.pass_mark * possible * (1.0 - 1e-12),
+        gradable,
+        questions,
+        provenance: Provenance {
+            engine: triad_engine::VERSION.to_owned(),
+            lesson_hash: lesson.hash.clone(),
+            seed: lesson.seed.clone(),
+            parameters: lesson.parameters.iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+        },
+    })
+}
+
+/// Judges every question of the lesson, in order.
+pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judgement>, GradeError> {
+    let all = &lesson.exercise.questions;
+    if let Some(id) = submission.answers.keys().find(|id| lesson.question(id).is_none()) {
+        return Err(GradeError::UnknownQuestion {
+            lesson: lesson.slug.clone(),
+            id: shorten(id),
+            known: all.iter().map(|q| q.id.as_str()).collect::<Vec<_>>().join(", "),
+        });
+    }
+    let mut judgements: Vec<Judgement> = Vec::with_capacity(all.len());
+    for question in all {
+        let answer = submission.answers.get(&question.id).filter(|answer| !answer.is_blank());
+        let mut judgement = answer.map_or_else(Judgement::blank, |a| judge_answer(lesson, question, a));
+        if judgement.mark == Mark::Wrong
+            && let (QuestionBody::Quantity(body), Some(answer)) = (&question.body, answer)
+            && let Some(carried) = follow::judge(lesson, body, &judgements, submission, answer)
+        {
+            judgement = carried;
+        }
+        judgements.push(judgement);
+    }
+    Ok(judgements)
+}
+
+fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer) -> Judgement {
+    let note = &question.right;
+    let judged = match &question.body {
+        QuestionBody::Quantity(body) => quantity::judge(body, note, answer).map_err(Into::into),
+        QuestionBody::Choice { options, right } => closed::choice(options, right, answer).map_err(Into::into),
+        QuestionBody::Formula(body) => formula::judge(body, &question.id, note, answer).map_err(Into::into),
+        QuestionBody::Implement(task) => {
+            let seed = instances::seed(lesson, &question.id);
+            program::judge(task, &seed, note, answer).map_err(Into::into)
+        }
+        QuestionBody::Trajectory(task) => trajectory::judge(task, note, answer).map_err(Into::into),
+        QuestionBody::Model(task) => model::judge(task, note, answer).map_err(Into::into),
+        QuestionBody::Tuning(task) => tuning::judge(task, note, answer).map_err(Into::into),
+    };
+    judged.unwrap_or_else(Judgement::invalid)
+}
+
+/// A judgement as it is sent and kept.
+fn sent(question: &Question, judgement: Judgement) -> QuestionVerdict {
+    QuestionVerdict {
+        id: question.id.clone(),
+        earned: judgement.share * question.points,
+        possible: question.points,
+        verdict: judgement.mark,
+        message_html: html::message(&judgement.feedback),
+        misconception: judgement.misconception,
+        figure_svg: judgement.figure,
+        reference_html: None,
+    }
+}

@@ -1,0 +1,131 @@
+//! A scene of the student's own, judged by what it does.
+
+use triad_engine::check::{CheckReport, check};
+use triad_engine::scene::{IntegratorKind, Scene, Settings, Stabilization};
+use triad_engine::simulation::Simulation;
+
+use crate::answers::Answer;
+use crate::answers::tolerance::{distance, norm};
+use crate::exercise::ModelTask;
+use crate::files::WatchFile;
+use crate::scenario::measure::{MeasureError, measure, reference_scenes, start};
+use crate::verdict::feedback::{Demand, DemandResult, Feedback, Judgement};
+use crate::verdict::invalid::InvalidModel;
+
+/// Integrator steps that a student's scene may take.
+const MAX_STEPS: u64 = 20_000;
+/// Joints, drivers and loads that it may have, for each body.
+const CONNECTIONS_PER_BODY: usize = 6;
+/// Tolerance at which it is run.
+const TOLERANCE: f64 = 1e-9;
+/// Smallest value that differences are compared with, SI.
+const SMALLEST_SIZE: f64 = 1e-9;
+
+/// Judges a scene.
+pub(super) fn judge(task: &ModelTask, note: &str, answer: &Answer) -> Result<Judgement, InvalidModel> {
+    let text = answer.file.as_ref().ok_or(InvalidModel::NoFile)?;
+    let (scene, report) = accepted(task, text)?;
+    let demands = compare(task, &scene, &report).map_err(InvalidModel::Reference)?;
+    let met = demands.iter().filter(|d| d.met).count();
+    if met == demands.len() {
+        return Ok(Judgement::right(Feedback::Model { demands, note: Some(note.to_owned()) }));
+    }
+    let share = met as f64 / demands.len() as f64;
+    let misconception = demands.iter().find(|d| !d.met).map(|d| d.demand.misconception());
+    Ok(Judgement::wrong(share, misconception.as_deref(), Feedback::Model { demands, note: None }))
+}
+
+/// The scene, if it can be read, is within bounds and can be started.
+fn accepted(task: &ModelTask, text: &str) -> Result<(Scene, CheckReport), InvalidModel> {
+    let mut scene = Scene::from_json(text).map_err(Box::new)?;
+    let (bodies, most) = (scene.bodies.len(), task.demands.most_bodies);
+    if bodies > most {
+        return Err(InvalidModel::Bodies { bodies, most });
+    }
+    let connections = scene.joints.len() + scene.drivers.len() + scene.loads.len();
+    if connections > CONNECTIONS_PER_BODY * most {
+        return Err(InvalidModel::Connections { connections });
+    }
+    let end = task.watches().iter().flat_map(|w| &w.times).fold(0.01, |a: f64, t| a.max(*t));
+    scene.simulation = Settings {
+        duration: end,
+        integrator: IntegratorKind::Auto,
+        tolerance: TOLERANCE,
+        stabilization: Stabilization::Projection,
+        ..scene.simulation
+    };
+    let report = check(&scene).map_err(Box::new)?;
+    Ok((scene, report))
+}
+
+/// What is demanded, side by side with the author's scene.
+fn compare(task: &ModelTask, scene: &Scene, report: &CheckReport) -> Result<Vec<DemandResult>, MeasureError> {
+    let demands = &task.demands;
+    let mut results = Vec::new();
+    let mut add = |demand: Demand, met: bool| results.push(DemandResult { demand, met });
+    if demands.degrees_of_freedom {
+        let wanted = check(&task.reference)?.degrees_of_freedom;
+        let found = report.degrees_of_freedom;
+        add(Demand::DegreesOfFreedom { found }, found == wanted);
+    }
+    if demands.no_redundancy {
+        let joints: Vec<String> = report.redundant.iter().map(|r| r.joint.clone()).collect();
+        let met = joints.is_empty();
+        add(Demand::NoRedundancy { joints }, met);
+    }
+    for (kind, least) in &demands.joints {
+        let of_kind = |j: &&triad_engine::scene::Joint| {
+            serde_json::to_value(j.kind).is_ok_and(|word| word.as_str() == Some(kind.as_str()))
+        };
+        let found = scene.joints.iter().filter(of_kind).count();
+        add(Demand::Joint { kind: kind.clone(), found }, found >= *least);
+    }
+    results.extend(watched(task, scene)?);
+    Ok(results)
+}
+
+/// The motion and the reactions that are watched, side by side with the author's scene.
+fn watched(task: &ModelTask, scene: &Scene) -> Result<Vec<DemandResult>, MeasureError> {
+    let mut times: Vec<f64> = task.watches().iter().flat_map(|w| w.times.clone()).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let end = times.last().copied().unwrap_or(0.0);
+    let [reference, _] = reference_scenes(&task.reference, end);
+    let own = run(&reference, &times, task.watches(), &mut start(&reference)?)?;
+    let mut simulation = Simulation::new(scene)?;
+    simulation.set_step_limit(MAX_STEPS);
+    let given = run(scene, &times, task.watches(), &mut simulation);
+    let result = |(k, watch): (usize, &WatchFile)| {
+        let (met, stopped) = match &given {
+            Err(problem) => (false, Some(problem.clone())),
+            Ok(given) => (close(&given[k], &own[k], watch.tolerance), None),
+        };
+        let (what, feedback) = (watch.what.clone(), watch.feedback.clone());
+        DemandResult { demand: Demand::Watch { number: k + 1, what, feedback, stopped }, met }
+    };
+    Ok(task.watches().iter().enumerate().map(result).collect())
+}
+
+/// What each watch sees, at its own times.
+fn run(
+    scene: &Scene,
+    times: &[f64],
+    watches: &[WatchFile],
+    simulation: &mut Simulation,
+) -> Result<Vec<Vec<Vec<f64>>>, MeasureError> {
+    let mut seen = vec![Vec::new(); watches.len()];
+    for t in times {
+        simulation.advance_to(*t)?;
+        for (seen, watch) in seen.iter_mut().zip(watches).filter(|(_, w)| w.times.contains(t)) {
+            seen.push(measure(scene, simulation, &watch.measured)?);
+        }
+    }
+    Ok(seen)
+}
+
+/// Whether all differences are small beside the largest value.
+fn close(given: &[Vec<f64>], own: &[Vec<f64>], tolerance: f64) -> bool {
+    let size = own.iter().map(|v| norm(v)).fold(0.0, f64::max).max(SMALLEST_SIZE);
+    given.len() == own.len()
+        && given.iter().zip(own).all(|(a, b)| a.len() == b.len() && distance(a, b) <= tolerance * size)
+}

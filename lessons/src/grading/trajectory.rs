@@ -1,0 +1,85 @@
+//! A table of a motion, from any program, against the reference.
+
+use crate::answers::{Answer, table};
+use crate::exercise::Trajectory;
+use crate::tasks::trajectory::{Deviation, ReferenceMotion};
+use crate::verdict::feedback::{Feedback, Judgement, MotionFinding};
+use crate::verdict::invalid::InvalidTrajectory;
+
+/// Fewest samples.
+const FEWEST: usize = 20;
+/// Longest time without a sample, as a part of the whole.
+const LONGEST_GAP: f64 = 0.05;
+/// An error is of one kind if this part of it, or less, is left without that kind.
+const EXPLAINED: f64 = 0.25;
+
+/// Judges a table.
+pub(super) fn judge(task: &Trajectory, note: &str, answer: &Answer) -> Result<Judgement, InvalidTrajectory> {
+    let text = answer.file.as_ref().ok_or(InvalidTrajectory::NoFile)?;
+    let (times, given) = read(task, text)?;
+    let motion = ReferenceMotion::new(task).map_err(InvalidTrajectory::Reference)?;
+    let deviation = motion.deviation(&times, &given);
+    let error = deviation.total;
+    let share = task.bands.iter().find(|b| error <= b.error).map_or(0.0, |b| b.share);
+    if share == 1.0 {
+        return Ok(Judgement::right(Feedback::TrajectoryRight { error, note: note.to_owned() }));
+    }
+    let finding = kind(task, &deviation, &times, &given, &motion);
+    Ok(Judgement::wrong(share, finding.misconception(), Feedback::Trajectory { error, finding }))
+}
+
+/// Times, and the values of the columns in the question's order.
+fn read(task: &Trajectory, text: &str) -> Result<(Vec<f64>, Vec<Vec<f64>>), InvalidTrajectory> {
+    let table = table::read(text)?;
+    let place = |name: &str| {
+        table.names.iter().position(|n| *n == name.to_lowercase()).ok_or_else(|| {
+            InvalidTrajectory::NoColumn { name: name.to_owned(), known: table.names.join(", ") }
+        })
+    };
+    let time = place("t")?;
+    let columns: Vec<usize> = task.columns.keys().map(|name| place(name)).collect::<Result<_, _>>()?;
+    let times: Vec<f64> = table.rows.iter().map(|row| row[time]).collect();
+    if times.len() < FEWEST {
+        return Err(InvalidTrajectory::FewRows { rows: times.len(), fewest: FEWEST });
+    }
+    if let Some(k) = times.windows(2).position(|w| w[1] <= w[0]) {
+        return Err(InvalidTrajectory::Times { from: times[k], to: times[k + 1] });
+    }
+    let tiny = 1e-6 * task.end;
+    let (first, last) = (times[0], times[times.len() - 1]);
+    if first > tiny || first < -tiny || last < task.end - tiny {
+        return Err(InvalidTrajectory::Range { first, last, end: task.end });
+    }
+    let gap = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+    if gap > LONGEST_GAP * task.end {
+        return Err(InvalidTrajectory::Gap { gap, most: LONGEST_GAP * task.end });
+    }
+    // What lies beyond the end is not asked for.
+    let kept = times.iter().take_while(|t| **t <= task.end + tiny).count();
+    let given = columns.iter().map(|c| table.rows[..kept].iter().map(|row| row[*c]).collect()).collect();
+    Ok((times[..kept].to_vec(), given))
+}
+
+/// Which kind of error it is.
+fn kind(
+    task: &Trajectory,
+    d: &Deviation,
+    times: &[f64],
+    given: &[Vec<f64>],
+    motion: &ReferenceMotion,
+) -> MotionFinding {
+    let negative = given.iter().map(|v| v.iter().map(|x| -x).collect()).collect::<Vec<Vec<f64>>>();
+    let worst = task.bands.last().map_or(0.0, |b| b.error);
+    let (late, factor) = (d.late, d.factor);
+    if d.total > worst && motion.deviation(times, &negative).total <= worst {
+        MotionFinding::OppositeSign
+    } else if d.without_phase <= EXPLAINED * d.total {
+        MotionFinding::Phase { late }
+    } else if d.without_factor <= EXPLAINED * d.total {
+        MotionFinding::Amplitude { factor }
+    } else if d.rest <= EXPLAINED * d.total && factor > 0.0 {
+        MotionFinding::PhaseAndAmplitude { late, factor }
+    } else {
+        MotionFinding::Unknown
+    }
+}

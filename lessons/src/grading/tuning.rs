@@ -1,0 +1,136 @@
+//! Settings of a run under a budget: the run is made, its error and its work are measured and drawn.
+
+use triad_engine::scene::{Scene, Stabilization};
+use triad_engine::simulation::Simulation;
+
+use super::picture::{Picture, Point};
+use crate::answers::tolerance::distance;
+use crate::answers::{Answer, RunSettings, TypedValue, number};
+use crate::exercise::Tuning;
+use crate::scenario::measure::{MeasureError, measure, with_error};
+use crate::verdict::feedback::{Feedback, Judgement, TuningFeedback};
+use crate::verdict::invalid::InvalidSettings;
+
+/// A run is given up after so many times the budget.
+const PATIENCE: u64 = 4;
+/// Steps between two looks at the work.
+const PIECE: u64 = 16;
+/// Tolerances of the curves in the picture.
+const CURVE: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+
+/// What a run cost and how far it was off; no error if it did not come to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct RunCost {
+    evaluations: u64,
+    error: Option<f64>,
+}
+
+/// Judges settings.
+pub(super) fn judge(task: &Tuning, note: &str, answer: &Answer) -> Result<Judgement, InvalidSettings> {
+    let settings = answer.settings.as_ref().ok_or(InvalidSettings::NoSettings)?;
+    let scene = chosen(task, settings)?;
+    let (reference, _) = with_error(&task.scene, &task.watch).map_err(InvalidSettings::Reference)?;
+    let cost = match make(task, &scene, &reference) {
+        Ok(cost) => cost,
+        Err(problem) => {
+            return Ok(Judgement::wrong(0.0, Some("stopped"), Feedback::TuningStopped { problem }));
+        }
+    };
+    let feedback = TuningFeedback {
+        evaluations: cost.evaluations,
+        budget: task.budget,
+        most: PATIENCE * task.budget,
+        error: cost.error,
+        allowed: task.error,
+        note: note.to_owned(),
+    };
+    let (precise, cheap) = (feedback.is_precise(), feedback.is_cheap() && cost.error.is_some());
+    let figure = Some(picture(task, settings, cost, &reference, precise && cheap));
+    let feedback = Feedback::Tuning(feedback);
+    let judgement = match (precise, cheap) {
+        (true, true) => Judgement::right(feedback),
+        (true, false) => Judgement::wrong(0.5, Some("too-dear"), feedback),
+        (false, true) => Judgement::wrong(0.5, Some("too-coarse"), feedback),
+        (false, false) => Judgement::wrong(0.0, Some("too-coarse"), feedback),
+    };
+    Ok(Judgement { figure, ..judgement })
+}
+
+/// The scene with the settings that were chosen, or what cannot be chosen.
+fn chosen(task: &Tuning, settings: &RunSettings) -> Result<Scene, InvalidSettings> {
+    if !task.integrators.contains(&settings.integrator) {
+        let known = task.integrators.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        return Err(InvalidSettings::Integrator { integrator: settings.integrator.to_string(), known });
+    }
+    let tolerance = positive(&settings.tolerance, "The tolerance")?;
+    if !(1e-13..=1e-1).contains(&tolerance) {
+        return Err(InvalidSettings::ToleranceRange);
+    }
+    let stabilization = match &settings.baumgarte {
+        None => Stabilization::Projection,
+        Some(_) if !task.baumgarte => return Err(InvalidSettings::NoBaumgarte),
+        Some([alpha, beta]) => {
+            let (alpha, beta) = (positive(alpha, "Alpha")?, positive(beta, "Beta")?);
+            if alpha > 1e4 || beta > 1e4 {
+                return Err(InvalidSettings::BaumgarteRange);
+            }
+            Stabilization::Baumgarte { alpha, beta }
+        }
+    };
+    let mut scene = task.scene.clone();
+    // What a reader may change belongs to the settings as they were.
+    scene.parameters.clear();
+    scene.simulation.integrator = settings.integrator;
+    scene.simulation.tolerance = tolerance;
+    scene.simulation.stabilization = stabilization;
+    scene.simulation.duration = task.watch.time;
+    Ok(scene)
+}
+
+fn positive(entry: &TypedValue, what: &'static str) -> Result<f64, InvalidSettings> {
+    let value = match entry {
+        TypedValue::Number(x) => *x,
+        TypedValue::Text(text) => {
+            number::read(text).map_err(|error| InvalidSettings::Number { what, error })?.0.value
+        }
+        TypedValue::List(_) => return Err(InvalidSettings::List { what }),
+    };
+    if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(InvalidSettings::Negative { what }) }
+}
+
+/// Makes the run, in pieces, and measures.
+fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<RunCost, MeasureError> {
+    let mut simulation = Simulation::new(scene)?;
+    while !simulation.advance_towards(task.watch.time, PIECE)? {
+        let evaluations = simulation.summary().evaluations;
+        if evaluations > PATIENCE * task.budget {
+            return Ok(RunCost { evaluations, error: None });
+        }
+    }
+    let evaluations = simulation.summary().evaluations;
+    let value = measure(scene, &mut simulation, &task.watch)?;
+    Ok(RunCost { evaluations, error: Some(distance(&value, reference)) })
+}
+
+/// The run in the picture of work and precision; when the demand is met, with the curves of all choices.
+fn picture(task: &Tuning, settings: &RunSettings, own: RunCost, reference: &[f64], curves: bool) -> String {
+    let mut picture = Picture::new(task.budget, task.error);
+    if curves {
+        for kind in &task.integrators {
+            let points = CURVE.iter().filter_map(|tolerance| {
+                let settings = RunSettings {
+                    integrator: *kind,
+                    tolerance: TypedValue::Number(*tolerance),
+                    baumgarte: None,
+                };
+                let made = make(task, &chosen(task, &settings).ok()?, reference).ok()?;
+                Some(Point { work: made.evaluations, error: made.error? })
+            });
+            picture.curve(&kind.to_string(), points.collect());
+        }
+    }
+    if let Some(error) = own.error {
+        picture.own(&settings.integrator.to_string(), Point { work: own.evaluations, error });
+    }
+    picture.svg()
+}

@@ -1,0 +1,135 @@
+//! A lesson with everything that belongs to it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use triad_engine::scene::{Scene, SceneError};
+
+use super::reader::{LessonError, Reader, fingerprint, line_of, named};
+use crate::exercise::{self, BuildContext, Exercise, Parameters, Question};
+use crate::files::{ExerciseFile, Files, LessonFile, ReferenceFile, WrongFile};
+use crate::rendering::markdown::{self, Rendered};
+
+/// A lesson with everything that belongs to it, answers included. Only its views may leave the server.
+#[derive(Debug, Clone)]
+pub struct Lesson {
+    /// Stable name for addresses: the folder's name without its number.
+    pub slug: String,
+    /// Place in the course, from 1.
+    pub number: u32,
+    /// Name of the folder.
+    pub folder: String,
+    /// Title, summary, objectives and steps.
+    pub about: LessonFile,
+    /// The text, rendered.
+    pub text: Rendered,
+    /// The scenario as JSON.
+    pub scene: serde_json::Value,
+    /// The questions with their answers.
+    pub exercise: Exercise,
+    /// Wrong submissions that must be recognised, by file name.
+    pub wrong: BTreeMap<String, WrongFile>,
+    /// Fingerprint of every file of the lesson.
+    pub hash: String,
+    /// The numbers drawn for a student, by name; the defaults where no student is known.
+    pub parameters: Parameters,
+    /// Whose numbers these are: the seed that they were drawn from; empty for the defaults.
+    pub seed: String,
+    pub(crate) sources: QuestionSources,
+    pub(crate) files: Arc<Files>,
+    pub(crate) figures: BTreeMap<String, String>,
+    /// Files below `wrong/` that a wrong answer sends.
+    pub(crate) wrong_files: BTreeSet<String>,
+}
+
+/// What the questions are built from, kept to build them again with other numbers.
+#[derive(Debug, Clone)]
+pub(crate) struct QuestionSources {
+    pub(crate) exercise: ExerciseFile,
+    pub(crate) references: BTreeMap<String, ReferenceFile>,
+}
+
+impl Lesson {
+    /// Reads a lesson from its files; `folder` is `NN-slug`.
+    pub fn from_files(folder: &str, files: Files) -> Result<Self, LessonError> {
+        let path = |file: &str| format!("{folder}/{file}");
+        let split = folder.split_once('-').and_then(|(n, slug)| Some((n.parse::<u32>().ok()?, slug)));
+        let Some((number, slug)) = split else {
+            let problem = "a lesson's folder is named NN-slug, for example 02-simple-pendulum".to_owned();
+            return Err(LessonError::Unreadable { file: folder.to_owned(), line: 1, problem });
+        };
+        let reader = Reader { folder, files: &files };
+        let about: LessonFile =
+            reader.toml("lesson.toml", "it holds title, summary, minutes and objectives")?;
+        let mut figures = BTreeMap::new();
+        for name in named(&files, "figures/", "svg") {
+            figures.insert(name.clone(), reader.text(name, "")?.to_owned());
+        }
+        let text = markdown::render(reader.text("lesson.md", "it holds the text of the lesson")?, &figures);
+        let scene_text = reader.text("scene.json", "it holds the scenario; start from a built-in one")?;
+        let scene = serde_json::from_str(scene_text).map_err(|e| LessonError::Unreadable {
+            file: path("scene.json"),
+            line: e.line(),
+            problem: e.to_string(),
+        })?;
+        // Read as a scene here, so that a fault is told with its own file and line and not by the first question.
+        Scene::from_json(scene_text).map_err(|error| LessonError::Unreadable {
+            file: path("scene.json"),
+            line: match &error {
+                SceneError::Syntax { line, .. } => *line,
+                _ => 1,
+            },
+            problem: error.to_string(),
+        })?;
+        let sources = QuestionSources {
+            exercise: reader.toml("exercise.toml", "it holds the questions")?,
+            references: reader
+                .toml("reference/answers.toml", "it holds the right answers and their sources")?,
+        };
+        let parameters = Parameters::defaults(&sources.exercise.parameters);
+        let (questions, references) = (sources.exercise.clone(), sources.references.clone());
+        let context = BuildContext { parameters: &parameters, scene: &scene, files: &files };
+        let exercise = exercise::build(questions, references, &context).map_err(|error| {
+            let file = if error.in_reference { "reference/answers.toml" } else { "exercise.toml" };
+            let content = reader.text(file, "").unwrap_or_default();
+            let line = line_of(content, &error.question);
+            LessonError::Question { file: path(file), line, error }
+        })?;
+        let mut wrong = BTreeMap::new();
+        let mut wrong_files = BTreeSet::new();
+        for name in named(&files, "wrong/", "toml") {
+            let mut file: WrongFile = reader.toml(name, "")?;
+            wrong_files.extend(reader.fetch_files(name, &mut file)?);
+            wrong.insert(name.clone(), file);
+        }
+        let (slug, hash) = (slug.to_owned(), fingerprint(&files));
+        let folder = folder.to_owned();
+        Ok(Self {
+            slug,
+            number,
+            folder,
+            about,
+            text,
+            scene,
+            exercise,
+            wrong,
+            hash,
+            parameters,
+            seed: String::new(),
+            sources,
+            files: Arc::new(files),
+            figures,
+            wrong_files,
+        })
+    }
+
+    /// A question by its id.
+    pub fn question(&self, id: &str) -> Option<&Question> {
+        self.exercise.questions.iter().find(|q| q.id == id)
+    }
+
+    /// Hint number `k` (from 1) of a question, as HTML.
+    pub fn hint_html(&self, question: &str, k: usize) -> Option<String> {
+        Some(markdown::render_short(self.question(question)?.hints.get(k.checked_sub(1)?)?))
+    }
+}

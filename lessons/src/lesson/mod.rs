@@ -1,0 +1,17 @@
+//! Lessons and courses: read from their folders, with other numbers for each student, shown without their answers.
+
+mod content;
+pub mod course;
+mod reader;
+mod rules;
+mod variant;
+mod view;
+
+pub use content::Lesson;
+pub use course::{Course, CourseError};
+pub use reader::LessonError;
+pub(crate) use reader::line_of;
+pub use variant::VariantError;
+pub use view::{
+    ColumnView, ExerciseView, LessonSummary, LessonView, OptionView, QuestionView, StepView, TuningView,
+};

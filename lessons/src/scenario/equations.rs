@@ -1,0 +1,81 @@
+//! The equations of a mechanism at a state, right and wrong, for whoever needs more than a run.
+
+use triad_engine::equations;
+use triad_engine::lift::Lift;
+use triad_engine::literal::Literal;
+use triad_engine::mechanism::Mechanism;
+use triad_engine::scene::{Coordinates, Driver, Motion, Scene, VectorMotion};
+
+/// The equations as they are first written, at a state.
+pub(crate) fn literal_at(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Literal {
+    mechanism.set_state(t, y);
+    let Mechanism { system, elimination, .. } = mechanism;
+    elimination.set_forces(system);
+    Literal::new(system, elimination)
+}
+
+/// γ of the lifted coordinates alone and −Φ_Q V̇q̇, at the state that is in place.
+pub(crate) fn gamma_parts(mechanism: &Mechanism) -> Vec<[f64; 2]> {
+    equations::gamma_parts(&mechanism.system, &mechanism.elimination)
+}
+
+/// The equations at the state that is in place, with +M V̇q̇ of reduced bodies in the place of −M V̇q̇.
+pub(crate) fn wrong_sign(mechanism: &Mechanism, mut literal: Literal) -> Literal {
+    for (body, state) in mechanism.system.bodies.iter().zip(&mechanism.elimination.bodies) {
+        if body.coordinates == Coordinates::Reduced {
+            let mut twice = Lift::default();
+            twice.e[2] = state.q_dot.e[0].cross(&state.q_dot.e[1]) * (4.0 * body.ibar[2]);
+            body.layout.pull_back(&state.q, &twice, |column, value| literal.force[column] += value);
+        }
+    }
+    literal
+}
+
+/// The scene whose angles and angular velocities were taken for degrees.
+pub(crate) fn in_degrees(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let factor = 1f64.to_radians();
+    for body in &mut scene.bodies {
+        body.angular_velocity = body.angular_velocity.map(|w| w * factor);
+    }
+    for driver in &mut scene.drivers {
+        match driver {
+            Driver::Angle { motion, .. } | Driver::AngleCosine { motion, .. } => {
+                *motion = scaled(motion, factor);
+            }
+            Driver::AngleToWorld { motion, reference, .. } => {
+                *motion = scaled(motion, factor);
+                turning(reference, factor);
+            }
+            Driver::Vector { motion, .. } | Driver::Point { motion, .. } => turning(motion, factor),
+            Driver::Slide { .. } => {}
+        }
+    }
+    scene
+}
+
+fn turning(motion: &mut VectorMotion, factor: f64) {
+    if let VectorMotion::Turning { angle, .. } = motion {
+        *angle = scaled(angle, factor);
+    }
+}
+
+/// A motion whose values are multiplied.
+fn scaled(motion: &Motion, k: f64) -> Motion {
+    match motion.clone() {
+        Motion::Constant { value } => Motion::Constant { value: value * k },
+        Motion::Ramp { start, rate } => Motion::Ramp { start: start * k, rate: rate * k },
+        Motion::Polynomial { coefficients } => {
+            Motion::Polynomial { coefficients: coefficients.into_iter().map(|c| c * k).collect() }
+        }
+        Motion::Harmonic { mean, amplitude, frequency, phase } => {
+            Motion::Harmonic { mean: mean * k, amplitude: amplitude * k, frequency, phase }
+        }
+        Motion::SmoothStep { from, to, start, end } => {
+            Motion::SmoothStep { from: from * k, to: to * k, start, end }
+        }
+        Motion::Table { times, values } => {
+            Motion::Table { times, values: values.into_iter().map(|v| v * k).collect() }
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! Questions that are answered by work: what a program is given and what it sends, and motions as tables.
+//!
+//! [`instances`] are the states of a student, [`instances_view`] is what a program is given of them, [`program_output`]
+//! reads what it sends, [`misconceptions`] recognises what went wrong, [`starter`] is a program to begin with;
+//! [`trajectory`] is the reference of a table.
+
+pub(crate) mod grid;
+pub(crate) mod instances;
+pub(crate) mod instances_view;
+pub(crate) mod misconceptions;
+pub(crate) mod program_output;
+pub mod starter;
+pub(crate) mod trajectory;
+
+pub use instances::InstanceError;
+pub use instances_view::{
+    InstanceBody, InstanceFeature, InstanceNumber, InstanceRow, InstanceState, InstancesView,
+};

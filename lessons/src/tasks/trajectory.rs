@@ -1,0 +1,192 @@
+//! A motion as a table, and how far another table is from it: in phase, in amplitude, in shape.
+
+use std::fmt::Write as _;
+
+use triad_engine::simulation::Simulation;
+
+use crate::exercise::Trajectory;
+use crate::scenario::measure::{MeasureError, measure, reference_scenes, start};
+
+/// Intervals of the reference.
+const INTERVALS: usize = 4000;
+/// Points at which two motions are compared when the shift is sought.
+const SHIFT_POINTS: usize = 400;
+/// Shifts that are tried on either side, as a part of the whole time.
+const MAX_SHIFT: f64 = 0.1;
+
+/// The reference on an even grid, column by column.
+pub(crate) struct ReferenceMotion {
+    end: f64,
+    /// For each column, values at the grid's points.
+    values: Vec<Vec<f64>>,
+    /// For each column, its mean.
+    means: Vec<f64>,
+    /// The largest value of all.
+    largest: f64,
+    /// Bound on the relative error, from two runs.
+    pub error: f64,
+}
+
+/// What is off between a table and the reference. All are relative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Deviation {
+    /// Root of the mean square of the difference.
+    pub total: f64,
+    /// Time by which the table is late, s.
+    pub late: f64,
+    /// Factor by which its swings are larger.
+    pub factor: f64,
+    /// What is left when both are taken out.
+    pub rest: f64,
+    /// What is left when the delay alone is taken out.
+    pub without_phase: f64,
+    /// What is left when the factor alone is taken out.
+    pub without_factor: f64,
+}
+
+impl ReferenceMotion {
+    /// Runs the reference.
+    pub(crate) fn new(task: &Trajectory) -> Result<Self, MeasureError> {
+        let mut both = Vec::with_capacity(2);
+        for scene in reference_scenes(&task.scene, task.end) {
+            let mut simulation = start(&scene)?;
+            both.push(sampled(task, &scene, &mut simulation)?);
+        }
+        let second = both.pop().unwrap_or_default();
+        let values = both.pop().unwrap_or_default();
+        let means = values.iter().map(|v| v.iter().sum::<f64>() / v.len() as f64).collect();
+        let largest = values.iter().flatten().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let mut track = Self { end: task.end, values, means, largest, error: 0.0 };
+        let times: Vec<f64> = (0..=INTERVALS).map(|k| task.end * k as f64 / INTERVALS as f64).collect();
+        track.error = 2.0 * track.difference(&times, &second, 0.0, 1.0) + 1e-12;
+        Ok(track)
+    }
+
+    /// A column's value at a time within the grid, by cubic interpolation through four points.
+    pub(crate) fn at(&self, column: usize, t: f64) -> f64 {
+        let values = &self.values[column];
+        let x = (t / self.end * INTERVALS as f64).clamp(0.0, INTERVALS as f64);
+        // The cast of a small non-negative number loses nothing but its fraction.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let first = (x.floor() as usize).saturating_sub(1).min(INTERVALS - 3);
+        let s = x - first as f64;
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| values[first + k]);
+        let [s1, s2, s3] = [s - 1.0, s - 2.0, s - 3.0];
+        a * s1 * s2 * s3 / -6.0 + b * s * s2 * s3 / 2.0 - c * s * s1 * s3 / 2.0 + d * s * s1 * s2 / 6.0
+    }
+
+    /// Root of the mean square over time of what is measured against `a·(x(t − late) − mean) + mean`, each column
+    /// relative to its own.
+    fn difference(&self, times: &[f64], given: &[Vec<f64>], late: f64, factor: f64) -> f64 {
+        let mut sum = 0.0;
+        for (column, values) in given.iter().enumerate() {
+            let mean = self.means[column];
+            let (mut square, mut size, mut weight) = (0.0, 0.0, 0.0);
+            for (k, (t, value)) in times.iter().zip(values).enumerate() {
+                if t - late < 0.0 || t - late > self.end {
+                    continue;
+                }
+                // Each sample stands for its part of the time, so that uneven steps do not count twice.
+                let before = if k > 0 { times[k - 1] } else { *t };
+                let after = times.get(k + 1).copied().unwrap_or(*t);
+                let w = 0.5 * (after - before);
+                let own = self.at(column, t - late);
+                square += w * (value - mean - factor * (own - mean)).powi(2);
+                size += w * (self.at(column, *t)).powi(2);
+                weight += w;
+            }
+            // A column that should be zero is judged by the largest column.
+            let floor = weight * (1e-3 * self.largest).powi(2);
+            sum += square / size.max(floor).max(f64::MIN_POSITIVE);
+        }
+        (sum / given.len().max(1) as f64).sqrt()
+    }
+
+    /// The factor that fits best for a delay: a linear problem.
+    fn best_factor(&self, times: &[f64], given: &[Vec<f64>], late: f64) -> f64 {
+        let (mut product, mut square) = (0.0, 0.0);
+        for (column, values) in given.iter().enumerate() {
+            let mean = self.means[column];
+            for (t, value) in times.iter().zip(values) {
+                if (0.0..=self.end).contains(&(t - late)) {
+                    let own = self.at(column, t - late) - mean;
+                    product += own * (value - mean);
+                    square += own * own;
+                }
+            }
+        }
+        if square > 0.0 { product / square } else { 1.0 }
+    }
+
+    /// Tells apart what is off.
+    pub(crate) fn deviation(&self, times: &[f64], given: &[Vec<f64>]) -> Deviation {
+        let total = self.difference(times, given, 0.0, 1.0);
+        let few = times.len().div_ceil(SHIFT_POINTS).max(1);
+        let thin: Vec<f64> = times.iter().copied().step_by(few).collect();
+        let thin_given: Vec<Vec<f64>> =
+            given.iter().map(|values| values.iter().copied().step_by(few).collect()).collect();
+        let best = |fit: &dyn Fn(f64) -> f64| {
+            let step = MAX_SHIFT * self.end / 100.0;
+            let mut late = (-100..=100)
+                .map(|k| f64::from(k) * step)
+                .min_by(|a, b| fit(*a).total_cmp(&fit(*b)))
+                .unwrap_or_default();
+            let mut h = step;
+            for _ in 0..40 {
+                h *= 0.6;
+                late = [late - h, late, late + h]
+                    .into_iter()
+                    .min_by(|a, b| fit(*a).total_cmp(&fit(*b)))
+                    .unwrap_or(late);
+            }
+            late
+        };
+        let both = |late: f64| {
+            let factor = self.best_factor(&thin, &thin_given, late);
+            self.difference(&thin, &thin_given, late, factor)
+        };
+        let late = best(&both);
+        let factor = self.best_factor(times, given, late);
+        let alone = best(&|late| self.difference(&thin, &thin_given, late, 1.0));
+        Deviation {
+            total,
+            late,
+            factor,
+            rest: self.difference(times, given, late, factor),
+            without_phase: self.difference(times, given, alone, 1.0),
+            without_factor: self.difference(times, given, 0.0, self.best_factor(times, given, 0.0)),
+        }
+    }
+}
+
+fn sampled(
+    task: &Trajectory,
+    scene: &triad_engine::Scene,
+    simulation: &mut Simulation,
+) -> Result<Vec<Vec<f64>>, MeasureError> {
+    let mut values = vec![Vec::with_capacity(INTERVALS + 1); task.columns.len()];
+    for k in 0..=INTERVALS {
+        let t = task.end * k as f64 / INTERVALS as f64;
+        simulation.advance_to(t)?;
+        for (column, measured) in values.iter_mut().zip(task.columns.values()) {
+            column.push(measure(scene, simulation, measured)?.first().copied().unwrap_or(f64::NAN));
+        }
+    }
+    Ok(values)
+}
+
+/// The reference as a table, as a program would write it.
+pub(crate) fn reference_csv(task: &Trajectory, samples: usize) -> Result<String, MeasureError> {
+    let track = ReferenceMotion::new(task)?;
+    let names = task.columns.keys().cloned().collect::<Vec<_>>().join(",");
+    let mut text = format!("t,{names}\n");
+    for k in 0..=samples {
+        let t = task.end * k as f64 / samples as f64;
+        let _ = write!(text, "{t:.9}");
+        for column in 0..task.columns.len() {
+            let _ = write!(text, ",{:.12e}", track.at(column, t));
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}

@@ -1,0 +1,221 @@
+//! Tests of the course that is built in, and of checks that must complain.
+
+mod kinds;
+mod tasks;
+
+use std::collections::BTreeMap;
+
+use crate::answers::{Answer, TypedValue};
+use crate::files::Files;
+use crate::{Course, Mark, Submission, check_course, check_lesson, grade, reference_submission};
+
+fn course() -> Course {
+    Course::embedded().unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn answer(value: &str, unit: &str) -> Answer {
+    Answer {
+        value: Some(TypedValue::Text(value.to_owned())),
+        unit: Some(unit.to_owned()),
+        ..Answer::default()
+    }
+}
+
+fn judged(lesson: &str, id: &str, answer: Answer) -> crate::QuestionVerdict {
+    let course = course();
+    let submission =
+        Submission { answers: BTreeMap::from([(id.to_owned(), answer)]), ..Submission::default() };
+    let verdict = grade(course.lesson(lesson).unwrap(), &submission).unwrap();
+    verdict.questions.into_iter().find(|q| q.id == id).unwrap()
+}
+
+#[test]
+fn the_built_in_course_is_proven() {
+    let problems = check_course(&course());
+    let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert!(list.is_empty(), "{}", list.join("\n"));
+}
+
+#[test]
+fn the_folder_and_the_program_hold_the_same_course() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("course");
+    let loaded = Course::load(&folder).unwrap_or_else(|e| panic!("{e}"));
+    let hashes =
+        |c: &Course| c.lessons().iter().map(|l| (l.slug.clone(), l.hash.clone())).collect::<Vec<_>>();
+    assert_eq!(hashes(&loaded), hashes(&course()));
+}
+
+#[test]
+fn the_tension_is_judged_in_any_unit_and_slips_are_named() {
+    let tension = |value: &str, unit: &str| judged("simple-pendulum", "tension-bottom", answer(value, unit));
+    assert_eq!(tension("29.43", "N").verdict, Mark::Right);
+    assert_eq!(tension("0.02943", "kN").verdict, Mark::Right);
+    assert_eq!(tension("29,4", "").verdict, Mark::Right);
+    assert_eq!(tension("29.43 kg m/s^2", "").verdict, Mark::Right);
+    assert_eq!(tension("-29.43", "N").misconception.as_deref(), Some("opposite-sign"));
+    assert_eq!(tension("9.81", "N").misconception.as_deref(), Some("static"));
+    assert_eq!(tension("29.43", "kN").misconception.as_deref(), Some("power-of-ten"));
+    assert_eq!(tension("13.37", "N").misconception, None);
+    let unit = tension("29.43", "N m");
+    assert_eq!((unit.verdict, unit.earned), (Mark::Wrong, 2.25));
+    assert!(unit.message_html.contains("a force"), "{}", unit.message_html);
+}
+
+#[test]
+fn what_cannot_be_judged_costs_nothing_and_says_why() {
+    let tension = |value: &str, unit: &str| judged("simple-pendulum", "tension-bottom", answer(value, unit));
+    for (value, unit, says) in [
+        ("28", "N", "3 significant digits"),
+        ("lots", "N", "not a number"),
+        ("1,500", "N", "comma"),
+        ("29.43", "n", "did you mean N"),
+        ("29.43 N", "kN", "two units"),
+        ("NaN", "N", "finite"),
+    ] {
+        let judged = tension(value, unit);
+        assert_eq!(judged.verdict, Mark::Invalid, "{value} {unit}");
+        assert!(judged.message_html.contains(says), "{value} {unit}: {}", judged.message_html);
+    }
+    assert_eq!(tension(" ", "N").verdict, Mark::Blank);
+    let choice = Answer { choice: Some("z".to_owned()), ..Answer::default() };
+    assert_eq!(judged("simple-pendulum", "sign-of-lambda", choice).verdict, Mark::Invalid);
+    assert_eq!(judged("simple-pendulum", "force-on-ground", answer("3", "N")).verdict, Mark::Invalid);
+    let course = course();
+    let unknown = Submission {
+        answers: BTreeMap::from([("nope".to_owned(), answer("1", ""))]),
+        ..Submission::default()
+    };
+    let error = grade(course.lesson("2").unwrap(), &unknown).unwrap_err();
+    assert!(error.to_string().contains("tension-bottom"));
+}
+
+#[test]
+fn a_right_submission_passes_and_repeats_to_the_byte() {
+    let course = course();
+    for lesson in course.lessons() {
+        let submission = reference_submission(lesson);
+        let once = serde_json::to_string(&grade(lesson, &submission).unwrap()).unwrap();
+        assert_eq!(once, serde_json::to_string(&grade(lesson, &submission).unwrap()).unwrap());
+        assert!(grade(lesson, &submission).unwrap().passed);
+    }
+}
+
+/// No answer, reason, feedback or source may be found in what a student is sent.
+#[test]
+fn the_public_view_holds_no_answer() {
+    use crate::exercise::QuestionBody;
+    for lesson in course().lessons() {
+        let sent = serde_json::to_string(&lesson.public_view().exercise).unwrap();
+        let mut secrets: Vec<String> = Vec::new();
+        for question in &lesson.exercise.questions {
+            secrets.extend([question.source.clone(), question.right.clone()]);
+            secrets.extend(question.hints.iter().cloned());
+            match &question.body {
+                QuestionBody::Quantity(q) => {
+                    secrets.extend(q.misconceptions.iter().map(|m| m.feedback.clone()));
+                    secrets.extend(q.misconceptions.iter().map(|m| m.id.clone()));
+                }
+                QuestionBody::Choice { options, .. } => {
+                    secrets.extend(options.iter().map(|o| o.reason.clone()))
+                }
+                QuestionBody::Formula(f) => {
+                    secrets.extend(f.misconceptions.iter().map(|(.., text)| text.clone()))
+                }
+                QuestionBody::Model(m) => secrets.extend(m.watches().iter().map(|w| w.feedback.clone())),
+                QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Tuning(_) => {}
+            }
+        }
+        for secret in secrets.iter().filter(|s| s.len() > 8) {
+            let encoded = serde_json::to_string(secret).unwrap();
+            assert!(!sent.contains(encoded.trim_matches('"')), "{}: {secret}", lesson.slug);
+        }
+    }
+}
+
+/// The course as files, so that a test can break one of them.
+fn broken(path: &str, from: &str, to: &str) -> Result<Vec<String>, String> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("course/02-simple-pendulum");
+    let mut files = Files::new();
+    let mut add = |name: String| {
+        files.insert(format!("02-simple-pendulum/{name}"), std::fs::read(folder.join(&name)).unwrap());
+    };
+    for name in ["lesson.toml", "lesson.md", "scene.json", "exercise.toml", "reference/answers.toml"] {
+        add(name.to_owned());
+    }
+    for sub in ["wrong", "figures"] {
+        for entry in std::fs::read_dir(folder.join(sub)).unwrap() {
+            add(format!("{sub}/{}", entry.unwrap().file_name().to_string_lossy()));
+        }
+    }
+    files.insert("course.toml".to_owned(), b"format_version = 1\ntitle = \"x\"\n".to_vec());
+    let key = format!("02-simple-pendulum/{path}");
+    let text = files.get(&key).map(|b| String::from_utf8_lossy(b).into_owned()).unwrap_or_default();
+    assert!(from.is_empty() || text.contains(from), "{path} does not contain {from}");
+    let text = if from.is_empty() { to.to_owned() } else { text.replacen(from, to, 1) };
+    files.insert(key, text.into_bytes());
+    let course = Course::from_files(files).map_err(|e| e.to_string())?;
+    let lesson = course.lesson("simple-pendulum").unwrap();
+    Ok(check_lesson(&course, lesson).iter().map(ToString::to_string).collect())
+}
+
+#[test]
+fn checks_complain_with_place_and_remedy() {
+    for (path, from, to, says) in [
+        ("exercise.toml", "value = 9.81\n", "value = 29.5\n", "the misconception static is a right answer"),
+        ("reference/answers.toml", "error = 1e-12", "error = 0.1", "at least ten times the error"),
+        ("scene.json", "-9.81", "-9.80", "the scene shows"),
+        ("scene.json", "[0, 0, 1], \"rows\"", "[0, 0, 0], \"rows\"", "pin"),
+        ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be told apart"),
+        ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
+        ("reference/answers.toml", "value = \"b\"", "value = \"a\"", "judged Right"),
+        ("wrong/other-side.toml", "14.21", "15.21", "recognised nothing"),
+        ("wrong/other-side.toml", "\"14.21\", \"10.90\"", "\"-14.21\", \"-10.90\"", "judged Right"),
+        ("lesson.md", "\\tag{2.3}", "\\tag{2.4}", "02-simple-pendulum/lesson.md:"),
+        ("lesson.md", "(#eq-2.1)", "(#eq-9.1)", "leads nowhere"),
+        ("exercise.toml", "(#eq-2.6)", "(#eq-9.6)", "leads nowhere"),
+        ("lesson.md", "## A hinge", "<b>x</b>\n\n## A hinge", "raw HTML"),
+        (
+            "lesson.md",
+            "![Free body diagram: the bob at angle phi from the vertical, its weight m g downwards and the pull S along the rod towards the hinge]",
+            "![]",
+            "needs a description",
+        ),
+        ("figures/free-body.svg", "#d9480f", "#ffffff", "may vanish"),
+        ("notes.txt", "", "x", "nothing uses this file"),
+        (
+            "exercise.toml",
+            "hints = [\"Write down both",
+            "hints = [\"\", \"Write down both",
+            "a hint is missing or empty",
+        ),
+        ("lesson.toml", "minutes = 30", "minutes = 90", "10 to 40 minutes"),
+        (
+            "lesson.toml",
+            "kind = \"run\"",
+            "kind = \"check\"",
+            "the steps are not predict, run, check, explain",
+        ),
+        ("lesson.md", "## A hinge", "A $ sign\n\n## A hinge", "lesson.md:1: a $ is left"),
+    ] {
+        // The prerequisite is not part of this small course; that complaint is always there.
+        let problems = broken(path, from, to).unwrap_or_else(|e| panic!("{path}: {e}"));
+        assert!(problems.iter().any(|p| p.contains(says)), "{path} {to}: {problems:#?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_read_names_file_and_line() {
+    for (path, from, to, says) in [
+        ("exercise.toml", "points = 3", "pionts = 3", "02-simple-pendulum/exercise.toml, line"),
+        ("exercise.toml", "unit = \"N\"", "unit = \"Newton\"", "did you mean N?"),
+        ("exercise.toml", "id = \"period\"", "id = \"tension-bottom\"", "used twice"),
+        ("reference/answers.toml", "[period]", "[periode]", "question period: it has no reference"),
+        ("reference/answers.toml", "ellipk(1/2)", "ellipq(1/2)", "reference/answers.toml, line"),
+        ("scene.json", "\"name\"", "name", "scene.json, line 2"),
+        ("scene.json", "\"revolute\"", "\"hinge\"", "02-simple-pendulum/scene.json, line"),
+        ("lesson.toml", "minutes = 30", "minutes = \"30\"", "lesson.toml, line"),
+    ] {
+        let error = broken(path, from, to).unwrap_err();
+        assert!(error.contains(says), "{path}: {error}");
+    }
+}

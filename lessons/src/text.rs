@@ -1,0 +1,29 @@
+//! Small pieces of text that several rooms write: shortened quotations, sentences, plain numbers.
+
+/// Characters of a quotation that still fit into a sentence.
+const MAX_QUOTED: usize = 24;
+
+/// A student's text, cut to a length that fits into a sentence.
+pub(crate) fn shorten(text: &str) -> String {
+    let mut out: String = text.trim().chars().take(MAX_QUOTED).collect();
+    if text.trim().chars().count() > MAX_QUOTED {
+        out.push('…');
+    }
+    out
+}
+
+/// A message as a sentence of its own: a capital first letter and a full stop.
+pub(crate) fn sentence(message: &str) -> String {
+    let mut chars = message.chars();
+    let first = chars.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", chars.as_str())
+}
+
+/// A number without trailing zeros and without the noise of binary fractions: seven significant digits.
+pub(crate) fn plain(value: f64) -> String {
+    let rounded: f64 = format!("{value:.6e}").parse().unwrap_or(value);
+    if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
+        return format!("{rounded:e}");
+    }
+    rounded.to_string()
+}

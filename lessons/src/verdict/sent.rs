@@ -1,0 +1,82 @@
+//! A verdict as it is sent and kept: one for a submission, one for each of its questions.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The outcome of grading a submission. The same submission always gives the same verdict.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Verdict {
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// The student, if the submission names one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub student: Option<String>,
+    /// Points earned.
+    pub earned: f64,
+    /// Points that can be earned.
+    pub possible: f64,
+    /// Whether the lesson counts as passed: enough points, and nothing left that could not be read.
+    pub passed: bool,
+    /// False if an answer could not be read or needs more digits: fix it and send again, no attempt is used.
+    pub gradable: bool,
+    /// The questions in the lesson's order.
+    pub questions: Vec<QuestionVerdict>,
+    /// What graded it.
+    pub provenance: Provenance,
+}
+
+/// The outcome for one question.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct QuestionVerdict {
+    /// The question's id.
+    pub id: String,
+    /// Points earned.
+    pub earned: f64,
+    /// Points that can be earned.
+    pub possible: f64,
+    /// Right, wrong, blank or invalid.
+    pub verdict: Mark,
+    /// Feedback for the student, as safe HTML.
+    pub message_html: String,
+    /// The misconception that was recognised; for statistics and for the checks of authors.
+    #[serde(rename = "slip", default, skip_serializing_if = "Option::is_none")]
+    pub misconception: Option<String>,
+    /// A picture of what was computed, as SVG that the grader drew.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figure_svg: Option<String>,
+    /// The right answer and its source, as safe HTML, where the author opens it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference_html: Option<String>,
+}
+
+/// How one answer was judged.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Mark {
+    /// Full points.
+    Right,
+    /// Not right; the message says what it can.
+    Wrong,
+    /// Nothing was filled in.
+    #[default]
+    Blank,
+    /// Could not be judged (unreadable, wrong form, too few digits); no attempt is used.
+    Invalid,
+}
+
+/// What graded a submission, so that a grade can be traced and repeated.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Provenance {
+    /// Version of the engine and of the grader.
+    pub engine: String,
+    /// Fingerprint of every file of the lesson (64-bit FNV-1a, hexadecimal).
+    pub lesson_hash: String,
+    /// Seed of the numbers and states; empty for those that everybody sees.
+    #[serde(default)]
+    pub seed: String,
+    /// The numbers that were drawn.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, f64>,
+}
