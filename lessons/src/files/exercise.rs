@@ -150,7 +150,7 @@ pub struct ToleranceFile {
     pub exact: bool,
 }
 
-/// A slip of thought and the answer it leads to.
+/// A misconception and the answer it leads to.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MisconceptionFile {
@@ -160,7 +160,7 @@ pub struct MisconceptionFile {
     pub value: Option<TypedValue>,
     /// In its place: a wrong model that the engine runs. The question must be `measured`.
     pub model: Option<WrongModelFile>,
-    /// What to tell the student, in Markdown: the slip, not the answer.
+    /// What to tell the student, in Markdown: what is wrong in the thought, not the answer.
     pub feedback: String,
 }
 

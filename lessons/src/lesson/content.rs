@@ -52,49 +52,26 @@ pub(crate) struct QuestionSources {
 impl Lesson {
     /// Reads a lesson from its files; `folder` is `NN-slug`.
     pub fn from_files(folder: &str, files: Files) -> Result<Self, LessonError> {
-        let path = |file: &str| format!("{folder}/{file}");
         let split = folder.split_once('-').and_then(|(n, slug)| Some((n.parse::<u32>().ok()?, slug)));
         let Some((number, slug)) = split else {
             let problem = "a lesson's folder is named NN-slug, for example 02-simple-pendulum".to_owned();
             return Err(LessonError::Unreadable { file: folder.to_owned(), line: 1, problem });
         };
         let reader = Reader { folder, files: &files };
-        let about: LessonFile =
-            reader.toml("lesson.toml", "it holds title, summary, minutes and objectives")?;
+        let about = reader.toml("lesson.toml", "it holds title, summary, minutes and objectives")?;
         let mut figures = BTreeMap::new();
         for name in named(&files, "figures/", "svg") {
             figures.insert(name.clone(), reader.text(name, "")?.to_owned());
         }
         let text = markdown::render(reader.text("lesson.md", "it holds the text of the lesson")?, &figures);
-        let scene_text = reader.text("scene.json", "it holds the scenario; start from a built-in one")?;
-        let scene = serde_json::from_str(scene_text).map_err(|e| LessonError::Unreadable {
-            file: path("scene.json"),
-            line: e.line(),
-            problem: e.to_string(),
-        })?;
-        // Read as a scene here, so that a fault is told with its own file and line and not by the first question.
-        Scene::from_json(scene_text).map_err(|error| LessonError::Unreadable {
-            file: path("scene.json"),
-            line: match &error {
-                SceneError::Syntax { line, .. } => *line,
-                _ => 1,
-            },
-            problem: error.to_string(),
-        })?;
+        let scene = scene(&reader)?;
         let sources = QuestionSources {
             exercise: reader.toml("exercise.toml", "it holds the questions")?,
             references: reader
                 .toml("reference/answers.toml", "it holds the right answers and their sources")?,
         };
         let parameters = Parameters::defaults(&sources.exercise.parameters);
-        let (questions, references) = (sources.exercise.clone(), sources.references.clone());
-        let context = BuildContext { parameters: &parameters, scene: &scene, files: &files };
-        let exercise = exercise::build(questions, references, &context).map_err(|error| {
-            let file = if error.in_reference { "reference/answers.toml" } else { "exercise.toml" };
-            let content = reader.text(file, "").unwrap_or_default();
-            let line = line_of(content, &error.question);
-            LessonError::Question { file: path(file), line, error }
-        })?;
+        let exercise = questions(&reader, &sources, &parameters, &scene)?;
         let mut wrong = BTreeMap::new();
         let mut wrong_files = BTreeSet::new();
         for name in named(&files, "wrong/", "toml") {
@@ -102,18 +79,16 @@ impl Lesson {
             wrong_files.extend(reader.fetch_files(name, &mut file)?);
             wrong.insert(name.clone(), file);
         }
-        let (slug, hash) = (slug.to_owned(), fingerprint(&files));
-        let folder = folder.to_owned();
         Ok(Self {
-            slug,
+            slug: slug.to_owned(),
             number,
-            folder,
+            folder: folder.to_owned(),
             about,
             text,
             scene,
             exercise,
             wrong,
-            hash,
+            hash: fingerprint(&files),
             parameters,
             seed: String::new(),
             sources,
@@ -132,4 +107,36 @@ impl Lesson {
     pub fn hint_html(&self, question: &str, k: usize) -> Option<String> {
         Some(markdown::render_short(self.question(question)?.hints.get(k.checked_sub(1)?)?))
     }
+}
+
+/// The scenario as JSON. It is also read as a scene here, so that a fault is told with its own file and line and not by
+/// the first question.
+fn scene(reader: &Reader) -> Result<serde_json::Value, LessonError> {
+    let text = reader.text("scene.json", "it holds the scenario; start from a built-in one")?;
+    let unreadable = |line, problem| LessonError::Unreadable {
+        file: format!("{}/scene.json", reader.folder),
+        line,
+        problem,
+    };
+    let scene = serde_json::from_str(text).map_err(|e| unreadable(e.line(), e.to_string()))?;
+    Scene::from_json(text).map_err(|error| {
+        let line = if let SceneError::Syntax { line, .. } = &error { *line } else { 1 };
+        unreadable(line, error.to_string())
+    })?;
+    Ok(scene)
+}
+
+/// The questions with their answers; an error is told with the line of its question.
+fn questions(
+    reader: &Reader,
+    sources: &QuestionSources,
+    parameters: &Parameters,
+    scene: &serde_json::Value,
+) -> Result<Exercise, LessonError> {
+    let context = BuildContext { parameters, scene, files: reader.files };
+    exercise::build(sources.exercise.clone(), sources.references.clone(), &context).map_err(|error| {
+        let file = if error.in_reference { "reference/answers.toml" } else { "exercise.toml" };
+        let line = line_of(reader.text(file, "").unwrap_or_default(), &error.question);
+        LessonError::Question { file: format!("{}/{file}", reader.folder), line, error }
+    })
 }

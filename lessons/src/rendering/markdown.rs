@@ -10,6 +10,9 @@ use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd};
 use super::figure::Figure;
 use super::html::escape;
 
+/// Shortest description of a figure, in bytes.
+const MIN_DESCRIPTION: usize = 10;
+
 /// Rendered text, with what a checker wants to know about it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Rendered {
@@ -28,111 +31,132 @@ pub struct Rendered {
 /// Renders Markdown. `figures` are the SVG files that `![description](figures/name.svg "caption")` may name.
 pub fn render(text: &str, figures: &BTreeMap<String, String>) -> Rendered {
     let options = Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH;
-    let mut out = Rendered::default();
-    let mut events: Vec<Event> = Vec::new();
-    let mut image: Option<(String, String, String)> = None;
-    let mut skipped_link = false;
-    let mut dollar: Option<usize> = None;
+    let mut renderer = Renderer::new(figures);
     for (event, range) in Parser::new_ext(text, options).into_offset_iter() {
         let line = text[..range.start].matches('\n').count() + 1;
-        if let Some((_, _, alt)) = &mut image {
+        renderer.take(event, line);
+    }
+    renderer.finish()
+}
+
+/// An image whose description is being read.
+struct Image {
+    path: String,
+    caption: String,
+    alt: String,
+}
+
+/// What has been rendered so far.
+struct Renderer<'a> {
+    figures: &'a BTreeMap<String, String>,
+    out: Rendered,
+    events: Vec<Event<'a>>,
+    image: Option<Image>,
+    /// Inside a link that is not passed on.
+    skips_link: bool,
+    /// Line of the first dollar sign that is no formula.
+    dollar: Option<usize>,
+}
+
+impl<'a> Renderer<'a> {
+    fn new(figures: &'a BTreeMap<String, String>) -> Self {
+        let (out, events) = (Rendered::default(), Vec::new());
+        Self { figures, out, events, image: None, skips_link: false, dollar: None }
+    }
+
+    fn problem(&mut self, line: usize, what: impl Into<String>) {
+        self.out.problems.push((line, what.into()));
+    }
+
+    fn take(&mut self, event: Event<'a>, line: usize) {
+        if let Some(image) = &mut self.image {
             match event {
-                Event::Text(t) | Event::Code(t) | Event::InlineMath(t) => alt.push_str(&t),
-                Event::SoftBreak => alt.push(' '),
-                Event::End(TagEnd::Image) => {
-                    if let Some((path, caption, alt)) = image.take() {
-                        out.image(&path, &caption, &alt, line, figures, &mut events);
-                    }
-                }
+                Event::Text(t) | Event::Code(t) | Event::InlineMath(t) => image.alt.push_str(&t),
+                Event::SoftBreak => image.alt.push(' '),
+                Event::End(TagEnd::Image) => self.end_image(line),
                 _ => {}
             }
-            continue;
+            return;
         }
         match event {
             Event::InlineMath(tex) => {
-                events.push(raw(format!("<span class=\"math inline\">{}</span>", escape(&tex))));
+                self.events.push(raw(format!("<span class=\"math inline\">{}</span>", escape(&tex))));
             }
-            Event::DisplayMath(tex) => {
-                let label = label(&tex);
-                let id = label.as_ref().map(|l| format!(" id=\"eq-{l}\"")).unwrap_or_default();
-                out.labels.extend(label.map(|l| (l, line)));
-                block(&mut events, &format!("<div class=\"math display\"{id}>{}</div>", escape(tex.trim())));
-            }
+            Event::DisplayMath(tex) => self.display_math(&tex, line),
             Event::Html(html) | Event::InlineHtml(html) => {
-                out.problems.push((line, "raw HTML is not passed on; write Markdown instead".to_owned()));
-                events.push(Event::Text(html));
+                self.problem(line, "raw HTML is not passed on; write Markdown instead");
+                self.events.push(Event::Text(html));
             }
             Event::Start(Tag::Image { dest_url, title, .. }) => {
-                image = Some((dest_url.to_string(), title.to_string(), String::new()));
+                let (path, caption) = (dest_url.to_string(), title.to_string());
+                self.image = Some(Image { path, caption, alt: String::new() });
             }
             Event::Start(Tag::Link { ref dest_url, .. }) => {
-                skipped_link = !is_safe_link(dest_url);
-                if skipped_link {
-                    out.problems.push((line, format!("the link {dest_url} is not https, #… or /…")));
+                self.skips_link = !is_safe_link(dest_url);
+                if self.skips_link {
+                    self.problem(line, format!("the link {dest_url} is not https, #… or /…"));
                 } else {
-                    out.links.push((dest_url.to_string(), line));
-                    events.push(event);
+                    self.out.links.push((dest_url.to_string(), line));
+                    self.events.push(event);
                 }
             }
-            Event::End(TagEnd::Link) if skipped_link => skipped_link = false,
-            Event::SoftBreak
-                if events.last().is_some_and(|e| matches!(e, Event::InlineHtml(h) if h.ends_with("<p>"))) => {
-            }
+            Event::End(TagEnd::Link) if self.skips_link => self.skips_link = false,
+            Event::SoftBreak if self.is_after_block() => {}
             other => {
                 if matches!(&other, Event::Text(t) if t.contains('$')) {
-                    dollar.get_or_insert(line);
+                    self.dollar.get_or_insert(line);
                 }
-                events.push(other);
+                self.events.push(other);
             }
         }
     }
-    pulldown_cmark::html::push_html(&mut out.html, events.into_iter());
-    if let Some(line) = dollar {
-        out.problems.push((
-            line,
-            "a $ is left in the text: formulas are $…$ or $$…$$, without spaces inside".to_owned(),
-        ));
-    }
-    out.html = out.html.replace("<p></p>\n", "").replace("<p></p>", "");
-    out
-}
 
-impl Rendered {
-    fn image(
-        &mut self,
-        path: &str,
-        caption: &str,
-        alt: &str,
-        line: usize,
-        figures: &BTreeMap<String, String>,
-        events: &mut Vec<Event>,
-    ) {
-        if alt.trim().len() < 10 {
-            let problem = format!("the figure {path} needs a description: ![what it shows]({path})");
-            self.problems.push((line, problem));
+    fn display_math(&mut self, tex: &str, line: usize) {
+        let label = label(tex);
+        let id = label.as_ref().map(|l| format!(" id=\"eq-{l}\"")).unwrap_or_default();
+        self.out.labels.extend(label.map(|l| (l, line)));
+        self.block(&format!("<div class=\"math display\"{id}>{}</div>", escape(tex.trim())));
+    }
+
+    fn end_image(&mut self, line: usize) {
+        let Some(Image { path, caption, alt }) = self.image.take() else { return };
+        if alt.trim().len() < MIN_DESCRIPTION {
+            self.problem(line, format!("the figure {path} needs a description: ![what it shows]({path})"));
         }
-        match figures.get(path).map(|svg| Figure::parse(svg)) {
-            None => {
-                self.problems.push((line, format!("there is no figure {path}; it belongs into figures/")));
-            }
-            Some(Err(error)) => self.problems.push((line, format!("{path}: {error}"))),
-            Some(Ok(figure)) => block(events, &figure.html(alt.trim(), caption)),
+        match self.figures.get(&path).map(|svg| Figure::parse(svg)) {
+            None => self.problem(line, format!("there is no figure {path}; it belongs into figures/")),
+            Some(Err(error)) => self.problem(line, format!("{path}: {error}")),
+            Some(Ok(figure)) => self.block(&figure.html(alt.trim(), &caption)),
         }
-        self.figures.push(path.to_owned());
+        self.out.figures.push(path);
+    }
+
+    /// Puts a block inside a paragraph by closing the paragraph around it.
+    fn block(&mut self, html: &str) {
+        if matches!(self.events.last(), Some(Event::SoftBreak)) {
+            self.events.pop();
+        }
+        self.events.push(raw(format!("</p>\n{html}\n<p>")));
+    }
+
+    fn is_after_block(&self) -> bool {
+        matches!(self.events.last(), Some(Event::InlineHtml(html)) if html.ends_with("<p>"))
+    }
+
+    fn finish(mut self) -> Rendered {
+        pulldown_cmark::html::push_html(&mut self.out.html, self.events.into_iter());
+        if let Some(line) = self.dollar {
+            let what = "a $ is left in the text: formulas are $…$ or $$…$$, without spaces inside";
+            self.out.problems.push((line, what.to_owned()));
+        }
+        self.out.html = self.out.html.replace("<p></p>\n", "").replace("<p></p>", "");
+        self.out
     }
 }
 
 /// HTML of our own making.
 fn raw(html: String) -> Event<'static> {
     Event::InlineHtml(CowStr::from(html))
-}
-
-/// Puts a block inside a paragraph by closing the paragraph around it.
-fn block(events: &mut Vec<Event>, html: &str) {
-    if matches!(events.last(), Some(Event::SoftBreak)) {
-        events.pop();
-    }
-    events.push(raw(format!("</p>\n{html}\n<p>")));
 }
 
 fn label(tex: &str) -> Option<String> {

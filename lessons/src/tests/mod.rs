@@ -1,6 +1,7 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
 mod kinds;
+mod properties;
 mod tasks;
 
 use std::collections::BTreeMap;

@@ -3,8 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use crate::answers::table::TableError;
 use crate::answers::{Answer, RunSettings, TypedValue};
+use crate::grading::judge;
 use crate::lesson::Lesson;
+use crate::tasks::program_output::OutputError;
+use crate::verdict::feedback::{Demand, Discrepancy, Feedback, Judgement, MotionFinding, PartFinding};
+use crate::verdict::html;
+use crate::verdict::invalid::{
+    InvalidAnswer, InvalidModel, InvalidProgram, InvalidSettings, InvalidTrajectory,
+};
 use crate::{Course, Mark, QuestionVerdict, Submission, grade, reference_submission};
 
 fn lesson(slug: &str) -> Lesson {
@@ -29,6 +37,22 @@ fn value(text: &str) -> Answer {
     Answer { value: Some(TypedValue::Text(text.to_owned())), ..Answer::default() }
 }
 
+/// One answer, judged as data.
+fn judgement(lesson: &Lesson, id: &str, answer: Answer) -> Judgement {
+    let answers = BTreeMap::from([(id.to_owned(), answer)]);
+    let judgements = judge(lesson, &Submission { answers, ..Submission::default() }).unwrap();
+    let place = lesson.exercise.questions.iter().position(|q| q.id == id).unwrap();
+    judgements.into_iter().nth(place).unwrap()
+}
+
+/// Why an answer cannot be judged.
+fn invalid(judgement: Judgement) -> InvalidAnswer {
+    match judgement.feedback {
+        Feedback::Invalid(why) if judgement.mark == Mark::Invalid => why,
+        other => panic!("{other:?}"),
+    }
+}
+
 /// The file of the reference, as JSON to be spoilt.
 fn reference(lesson: &Lesson, id: &str) -> serde_json::Value {
     let text = reference_submission(lesson).answers[id].file.clone().unwrap();
@@ -44,15 +68,23 @@ fn a_program_is_told_which_block_row_and_column_is_off() {
     let mut spoilt = reference(&lesson, "program");
     // Row 12 is the hinge's first, columns from 0 the upper link's.
     spoilt["states"][2]["jacobian"][12][3] = 7.0.into();
-    let wrong = judged(&lesson, "program", file(spoilt.to_string()));
-    assert_eq!((wrong.verdict, wrong.earned), (Mark::Wrong, 0.5 * wrong.possible));
-    for says in
-        ["state 3 of 5", "1 of 504 entries", "hinge: CP.x", "upper.ux", "block of hinge and body upper"]
-    {
-        assert!(wrong.message_html.contains(says), "{says}: {}", wrong.message_html);
-    }
+    let wrong = judgement(&lesson, "program", file(spoilt.to_string()));
+    assert_eq!((wrong.mark, wrong.share), (Mark::Wrong, 0.5));
+    let Feedback::Program { parts } = &wrong.feedback else { panic!("{:?}", wrong.feedback) };
+    let off = Discrepancy {
+        state: 3,
+        states: 5,
+        entries: 1,
+        of: 504,
+        rows: vec!["hinge: CP.x".to_owned()],
+        rows_are_coordinates: false,
+        columns: vec!["upper.ux".to_owned()],
+        block: Some(("hinge".to_owned(), "upper".to_owned())),
+        factor: None,
+    };
+    assert!(parts.iter().any(|(_, finding)| *finding == PartFinding::Off(off.clone())), "{parts:?}");
     let own = reference(&lesson, "program")["states"][2]["jacobian"][12][3].to_string();
-    assert!(!wrong.message_html.contains(&own), "the right number is not told");
+    assert!(!html::message(&wrong.feedback).contains(&own), "the right number is not told");
 }
 
 #[test]
@@ -102,22 +134,34 @@ fn a_program_may_write_csv_and_bad_files_cost_nothing() {
         }
     }
     assert_eq!(judged(&lesson, "program", file(&csv)).verdict, Mark::Right);
-    for (text, says) in [
-        ("{", "not JSON"),
-        ("{\"states\": []}", "0 states in the file, 5 were dealt"),
+    type Is = fn(&OutputError) -> bool;
+    let cases: [(&str, Is); 8] = [
+        ("{", |e| matches!(e, OutputError::Json { .. })),
+        ("{\"states\": []}", |e| *e == OutputError::StateCount { found: 0, given: 5 }),
         (
             "{\"states\": [{\"phi\": [1]},{\"phi\": [1]},{\"phi\": [1]},{\"phi\": [1]},{\"phi\": [1]}]}",
-            "6 numbers are asked for",
+            |e| matches!(e, OutputError::Form { wanted, .. } if wanted == "6 numbers"),
         ),
-        ("{\"states\": [{\"phi\": [1,2,3,4,5,null]},{},{},{},{}]}", "no number"),
-        ("state,part,row,column,value\n9,phi,1,1,0", "goes from 1 to 5"),
-        ("state,part,row,column,value\n1,psi,1,1,0", "there is no part psi"),
-        ("state,row,column,value\n1,1,1,0", "part is missing"),
-        ("state,part,row,column,value\n1,phi,1,1,NaN", "not a finite number"),
-    ] {
-        let verdict = judged(&lesson, "program", file(text));
-        assert_eq!(verdict.verdict, Mark::Invalid, "{text}: {}", verdict.message_html);
-        assert!(verdict.message_html.contains(says), "{text}: {}", verdict.message_html);
+        ("{\"states\": [{\"phi\": [1,2,3,4,5,null]},{},{},{},{}]}", |e| {
+            matches!(e, OutputError::Form { .. })
+        }),
+        ("state,part,row,column,value\n9,phi,1,1,0", |e| {
+            matches!(e, OutputError::OutOfRange { line: 2, name: "state", most: 5, .. })
+        }),
+        (
+            "state,part,row,column,value\n1,psi,1,1,0",
+            |e| matches!(e, OutputError::UnknownPart { part, .. } if part == "psi"),
+        ),
+        ("state,row,column,value\n1,1,1,0", |e| *e == OutputError::MissingColumn { name: "part" }),
+        ("state,part,row,column,value\n1,phi,1,1,NaN", |e| {
+            matches!(e, OutputError::Table(TableError::NotFinite { line: 2, .. }))
+        }),
+    ];
+    for (text, is) in cases {
+        match invalid(judgement(&lesson, "program", file(text))) {
+            InvalidAnswer::Program(InvalidProgram::Output(error)) => assert!(is(&error), "{text}: {error:?}"),
+            other => panic!("{text}: {other:?}"),
+        }
     }
     assert_eq!(judged(&lesson, "program", value("3")).verdict, Mark::Invalid);
     let huge = serde_json::json!({"answers": {"program": {"file": "x".repeat((1 << 20) + 1)}}});
@@ -155,7 +199,11 @@ fn a_table_is_judged_by_bands_and_phase_is_told_from_amplitude() {
     assert_eq!((right.verdict, right.earned), (Mark::Right, 4.0), "{}", right.message_html);
     let late = judge(pendulum(0.05, 1.0, 0.02));
     assert_eq!(late.misconception.as_deref(), Some("phase"), "{}", late.message_html);
-    assert!(late.message_html.contains("s too late"), "{}", late.message_html);
+    let late = judgement(&lesson, "your-run", file(pendulum(0.05, 1.0, 0.02)));
+    let Feedback::Trajectory { finding: MotionFinding::Phase { late }, .. } = late.feedback else {
+        panic!("{late:?}")
+    };
+    assert!((late - 0.05).abs() < 1e-3, "{late}");
     let large = judge(pendulum(0.0, 1.2, 0.04));
     assert_eq!(large.misconception.as_deref(), Some("amplitude"), "{}", large.message_html);
     let nearly = judge(pendulum(0.0, 1.006, 0.02));
@@ -168,20 +216,25 @@ fn a_table_is_judged_by_bands_and_phase_is_told_from_amplitude() {
 fn a_table_that_cannot_be_used_says_why() {
     let lesson = lesson("verification");
     let long = pendulum(0.0, 1.0, 0.02);
-    for (text, says) in [
-        ("t,x\n0,1\n".to_owned(), "no column y"),
-        ("t,x,y\n0,1,2\n".to_owned(), "at least 20 are needed"),
-        (long.lines().take(300).collect::<Vec<_>>().join("\n"), "must cover 0 to 10 s"),
-        (pendulum(0.0, 1.0, 0.5), "gap"),
-        (long.replace("0.02;", "0;"), "Times must grow"),
-        (long.replace("0.02;", "soon;"), "Line 3, column t"),
-    ] {
-        let verdict = judged(&lesson, "your-run", file(text));
-        let fits = verdict.message_html.contains(says);
-        if says == "gap" && verdict.verdict == Mark::Right {
-            continue; // Half a second is the longest that is allowed.
+    type Is = fn(&InvalidTrajectory) -> bool;
+    let cases: [(String, Is); 6] = [
+        ("t,x\n0,1\n".to_owned(), |e| matches!(e, InvalidTrajectory::NoColumn { name, .. } if name == "y")),
+        ("t,x,y\n0,1,2\n".to_owned(), |e| *e == InvalidTrajectory::FewRows { rows: 1, fewest: 20 }),
+        (long.lines().take(300).collect::<Vec<_>>().join("\n"), |e| {
+            matches!(e, InvalidTrajectory::Range { end: 10.0, .. })
+        }),
+        (pendulum(0.0, 1.0, 0.52), |e| matches!(e, InvalidTrajectory::Gap { most: 0.5, .. })),
+        (long.replace("0.02;", "0;"), |e| matches!(e, InvalidTrajectory::Times { .. })),
+        (
+            long.replace("0.02;", "soon;"),
+            |e| matches!(e, InvalidTrajectory::Table(TableError::NotANumber { line: 3, column, .. }) if column == "t"),
+        ),
+    ];
+    for (text, is) in cases {
+        match invalid(judgement(&lesson, "your-run", file(text))) {
+            InvalidAnswer::Trajectory(error) => assert!(is(&error), "{error:?}"),
+            other => panic!("{other:?}"),
         }
-        assert!(fits && verdict.verdict == Mark::Invalid, "{says}: {}", verdict.message_html);
     }
 }
 
@@ -205,28 +258,34 @@ fn a_scene_is_judged_by_what_it_does() {
 
     let mut large = scene.clone();
     large["bodies"] = serde_json::json!(vec![scene["bodies"][0].clone(); 7]);
-    for (text, says) in [
-        ("{".to_owned(), "cannot be read"),
-        (scene.to_string().replace("\"universal\"", "\"hinge\""), "hinge"),
-        (scene.to_string().replace("\"wheel\"}", "\"whee\"}"), ""),
-        (large.to_string(), "at most 6"),
-        (String::from("{\"name\":\"x\",\"bodies\":[]}"), ""),
-    ] {
-        let verdict = judged(&lesson, "scene", file(text));
-        assert_ne!(verdict.verdict, Mark::Blank);
-        assert!(verdict.message_html.contains(says), "{says}: {}", verdict.message_html);
-    }
+    let Feedback::Model { demands, note: None } =
+        judgement(&lesson, "scene", file(heavy.to_string())).feedback
+    else {
+        panic!("a note for a wrong scene")
+    };
+    assert!(demands.iter().any(|d| !d.met && matches!(d.demand, Demand::Watch { stopped: None, .. })));
+
+    let why = |text: String| invalid(judgement(&lesson, "scene", file(text)));
+    assert!(matches!(why("{".to_owned()), InvalidAnswer::Model(InvalidModel::Scene(_))));
+    let hinge = why(scene.to_string().replace("\"universal\"", "\"hinge\""));
+    assert!(
+        matches!(&hinge, InvalidAnswer::Model(InvalidModel::Scene(e)) if e.to_string().contains("hinge"))
+    );
+    let many = InvalidAnswer::Model(InvalidModel::Bodies { bodies: 7, most: 6 });
+    assert_eq!(why(large.to_string()), many);
+    let empty = judgement(&lesson, "scene", file("{\"name\":\"x\",\"bodies\":[]}"));
+    assert!(matches!(empty.mark, Mark::Wrong | Mark::Invalid), "{empty:?}");
 }
 
 #[test]
 fn settings_are_run_and_drawn() {
     let lesson = lesson("work-and-precision");
-    let settings = |word: &str, tolerance: &str| {
+    let chosen = |word: &str, tolerance: &str| {
         let integrator = serde_json::from_value(serde_json::json!(word)).unwrap();
-        let settings =
-            RunSettings { integrator, tolerance: TypedValue::Text(tolerance.to_owned()), baumgarte: None };
-        judged(&lesson, "tune", Answer { settings: Some(settings), ..Answer::default() })
+        let tolerance = TypedValue::Text(tolerance.to_owned());
+        Answer { settings: Some(RunSettings { integrator, tolerance, baumgarte: None }), ..Answer::default() }
     };
+    let settings = |word: &str, tolerance: &str| judged(&lesson, "tune", chosen(word, tolerance));
     let right = settings("dop853", "1e-8");
     assert_eq!(right.verdict, Mark::Right, "{}", right.message_html);
     let picture = right.figure_svg.unwrap();
@@ -236,15 +295,15 @@ fn settings_are_run_and_drawn() {
     assert!(!coarse.figure_svg.unwrap().contains("polyline"), "the curves would be the answer");
     assert_eq!(settings("dop853", "1e-11").misconception.as_deref(), Some("too-dear"));
     assert_eq!(settings("dopri5", "1e-12").verdict, Mark::Wrong);
-    for (word, tolerance, says) in [
-        ("taylor", "1e-8", "no choice taylor"),
-        ("dop853", "soon", "not a number"),
-        ("dop853", "1e-20", "from 1e-13"),
-    ] {
-        let verdict = settings(word, tolerance);
-        assert_eq!(verdict.verdict, Mark::Invalid);
-        assert!(verdict.message_html.contains(says), "{}", verdict.message_html);
-    }
+    let why = |word: &str, tolerance: &str| match invalid(judgement(&lesson, "tune", chosen(word, tolerance)))
+    {
+        InvalidAnswer::Settings(error) => error,
+        other => panic!("{other:?}"),
+    };
+    let unknown = why("taylor", "1e-8");
+    assert!(matches!(unknown, InvalidSettings::Integrator { integrator, .. } if integrator == "taylor"));
+    assert!(matches!(why("dop853", "soon"), InvalidSettings::Number { what: "The tolerance", .. }));
+    assert_eq!(why("dop853", "1e-20"), InvalidSettings::ToleranceRange);
     assert_eq!(settings("dop853", "").verdict, Mark::Blank);
 }
 
@@ -260,7 +319,7 @@ fn a_right_step_from_a_wrong_answer_is_a_right_step() {
         (speed, pull.verdict, pull.misconception.as_deref()),
         (Mark::Wrong, Mark::Right, Some("follow-through"))
     );
-    assert!(pull.message_html.contains("your own answer to question 2"), "{}", pull.message_html);
+    assert_eq!(html::message(&Feedback::FollowThrough { questions: vec![2] }), pull.message_html);
     // The same number beside a right speed is wrong.
     assert_eq!(both("4.4294", "18.00").1.verdict, Mark::Wrong);
     assert_eq!(both("3.000", "17.00").1.verdict, Mark::Wrong);
