@@ -5,12 +5,14 @@ use std::sync::Arc;
 
 use triad_lessons::Course;
 
+use crate::lecture::Lectures;
 use crate::limits::Limits;
-use crate::reports;
-use crate::room::Rooms;
 use crate::session::Registry;
 use crate::store::Store;
 use crate::variants::Variants;
+
+/// Where commands write reports and the workbench looks for them, unless told otherwise.
+pub const REPORTS: &str = "reports";
 
 /// The server's state; cheap to clone.
 #[derive(Debug, Clone)]
@@ -24,7 +26,7 @@ pub struct App {
     /// The live simulations.
     pub sessions: Arc<Registry>,
     /// The lectures.
-    pub rooms: Arc<Rooms>,
+    pub lectures: Arc<Lectures>,
     /// What this server allows.
     pub limits: Arc<Limits>,
     /// The folder with the reports of commands.
@@ -39,9 +41,9 @@ impl App {
             variants: Arc::default(),
             store: Arc::new(store),
             sessions: Arc::default(),
-            rooms: Arc::default(),
+            lectures: Arc::default(),
             limits: Arc::new(limits),
-            reports: Path::new(reports::FOLDER).into(),
+            reports: Path::new(REPORTS).into(),
         }
     }
 

@@ -15,7 +15,7 @@ pub mod variants;
 
 pub mod session;
 
-pub mod room;
+pub mod lecture;
 
 pub mod app;
 

@@ -6,10 +6,8 @@ use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use crate::app::App;
+use crate::app::{App, REPORTS};
 
-/// Where commands write reports and the workbench looks for them, unless told otherwise.
-pub const FOLDER: &str = "reports";
 /// Run time against error.
 pub const BENCH: &str = "bench.html";
 /// What the engine survives.
@@ -27,7 +25,7 @@ pub async fn bench(State(app): State<App>) -> Response {
 
 /// What became of each attempt to break the engine, as `triad stress` last found it.
 pub async fn stress(State(app): State<App>) -> Response {
-    let command = format!("triad stress --quick --html {FOLDER}/{STRESS}");
+    let command = format!("triad stress --quick --html {REPORTS}/{STRESS}");
     show(&app.reports, STRESS, "Stress report", &command).await
 }
 

@@ -1,21 +1,13 @@
 //! The HTTP interface under `/api/v1`, and the one router of the server.
 
-mod analyses;
 mod bounds;
-mod changes;
 mod describe;
 mod extract;
-mod follow;
 mod health;
-mod import;
+mod lectures;
 mod lessons;
-mod matrices;
-mod reactions;
-mod rooms;
 mod scenes;
 mod sessions;
-mod stream;
-mod submissions;
 
 use std::time::Duration;
 
@@ -67,17 +59,17 @@ fn described() -> (Router<App>, Value) {
             "/api/v1",
             OpenApiRouter::new()
                 .merge(lessons::routes(&mut schemas))
-                .merge(submissions::routes(&mut schemas))
+                .merge(lessons::submissions::routes(&mut schemas))
                 .merge(scenes::routes(&mut schemas))
-                .merge(import::routes(&mut schemas))
+                .merge(scenes::import::routes(&mut schemas))
                 .merge(sessions::routes(&mut schemas))
-                .merge(changes::routes(&mut schemas))
-                .merge(analyses::routes(&mut schemas))
-                .merge(reactions::routes(&mut schemas))
-                .merge(matrices::routes(&mut schemas))
-                .merge(stream::routes(&mut schemas))
-                .merge(rooms::routes(&mut schemas))
-                .merge(follow::routes(&mut schemas))
+                .merge(sessions::changes::routes(&mut schemas))
+                .merge(scenes::analyses::routes(&mut schemas))
+                .merge(sessions::reactions::routes(&mut schemas))
+                .merge(sessions::matrices::routes(&mut schemas))
+                .merge(sessions::stream::routes(&mut schemas))
+                .merge(lectures::routes(&mut schemas))
+                .merge(lectures::follow::routes(&mut schemas))
                 .merge(health::routes(&mut schemas)),
         )
         .split_for_parts();
@@ -132,6 +124,6 @@ pub async fn keep_house(app: App) {
     loop {
         often.tick().await;
         app.sessions.expire(&app.limits);
-        app.rooms.expire(&app.limits);
+        app.lectures.expire(&app.limits);
     }
 }

@@ -38,7 +38,7 @@ pub(super) struct Bench {
     tolerances: Vec<f64>,
     /// The folder for bench.csv, bench.html and the plots as SVG and PNG; made if it is not there. The workbench
     /// shows what is in its own folder at /bench.
-    #[arg(long, default_value = reports::FOLDER, value_name = "DIR")]
+    #[arg(long, default_value = crate::app::REPORTS, value_name = "DIR")]
     out: PathBuf,
 }
 

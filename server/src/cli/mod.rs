@@ -25,8 +25,8 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 use triad_engine::scene::{IntegratorKind, Stabilization};
 
+use crate::app::REPORTS;
 use crate::problem::Problem;
-use crate::reports;
 
 /// Ends of `--help`: what a newcomer does first.
 const EXAMPLES: &str = "\
@@ -254,7 +254,7 @@ struct Serve {
     #[arg(long, default_value_t = 500, value_name = "N")]
     max_bodies: usize,
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
-    #[arg(long, default_value = reports::FOLDER, value_name = "DIR")]
+    #[arg(long, default_value = REPORTS, value_name = "DIR")]
     reports: PathBuf,
     /// Lecture rooms at a time.
     #[arg(long, default_value_t = 16, value_name = "N")]
@@ -272,7 +272,7 @@ impl Default for Serve {
             database: "triad.db".into(),
             max_sessions: 64,
             max_bodies: 500,
-            reports: reports::FOLDER.into(),
+            reports: REPORTS.into(),
             max_rooms: 16,
             max_followers: 500,
         }

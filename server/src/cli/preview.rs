@@ -26,7 +26,7 @@ use crate::store::Store;
 /// Time between two looks at the files.
 const LOOK: Duration = Duration::from_millis(400);
 /// Most files that are looked at.
-const MOST_FILES: usize = 5000;
+const MAX_FILES: usize = 5000;
 /// Largest page that the script is put into, in bytes.
 const LARGEST_PAGE: usize = 1 << 20;
 /// What the page runs besides itself.
@@ -108,7 +108,7 @@ fn stamp(folder: &Path) -> (usize, Option<SystemTime>) {
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
             let Ok(about) = entry.metadata() else { continue };
-            if count >= MOST_FILES || entry.file_name().to_string_lossy().starts_with('.') {
+            if count >= MAX_FILES || entry.file_name().to_string_lossy().starts_with('.') {
                 continue;
             }
             count += 1;

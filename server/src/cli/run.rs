@@ -16,13 +16,13 @@ use super::terminal::{Progress, print_json, print_line, progress};
 use super::{Outcome, Run};
 use crate::problem::Problem;
 use crate::scenes;
-use crate::session::{cast, sample};
+use crate::session::{describe, sample};
 use crate::stream::{RecordError, Recorder, Sample};
 
 /// Samples that are encoded together.
 const BATCH: usize = 256;
 /// Rows that a table or recording may have.
-const MOST_OUTPUTS: f64 = 1e7;
+const MAX_OUTPUTS: f64 = 1e7;
 
 /// Runs a scene to its end.
 pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
@@ -68,7 +68,7 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     simulation.step = options.step.or(simulation.step);
     let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
-    if writes && outputs > MOST_OUTPUTS {
+    if writes && outputs > MAX_OUTPUTS {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "too-many-outputs",
@@ -188,11 +188,11 @@ impl Outputs {
         let id = uuid::Uuid::new_v4().simple().to_string();
         if let Some(path) = &options.rrd {
             make_room(path)?;
-            let recorder = Recorder::to_file(path, &id, cast(scene, simulation));
+            let recorder = Recorder::to_file(path, &id, describe(scene, simulation));
             recorders.push(recorder.map_err(|error| unwritable(path, &error))?);
         }
         if let Some(url) = &options.rerun {
-            let recorder = Recorder::to_viewer(url, &id, cast(scene, simulation));
+            let recorder = Recorder::to_viewer(url, &id, describe(scene, simulation));
             recorders.push(recorder.map_err(|error| no_viewer(url, &error))?);
         }
         Ok(Self { table, recorders, waiting: Vec::new() })

@@ -47,7 +47,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     ));
     print_line(&format!("Submissions are kept in {}", options.database.display()));
     tokio::spawn(crate::api::keep_house(app.clone()));
-    let (sessions, rooms) = (app.sessions.clone(), app.rooms.clone());
+    let (sessions, rooms) = (app.sessions.clone(), app.lectures.clone());
     let stop = async move {
         stopped().await;
         // Open streams end with their sessions; otherwise they would keep the server up.

@@ -14,8 +14,7 @@ use crate::problem::Problem;
 /// Other values for numbers of the scene.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-#[schemars(rename = "SceneChange")]
-pub struct Change {
+pub struct SceneChange {
     /// Values of the parameters that the scene's author offers, by name.
     #[schemars(example = json!({"mass": 2.5}))]
     pub values: BTreeMap<String, f64>,
@@ -24,21 +23,20 @@ pub struct Change {
     #[schemars(example = json!({"/simulation/tolerance": 1e-6}))]
     pub places: BTreeMap<String, Value>,
     /// What happens to the run: as the parameters say if it is not given, and a restart for other numbers.
-    pub then: Option<Then>,
+    pub then: Option<AfterChange>,
 }
 
 /// What happens to a run whose scene is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-#[schemars(rename = "AfterChange")]
-pub enum Then {
+pub enum AfterChange {
     /// It starts over.
     Restart,
     /// It goes on from where it stands.
     Continue,
 }
 
-impl From<OnChange> for Then {
+impl From<OnChange> for AfterChange {
     fn from(on_change: OnChange) -> Self {
         match on_change {
             OnChange::Restart => Self::Restart,
@@ -47,21 +45,21 @@ impl From<OnChange> for Then {
     }
 }
 
-impl Change {
+impl SceneChange {
     /// Whether it changes nothing.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty() && self.places.is_empty()
     }
 
     /// The changed scene, and what happens to its run.
-    pub fn of(&self, scene: &Scene) -> Result<(Scene, Then), Problem> {
+    pub fn of(&self, scene: &Scene) -> Result<(Scene, AfterChange), Problem> {
         let values = self.values.iter().map(|(name, value)| (name.as_str(), *value));
         let places = self.places.iter().map(|(pointer, value)| (pointer.as_str(), value));
         let changed = scene.changed(values, places)?;
-        let offered = |name: &String| scene.parameter(name).map(|p| Then::from(p.on_change));
+        let offered = |name: &String| scene.parameter(name).map(|p| AfterChange::from(p.on_change));
         let goes_on = self.places.is_empty()
-            && self.values.keys().all(|name| offered(name).is_ok_and(|then| then == Then::Continue));
-        Ok((changed, self.then.unwrap_or(if goes_on { Then::Continue } else { Then::Restart })))
+            && self.values.keys().all(|name| offered(name).is_ok_and(|then| then == AfterChange::Continue));
+        Ok((changed, self.then.unwrap_or(if goes_on { AfterChange::Continue } else { AfterChange::Restart })))
     }
 }
 
@@ -73,8 +71,7 @@ pub(super) fn as_it_runs(scene: &Scene) -> Scene {
 
 /// A number that may be changed, as it is now.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "SessionParameter")]
-pub struct ParameterView {
+pub struct SessionParameter {
     /// Name in requests.
     pub name: String,
     /// Name for people.
@@ -94,15 +91,14 @@ pub struct ParameterView {
     /// Unit, for people.
     pub unit: Option<String>,
     /// What happens to the run when it changes.
-    pub on_change: Then,
+    pub on_change: AfterChange,
 }
 
 /// A session's scene as it is now.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-#[schemars(rename = "SessionScene")]
-pub struct SceneView {
+pub struct SessionScene {
     /// The parameters that its author offers.
-    pub parameters: Vec<ParameterView>,
+    pub parameters: Vec<SessionParameter>,
     /// The scene with everything written out that may be changed.
     #[schemars(with = "Scene")]
     pub scene: Value,
@@ -111,12 +107,12 @@ pub struct SceneView {
     pub original: Value,
 }
 
-impl SceneView {
+impl SessionScene {
     /// The view of a scene that was `original`.
     pub fn new(scene: &Scene, original: &Scene) -> Self {
         let (now, before) = (WrittenScene::new(scene), WrittenScene::new(original));
         let parameters = scene.parameters.iter().filter_map(|p| {
-            Some(ParameterView {
+            Some(SessionParameter {
                 name: p.name.clone(),
                 label: p.label.clone(),
                 pointers: p.places().iter().map(|place| place.pointer().to_owned()).collect(),
@@ -136,8 +132,7 @@ impl SceneView {
 /// A spring from a point of a body to a place in the world.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "Drag")]
-pub struct Pull {
+pub struct Drag {
     /// The body.
     pub body: String,
     /// The point, from the centre of mass along the body's principal axes, m.
@@ -153,7 +148,7 @@ pub struct Pull {
 /// The spring of the hand brings a body alone to rest in about this time, s.
 const HAND_PERIOD: f64 = 0.6;
 
-impl Pull {
+impl Drag {
     /// The scene with the hand's spring in it.
     pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Problem> {
         let wrong = |pointer: &str, detail: String, hint: String| {

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use tokio::sync::oneshot;
 use triad_engine::simulation::Simulation;
 
-use super::change::{Change, Pull, SceneView};
+use super::change::{Drag, SceneChange, SessionScene};
 use super::state::SessionState;
 use crate::problem::Problem;
 use crate::stream::{Arrows, Camera};
@@ -24,11 +24,11 @@ pub(super) enum Command {
     /// Go back to the start.
     Reset(Reply<Arc<SessionState>>),
     /// Change numbers of the scene.
-    Change(Change, Reply<Arc<SessionState>>),
+    Change(SceneChange, Reply<Arc<SessionState>>),
     /// Pull a body by the hand, or let it go.
-    Pull(Option<Pull>, Reply<Arc<SessionState>>),
+    Drag(Option<Drag>, Reply<Arc<SessionState>>),
     /// Tell the scene.
-    Scene(Reply<SceneView>),
+    Scene(Reply<SessionScene>),
     /// Show the run as it is, or as it was at a time, to somebody who tells what is wanted of it.
     Look(Option<f64>, Teller),
     /// Draw forces in another way; take their scale from the recording.

@@ -2,16 +2,16 @@
 
 mod change;
 mod command;
-mod film;
-mod past;
+mod history;
+mod recording;
 mod registry;
 mod state;
 mod worker;
 
-pub use change::{Change, ParameterView, Pull, SceneView, Then};
-pub(crate) use film::{cast, sample};
+pub use change::{AfterChange, Drag, SceneChange, SessionParameter, SessionScene};
+pub(crate) use recording::{describe, sample};
 pub use registry::{Registry, bounded};
-pub use state::{BodyState, Drawing, Links, SessionState, Source};
+pub use state::{BodyState, Drawing, Links, SceneSource, SessionState};
 
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -30,8 +30,8 @@ use crate::problem::Problem;
 use crate::stream::{Arrows, Camera, Hub, Watcher};
 use change::as_it_runs;
 use command::{Command, Reply, Signals};
-use film::Film;
-use past::Past;
+use history::History;
+use recording::Recording;
 use worker::Worker;
 
 /// Commands that may wait for one session.
@@ -49,7 +49,12 @@ pub struct Session {
 
 impl Session {
     /// Assembles a scene and starts its thread. Blocks until the scene is assembled.
-    pub fn start(original: Scene, change: &Change, source: Source, limits: &Limits) -> Result<Self, Problem> {
+    pub fn start(
+        original: Scene,
+        change: &SceneChange,
+        source: SceneSource,
+        limits: &Limits,
+    ) -> Result<Self, Problem> {
         let model = Model::new(&original).map_err(EngineError::from)?;
         let (scene, mut simulation) = if change.is_empty() {
             (original.clone(), Simulation::from_model(model)?)
@@ -60,11 +65,11 @@ impl Session {
         };
         let id = uuid::Uuid::new_v4().simple().to_string();
         let hub = Arc::new(Hub::default());
-        let mut film =
-            Film::new(&id, cast(&scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
-        film.take(&mut simulation)?;
-        let mut past = Past::new(limits.recording_bytes / 4);
-        past.keep(&mut simulation);
+        let mut recording =
+            Recording::new(&id, describe(&scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
+        recording.record(&mut simulation)?;
+        let mut history = History::new(limits.recording_bytes / 4);
+        history.keep(&mut simulation);
         let signals = Arc::new(Signals::default());
         let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
         let extra = state::Extra {
@@ -76,7 +81,7 @@ impl Session {
             frames: 1,
             frames_encoded: 0,
             watchers: 0,
-            drawing: Drawing::of(&film),
+            drawing: Drawing::of(&recording),
             changes: 0,
             pull: None,
             error: None,
@@ -91,8 +96,8 @@ impl Session {
             changes: 0,
             pull: None,
             simulation,
-            film,
-            past,
+            recording,
+            history,
             signals: Arc::clone(&signals),
             state: sender,
             command_time: limits.command_time,
@@ -147,17 +152,17 @@ impl Session {
     }
 
     /// Changes numbers of the scene; the run starts over or goes on.
-    pub async fn change(&self, change: Change) -> Result<Arc<SessionState>, Problem> {
+    pub async fn change(&self, change: SceneChange) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Change(change, reply)).await
     }
 
     /// Pulls a body by the hand, or lets it go.
-    pub async fn pull(&self, pull: Option<Pull>) -> Result<Arc<SessionState>, Problem> {
-        self.ask(|reply| Command::Pull(pull, reply)).await
+    pub async fn pull(&self, pull: Option<Drag>) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Drag(pull, reply)).await
     }
 
     /// The scene as it is now.
-    pub async fn scene(&self) -> Result<SceneView, Problem> {
+    pub async fn scene(&self) -> Result<SessionScene, Problem> {
         self.ask(Command::Scene).await
     }
 

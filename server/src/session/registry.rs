@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use axum::http::StatusCode;
 use triad_engine::scene::Scene;
 
-use super::{Change, Session, Source};
+use super::{SceneChange, SceneSource, Session};
 use crate::limits::Limits;
 use crate::problem::Problem;
 
@@ -28,8 +28,8 @@ impl Registry {
     pub fn start(
         &self,
         scene: Scene,
-        change: &Change,
-        source: Source,
+        change: &SceneChange,
+        source: SceneSource,
         limits: &Limits,
     ) -> Result<Arc<Session>, Problem> {
         bounded(&scene, limits)?;

@@ -4,16 +4,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_engine::simulation::Simulation;
 
-use super::change::Pull;
-use super::film::Film;
+use super::change::Drag;
+use super::recording::Recording;
 use crate::problem::{Problem, ProblemDocument};
 use crate::stream::{Arrows, Camera};
 
 /// Where a session's scene came from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-#[schemars(rename = "SceneSource")]
-pub enum Source {
+pub enum SceneSource {
     /// A lesson, by its slug.
     Lesson(String),
     /// A built-in scene, by its name.
@@ -79,20 +78,20 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    pub(super) fn of(film: &Film) -> Self {
-        let (arrows, scale) = film.arrows();
+    pub(super) fn of(recording: &Recording) -> Self {
+        let (arrows, scale) = recording.arrows();
         Self {
             arrows: arrows.clone(),
             force_scale: scale.force,
             moment_scale: scale.moment,
             longest: scale.longest,
-            camera: film.camera(),
+            camera: recording.camera(),
         }
     }
 }
 
 /// Scenes of more joints tell their forces only where they are asked for.
-const MOST_FORCES: usize = 64;
+const MAX_FORCES: usize = 64;
 
 /// Where to go from here.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -134,7 +133,7 @@ pub struct SessionState {
     /// Its name in addresses.
     pub id: String,
     /// Where its scene came from.
-    pub source: Source,
+    pub source: SceneSource,
     /// Title of its scene.
     pub title: String,
     /// Time of the simulation, s.
@@ -180,7 +179,7 @@ pub struct SessionState {
     /// How often the scene was changed since the session began.
     pub changes: u64,
     /// The hand's spring, while a body is pulled.
-    pub pull: Option<Pull>,
+    pub pull: Option<Drag>,
     /// What the engine found or corrected in the scene, and what speaks against the result so far.
     pub notes: Vec<String>,
     /// Why the simulation stopped before its end; the last good state is kept.
@@ -200,7 +199,7 @@ pub struct SessionState {
 #[derive(Debug, Clone)]
 pub(super) struct Extra {
     pub id: String,
-    pub source: Source,
+    pub source: SceneSource,
     pub title: String,
     pub playing: bool,
     pub speed: f64,
@@ -209,7 +208,7 @@ pub(super) struct Extra {
     pub watchers: usize,
     pub drawing: Drawing,
     pub changes: u64,
-    pub pull: Option<Pull>,
+    pub pull: Option<Drag>,
     pub error: Option<Problem>,
 }
 
@@ -270,7 +269,7 @@ impl SessionState {
 }
 
 fn forces(simulation: &mut Simulation) -> Vec<JointForce> {
-    if simulation.system().groups.len() > MOST_FORCES {
+    if simulation.system().groups.len() > MAX_FORCES {
         return Vec::new();
     }
     let told = simulation.multipliers().into_iter();

@@ -10,15 +10,12 @@ use tokio::sync::watch;
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
-use super::change::{Change, Pull, SceneView, Then, as_it_runs};
+use super::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
 use super::command::{Command, Signals};
-use super::film::{Film, cast};
-use super::past::Past;
-use super::state::{Drawing, Extra, SessionState, Source};
+use super::history::History;
+use super::recording::{Recording, TICK, describe};
+use super::state::{Drawing, Extra, SceneSource, SessionState};
 use crate::problem::Problem;
-
-/// How often a playing session goes on: about thirty times a second.
-pub(super) const BEAT: Duration = Duration::from_millis(33);
 
 /// Integrator steps between two looks at the clock and at what callers want.
 const PIECE: u64 = 32;
@@ -26,17 +23,17 @@ const PIECE: u64 = 32;
 /// A session's simulation with all that belongs to it.
 pub(super) struct Worker {
     pub id: String,
-    pub source: Source,
+    pub source: SceneSource,
     pub title: String,
     /// The scene as its author wrote it.
     pub original: Scene,
     /// The scene that runs, without the hand's spring.
     pub scene: Scene,
     pub changes: u64,
-    pub pull: Option<Pull>,
+    pub pull: Option<Drag>,
     pub simulation: Simulation,
-    pub film: Film,
-    pub past: Past,
+    pub recording: Recording,
+    pub history: History,
     pub signals: Arc<Signals>,
     pub state: watch::Sender<Arc<SessionState>>,
     pub command_time: Duration,
@@ -57,25 +54,25 @@ impl Worker {
     /// Serves commands until the session is closed.
     pub(super) fn run(mut self, commands: &Receiver<Command>) {
         self.publish();
-        let mut next_beat = Instant::now();
+        let mut next_tick = Instant::now();
         while !self.signals.closed.load(Ordering::Relaxed) {
             let received = if self.play.is_some() {
-                commands.recv_timeout(next_beat.saturating_duration_since(Instant::now()))
+                commands.recv_timeout(next_tick.saturating_duration_since(Instant::now()))
             } else {
                 commands.recv().map_err(|_| RecvTimeoutError::Disconnected)
             };
             match received {
-                Ok(command) => self.obey(command),
+                Ok(command) => self.handle(command),
                 Err(RecvTimeoutError::Timeout) => {
-                    next_beat = Instant::now() + BEAT;
-                    self.beat();
+                    next_tick = Instant::now() + TICK;
+                    self.tick();
                 }
                 Err(RecvTimeoutError::Disconnected) => return,
             }
         }
     }
 
-    fn obey(&mut self, command: Command) {
+    fn handle(&mut self, command: Command) {
         self.signals.interrupt.store(false, Ordering::Relaxed);
         // A caller that has gone away no longer wants the answer: nothing is lost if it cannot be delivered.
         match command {
@@ -102,8 +99,8 @@ impl Worker {
                 self.play = None;
                 self.error = None;
                 self.simulation.reset();
-                self.film.restart();
-                self.past.clear();
+                self.recording.restart();
+                self.history.clear();
                 let result = self.record();
                 drop(reply.send(self.answer(result)));
             }
@@ -111,55 +108,55 @@ impl Worker {
                 let result = self.change(&change);
                 drop(reply.send(self.answer_to_change(result)));
             }
-            Command::Pull(pull, reply) => {
+            Command::Drag(pull, reply) => {
                 let result = self.pull(pull);
                 drop(reply.send(self.answer_to_change(result)));
             }
-            Command::Scene(reply) => drop(reply.send(Ok(SceneView::new(&self.scene, &self.original)))),
+            Command::Scene(reply) => drop(reply.send(Ok(SessionScene::new(&self.scene, &self.original)))),
             Command::Look(at, tell) => match at.filter(|at| *at < self.simulation.time()) {
                 None => tell(Ok(&mut self.simulation)),
-                Some(time) => tell(self.past.at(time, &self.simulation)),
+                Some(time) => tell(self.history.at(time, &self.simulation)),
             },
             Command::Draw(arrows, fit, reply) => {
-                let drawn = arrows.map_or(Ok(()), |arrows| self.film.draw(arrows));
-                let result = drawn.and_then(|()| if fit { self.film.fit(true) } else { Ok(()) });
+                let drawn = arrows.map_or(Ok(()), |arrows| self.recording.draw(arrows));
+                let result = drawn.and_then(|()| if fit { self.recording.fit(true) } else { Ok(()) });
                 drop(reply.send(self.answer(result)));
             }
             Command::LookFrom(camera, reply) => {
-                let result = self.film.look_from(camera);
+                let result = self.recording.look_from(camera);
                 drop(reply.send(self.answer(result)));
             }
             Command::Watched => {
-                let developed = self.film.develop();
-                self.note(developed);
+                let encoded = self.recording.encode();
+                self.note(encoded);
                 self.publish();
             }
         }
     }
 
     /// Runs the scene with other numbers. If they are refused, the run goes on with the old ones.
-    fn change(&mut self, change: &Change) -> Result<(), Problem> {
+    fn change(&mut self, change: &SceneChange) -> Result<(), Problem> {
         let (scene, then) = change.of(&self.scene)?;
-        if then == Then::Restart {
+        if then == AfterChange::Restart {
             self.pull = None;
         }
         let mut next = self.assembled(&scene, self.pull.as_ref())?;
-        let cast = cast(&scene, &mut next);
+        let description = describe(&scene, &mut next);
         match then {
-            Then::Restart => self.error = None,
-            Then::Continue => self.hand_over(&mut next)?,
+            AfterChange::Restart => self.error = None,
+            AfterChange::Continue => self.transfer_state(&mut next)?,
         }
         let before = std::mem::replace(&mut self.simulation, next);
         self.scene = scene;
         self.changes += 1;
         match then {
-            Then::Restart => {
-                self.film.restart_with(cast);
-                self.past.clear();
+            AfterChange::Restart => {
+                self.recording.restart_with(description);
+                self.history.clear();
             }
-            Then::Continue => {
-                self.film.follow(cast);
-                self.past.turn_page(before);
+            AfterChange::Continue => {
+                self.recording.follow(description);
+                self.history.start_segment(before);
             }
         }
         self.run_on();
@@ -168,22 +165,22 @@ impl Worker {
 
     /// Keeps the present, if it is one of the moments that are kept.
     fn record(&mut self) -> Result<(), Problem> {
-        if self.film.take(&mut self.simulation)? {
-            self.past.keep(&mut self.simulation);
+        if self.recording.record(&mut self.simulation)? {
+            self.history.keep(&mut self.simulation);
         }
         Ok(())
     }
 
-    fn pull(&mut self, pull: Option<Pull>) -> Result<(), Problem> {
+    fn pull(&mut self, pull: Option<Drag>) -> Result<(), Problem> {
         let mut next = self.assembled(&self.scene, pull.as_ref())?;
-        self.hand_over(&mut next)?;
-        self.past.turn_page(std::mem::replace(&mut self.simulation, next));
+        self.transfer_state(&mut next)?;
+        self.history.start_segment(std::mem::replace(&mut self.simulation, next));
         self.pull = pull;
         self.run_on();
         Ok(())
     }
 
-    fn assembled(&self, scene: &Scene, pull: Option<&Pull>) -> Result<Simulation, Problem> {
+    fn assembled(&self, scene: &Scene, pull: Option<&Drag>) -> Result<Simulation, Problem> {
         Ok(match pull {
             None => Simulation::new(&as_it_runs(scene))?,
             Some(pull) => Simulation::new(&as_it_runs(&pull.added_to(scene, self.simulation.model())?))?,
@@ -191,7 +188,7 @@ impl Worker {
     }
 
     /// Lets another simulation go on from the state of the current one.
-    fn hand_over(&mut self, next: &mut Simulation) -> Result<(), Problem> {
+    fn transfer_state(&mut self, next: &mut Simulation) -> Result<(), Problem> {
         self.ready_to_change()?;
         next.continue_from(&mut self.simulation).map(drop).map_err(|error| {
             let problem = Problem::from(error);
@@ -280,9 +277,9 @@ impl Worker {
         ))
     }
 
-    /// One beat of a playing session. Simulated time follows the wall clock; where the engine cannot keep up,
+    /// One tick of a playing session. Simulated time follows the wall clock; where the engine cannot keep up,
     /// the session runs slower rather than in leaps.
-    fn beat(&mut self) {
+    fn tick(&mut self) {
         let Some(play) = self.play else { return };
         let now = Instant::now();
         let every = self.simulation.model().settings.every;
@@ -290,7 +287,7 @@ impl Worker {
         // Frames fall on the scene's own output times, so that two runs record the same ones.
         let target =
             if due < self.simulation.duration() { (due / every + 1e-6).floor() * every } else { due };
-        let reached = self.advance_within(target, now + BEAT);
+        let reached = self.advance_within(target, now + TICK);
         if self.simulation.time() + every < target {
             self.play = Some(Play { since: Instant::now(), from: self.simulation.time() });
         }
@@ -300,11 +297,12 @@ impl Worker {
         self.note(reached);
         if self.simulation.finished() {
             // The whole run is known: its scale is that of all of it.
-            let fitted = self.film.fit(false);
+            let fitted = self.recording.fit(false);
             self.note(fitted);
         }
-        let developed = if self.play.is_some() { self.film.develop_in_turn() } else { self.film.develop() };
-        self.note(developed);
+        let encoded =
+            if self.play.is_some() { self.recording.encode_in_turn() } else { self.recording.encode() };
+        self.note(encoded);
         self.publish();
     }
 
@@ -326,14 +324,14 @@ impl Worker {
 
     /// The answer to a command: the state after it, or what went wrong.
     fn answer(&mut self, result: Result<(), Problem>) -> Result<Arc<SessionState>, Problem> {
-        let developed = self.film.develop();
+        let encoded = self.recording.encode();
         if let Err(problem) = &result {
             // Asking too much at once stops nothing; an engine that cannot go on, or a full recording, does.
             if !matches!(problem.code(), "time-budget-exceeded" | "session-stopped") {
                 self.note(result.clone());
             }
         }
-        self.note(developed);
+        self.note(encoded);
         self.publish();
         result.map(|()| Arc::clone(&self.state.borrow()))
     }
@@ -347,7 +345,7 @@ impl Worker {
     }
 
     fn publish(&mut self) {
-        let (frames, frames_encoded) = self.film.counts();
+        let (frames, frames_encoded) = self.recording.counts();
         let extra = Extra {
             id: self.id.clone(),
             source: self.source.clone(),
@@ -356,8 +354,8 @@ impl Worker {
             speed: self.speed,
             frames,
             frames_encoded,
-            watchers: self.film.watchers(),
-            drawing: Drawing::of(&self.film),
+            watchers: self.recording.watchers(),
+            drawing: Drawing::of(&self.recording),
             changes: self.changes,
             pull: self.pull.clone(),
             error: self.error.clone(),

@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::cast::{Cast, Tie};
+use super::description::{JointVisual, SceneDescription};
 use super::sample::{Reaction, Sample};
 
 /// Which forces are drawn and how they are told.
@@ -16,9 +16,9 @@ pub struct Arrows {
     /// On the first or on the second body of each joint.
     pub on: On,
     /// About which point: there the force is drawn and the moment taken.
-    pub about: Point,
+    pub about: MomentPoint,
     /// Which of them.
-    pub drawn: Drawn,
+    pub drawn: DrawnForces,
     /// The joint that is marked, because somebody selected it or its rows.
     pub marked: Option<String>,
 }
@@ -38,8 +38,7 @@ pub enum On {
 /// The point about which moments are taken.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-#[schemars(rename = "MomentPoint")]
-pub enum Point {
+pub enum MomentPoint {
     /// The joint's.
     #[default]
     Joint,
@@ -50,8 +49,7 @@ pub enum Point {
 /// Which forces are drawn.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-#[schemars(rename = "DrawnForces")]
-pub enum Drawn {
+pub enum DrawnForces {
     /// None.
     None,
     /// Those of every joint.
@@ -177,16 +175,16 @@ impl Arrows {
     }
 
     /// Three rings about the marked joint, wide enough to be seen around the bodies that meet there.
-    pub fn mark(&self, cast: &Cast, sample: &Sample) -> Vec<Vec<[f64; 3]>> {
+    pub fn mark(&self, description: &SceneDescription, sample: &Sample) -> Vec<Vec<[f64; 3]>> {
         let marked = self.marked.as_ref();
-        let joint = marked.and_then(|name| cast.joints.iter().position(|tie| tie.name == *name));
+        let joint = marked.and_then(|name| description.joints.iter().position(|visual| visual.name == *name));
         let Some(reaction) = joint.and_then(|joint| sample.reactions.get(joint)) else { return Vec::new() };
         let ring = |axis: usize| {
             let turned = |k: usize| {
                 let (sin, cos) = (std::f64::consts::TAU * k as f64 / (POINTS - 1) as f64).sin_cos();
                 let mut at = reaction.at;
-                at[(axis + 1) % 3] += RING * cast.size * cos;
-                at[(axis + 2) % 3] += RING * cast.size * sin;
+                at[(axis + 1) % 3] += RING * description.size * cos;
+                at[(axis + 2) % 3] += RING * description.size * sin;
                 at
             };
             (0..POINTS).map(turned).collect()
@@ -195,61 +193,81 @@ impl Arrows {
     }
 
     /// The glyphs of a joint at one instant.
-    pub fn of_joint(&self, cast: &Cast, joint: usize, sample: &Sample) -> Glyphs {
-        let tie = &cast.joints[joint];
+    pub fn of_joint(&self, description: &SceneDescription, joint: usize, sample: &Sample) -> Glyphs {
+        let visual = &description.joints[joint];
         let mut glyphs = Glyphs::default();
         let Some(reaction) = sample.reactions.get(joint) else { return glyphs };
-        let Some((sign, body)) = self.side_of(tie, cast) else { return glyphs };
+        let Some((sign, body)) = self.side_of(visual, description) else { return glyphs };
         let force = times(reaction.force, sign);
         let mut moment = times(reaction.moment, sign);
         let mut at = reaction.at;
-        let mut is_moment = has_moment(reaction, cast.size);
-        if let (Point::Center, Some(body)) = (self.about, body) {
+        let mut is_moment = has_moment(reaction, description.size);
+        if let (MomentPoint::Center, Some(body)) = (self.about, body) {
             let center = sample.poses[body].position;
             moment = plus(moment, cross(minus(at, center), force));
             at = center;
-            is_moment = norm(moment) > NO_MOMENT * cast.size * norm(force).max(1e-300);
+            is_moment = norm(moment) > NO_MOMENT * description.size * norm(force).max(1e-300);
         }
-        arrow(&mut glyphs.pieces, Kind::Reaction, at, times(force, cast.scale.force), cast.scale.longest);
+        arrow(
+            &mut glyphs.pieces,
+            Kind::Reaction,
+            at,
+            times(force, description.scale.force),
+            description.scale.longest,
+        );
         if is_moment {
-            circle(&mut glyphs, at, moment, cast);
+            circle(&mut glyphs, at, moment, description);
         }
         glyphs
     }
 
     /// The sign of a joint's force, and the body that it acts on; nothing if it is not drawn.
-    fn side_of(&self, tie: &Tie, cast: &Cast) -> Option<(f64, Option<usize>)> {
-        let told_on = (1.0, tie.on);
-        let other = (-1.0, tie.by);
+    fn side_of(&self, visual: &JointVisual, description: &SceneDescription) -> Option<(f64, Option<usize>)> {
+        let told_on = (1.0, visual.on);
+        let other = (-1.0, visual.by);
         match &self.drawn {
-            Drawn::None => None,
-            Drawn::Joint(name) if *name != tie.name => None,
-            Drawn::All | Drawn::Joint(_) => Some(if self.on == On::J { told_on } else { other }),
-            Drawn::Body(name) => {
-                let body = cast.bodies.iter().position(|body| body.name == *name)?;
+            DrawnForces::None => None,
+            DrawnForces::Joint(name) if *name != visual.name => None,
+            DrawnForces::All | DrawnForces::Joint(_) => Some(if self.on == On::J { told_on } else { other }),
+            DrawnForces::Body(name) => {
+                let body = description.bodies.iter().position(|body| body.name == *name)?;
                 [told_on, other].into_iter().find(|(_, on)| *on == Some(body))
             }
         }
     }
 
     /// Weight and loads of the body that is cut free, if one is.
-    pub fn of_body(&self, cast: &Cast, sample: &Sample) -> Vec<Piece> {
-        let Drawn::Body(name) = &self.drawn else { return Vec::new() };
-        let Some(body) = cast.bodies.iter().position(|body| body.name == *name) else { return Vec::new() };
+    pub fn of_body(&self, description: &SceneDescription, sample: &Sample) -> Vec<Piece> {
+        let DrawnForces::Body(name) = &self.drawn else { return Vec::new() };
+        let Some(body) = description.bodies.iter().position(|body| body.name == *name) else {
+            return Vec::new();
+        };
         let (weight, at) = (sample.weights[body], sample.poses[body].position);
         // What neither weight nor joints account for is what loads and springs do.
         let mut rest = minus(sample.inertia[body], weight);
         let mut largest = norm(weight).max(norm(rest));
-        for (tie, reaction) in cast.joints.iter().zip(&sample.reactions) {
-            if let Some((sign, _)) = self.side_of(tie, cast) {
+        for (visual, reaction) in description.joints.iter().zip(&sample.reactions) {
+            if let Some((sign, _)) = self.side_of(visual, description) {
                 rest = minus(rest, times(reaction.force, sign));
                 largest = largest.max(norm(reaction.force));
             }
         }
         let mut pieces = Vec::new();
-        arrow(&mut pieces, Kind::Weight, at, times(weight, cast.scale.force), cast.scale.longest);
-        if sample.reactions.len() == cast.joints.len() && norm(rest) > 1e-6 * largest {
-            arrow(&mut pieces, Kind::Load, at, times(rest, cast.scale.force), cast.scale.longest);
+        arrow(
+            &mut pieces,
+            Kind::Weight,
+            at,
+            times(weight, description.scale.force),
+            description.scale.longest,
+        );
+        if sample.reactions.len() == description.joints.len() && norm(rest) > 1e-6 * largest {
+            arrow(
+                &mut pieces,
+                Kind::Load,
+                at,
+                times(rest, description.scale.force),
+                description.scale.longest,
+            );
         }
         pieces
     }
@@ -260,10 +278,10 @@ fn has_moment(reaction: &Reaction, size: f64) -> bool {
 }
 
 /// Three quarters of a circle about a moment's axis, with a head where it turns to.
-fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], cast: &Cast) {
+fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], description: &SceneDescription) {
     let size = norm(moment);
-    let largest = 0.5 * cast.scale.longest;
-    let wanted = size * cast.scale.moment;
+    let largest = 0.5 * description.scale.longest;
+    let wanted = size * description.scale.moment;
     if !wanted.is_finite() || wanted < 1e-3 * largest {
         return;
     }
@@ -278,13 +296,13 @@ fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], cast: &Cast) {
     let end = 1.5 * std::f64::consts::PI;
     let around =
         |radius: f64| (0..POINTS).map(|k| on(radius, end * k as f64 / (POINTS - 1) as f64)).collect();
-    let radius = wanted.clamp(SMALLEST_CIRCLE * cast.size, largest);
+    let radius = wanted.clamp(SMALLEST_CIRCLE * description.size, largest);
     glyphs.circles.push(around(radius));
     if wanted > largest {
         glyphs.circles.push(around(0.85 * radius));
     }
     let forward = minus(times(b, end.cos()), times(a, end.sin()));
-    let vector = times(forward, 0.1 * cast.size);
+    let vector = times(forward, 0.1 * description.size);
     glyphs.pieces.push(Piece { kind: Kind::Moment, from: on(radius, end), vector });
 }
 
@@ -325,36 +343,36 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cast::Actor;
+    use super::super::description::BodyVisual;
     use super::super::sample::Pose;
     use super::*;
 
     #[test]
     fn rings_are_about_the_marked_joint_and_about_no_other() {
-        let (cast, sample) = hanging();
+        let (description, sample) = hanging();
         let marked = Arrows { marked: Some("pin".into()), ..Arrows::default() };
-        let rings = marked.mark(&cast, &sample);
+        let rings = marked.mark(&description, &sample);
         assert_eq!(rings.len(), 3);
         for point in rings.iter().flatten() {
-            assert!((norm(minus(*point, sample.reactions[0].at)) - RING * cast.size).abs() < 1e-12);
+            assert!((norm(minus(*point, sample.reactions[0].at)) - RING * description.size).abs() < 1e-12);
         }
-        assert!(Arrows::default().mark(&cast, &sample).is_empty());
-        assert!(Arrows { marked: Some("no joint".into()), ..marked }.mark(&cast, &sample).is_empty());
+        assert!(Arrows::default().mark(&description, &sample).is_empty());
+        assert!(Arrows { marked: Some("no joint".into()), ..marked }.mark(&description, &sample).is_empty());
     }
 
     const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
     /// A body of 2 kg that hangs at a pin, which turns it too.
-    fn hanging() -> (Cast, Sample) {
-        let bob = Actor {
+    fn hanging() -> (SceneDescription, Sample) {
+        let bob = BodyVisual {
             name: "bob".into(),
             shapes: Vec::new(),
             center_of_mass: [0.0; 3],
             principal_axes: AXES,
             joint_points: Vec::new(),
         };
-        let pin = Tie { name: "pin".into(), rows: Vec::new(), on: Some(0), by: None };
-        let cast = Cast {
+        let pin = JointVisual { name: "pin".into(), rows: Vec::new(), on: Some(0), by: None };
+        let description = SceneDescription {
             title: String::new(),
             bodies: vec![bob],
             joints: vec![pin],
@@ -381,38 +399,38 @@ mod tests {
             position_violation: 0.0,
             velocity_violation: 0.0,
         };
-        (cast, sample)
+        (description, sample)
     }
 
     #[test]
     fn arrows_turn_with_the_body_and_move_with_the_point() {
-        let (cast, sample) = hanging();
+        let (description, sample) = hanging();
         let mut arrows = Arrows::default();
-        let on_j = arrows.of_joint(&cast, 0, &sample);
+        let on_j = arrows.of_joint(&description, 0, &sample);
         assert_eq!(on_j.pieces[0], Piece { kind: Kind::Reaction, from: [0.0; 3], vector: [0.0, 0.25, 0.0] });
         assert_eq!((on_j.pieces.len(), on_j.circles.len()), (2, 1), "an arrow, a circle and its head");
         assert!(on_j.circles[0].iter().all(|p| (norm(*p) - 0.2).abs() < 1e-12 && p[2] == 0.0));
         // It turns as the moment does: counter-clockwise about +z.
         assert!(cross(on_j.circles[0][0], on_j.circles[0][1])[2] > 0.0);
         arrows.on = On::I;
-        let on_i = arrows.of_joint(&cast, 0, &sample);
+        let on_i = arrows.of_joint(&description, 0, &sample);
         assert_eq!(on_i.pieces[0].vector, [0.0, -0.25, 0.0]);
         assert!(cross(on_i.circles[0][0], on_i.circles[0][1])[2] < 0.0);
         // About the centre of mass: M + (at − c) × F = 2 − 25 N m, and that is too large to be drawn.
-        arrows = Arrows { about: Point::Center, ..Arrows::default() };
-        let about = arrows.of_joint(&cast, 0, &sample);
+        arrows = Arrows { about: MomentPoint::Center, ..Arrows::default() };
+        let about = arrows.of_joint(&description, 0, &sample);
         assert_eq!(about.pieces[0].from, [1.0, 0.0, 0.0]);
         assert_eq!(about.circles.len(), 2, "larger than drawn");
         assert!((norm(minus(about.circles[0][0], [1.0, 0.0, 0.0])) - 0.4).abs() < 1e-12);
-        arrows.drawn = Drawn::Joint("other".into());
-        assert_eq!(arrows.of_joint(&cast, 0, &sample), Glyphs::default());
+        arrows.drawn = DrawnForces::Joint("other".into());
+        assert_eq!(arrows.of_joint(&description, 0, &sample), Glyphs::default());
     }
 
     #[test]
     fn an_arrow_that_would_be_too_long_is_two_in_a_row() {
-        let (mut cast, sample) = hanging();
-        cast.scale.force = 1.0;
-        let pieces = Arrows::default().of_joint(&cast, 0, &sample).pieces;
+        let (mut description, sample) = hanging();
+        description.scale.force = 1.0;
+        let pieces = Arrows::default().of_joint(&description, 0, &sample).pieces;
         let [first, second] = pieces[..2] else { panic!("two pieces: {pieces:?}") };
         assert!((second.from[1] + second.vector[1] - 0.8).abs() < 1e-12, "the tip is at the longest length");
         assert!(first.vector[1] < second.from[1], "with a gap between them");
@@ -420,24 +438,26 @@ mod tests {
 
     #[test]
     fn a_body_that_is_cut_free_has_all_its_forces() {
-        let (cast, mut sample) = hanging();
-        let arrows = Arrows { drawn: Drawn::Body("bob".into()), ..Arrows::default() };
+        let (description, mut sample) = hanging();
+        let arrows = Arrows { drawn: DrawnForces::Body("bob".into()), ..Arrows::default() };
         // m a = 25 N − 20 N: nothing is left for loads.
-        let pieces = arrows.of_body(&cast, &sample);
+        let pieces = arrows.of_body(&description, &sample);
         assert_eq!(pieces, [Piece { kind: Kind::Weight, from: [1.0, 0.0, 0.0], vector: [0.0, -0.2, 0.0] }]);
         sample.inertia[0] = [2.0, 5.0, 0.0];
-        let pieces = arrows.of_body(&cast, &sample);
+        let pieces = arrows.of_body(&description, &sample);
         assert_eq!(pieces[1], Piece { kind: Kind::Load, from: [1.0, 0.0, 0.0], vector: [0.02, 0.0, 0.0] });
     }
 
     #[test]
     fn the_scale_is_that_of_the_recording_and_one_outlier_does_not_make_it() {
-        let (cast, sample) = hanging();
+        let (description, sample) = hanging();
         let mut samples = vec![sample; 100];
         samples[50].reactions[0].force = [0.0, 1e6, 0.0];
-        let scale = cast.scale.fitted(samples.iter(), 1.0);
+        let scale = description.scale.fitted(samples.iter(), 1.0);
         assert!((scale.force - 0.5 / 25.0).abs() < 1e-12, "{scale:?}");
         assert!((scale.moment - 0.22 / 2.0).abs() < 1e-12, "{scale:?}");
-        assert!(scale.is_near(Scale { force: scale.force * 1.1, ..scale }) && !scale.is_near(cast.scale));
+        assert!(
+            scale.is_near(Scale { force: scale.force * 1.1, ..scale }) && !scale.is_near(description.scale)
+        );
     }
 }

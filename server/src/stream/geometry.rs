@@ -7,7 +7,7 @@ use rerun::{
 use triad_engine::scene::Shape;
 
 use super::arrows::Kind;
-use super::cast::{Actor, Cast, Pattern};
+use super::description::{BodyVisual, Pattern, SceneDescription};
 
 /// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
 const PALETTE: [[u8; 3]; 6] =
@@ -30,38 +30,45 @@ pub(super) fn path(parts: &[&str]) -> EntityPath {
 }
 
 /// Logs all that does not change.
-pub(super) fn log_static(recording: &RecordingStream, cast: &Cast) -> RecordingStreamResult<()> {
-    let up =
-        if cast.y_is_up() { ViewCoordinates::RIGHT_HAND_Y_UP() } else { ViewCoordinates::RIGHT_HAND_Z_UP() };
+pub(super) fn log_static(
+    recording: &RecordingStream,
+    description: &SceneDescription,
+) -> RecordingStreamResult<()> {
+    let up = if description.y_is_up() {
+        ViewCoordinates::RIGHT_HAND_Y_UP()
+    } else {
+        ViewCoordinates::RIGHT_HAND_Z_UP()
+    };
     recording.log_static("world", &up)?;
-    recording.log_static("world/ground", &axes(0.35 * cast.size, ["x", "y", "z"]))?;
-    for (index, body) in cast.bodies.iter().enumerate() {
-        log_body(recording, body, PALETTE[index % PALETTE.len()], cast.size)?;
+    recording.log_static("world/ground", &axes(0.35 * description.size, ["x", "y", "z"]))?;
+    for (index, body) in description.bodies.iter().enumerate() {
+        log_body(recording, body, PALETTE[index % PALETTE.len()], description.size)?;
     }
-    for joint in &cast.joints {
+    for joint in &description.joints {
         let arrow = Arrows3D::update_fields()
-            .with_radii([narrow(0.012 * cast.size)])
+            .with_radii([narrow(0.012 * description.size)])
             .with_labels([joint.name.as_str()])
             .with_show_labels(false);
         recording.log_static(path(&["world", "joints", &joint.name]), &arrow)?;
         let circle = LineStrips3D::update_fields()
             .with_colors([color_of(Kind::Moment)])
-            .with_radii([narrow(0.01 * cast.size)]);
+            .with_radii([narrow(0.01 * description.size)]);
         recording.log_static(path(&["world", "joints", &joint.name, "moment"]), &circle)?;
         let names = joint.rows.iter().map(|row| format!("{} {row}", joint.name));
         let lines = SeriesLines::new().with_names(names);
         recording.log_static(path(&["plots", "multipliers", &joint.name]), &lines)?;
     }
-    let arrow = Arrows3D::update_fields().with_radii([narrow(0.012 * cast.size)]);
+    let arrow = Arrows3D::update_fields().with_radii([narrow(0.012 * description.size)]);
     recording.log_static(FREE_BODY, &arrow)?;
-    let rings =
-        LineStrips3D::update_fields().with_colors([color(MARKED)]).with_radii([narrow(0.008 * cast.size)]);
+    let rings = LineStrips3D::update_fields()
+        .with_colors([color(MARKED)])
+        .with_radii([narrow(0.008 * description.size)]);
     recording.log_static(MARK, &rings)?;
     recording.log_static("plots/energy", &SeriesLines::new().with_names(["energy, J"]))?;
     let violation = SeriesLines::new().with_names(["position, m", "velocity, m/s"]);
     recording.log_static("plots/violation", &violation)?;
-    if cast.pattern.rows > 0 {
-        recording.log_static("jacobian", &picture(&cast.pattern))?;
+    if description.pattern.rows > 0 {
+        recording.log_static("jacobian", &picture(&description.pattern))?;
     }
     Ok(())
 }
@@ -75,7 +82,12 @@ fn axes(length: f64, labels: [&str; 3]) -> Arrows3D {
         .with_radii([narrow(0.012 * length)])
 }
 
-fn log_body(recording: &RecordingStream, body: &Actor, rgb: [u8; 3], size: f64) -> RecordingStreamResult<()> {
+fn log_body(
+    recording: &RecordingStream,
+    body: &BodyVisual,
+    rgb: [u8; 3],
+    size: f64,
+) -> RecordingStreamResult<()> {
     let at = |part: &str| path(&["world", "bodies", &body.name, part]);
     recording.log_static(at("axes"), &axes(0.2 * size, ["u", "v", "w"]))?;
     if !body.joint_points.is_empty() {

@@ -12,12 +12,16 @@ use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::cast::Cast;
+use super::description::SceneDescription;
 use super::geometry::single;
 use super::{APPLICATION, TIMELINE};
 
 /// Sends the layout, and makes the viewer use it.
-pub(super) fn send(recording: &RecordingStream, cast: &Cast, from: Camera) -> RecordingStreamResult<()> {
+pub(super) fn send(
+    recording: &RecordingStream,
+    description: &SceneDescription,
+    from: Camera,
+) -> RecordingStreamResult<()> {
     let mechanism = ContainerLike::from(
         Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]),
     );
@@ -36,7 +40,7 @@ pub(super) fn send(recording: &RecordingStream, cast: &Cast, from: Camera) -> Re
     let Some(id) = messages.first().map(|message| message.store_id().clone()) else { return Ok(()) };
     let (extra, written) = RecordingStreamBuilder::from_store_id(&id).send_properties(false).memory()?;
     extra.set_time_sequence("blueprint", 0);
-    extra.log(camera, &eye(cast, from))?;
+    extra.log(camera, &eye(description, from))?;
     messages.extend(written.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
     let activation = BlueprintActivationCommand { blueprint_id: id, make_active: true, make_default: true };
     recording.send_blueprint(messages, activation);
@@ -59,8 +63,8 @@ pub enum Camera {
 }
 
 /// A camera that sees the whole mechanism.
-fn eye(cast: &Cast, from: Camera) -> EyeControls3D {
-    let direction = match (from, cast.y_is_up()) {
+fn eye(description: &SceneDescription, from: Camera) -> EyeControls3D {
+    let direction = match (from, description.y_is_up()) {
         (Camera::Corner, true) => [0.35, 0.3, 2.5],
         (Camera::Corner, false) => [1.5, -1.9, 1.1],
         (Camera::Front, true) => [0.0, 0.0, 2.6],
@@ -70,11 +74,12 @@ fn eye(cast: &Cast, from: Camera) -> EyeControls3D {
         (Camera::Above, true) => [0.0, 2.6, 0.02],
         (Camera::Above, false) => [0.0, -0.02, 2.6],
     };
-    let position: [f64; 3] = std::array::from_fn(|k| cast.center[k] + 0.9 * cast.reach * direction[k]);
-    let up = if cast.y_is_up() { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let position: [f64; 3] =
+        std::array::from_fn(|k| description.center[k] + 0.9 * description.reach * direction[k]);
+    let up = if description.y_is_up() { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     EyeControls3D::new()
         .with_position(single(position))
-        .with_look_target(single(cast.center))
+        .with_look_target(single(description.center))
         .with_eye_up(single(up))
 }
 

@@ -6,15 +6,15 @@
 //! ```
 
 mod arrows;
-mod cast;
+mod description;
 mod geometry;
 mod hub;
 mod layout;
 mod recorder;
 mod sample;
 
-pub use arrows::{Arrows, Drawn, On, Point, Scale};
-pub use cast::{Actor, Cast, Pattern, Tie};
+pub use arrows::{Arrows, DrawnForces, MomentPoint, On, Scale};
+pub use description::{BodyVisual, JointVisual, Pattern, SceneDescription};
 pub use hub::{Delivery, Hub, Watcher};
 pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};

@@ -11,7 +11,7 @@ use rerun::{
 };
 
 use super::arrows::{Arrows, Glyphs, Piece, Scale};
-use super::cast::Cast;
+use super::description::SceneDescription;
 use super::geometry::{self, FREE_BODY, MARK, color_of, path, single};
 use super::layout::Camera;
 use super::sample::Sample;
@@ -40,7 +40,7 @@ enum Sink {
 pub struct Recorder {
     recording: RecordingStream,
     sink: Sink,
-    cast: Cast,
+    description: SceneDescription,
     arrows: Arrows,
     /// Entities of arrows that have something written.
     used: HashSet<EntityPath>,
@@ -49,28 +49,32 @@ pub struct Recorder {
 
 impl Recorder {
     /// A recording whose blocks are taken with [`Recorder::block`]. `id` tells it from others in one viewer.
-    pub fn to_blocks(id: &str, cast: Cast) -> Result<Self, RecordError> {
-        let recording = builder(id, &cast).buffered()?;
+    pub fn to_blocks(id: &str, description: SceneDescription) -> Result<Self, RecordError> {
+        let recording = builder(id, &description).buffered()?;
         let sink = Sink::Blocks(recording.binary_stream());
-        Self::start(recording, sink, cast)
+        Self::start(recording, sink, description)
     }
 
     /// A recording in a file.
-    pub fn to_file(file: &Path, id: &str, cast: Cast) -> Result<Self, RecordError> {
-        let recording = builder(id, &cast).save(file)?;
-        Self::start(recording, Sink::Elsewhere, cast)
+    pub fn to_file(file: &Path, id: &str, description: SceneDescription) -> Result<Self, RecordError> {
+        let recording = builder(id, &description).save(file)?;
+        Self::start(recording, Sink::Elsewhere, description)
     }
 
     /// A recording in a native viewer that listens at `url`, like `rerun+http://127.0.0.1:9876/proxy`.
-    pub fn to_viewer(url: &str, id: &str, cast: Cast) -> Result<Self, RecordError> {
-        let recording = builder(id, &cast).connect_grpc_opts(url)?;
-        Self::start(recording, Sink::Elsewhere, cast)
+    pub fn to_viewer(url: &str, id: &str, description: SceneDescription) -> Result<Self, RecordError> {
+        let recording = builder(id, &description).connect_grpc_opts(url)?;
+        Self::start(recording, Sink::Elsewhere, description)
     }
 
-    fn start(recording: RecordingStream, sink: Sink, cast: Cast) -> Result<Self, RecordError> {
-        layout::send(&recording, &cast, Camera::default())?;
-        geometry::log_static(&recording, &cast)?;
-        Ok(Self { recording, sink, cast, arrows: Arrows::default(), used: HashSet::new(), encoded: 0 })
+    fn start(
+        recording: RecordingStream,
+        sink: Sink,
+        description: SceneDescription,
+    ) -> Result<Self, RecordError> {
+        layout::send(&recording, &description, Camera::default())?;
+        geometry::log_static(&recording, &description)?;
+        Ok(Self { recording, sink, description, arrows: Arrows::default(), used: HashSet::new(), encoded: 0 })
     }
 
     /// How many samples have been encoded.
@@ -94,7 +98,7 @@ impl Recorder {
     }
 
     fn write_bodies(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
-        for (index, body) in self.cast.bodies.iter().enumerate() {
+        for (index, body) in self.description.bodies.iter().enumerate() {
             let poses = || samples.iter().map(|sample| sample.poses[index]);
             let columns = Transform3D::update_fields()
                 .with_many_translation(poses().map(|pose| single(pose.position)))
@@ -106,7 +110,7 @@ impl Recorder {
     }
 
     fn write_joints(&self, samples: &[Sample]) -> RecordingStreamResult<()> {
-        let joints = &self.cast.joints;
+        let joints = &self.description.joints;
         let known: Vec<&Sample> = samples.iter().filter(|s| s.reactions.len() == joints.len()).collect();
         if known.is_empty() {
             return Ok(());
@@ -125,8 +129,8 @@ impl Recorder {
 
     /// Draws forces and the mark in another way, also those that were drawn already: what is written last counts.
     pub fn redraw(&mut self, arrows: Arrows, scale: Scale, samples: &[Sample]) -> Result<(), RecordError> {
-        let alike = self.arrows.draw_as(&arrows) && self.cast.scale == scale;
-        self.cast.scale = scale;
+        let alike = self.arrows.draw_as(&arrows) && self.description.scale == scale;
+        self.description.scale = scale;
         self.arrows = arrows;
         if !alike {
             self.write_arrows(samples)?;
@@ -137,24 +141,24 @@ impl Recorder {
 
     /// Looks at the mechanism from another side.
     pub fn look_from(&self, camera: Camera) -> Result<(), RecordError> {
-        Ok(layout::send(&self.recording, &self.cast, camera)?)
+        Ok(layout::send(&self.recording, &self.description, camera)?)
     }
 
     fn write_arrows(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
-        for index in 0..self.cast.joints.len() {
+        for index in 0..self.description.joints.len() {
             let drawn: Vec<Glyphs> =
-                samples.iter().map(|sample| self.arrows.of_joint(&self.cast, index, sample)).collect();
+                samples.iter().map(|sample| self.arrows.of_joint(&self.description, index, sample)).collect();
             let (pieces, circles) = drawn.into_iter().map(|glyphs| (glyphs.pieces, glyphs.circles)).unzip();
-            let name = self.cast.joints[index].name.clone();
+            let name = self.description.joints[index].name.clone();
             self.write_pieces(path(&["world", "joints", &name]), samples, pieces)?;
             self.write_circles(path(&["world", "joints", &name, "moment"]), samples, circles)?;
         }
-        let of_body = samples.iter().map(|sample| self.arrows.of_body(&self.cast, sample)).collect();
+        let of_body = samples.iter().map(|sample| self.arrows.of_body(&self.description, sample)).collect();
         self.write_pieces(FREE_BODY.into(), samples, of_body)
     }
 
     fn write_mark(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
-        let drawn = samples.iter().map(|sample| self.arrows.mark(&self.cast, sample)).collect();
+        let drawn = samples.iter().map(|sample| self.arrows.mark(&self.description, sample)).collect();
         self.write_circles(MARK.into(), samples, drawn)
     }
 
@@ -240,8 +244,8 @@ impl Drop for Recorder {
     }
 }
 
-fn builder(id: &str, cast: &Cast) -> RecordingStreamBuilder {
-    RecordingStreamBuilder::new(APPLICATION).recording_id(id).recording_name(cast.title.clone())
+fn builder(id: &str, description: &SceneDescription) -> RecordingStreamBuilder {
+    RecordingStreamBuilder::new(APPLICATION).recording_id(id).recording_name(description.title.clone())
 }
 
 fn times(samples: &[Sample]) -> TimeColumn {

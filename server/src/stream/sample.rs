@@ -14,7 +14,7 @@ pub struct Pose {
 pub struct Reaction {
     /// Where it acts, in the world, in metres.
     pub at: [f64; 3],
-    /// The force on the body `on` of its [`Tie`](super::Tie), in the world, in newtons.
+    /// The force on the body `on` of its [`JointVisual`](super::JointVisual), in the world, in newtons.
     pub force: [f64; 3],
     /// The moment on that body about `at`, in the world, in newton metres.
     pub moment: [f64; 3],

@@ -13,15 +13,15 @@ use triad_engine::uniqueness::Redundancy;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{Asked, At, Json};
-use super::matrices::When;
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{Asked, At, Json};
+use crate::api::sessions::matrices::AtTime;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{Session, SessionState};
 use crate::stream::{Arrows, Camera};
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<ReactionsView>();
     schemas.answer::<MultipliersList>();
     schemas.request::<NewDrawing>();
@@ -37,7 +37,7 @@ pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 /// How reactions are wanted.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Wanted {
+pub(in crate::api) struct ReactionQuery {
     /// The time, s: one that the run has passed; the present if it is not given.
     #[serde(default)]
     at: Option<f64>,
@@ -55,7 +55,7 @@ pub(super) struct Wanted {
 /// Every reaction at one moment.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Reactions")]
-pub(super) struct ReactionsView {
+pub(in crate::api) struct ReactionsView {
     /// Time, s.
     time: f64,
     /// The reactions, joints before drivers.
@@ -78,12 +78,15 @@ pub(super) struct ReactionsView {
 async fn reactions(
     State(app): State<App>,
     At(id): At<String>,
-    Asked(wanted): Asked<Wanted>,
+    Asked(wanted): Asked<ReactionQuery>,
 ) -> Result<axum::Json<ReactionsView>, Problem> {
     Ok(axum::Json(reactions_of(&*app.sessions.get(&id)?, wanted).await?))
 }
 
-pub(super) async fn reactions_of(session: &Session, wanted: Wanted) -> Result<ReactionsView, Problem> {
+pub(in crate::api) async fn reactions_of(
+    session: &Session,
+    wanted: ReactionQuery,
+) -> Result<ReactionsView, Problem> {
     let about = about(wanted.about.as_deref())?;
     let convention = Convention { on: wanted.on, about, expressed_in: wanted.expressed_in };
     let report = session.look(wanted.at, move |run| run.reactions(convention).map_err(Problem::from)).await?;
@@ -93,7 +96,7 @@ pub(super) async fn reactions_of(session: &Session, wanted: Wanted) -> Result<Re
 /// The reaction in one joint.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "JointMultipliers")]
-pub(super) struct MultipliersView {
+pub(in crate::api) struct MultipliersView {
     /// Name of the joint.
     joint: String,
     /// The multipliers of its rows.
@@ -114,7 +117,7 @@ pub(super) struct MultipliersView {
 
 /// The multipliers of all joints.
 #[derive(Debug, Serialize, JsonSchema)]
-pub(super) struct MultipliersList(Vec<MultipliersView>);
+pub(in crate::api) struct MultipliersList(Vec<MultipliersView>);
 
 /// The multipliers and reactions, joint by joint.
 #[utoipa::path(get, path = "/sessions/{id}/multipliers", tag = "sessions", params(("id" = String, Path),
@@ -123,12 +126,15 @@ pub(super) struct MultipliersList(Vec<MultipliersView>);
 async fn multipliers(
     State(app): State<App>,
     At(id): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<MultipliersList>, Problem> {
     Ok(axum::Json(multipliers_of(&*app.sessions.get(&id)?, when.at).await?))
 }
 
-pub(super) async fn multipliers_of(session: &Session, at: Option<f64>) -> Result<MultipliersList, Problem> {
+pub(in crate::api) async fn multipliers_of(
+    session: &Session,
+    at: Option<f64>,
+) -> Result<MultipliersList, Problem> {
     let found = session.look(at, |run| Ok(run.multipliers())).await?;
     let joints = found.into_iter().map(|joint| MultipliersView {
         joint: joint.joint,

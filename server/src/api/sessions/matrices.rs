@@ -10,18 +10,18 @@ use triad_engine::simulation::Simulation;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{Asked, At};
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{Asked, At};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::Session;
 
 /// Rows of the largest matrix that is told in full.
-const MOST_ROWS: usize = 3_000;
+const MAX_ROWS: usize = 3_000;
 /// Its largest number of places.
-const MOST_PLACES: usize = 60_000;
+const MAX_PLACES: usize = 60_000;
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<JacobianView>();
     schemas.answer::<SymmetricView>();
     OpenApiRouter::new().routes(routes!(jacobian)).routes(routes!(augmented)).routes(routes!(schur))
@@ -30,7 +30,7 @@ pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 /// The time that something is wanted for.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct When {
+pub(in crate::api) struct AtTime {
     /// One that the run has passed, s; the present if it is not given.
     #[serde(default)]
     pub at: Option<f64>,
@@ -39,7 +39,7 @@ pub(super) struct When {
 /// The Jacobian of the constraints: a sparse matrix whose rows and columns have names.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Jacobian")]
-pub(super) struct JacobianView {
+pub(in crate::api) struct JacobianView {
     /// Time, s.
     time: f64,
     /// What each row is: its joint or body, and the row.
@@ -71,12 +71,12 @@ struct RedundantSet {
 async fn jacobian(
     State(app): State<App>,
     At(id): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<JacobianView>, Problem> {
     Ok(axum::Json(jacobian_of(&*app.sessions.get(&id)?, when.at).await?))
 }
 
-pub(super) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<JacobianView, Problem> {
+pub(in crate::api) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<JacobianView, Problem> {
     session
         .look(at, |run| {
             let time = run.time();
@@ -104,7 +104,7 @@ pub(super) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<Ja
 /// A symmetric matrix: what stands on and below its diagonal.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "SymmetricMatrix")]
-pub(super) struct SymmetricView {
+pub(in crate::api) struct SymmetricView {
     /// Time, s.
     time: f64,
     /// What each row is, and each column alike.
@@ -123,7 +123,7 @@ pub(super) struct SymmetricView {
 async fn augmented(
     State(app): State<App>,
     At(id): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<SymmetricView>, Problem> {
     Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::augmented).await?))
 }
@@ -136,12 +136,12 @@ async fn augmented(
 async fn schur(
     State(app): State<App>,
     At(id): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<SymmetricView>, Problem> {
     Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::schur).await?))
 }
 
-pub(super) async fn symmetric_of(
+pub(in crate::api) async fn symmetric_of(
     session: &Session,
     at: Option<f64>,
     matrix: fn(&mut Simulation) -> Symmetric,
@@ -150,12 +150,12 @@ pub(super) async fn symmetric_of(
         .look(at, move |run| {
             let system = run.system();
             let rows = system.coordinates + system.rigid_rows + system.equations;
-            if rows > MOST_ROWS {
-                return Err(too_large(&format!("{rows} rows, more than {MOST_ROWS}")));
+            if rows > MAX_ROWS {
+                return Err(too_large(&format!("{rows} rows, more than {MAX_ROWS}")));
             }
             let found = matrix(run);
-            if found.places.len() > MOST_PLACES {
-                return Err(too_large(&format!("{} places, more than {MOST_PLACES}", found.places.len())));
+            if found.places.len() > MAX_PLACES {
+                return Err(too_large(&format!("{} places, more than {MAX_PLACES}", found.places.len())));
             }
             let fill = found.fill();
             let places = found.places.iter().map(|p| (p.row, p.column, p.value, p.part)).collect();

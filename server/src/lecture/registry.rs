@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use axum::http::StatusCode;
 
-use super::Room;
+use super::Lecture;
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::session::Session;
@@ -17,13 +17,13 @@ const LENGTH: usize = 5;
 
 /// The rooms of one server.
 #[derive(Debug, Default)]
-pub struct Rooms {
-    open: Mutex<BTreeMap<String, Arc<Room>>>,
+pub struct Lectures {
+    open: Mutex<BTreeMap<String, Arc<Lecture>>>,
 }
 
-impl Rooms {
+impl Lectures {
     /// Opens a room for a session. Needs the async runtime.
-    pub fn open(&self, session: Arc<Session>, limits: &Limits) -> Result<Arc<Room>, Problem> {
+    pub fn open(&self, session: Arc<Session>, limits: &Limits) -> Result<Arc<Lecture>, Problem> {
         self.expire(limits);
         let mut open = self.lock();
         if open.len() >= limits.rooms {
@@ -35,13 +35,13 @@ impl Rooms {
             ));
         }
         let code = std::iter::repeat_with(new_code).find(|code| !open.contains_key(code)).unwrap_or_default();
-        let room = Room::open(code.clone(), session, limits.followers);
-        open.insert(code, Arc::clone(&room));
-        Ok(room)
+        let lecture = Lecture::open(code.clone(), session, limits.followers);
+        open.insert(code, Arc::clone(&lecture));
+        Ok(lecture)
     }
 
     /// The room with that code, however it was typed.
-    pub fn get(&self, code: &str) -> Result<Arc<Room>, Problem> {
+    pub fn get(&self, code: &str) -> Result<Arc<Lecture>, Problem> {
         let code = code.trim().to_uppercase();
         self.lock().get(&code).cloned().ok_or_else(|| {
             Problem::new(
@@ -53,20 +53,20 @@ impl Rooms {
         })
     }
 
-    /// Closes a room.
+    /// Closes a lecture.
     pub fn close(&self, code: &str) {
-        if let Some(room) = self.lock().remove(code) {
-            room.close();
+        if let Some(lecture) = self.lock().remove(code) {
+            lecture.close();
         }
     }
 
     /// Closes rooms whose presenter has not been heard of for long, and those that are too old.
     pub fn expire(&self, limits: &Limits) {
-        self.lock().retain(|_, room| {
-            let (silent, age) = room.ages();
+        self.lock().retain(|_, lecture| {
+            let (silent, age) = lecture.ages();
             let keep = silent < limits.room_idle && age < limits.room_life;
             if !keep {
-                room.close();
+                lecture.close();
             }
             keep
         });
@@ -74,8 +74,8 @@ impl Rooms {
 
     /// Closes all rooms.
     pub fn clear(&self) {
-        for room in std::mem::take(&mut *self.lock()).into_values() {
-            room.close();
+        for lecture in std::mem::take(&mut *self.lock()).into_values() {
+            lecture.close();
         }
     }
 
@@ -89,7 +89,7 @@ impl Rooms {
         self.len() == 0
     }
 
-    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Room>>> {
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Lecture>>> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

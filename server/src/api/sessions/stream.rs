@@ -19,8 +19,8 @@ use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas};
-use super::extract::At;
+use crate::api::describe::{PROBLEM, Schemas};
+use crate::api::extract::At;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::SessionState;
@@ -29,9 +29,9 @@ use crate::stream::{Delivery, Watcher};
 /// Between two states on one socket.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Between two pings, so that nobody between us closes a quiet connection.
-pub(super) const PING_INTERVAL: Duration = Duration::from_secs(20);
+pub(in crate::api) const PING_INTERVAL: Duration = Duration::from_secs(20);
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<SessionMessage<'_>>();
     OpenApiRouter::new().routes(routes!(stream))
 }
@@ -67,7 +67,7 @@ async fn stream(State(app): State<App>, At(id): At<String>, request: Request) ->
 }
 
 /// Makes a socket of a request that asks for one.
-pub(super) async fn upgrade(app: &App, request: Request) -> Result<WebSocketUpgrade, Problem> {
+pub(in crate::api) async fn upgrade(app: &App, request: Request) -> Result<WebSocketUpgrade, Problem> {
     let (mut parts, _) = request.into_parts();
     let upgrade = WebSocketUpgrade::from_request_parts(&mut parts, app).await;
     let upgrade = upgrade.map_err(|rejection: WebSocketUpgradeRejection| {
@@ -82,18 +82,18 @@ pub(super) async fn upgrade(app: &App, request: Request) -> Result<WebSocketUpgr
 }
 
 /// One open socket.
-pub(super) struct Line {
+pub(in crate::api) struct Line {
     pub socket: WebSocket,
     pub patience: Duration,
 }
 
 /// The other side has gone, or takes nothing.
-pub(super) struct Lost;
+pub(in crate::api) struct Disconnected;
 
 impl Line {
     async fn serve(mut self, mut watcher: Watcher, mut states: watch::Receiver<Arc<SessionState>>) {
-        let mut beat = interval(STATE_INTERVAL);
-        beat.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let mut state_timer = interval(STATE_INTERVAL);
+        state_timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
         states.mark_changed();
         let mut last_ping = Instant::now();
         loop {
@@ -108,7 +108,7 @@ impl Line {
                     Some(Delivery::Restarted) => self.tell(&SessionMessage::Reset).await,
                     None => return,
                 },
-                _ = beat.tick() => match states.has_changed() {
+                _ = state_timer.tick() => match states.has_changed() {
                     Ok(true) => {
                         let state = Arc::clone(&states.borrow_and_update());
                         self.tell(&SessionMessage::State(&state)).await
@@ -132,22 +132,22 @@ impl Line {
         }
     }
 
-    pub async fn blocks(&mut self, blocks: Vec<axum::body::Bytes>) -> Result<(), Lost> {
+    pub async fn blocks(&mut self, blocks: Vec<axum::body::Bytes>) -> Result<(), Disconnected> {
         for block in blocks {
             self.send(Message::Binary(block)).await?;
         }
         Ok(())
     }
 
-    pub async fn tell(&mut self, message: &impl Serialize) -> Result<(), Lost> {
-        let text = serde_json::to_string(message).map_err(|_| Lost)?;
+    pub async fn tell(&mut self, message: &impl Serialize) -> Result<(), Disconnected> {
+        let text = serde_json::to_string(message).map_err(|_| Disconnected)?;
         self.send(Message::Text(text.into())).await
     }
 
-    pub async fn send(&mut self, message: Message) -> Result<(), Lost> {
+    pub async fn send(&mut self, message: Message) -> Result<(), Disconnected> {
         match timeout(self.patience, self.socket.send(message)).await {
             Ok(Ok(())) => Ok(()),
-            Ok(Err(_)) | Err(_) => Err(Lost),
+            Ok(Err(_)) | Err(_) => Err(Disconnected),
         }
     }
 }

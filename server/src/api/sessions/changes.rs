@@ -7,38 +7,38 @@ use axum::http::StatusCode;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{At, Json};
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{At, Json};
 use crate::app::App;
 use crate::problem::Problem;
-use crate::session::{Change, Pull, SceneView, SessionState};
+use crate::session::{Drag, SceneChange, SessionScene, SessionState};
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
-    schemas.answer::<SceneView>();
-    schemas.request::<Change>();
-    schemas.request::<Pull>();
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<SessionScene>();
+    schemas.request::<SceneChange>();
+    schemas.request::<Drag>();
     schemas.answer::<SessionState>();
     OpenApiRouter::new().routes(routes!(scene)).routes(routes!(change)).routes(routes!(pull, release))
 }
 
 /// A session's scene as it is now, its parameters, and the scene before any change.
 #[utoipa::path(get, path = "/sessions/{id}/scene", tag = "sessions", params(("id" = String, Path)), responses(
-    (status = 200, description = "Scene and parameters", body = ref(of::<SceneView>())),
+    (status = 200, description = "Scene and parameters", body = ref(of::<SessionScene>())),
     (status = 404, description = "No such session", body = ref(PROBLEM))))]
-async fn scene(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<SceneView>, Problem> {
+async fn scene(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<SessionScene>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.scene().await?))
 }
 
 /// Change parameters or other numbers of a session's scene; the run starts over or goes on.
 #[utoipa::path(post, path = "/sessions/{id}/parameters", tag = "sessions", params(("id" = String, Path)),
-    request_body(content = ref(of::<Change>())), responses(
+    request_body(content = ref(of::<SceneChange>())), responses(
     (status = 200, description = "The state with the new numbers", body = ref(of::<SessionState>())),
     (status = 409, description = "The simulation has stopped and cannot go on", body = ref(PROBLEM)),
     (status = 422, description = "The numbers were refused; the run is as it was", body = ref(PROBLEM))))]
 async fn change(
     State(app): State<App>,
     At(id): At<String>,
-    Json(change): Json<Change>,
+    Json(change): Json<SceneChange>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
     if change.is_empty() {
@@ -54,13 +54,13 @@ async fn change(
 
 /// Pull a body by a spring from the hand to one of its points; the run goes on.
 #[utoipa::path(put, path = "/sessions/{id}/pull", tag = "sessions", params(("id" = String, Path)),
-    request_body(content = ref(of::<Pull>())), responses(
+    request_body(content = ref(of::<Drag>())), responses(
     (status = 200, description = "The state with the hand's spring", body = ref(of::<SessionState>())),
     (status = 422, description = "The body cannot be pulled so", body = ref(PROBLEM))))]
 async fn pull(
     State(app): State<App>,
     At(id): At<String>,
-    Json(pull): Json<Pull>,
+    Json(pull): Json<Drag>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.pull(Some(pull)).await?))
 }

@@ -9,13 +9,13 @@ use triad_urdf::{LeftOut, SideCar};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::Json;
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::Json;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::{blocking, session};
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<UrdfImport>();
     schemas.answer::<ImportedRobot>();
     OpenApiRouter::new().routes(routes!(import))

@@ -1,5 +1,10 @@
 //! Live sessions: create, look, step, play, pause, reset, delete.
 
+pub(in crate::api) mod changes;
+pub(in crate::api) mod matrices;
+pub(in crate::api) mod reactions;
+pub(in crate::api) mod stream;
+
 use std::sync::Arc;
 
 use axum::extract::State;
@@ -11,19 +16,19 @@ use triad_engine::scene::{Scene, Stabilization};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{At, Json};
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{At, Json};
 use crate::app::App;
 use crate::problem::Problem;
-use crate::session::{Change, SessionState, Source};
+use crate::session::{SceneChange, SceneSource, SessionState};
 use crate::{blocking, scenes};
 
 /// Integrator steps that one request may take.
-const MOST_STEPS: u32 = 100_000;
+const MAX_STEPS: u32 = 100_000;
 /// Simulated seconds a second that a session may play.
 const SPEEDS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<NewSession>();
     schemas.request::<StepRequest>();
     schemas.request::<PlayRequest>();
@@ -56,7 +61,7 @@ struct NewSession {
     overrides: Overrides,
     /// Changes that are made before the start; undoing them leads back to the scene as it is written.
     #[serde(default)]
-    change: Change,
+    change: SceneChange,
 }
 
 /// Settings that replace those of the scene.
@@ -97,7 +102,7 @@ async fn create(
         let (mut scene, source) =
             choose(&app, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
-        let written_here = matches!(source, Source::Scene(_));
+        let written_here = matches!(source, SceneSource::Scene(_));
         let started = app.sessions.start(scene, &wanted.change, source, &app.limits);
         started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })
     })
@@ -116,19 +121,21 @@ fn choose(
     seed: Option<&str>,
     builtin: Option<String>,
     scene: Option<serde_json::Value>,
-) -> Result<(Scene, Source), Problem> {
+) -> Result<(Scene, SceneSource), Problem> {
     match (lesson, builtin, scene) {
         (Some(slug), None, None) => {
-            let lesson = super::lessons::variant(app, &slug, seed)?;
+            let lesson = crate::api::lessons::variant(app, &slug, seed)?;
             let scene = Scene::from_json(&lesson.scene.to_string())?;
-            Ok((scene, Source::Lesson(slug)))
+            Ok((scene, SceneSource::Lesson(slug)))
         }
-        (None, Some(name), None) => Ok((scenes::builtin_within(&name, &app.limits)?, Source::Builtin(name))),
+        (None, Some(name), None) => {
+            Ok((scenes::builtin_within(&name, &app.limits)?, SceneSource::Builtin(name)))
+        }
         (None, None, Some(value)) => {
             let scene = Scene::from_json(&value.to_string())
                 .map_err(|error| Problem::from(error).within("/scene"))?;
             let name = scene.name.clone();
-            Ok((scene, Source::Scene(name)))
+            Ok((scene, SceneSource::Scene(name)))
         }
         _ => Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
@@ -181,10 +188,10 @@ async fn step(
     let state = match (step.steps, step.seconds) {
         (_, None) => {
             let steps = step.steps.unwrap_or(1);
-            if !(1..=MOST_STEPS).contains(&steps) {
+            if !(1..=MAX_STEPS).contains(&steps) {
                 return Err(out_of_range(
                     "/steps",
-                    format!("steps must be from 1 to {MOST_STEPS}, not {steps}"),
+                    format!("steps must be from 1 to {MAX_STEPS}, not {steps}"),
                 ));
             }
             session.steps(steps).await?

@@ -3,6 +3,8 @@
 // The documentation macro writes out paths of its own.
 #![allow(unused_qualifications)]
 
+pub(in crate::api) mod submissions;
+
 use std::sync::Arc;
 
 use axum::Json as Answer;
@@ -19,13 +21,13 @@ use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{Asked, At};
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{Asked, At};
 use crate::app::App;
 use crate::blocking;
 use crate::problem::{Problem, suggest};
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonList>();
     schemas.answer::<LessonView>();
     schemas.answer::<Hint>();
@@ -50,7 +52,7 @@ impl From<CourseError> for Problem {
 }
 
 /// The lesson of that name.
-pub(super) fn find<'a>(app: &'a App, name: &str) -> Result<&'a Lesson, Problem> {
+pub(in crate::api) fn find<'a>(app: &'a App, name: &str) -> Result<&'a Lesson, Problem> {
     app.course.lesson(name).ok_or_else(|| unknown(&app.course, name))
 }
 
@@ -93,7 +95,7 @@ impl Whose {
 }
 
 /// The lesson of that name with the numbers of a seed.
-pub(super) fn variant(app: &App, name: &str, seed: Option<&str>) -> Result<Arc<Lesson>, Problem> {
+pub(in crate::api) fn variant(app: &App, name: &str, seed: Option<&str>) -> Result<Arc<Lesson>, Problem> {
     app.variants.of(find(app, name)?, seed.unwrap_or_default())
 }
 

@@ -6,15 +6,15 @@ use triad_engine::simulation::{Moment, Simulation};
 use crate::problem::Problem;
 
 /// Changes in the middle of a run that are kept apart; of those before, nothing is told any more.
-const MOST_CHAPTERS: usize = 32;
+const MAX_CHAPTERS: usize = 32;
 /// Two times that differ less are one, s.
 const SAME: f64 = 1e-9;
 
 /// States of a run, thinned out evenly when they become too many.
 #[derive(Debug)]
-pub(super) struct Past {
+pub(super) struct History {
     /// Stretches of the run with the same numbers, oldest first.
-    chapters: Vec<Chapter>,
+    segments: Vec<Segment>,
     bytes: usize,
     limit: usize,
     /// The run as it was at the time that was asked for last.
@@ -22,16 +22,16 @@ pub(super) struct Past {
 }
 
 #[derive(Debug)]
-struct Chapter {
+struct Segment {
     /// The run when its numbers were replaced; nothing while they are those of the present.
     run: Option<Box<Simulation>>,
     moments: Vec<Moment>,
 }
 
-impl Past {
+impl History {
     /// Nothing yet; at most about `limit` bytes.
     pub(super) fn new(limit: usize) -> Self {
-        Self { chapters: vec![Chapter { run: None, moments: Vec::new() }], bytes: 0, limit, looked: None }
+        Self { segments: vec![Segment { run: None, moments: Vec::new() }], bytes: 0, limit, looked: None }
     }
 
     /// Forgets everything.
@@ -43,8 +43,8 @@ impl Past {
     pub(super) fn keep(&mut self, simulation: &mut Simulation) {
         let moment = simulation.moment();
         self.bytes += moment.size();
-        if let Some(chapter) = self.chapters.last_mut() {
-            chapter.moments.push(moment);
+        if let Some(segment) = self.segments.last_mut() {
+            segment.moments.push(moment);
         }
         if self.bytes > self.limit {
             self.thin();
@@ -53,40 +53,40 @@ impl Past {
 
     /// Every second state goes.
     fn thin(&mut self) {
-        for chapter in &mut self.chapters {
+        for segment in &mut self.segments {
             let mut keep = false;
-            chapter.moments.retain(|_| {
+            segment.moments.retain(|_| {
                 keep = !keep;
                 keep
             });
         }
-        self.bytes = self.chapters.iter().flat_map(|chapter| &chapter.moments).map(Moment::size).sum();
+        self.bytes = self.segments.iter().flat_map(|segment| &segment.moments).map(Moment::size).sum();
     }
 
     /// From now on the run has other numbers; `old` is how it was.
-    pub(super) fn turn_page(&mut self, old: Simulation) {
+    pub(super) fn start_segment(&mut self, old: Simulation) {
         self.looked = None;
-        match self.chapters.last_mut() {
-            // Numbers that were never run with need no chapter.
+        match self.segments.last_mut() {
+            // Numbers that were never run with need no segment.
             Some(last) if last.moments.is_empty() => return,
             Some(last) => last.run = Some(Box::new(old)),
             None => {}
         }
-        self.chapters.push(Chapter { run: None, moments: Vec::new() });
-        if self.chapters.len() > MOST_CHAPTERS {
-            self.chapters.remove(0);
+        self.segments.push(Segment { run: None, moments: Vec::new() });
+        if self.segments.len() > MAX_CHAPTERS {
+            self.segments.remove(0);
         }
     }
 
     /// The run at the latest kept state that is not after `time`.
     pub(super) fn at(&mut self, time: f64, present: &Simulation) -> Result<&mut Simulation, Problem> {
-        let found = self.chapters.iter().rev().find_map(|chapter| {
-            let after = chapter.moments.partition_point(|moment| moment.time <= time + SAME);
-            Some((chapter, chapter.moments.get(after.checked_sub(1)?)?))
+        let found = self.segments.iter().rev().find_map(|segment| {
+            let after = segment.moments.partition_point(|moment| moment.time <= time + SAME);
+            Some((segment, segment.moments.get(after.checked_sub(1)?)?))
         });
-        let (chapter, moment) = found.ok_or_else(|| unknown(time))?;
+        let (segment, moment) = found.ok_or_else(|| unknown(time))?;
         if self.looked.as_ref().is_none_or(|looked| looked.time() != moment.time) {
-            let run = chapter.run.as_deref().unwrap_or(present);
+            let run = segment.run.as_deref().unwrap_or(present);
             self.looked = run.at_moment(moment).map(Box::new);
         }
         self.looked.as_deref_mut().ok_or_else(|| unknown(time))
@@ -121,38 +121,38 @@ mod tests {
     #[test]
     fn a_time_before_a_change_is_told_with_the_numbers_of_then() {
         let mut run = pendulum(1.0);
-        let mut past = Past::new(1 << 20);
+        let mut history = History::new(1 << 20);
         let mut then = Vec::new();
         for k in 0..3 {
             run.advance_to(0.1 * f64::from(k)).expect("runs");
-            past.keep(&mut run);
+            history.keep(&mut run);
             then.push(tension(&mut run));
         }
         let mut heavy = pendulum(10.0);
         heavy.continue_from(&mut run).expect("goes on");
-        past.turn_page(std::mem::replace(&mut run, heavy));
+        history.start_segment(std::mem::replace(&mut run, heavy));
         run.advance_to(0.3).expect("runs");
-        past.keep(&mut run);
+        history.keep(&mut run);
         for (k, force) in then.iter().enumerate() {
-            let told = tension(past.at(0.1 * k as f64 + 0.05, &run).expect("is kept"));
+            let told = tension(history.at(0.1 * k as f64 + 0.05, &run).expect("is kept"));
             assert!((told / force - 1.0).abs() < 1e-9, "{told} {force}");
         }
         let now = tension(&mut run);
-        assert!((tension(past.at(5.0, &run).expect("is kept")) / now - 1.0).abs() < 1e-9);
+        assert!((tension(history.at(5.0, &run).expect("is kept")) / now - 1.0).abs() < 1e-9);
         assert!(now > 5.0 * then[2]);
-        past.clear();
-        assert!(past.at(0.1, &run).is_err());
+        history.clear();
+        assert!(history.at(0.1, &run).is_err());
     }
 
     #[test]
     fn what_is_kept_is_bounded() {
         let mut run = pendulum(1.0);
-        let mut past = Past::new(64 * run.moment().size());
+        let mut history = History::new(64 * run.moment().size());
         for k in 0..1000 {
             run.advance_to(1e-3 * f64::from(k)).expect("runs");
-            past.keep(&mut run);
-            assert!(past.bytes <= past.limit);
+            history.keep(&mut run);
+            assert!(history.bytes <= history.limit);
         }
-        assert!(past.at(0.0, &run).is_ok(), "the start stays");
+        assert!(history.at(0.0, &run).is_ok(), "the start stays");
     }
 }

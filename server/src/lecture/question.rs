@@ -75,12 +75,12 @@ pub(super) struct Question {
     number: u64,
     asked: NewQuestion,
     votes: HashMap<String, usize>,
-    most_votes: usize,
+    max_votes: usize,
     revealed: bool,
 }
 
 impl Question {
-    pub(super) fn new(number: u64, asked: NewQuestion, most_votes: usize) -> Result<Self, Problem> {
+    pub(super) fn new(number: u64, asked: NewQuestion, max_votes: usize) -> Result<Self, Problem> {
         let wrong = |pointer: &str, detail: String| Err(refused(pointer, detail));
         if asked.text.trim().is_empty() || asked.text.chars().count() > LONGEST_TEXT {
             return wrong("/text", format!("the question must have 1 to {LONGEST_TEXT} characters"));
@@ -97,7 +97,7 @@ impl Question {
         if asked.right.is_some_and(|right| right >= asked.choices.len()) {
             return wrong("/right", format!("right must be an index below {}", asked.choices.len()));
         }
-        Ok(Self { number, asked, votes: HashMap::new(), most_votes, revealed: false })
+        Ok(Self { number, asked, votes: HashMap::new(), max_votes, revealed: false })
     }
 
     pub(super) fn take(&mut self, vote: &Vote) -> Result<(), Problem> {
@@ -116,11 +116,11 @@ impl Question {
         if vote.voter.is_empty() || vote.voter.len() > LONGEST_VOTER {
             return Err(refused("/voter", format!("voter must have 1 to {LONGEST_VOTER} characters")));
         }
-        if self.votes.len() >= self.most_votes && !self.votes.contains_key(&vote.voter) {
+        if self.votes.len() >= self.max_votes && !self.votes.contains_key(&vote.voter) {
             return Err(Problem::new(
                 StatusCode::SERVICE_UNAVAILABLE,
                 "too-many-answers",
-                format!("{} have answered, as many as this room takes", self.most_votes),
+                format!("{} have answered, as many as this room takes", self.max_votes),
                 "watch the result; your answer was not counted",
             ));
         }

@@ -7,7 +7,7 @@ use super::arrows::Scale;
 
 /// A body as it is drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Actor {
+pub struct BodyVisual {
     /// Name.
     pub name: String,
     /// Shapes in the author's frame.
@@ -22,7 +22,7 @@ pub struct Actor {
 
 /// A joint as it is drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Tie {
+pub struct JointVisual {
     /// Name.
     pub name: String,
     /// The names of its rows.
@@ -46,13 +46,13 @@ pub struct Pattern {
 
 /// All that a recording says once.
 #[derive(Debug, Clone)]
-pub struct Cast {
+pub struct SceneDescription {
     /// Title of the recording.
     pub title: String,
     /// The bodies, in the scene's order.
-    pub bodies: Vec<Actor>,
+    pub bodies: Vec<BodyVisual>,
     /// The joints, in the scene's order.
-    pub joints: Vec<Tie>,
+    pub joints: Vec<JointVisual>,
     /// The pattern of the Jacobian.
     pub pattern: Pattern,
     /// Gravity, which says what is up.
@@ -67,20 +67,20 @@ pub struct Cast {
     pub scale: Scale,
 }
 
-impl Cast {
+impl SceneDescription {
     /// Whether y is up rather than z.
     pub fn y_is_up(&self) -> bool {
         self.gravity[1].abs() > self.gravity[2].abs()
     }
 
-    /// The cast of a checked scene, its joints' rows and its Jacobian's pattern.
-    pub fn new(scene: &Scene, model: &Model, joints: Vec<Tie>, pattern: Pattern) -> Self {
-        let bodies: Vec<Actor> = scene
+    /// The description of a checked scene, its joints' rows and its Jacobian's pattern.
+    pub fn new(scene: &Scene, model: &Model, joints: Vec<JointVisual>, pattern: Pattern) -> Self {
+        let bodies: Vec<BodyVisual> = scene
             .bodies
             .iter()
             .zip(&model.bodies)
             .enumerate()
-            .map(|(index, (written, body))| Actor {
+            .map(|(index, (written, body))| BodyVisual {
                 name: written.name.clone(),
                 shapes: written.shape.clone(),
                 center_of_mass: body.center_of_mass.into(),
@@ -127,7 +127,7 @@ struct Extent {
 }
 
 impl Extent {
-    fn of(model: &Model, bodies: &[Actor]) -> Self {
+    fn of(model: &Model, bodies: &[BodyVisual]) -> Self {
         let points = points(model, bodies);
         let middle = |points: &[[f64; 3]]| -> [f64; 3] {
             std::array::from_fn(|k| {
@@ -155,10 +155,10 @@ impl Extent {
 }
 
 /// Ends of shapes, joints and centres of mass in the world, at the start.
-fn points(model: &Model, bodies: &[Actor]) -> Vec<[f64; 3]> {
+fn points(model: &Model, bodies: &[BodyVisual]) -> Vec<[f64; 3]> {
     let mut points = Vec::new();
-    for (body, actor) in model.bodies.iter().zip(bodies) {
-        let ends = actor.shapes.iter().flat_map(|shape| match shape {
+    for (body, visual) in model.bodies.iter().zip(bodies) {
+        let ends = visual.shapes.iter().flat_map(|shape| match shape {
             Shape::Rod { from, to, .. } => vec![*from, *to],
             Shape::Sphere { center, radius } => {
                 vec![center.map(|x| x - radius), center.map(|x| x + radius)]
@@ -169,7 +169,7 @@ fn points(model: &Model, bodies: &[Actor]) -> Vec<[f64; 3]> {
             }
         });
         let drawn = ends.map(|point| body.point_to_principal(&point.into()));
-        let joints = actor.joint_points.iter().map(|point| (*point).into());
+        let joints = visual.joint_points.iter().map(|point| (*point).into());
         points.push(body.position.into());
         points.extend(
             drawn.chain(joints).map(|local| <[f64; 3]>::from(body.position + body.directors * local)),

@@ -14,15 +14,15 @@ use tokio::time::{MissedTickBehavior, interval};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas};
-use super::extract::At;
-use super::stream::{Line, Lost, PING_INTERVAL, upgrade};
+use crate::api::describe::{PROBLEM, Schemas};
+use crate::api::extract::At;
+use crate::api::sessions::stream::{Disconnected, Line, PING_INTERVAL, upgrade};
 use crate::app::App;
+use crate::lecture::{Follower, LectureMessage, LiveView};
 use crate::problem::Problem;
-use crate::room::{LectureMessage, Seat, Stage};
 use crate::stream::{Delivery, Watcher};
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LectureMessage<'_>>();
     OpenApiRouter::new().routes(routes!(follow))
 }
@@ -48,24 +48,24 @@ async fn follow(
     Query(wish): Query<Wish>,
     request: Request,
 ) -> Result<Response, Problem> {
-    let room = app.rooms.get(&code)?;
+    let room = app.lectures.get(&code)?;
     let upgrade = upgrade(&app, request).await?;
-    let seat = room.join()?;
+    let follower = room.join()?;
     drop(room);
     let patience = app.limits.stalled_viewer;
     Ok(upgrade.on_upgrade(move |socket| async move {
-        // However it ends, the seat is given back.
-        drop(follow_on(Line { socket, patience }, seat, wish.recording).await);
+        // However it ends, the follower is given back.
+        drop(follow_on(Line { socket, patience }, follower, wish.recording).await);
     }))
 }
 
-async fn follow_on(mut line: Line, mut seat: Seat, recording: bool) -> Result<(), Lost> {
+async fn follow_on(mut line: Line, mut follower: Follower, recording: bool) -> Result<(), Disconnected> {
     let mut watcher: Option<Watcher> = None;
     let mut ping = interval(PING_INTERVAL);
     ping.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    seat.stage.mark_changed();
-    seat.board.mark_changed();
-    seat.state.mark_changed();
+    follower.live.mark_changed();
+    follower.public.mark_changed();
+    follower.state.mark_changed();
     loop {
         tokio::select! {
             received = line.socket.recv() => match received {
@@ -73,28 +73,28 @@ async fn follow_on(mut line: Line, mut seat: Seat, recording: bool) -> Result<()
                 Some(Ok(message)) if !matches!(message, Message::Close(_)) => {}
                 _ => return Ok(()),
             },
-            changed = seat.stage.changed() => {
-                let stage = changed.map(|()| seat.stage.borrow_and_update().clone()).unwrap_or(Stage::Closed);
-                watcher = match stage {
-                    Stage::Closed => {
+            changed = follower.live.changed() => {
+                let shown = changed.map(|()| follower.live.borrow_and_update().clone()).unwrap_or(LiveView::Closed);
+                watcher = match shown {
+                    LiveView::Closed => {
                         line.tell(&LectureMessage::Closed).await?;
                         return line.send(Message::Close(None)).await;
                     }
-                    Stage::Session(session) if recording => {
+                    LiveView::Session(session) if recording => {
                         line.tell(&LectureMessage::Reset).await?;
                         Some(session.watch())
                     }
-                    Stage::Session(_) | Stage::Empty => None,
+                    LiveView::Session(_) | LiveView::Empty => None,
                 };
             },
-            changed = seat.board.changed() => {
+            changed = follower.public.changed() => {
                 if changed.is_ok() {
-                    let board = seat.board.borrow_and_update().clone();
-                    line.send(Message::Text(board)).await?;
+                    let public = follower.public.borrow_and_update().clone();
+                    line.send(Message::Text(public)).await?;
                 }
             },
-            changed = seat.state.changed() => {
-                let state = seat.state.borrow_and_update().clone();
+            changed = follower.state.changed() => {
+                let state = follower.state.borrow_and_update().clone();
                 if changed.is_ok() && !state.is_empty() {
                     line.send(Message::Text(state)).await?;
                 }

@@ -12,16 +12,16 @@ use triad_engine::scene::Scene;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::Json;
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::Json;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::{blocking, session};
 
 /// Output times that a kinematic analysis over HTTP may have.
-const MOST_TIMES: f64 = 5_001.0;
+const MAX_TIMES: f64 = 5_001.0;
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<AnalysisRequest>();
     schemas.answer::<Assembly>();
     schemas.answer::<Kinematics>();
@@ -103,8 +103,8 @@ async fn analyse<T: Serialize>(
         let scene = Scene::from_json(&asked.scene.to_string())?;
         session::bounded(&scene, &app.limits)?;
         let times = scene.simulation.duration / scene.simulation.every;
-        if times > MOST_TIMES {
-            let detail = format!("the scene asks for {times:.0} output times, more than {MOST_TIMES}");
+        if times > MAX_TIMES {
+            let detail = format!("the scene asks for {times:.0} output times, more than {MAX_TIMES}");
             return Err(Problem::new(
                 StatusCode::UNPROCESSABLE_ENTITY,
                 "too-many-times",

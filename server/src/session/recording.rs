@@ -10,25 +10,25 @@ use axum::http::StatusCode;
 use triad_engine::scene::Scene;
 use triad_engine::simulation::Simulation;
 
-use super::worker::BEAT;
 use crate::problem::Problem;
 use crate::stream::{
-    Arrows, Camera, Cast, Hub, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Scale, Tie,
+    Arrows, Camera, Hub, JointVisual, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Scale,
+    SceneDescription,
 };
 
 /// Samples of one simulation, kept, and on their way to its watchers.
-pub(crate) struct Film {
-    cast: Cast,
+pub(crate) struct Recording {
+    description: SceneDescription,
     arrows: Arrows,
     camera: Camera,
     hub: Arc<Hub>,
     id: String,
     /// Counts recordings: a viewer must not join one after a reset to the one before.
-    take: u64,
+    generation: u64,
     recorder: Option<Recorder>,
     samples: Vec<Sample>,
     /// Of the samples, so many are encoded.
-    developed: usize,
+    samples_encoded: usize,
     bytes: usize,
     limit: usize,
     encoded: u64,
@@ -37,37 +37,40 @@ pub(crate) struct Film {
     /// The scale of forces was taken from the recording.
     fitted: bool,
     /// When blocks were last made, and how long to wait until the next.
-    developed_at: Instant,
+    encoded_at: Instant,
     pace: Duration,
 }
+
+/// How often a playing session goes on: about thirty times a second.
+pub(super) const TICK: Duration = Duration::from_millis(33);
 
 /// A block costs some kilobytes an entity whatever it holds: so many entities are streamed at the full rate,
 /// larger scenes more seldom.
 const ENTITIES_AT_FULL_RATE: usize = 16;
 /// The longest wait between two blocks.
-const SLOWEST: Duration = Duration::from_millis(500);
+const MAX_WAIT: Duration = Duration::from_millis(500);
 /// So many samples make a recording that a scale can be taken from.
-const ENOUGH: usize = 32;
+const SAMPLES_FOR_SCALE: usize = 32;
 /// When arrows that were drawn again fill this part of the bound, the recording is written anew without the old ones.
 const REDRAWN_PART: usize = 16;
 
-impl Film {
-    /// The film of session `id`, which holds at most `limit` bytes.
-    pub(crate) fn new(id: &str, cast: Cast, hub: Arc<Hub>, limit: usize) -> Self {
-        let entities = cast.bodies.len() + 2 * cast.joints.len() + 2;
-        let beats = u32::try_from(entities / ENTITIES_AT_FULL_RATE).unwrap_or(u32::MAX);
+impl Recording {
+    /// The recording of session `id`, which holds at most `limit` bytes.
+    pub(crate) fn new(id: &str, description: SceneDescription, hub: Arc<Hub>, limit: usize) -> Self {
+        let entities = description.bodies.len() + 2 * description.joints.len() + 2;
+        let ticks = u32::try_from(entities / ENTITIES_AT_FULL_RATE).unwrap_or(u32::MAX);
         Self {
-            developed_at: Instant::now(),
-            pace: BEAT.saturating_mul(beats).min(SLOWEST),
-            cast,
+            encoded_at: Instant::now(),
+            pace: TICK.saturating_mul(ticks).min(MAX_WAIT),
+            description,
             arrows: Arrows::default(),
             camera: Camera::default(),
             hub,
             id: id.to_owned(),
-            take: 0,
+            generation: 0,
             recorder: None,
             samples: Vec::new(),
-            developed: 0,
+            samples_encoded: 0,
             bytes: 0,
             limit,
             encoded: 0,
@@ -77,7 +80,7 @@ impl Film {
     }
 
     /// Records the simulation as it stands, unless that instant is recorded already. Tells whether it was not.
-    pub(crate) fn take(&mut self, simulation: &mut Simulation) -> Result<bool, Problem> {
+    pub(crate) fn record(&mut self, simulation: &mut Simulation) -> Result<bool, Problem> {
         if self.samples.last().is_some_and(|last| simulation.time() <= last.time) {
             return Ok(false);
         }
@@ -87,39 +90,39 @@ impl Film {
             return Err(full(self.limit));
         }
         self.samples.push(sample);
-        if !self.fitted && self.samples.len() >= ENOUGH {
+        if !self.fitted && self.samples.len() >= SAMPLES_FOR_SCALE {
             self.fit(false)?;
         }
         Ok(true)
     }
 
     /// Encodes what waits, if anybody watches and it is time.
-    pub(crate) fn develop_in_turn(&mut self) -> Result<(), Problem> {
-        if self.developed_at.elapsed() < self.pace { Ok(()) } else { self.develop() }
+    pub(crate) fn encode_in_turn(&mut self) -> Result<(), Problem> {
+        if self.encoded_at.elapsed() < self.pace { Ok(()) } else { self.encode() }
     }
 
     /// Encodes what waits, if anybody watches.
-    pub(crate) fn develop(&mut self) -> Result<(), Problem> {
-        let waiting = &self.samples[self.developed..];
+    pub(crate) fn encode(&mut self) -> Result<(), Problem> {
+        let waiting = &self.samples[self.samples_encoded..];
         if self.hub.watchers() == 0 || (waiting.is_empty() && self.recorder.is_some()) {
             return Ok(());
         }
         let recorder = match &mut self.recorder {
             Some(recorder) => recorder,
             empty => {
-                let id = format!("{}-{}", self.id, self.take);
-                let mut new = Recorder::to_blocks(&id, self.cast.clone()).map_err(unrecorded)?;
-                new.redraw(self.arrows.clone(), self.cast.scale, &[]).map_err(unrecorded)?;
+                let id = format!("{}-{}", self.id, self.generation);
+                let mut new = Recorder::to_blocks(&id, self.description.clone()).map_err(unrecorded)?;
+                new.redraw(self.arrows.clone(), self.description.scale, &[]).map_err(unrecorded)?;
                 if self.camera != Camera::default() {
                     new.look_from(self.camera).map_err(unrecorded)?;
                 }
                 empty.insert(new)
             }
         };
-        self.developed_at = Instant::now();
+        self.encoded_at = Instant::now();
         recorder.write(waiting).map_err(unrecorded)?;
         self.encoded += waiting.len() as u64;
-        self.developed = self.samples.len();
+        self.samples_encoded = self.samples.len();
         self.send()
     }
 
@@ -144,12 +147,12 @@ impl Film {
 
     /// Takes the scale of forces from the recording, unless it would hardly change and is not `wanted`.
     pub(crate) fn fit(&mut self, wanted: bool) -> Result<(), Problem> {
-        let scale = self.cast.scale.fitted(self.samples.iter(), self.cast.size);
+        let scale = self.description.scale.fitted(self.samples.iter(), self.description.size);
         self.fitted = true;
-        if scale == self.cast.scale || (!wanted && scale.is_near(self.cast.scale)) {
+        if scale == self.description.scale || (!wanted && scale.is_near(self.description.scale)) {
             return Ok(());
         }
-        self.cast.scale = scale;
+        self.description.scale = scale;
         self.redraw()
     }
 
@@ -157,11 +160,11 @@ impl Film {
         let Some(recorder) = &mut self.recorder else { return Ok(()) };
         if self.redrawn > self.limit / REDRAWN_PART {
             self.rewrite();
-            return self.develop();
+            return self.encode();
         }
         let before = self.hub.bytes();
         recorder
-            .redraw(self.arrows.clone(), self.cast.scale, &self.samples[..self.developed])
+            .redraw(self.arrows.clone(), self.description.scale, &self.samples[..self.samples_encoded])
             .map_err(unrecorded)?;
         self.send()?;
         self.redrawn += self.hub.bytes() - before;
@@ -178,18 +181,18 @@ impl Film {
 
     /// Follows a simulation that goes on with other numbers: the recording goes on too, unless what it shows looks
     /// different from now on. The scale of forces stays.
-    pub(crate) fn follow(&mut self, mut cast: Cast) {
-        cast.scale = self.cast.scale;
-        if cast.bodies != self.cast.bodies || cast.joints != self.cast.joints {
-            self.restart_with(cast);
+    pub(crate) fn follow(&mut self, mut description: SceneDescription) {
+        description.scale = self.description.scale;
+        if description.bodies != self.description.bodies || description.joints != self.description.joints {
+            self.restart_with(description);
         }
     }
 
     /// Starts another recording of a changed scene. Its forces are to be compared with those before: they keep their
     /// scale until the recording says otherwise.
-    pub(crate) fn restart_with(&mut self, cast: Cast) {
-        let scale = if self.fitted { self.cast.scale } else { cast.scale };
-        self.cast = Cast { scale, ..cast };
+    pub(crate) fn restart_with(&mut self, description: SceneDescription) {
+        let scale = if self.fitted { self.description.scale } else { description.scale };
+        self.description = SceneDescription { scale, ..description };
         self.fitted = false;
         self.restart();
     }
@@ -203,9 +206,9 @@ impl Film {
 
     /// Starts another recording of the samples that there are.
     fn rewrite(&mut self) {
-        self.take += 1;
+        self.generation += 1;
         self.recorder = None;
-        self.developed = 0;
+        self.samples_encoded = 0;
         self.encoded = 0;
         self.redrawn = 0;
         self.hub.restart();
@@ -218,7 +221,7 @@ impl Film {
 
     /// How forces are drawn.
     pub(crate) fn arrows(&self) -> (&Arrows, Scale) {
-        (&self.arrows, self.cast.scale)
+        (&self.arrows, self.description.scale)
     }
 
     /// From where the mechanism is looked at.
@@ -232,11 +235,11 @@ impl Film {
     }
 }
 
-/// The cast of a simulation at its start.
-pub(crate) fn cast(scene: &Scene, simulation: &mut Simulation) -> Cast {
+/// The description of a simulation at its start.
+pub(crate) fn describe(scene: &Scene, simulation: &mut Simulation) -> SceneDescription {
     let bodies: Vec<String> = simulation.model().bodies.iter().map(|body| body.name.clone()).collect();
     let body = |name: &str| bodies.iter().position(|body| body == name);
-    let joints = simulation.multipliers().into_iter().map(|joint| Tie {
+    let joints = simulation.multipliers().into_iter().map(|joint| JointVisual {
         on: body(&joint.on),
         by: body(&joint.by),
         name: joint.joint,
@@ -248,7 +251,7 @@ pub(crate) fn cast(scene: &Scene, simulation: &mut Simulation) -> Cast {
         columns: jacobian.columns.len(),
         entries: jacobian.entries.iter().map(|e| (e.row, e.column, e.constant)).collect(),
     };
-    Cast::new(scene, simulation.model(), joints.collect(), pattern)
+    SceneDescription::new(scene, simulation.model(), joints.collect(), pattern)
 }
 
 /// The simulation at its current time, as it is recorded.

@@ -18,9 +18,9 @@ use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{Asked, At, Json};
-use super::lessons;
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{Asked, At, Json};
+use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::store::{Query, Submission};
@@ -29,7 +29,7 @@ use crate::{blocking, grading};
 /// Longest name of a student, in characters.
 const LONGEST_NAME: usize = 100;
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<triad_lessons::Submission>();
     schemas.answer::<GradedSubmission>();
     schemas.answer::<SubmissionList>();
@@ -41,7 +41,7 @@ pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 struct GradedSubmission {
     /// Its name; null where nothing was graded, hence nothing kept.
     id: Option<String>,
-    /// When it came, RFC 3339 in UTC.
+    /// AtTime it came, RFC 3339 in UTC.
     submitted_at: String,
     /// What it earned.
     #[serde(flatten)]

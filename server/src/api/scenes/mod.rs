@@ -1,5 +1,8 @@
 //! Built-in scenes, the check of a scene, and the schema of scenes.
 
+pub(in crate::api) mod analyses;
+pub(in crate::api) mod import;
+
 use axum::Json as Answer;
 use axum::extract::State;
 use schemars::JsonSchema;
@@ -11,13 +14,13 @@ use triad_engine::scene::{self, Scene};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{At, Json};
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{At, Json};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::{blocking, scenes, session};
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<SceneList>();
     schemas.request::<Scene>();
     schemas.answer::<CheckReport>();

@@ -1,5 +1,7 @@
 //! Lecture rooms: open, join, show, ask, answer, reveal, close.
 
+pub(in crate::api) mod follow;
+
 use std::sync::Arc;
 
 use axum::extract::State;
@@ -12,21 +14,23 @@ use triad_engine::simulation::Simulation;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::describe::{PROBLEM, Schemas, of};
-use super::extract::{Asked, At, Json};
-use super::matrices::{JacobianView, SymmetricView, When, jacobian_of, symmetric_of};
-use super::reactions::{MultipliersList, ReactionsView, Wanted, multipliers_of, reactions_of};
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{Asked, At, Json};
+use crate::api::sessions::matrices::{AtTime, JacobianView, SymmetricView, jacobian_of, symmetric_of};
+use crate::api::sessions::reactions::{
+    MultipliersList, ReactionQuery, ReactionsView, multipliers_of, reactions_of,
+};
 use crate::app::App;
+use crate::lecture::{Lecture, NewQuestion, PresenterState, PublicState, Vote};
 use crate::problem::Problem;
-use crate::room::{Board, DeskView, NewQuestion, Room, Vote};
-use crate::session::SceneView;
+use crate::session::SessionScene;
 
-pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
-    schemas.request::<NewRoom>();
-    schemas.answer::<OpenedRoom>();
-    schemas.answer::<Board>();
-    schemas.request::<NewView>();
-    schemas.answer::<DeskView>();
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.request::<NewLecture>();
+    schemas.answer::<OpenedLecture>();
+    schemas.answer::<PublicState>();
+    schemas.request::<NewLectureView>();
+    schemas.answer::<PresenterState>();
     schemas.request::<NewQuestion>();
     schemas.request::<Vote>();
     OpenApiRouter::new()
@@ -48,16 +52,14 @@ pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 /// The session that a lecture shows.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "NewLecture")]
-struct NewRoom {
+struct NewLecture {
     /// Its id; who knows it may show it.
     session: String,
 }
 
 /// A room that was opened.
 #[derive(Debug, Serialize, JsonSchema)]
-#[schemars(rename = "OpenedLecture")]
-struct OpenedRoom {
+struct OpenedLecture {
     /// What followers type to join.
     code: String,
     /// Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is told only here.
@@ -67,13 +69,13 @@ struct OpenedRoom {
 }
 
 /// Open a lecture room for a session.
-#[utoipa::path(post, path = "/rooms", tag = "rooms", request_body(content = ref(of::<NewRoom>())), responses(
-    (status = 201, description = "The room, and the presenter's key", body = ref(of::<OpenedRoom>())),
+#[utoipa::path(post, path = "/rooms", tag = "rooms", request_body(content = ref(of::<NewLecture>())), responses(
+    (status = 201, description = "The room, and the presenter's key", body = ref(of::<OpenedLecture>())),
     (status = 404, description = "No such session", body = ref(PROBLEM)),
     (status = 503, description = "All rooms are in use", body = ref(PROBLEM))))]
-async fn open(State(app): State<App>, Json(new): Json<NewRoom>) -> Result<impl IntoResponse, Problem> {
-    let room = app.rooms.open(app.sessions.get(&new.session)?, &app.limits)?;
-    let opened = OpenedRoom {
+async fn open(State(app): State<App>, Json(new): Json<NewLecture>) -> Result<impl IntoResponse, Problem> {
+    let room = app.lectures.open(app.sessions.get(&new.session)?, &app.limits)?;
+    let opened = OpenedLecture {
         code: room.code.clone(),
         key: room.key().to_owned(),
         page: format!("/room/{}", room.code),
@@ -83,10 +85,10 @@ async fn open(State(app): State<App>, Json(new): Json<NewRoom>) -> Result<impl I
 
 /// What is shown and asked in a room.
 #[utoipa::path(get, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "What followers are told", body = ref(of::<Board>())),
+    (status = 200, description = "What followers are told", body = ref(of::<PublicState>())),
     (status = 404, description = "No such room", body = ref(PROBLEM))))]
-async fn board(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Board>, Problem> {
-    Ok(axum::Json(app.rooms.get(&code)?.board()))
+async fn board(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<PublicState>, Problem> {
+    Ok(axum::Json(app.lectures.get(&code)?.public_state()))
 }
 
 /// End a lecture. For the presenter.
@@ -99,15 +101,14 @@ async fn close(
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     let room = led(&app, &code, &headers)?;
-    app.rooms.close(&room.code);
+    app.lectures.close(&room.code);
     Ok(StatusCode::NO_CONTENT)
 }
 
 /// What the presenter shows.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "NewLectureView")]
-struct NewView {
+struct NewLectureView {
     /// Another session than before.
     session: Option<String>,
     /// Time, selection and panels in the page's own words.
@@ -116,18 +117,18 @@ struct NewView {
 
 /// Show something else. For the presenter.
 #[utoipa::path(put, path = "/rooms/{code}/view", tag = "rooms", params(("code" = String, Path)),
-    request_body(content = ref(of::<NewView>())), responses(
+    request_body(content = ref(of::<NewLectureView>())), responses(
     (status = 204, description = "Followers are being told"),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn show(
     State(app): State<App>,
     At(code): At<String>,
     headers: HeaderMap,
-    Json(new): Json<NewView>,
+    Json(new): Json<NewLectureView>,
 ) -> Result<StatusCode, Problem> {
     let room = led(&app, &code, &headers)?;
     if let Some(session) = new.session {
-        room.stage(app.sessions.get(&session)?);
+        room.show_session(app.sessions.get(&session)?);
     }
     if let Some(view) = new.view {
         room.show(view)?;
@@ -137,14 +138,14 @@ async fn show(
 
 /// How many follow, and how the answers stand. For the presenter.
 #[utoipa::path(get, path = "/rooms/{code}/desk", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "Followers and answers", body = ref(of::<DeskView>())),
+    (status = 200, description = "Followers and answers", body = ref(of::<PresenterState>())),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn desk(
     State(app): State<App>,
     At(code): At<String>,
     headers: HeaderMap,
-) -> Result<axum::Json<DeskView>, Problem> {
-    Ok(axum::Json(led(&app, &code, &headers)?.desk_view()))
+) -> Result<axum::Json<PresenterState>, Problem> {
+    Ok(axum::Json(led(&app, &code, &headers)?.presenter_state()))
 }
 
 /// Ask a question. For the presenter.
@@ -199,13 +200,13 @@ async fn answer(
     At(code): At<String>,
     Json(vote): Json<Vote>,
 ) -> Result<StatusCode, Problem> {
-    app.rooms.get(&code)?.vote(&vote)?;
+    app.lectures.get(&code)?.vote(&vote)?;
     Ok(StatusCode::NO_CONTENT)
 }
 
 /// The room, for its presenter.
-fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Room>, Problem> {
-    let room = app.rooms.get(code)?;
+fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Lecture>, Problem> {
+    let room = app.lectures.get(code)?;
     let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
     room.check_key(given.and_then(|value| value.strip_prefix("Bearer ")))?;
     Ok(room)
@@ -213,11 +214,14 @@ fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Room>, Problem>
 
 /// The scene that is shown, as it is now.
 #[utoipa::path(get, path = "/rooms/{code}/scene", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "As /sessions/{id}/scene", body = ref(of::<SceneView>()))))]
+    (status = 200, description = "As /sessions/{id}/scene", body = ref(of::<SessionScene>()))))]
 async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Value>, Problem> {
-    let told =
-        app.rooms.get(&code)?.told("scene", |session| async move { as_json(session.scene().await?) }).await;
-    told.map(axum::Json)
+    let answer = app
+        .lectures
+        .get(&code)?
+        .cached("scene", |session| async move { as_json(session.scene().await?) })
+        .await;
+    answer.map(axum::Json)
 }
 
 /// The Jacobian of the session that is shown.
@@ -226,15 +230,15 @@ async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Jso
 async fn jacobian(
     State(app): State<App>,
     At(code): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("jacobian {:?}", when.at);
-    let told = app
-        .rooms
+    let answer = app
+        .lectures
         .get(&code)?
-        .told(&what, |session| async move { as_json(jacobian_of(&session, when.at).await?) })
+        .cached(&what, |session| async move { as_json(jacobian_of(&session, when.at).await?) })
         .await;
-    told.map(axum::Json)
+    answer.map(axum::Json)
 }
 
 /// The augmented matrix of the session that is shown.
@@ -243,7 +247,7 @@ async fn jacobian(
 async fn augmented(
     State(app): State<App>,
     At(code): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     symmetric(&app, &code, "augmented", when, Simulation::augmented).await
 }
@@ -254,7 +258,7 @@ async fn augmented(
 async fn schur(
     State(app): State<App>,
     At(code): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     symmetric(&app, &code, "schur", when, Simulation::schur).await
 }
@@ -263,15 +267,15 @@ async fn symmetric(
     app: &App,
     code: &str,
     name: &str,
-    when: When,
+    when: AtTime,
     matrix: fn(&mut Simulation) -> triad_engine::matrices::Symmetric,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("{name} {:?}", when.at);
-    let room = app.rooms.get(code)?;
-    let told = room
-        .told(&what, |session| async move { as_json(symmetric_of(&session, when.at, matrix).await?) })
+    let room = app.lectures.get(code)?;
+    let answer = room
+        .cached(&what, |session| async move { as_json(symmetric_of(&session, when.at, matrix).await?) })
         .await;
-    told.map(axum::Json)
+    answer.map(axum::Json)
 }
 
 /// The multipliers of the session that is shown.
@@ -281,13 +285,13 @@ async fn symmetric(
 async fn multipliers(
     State(app): State<App>,
     At(code): At<String>,
-    Asked(when): Asked<When>,
+    Asked(when): Asked<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("multipliers {:?}", when.at);
-    let room = app.rooms.get(&code)?;
-    let told =
-        room.told(&what, |session| async move { as_json(multipliers_of(&session, when.at).await?) }).await;
-    told.map(axum::Json)
+    let room = app.lectures.get(&code)?;
+    let answer =
+        room.cached(&what, |session| async move { as_json(multipliers_of(&session, when.at).await?) }).await;
+    answer.map(axum::Json)
 }
 
 /// The reactions of the session that is shown.
@@ -298,15 +302,15 @@ async fn multipliers(
 async fn reactions(
     State(app): State<App>,
     At(code): At<String>,
-    Asked(wanted): Asked<Wanted>,
+    Asked(wanted): Asked<ReactionQuery>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("reactions {wanted:?}");
-    let room = app.rooms.get(&code)?;
-    let told =
-        room.told(&what, |session| async move { as_json(reactions_of(&session, wanted).await?) }).await;
-    told.map(axum::Json)
+    let room = app.lectures.get(&code)?;
+    let answer =
+        room.cached(&what, |session| async move { as_json(reactions_of(&session, wanted).await?) }).await;
+    answer.map(axum::Json)
 }
 
-fn as_json(told: impl Serialize) -> Result<Value, Problem> {
-    serde_json::to_value(told).map_err(Problem::internal)
+fn as_json(answer: impl Serialize) -> Result<Value, Problem> {
+    serde_json::to_value(answer).map_err(Problem::internal)
 }

@@ -13,7 +13,7 @@ mod question;
 mod registry;
 
 pub use question::{NewQuestion, QuestionView, Tally, Vote};
-pub use registry::Rooms;
+pub use registry::Lectures;
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -28,36 +28,36 @@ use serde_json::Value;
 use tokio::sync::watch;
 
 use crate::problem::Problem;
-use crate::session::{Links, Session, SessionState, Source};
+use crate::session::{Links, SceneSource, Session, SessionState};
 use question::Question;
 
 /// Between two states that followers are sent.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Bytes of what the presenter shows beside the run.
-const MOST_VIEW: usize = 64 << 10;
+const MAX_VIEW_BYTES: usize = 64 << 10;
 /// Answers about one moment that are kept for those who ask next.
-const MOST_TOLD: usize = 64;
+const MAX_CACHED_RESPONSES: usize = 64;
 
-/// A lecture room.
+/// A lecture lecture.
 #[derive(Debug)]
-pub struct Room {
+pub struct Lecture {
     /// What followers type to join.
     pub code: String,
     /// What shows that somebody is the presenter.
     key: String,
     opened: Instant,
-    desk: Mutex<Desk>,
-    stage: watch::Sender<Stage>,
+    presentation: Mutex<Presentation>,
+    live: watch::Sender<LiveView>,
     state: watch::Sender<Utf8Bytes>,
-    board: watch::Sender<Utf8Bytes>,
+    public: watch::Sender<Utf8Bytes>,
     followers: AtomicUsize,
-    most_followers: usize,
-    told: tokio::sync::Mutex<HashMap<String, (String, Value)>>,
+    max_followers: usize,
+    cached_responses: tokio::sync::Mutex<HashMap<String, (String, Value)>>,
 }
 
 /// What is shown.
 #[derive(Debug, Clone, Default)]
-pub enum Stage {
+pub enum LiveView {
     /// Nothing at the moment.
     #[default]
     Empty,
@@ -69,7 +69,7 @@ pub enum Stage {
 
 /// What the presenter has laid out.
 #[derive(Debug)]
-struct Desk {
+struct Presentation {
     view: Value,
     question: Option<Question>,
     asked: u64,
@@ -79,13 +79,13 @@ struct Desk {
 /// What followers are told beside the run.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(rename = "LectureState")]
-pub struct Board {
+pub struct PublicState {
     /// What followers type to join.
     pub code: String,
     /// Title of the scene; nothing while no session is shown.
     pub title: Option<String>,
     /// Where the scene came from.
-    pub source: Option<Source>,
+    pub source: Option<SceneSource>,
     /// What the presenter looks at, in the page's own words.
     pub view: Value,
     /// The question that is asked.
@@ -94,36 +94,36 @@ pub struct Board {
 
 /// What only the presenter is told.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-#[schemars(rename = "PresenterState")]
-pub struct DeskView {
+pub struct PresenterState {
     /// How many follow now.
     pub followers: usize,
     /// How the answers stand.
     pub tally: Option<Tally>,
 }
 
-impl Room {
+impl Lecture {
     /// Opens a room for a session, and starts to tell of it.
-    fn open(code: String, session: Arc<Session>, most_followers: usize) -> Arc<Self> {
-        let desk = Desk { view: Value::Null, question: None, asked: 0, touched: Instant::now() };
-        let room = Arc::new(Self {
+    fn open(code: String, session: Arc<Session>, max_followers: usize) -> Arc<Self> {
+        let presentation =
+            Presentation { view: Value::Null, question: None, asked: 0, touched: Instant::now() };
+        let lecture = Arc::new(Self {
             code,
             key: uuid::Uuid::new_v4().simple().to_string(),
             opened: Instant::now(),
-            desk: Mutex::new(desk),
-            stage: watch::Sender::new(Stage::Session(session)),
+            presentation: Mutex::new(presentation),
+            live: watch::Sender::new(LiveView::Session(session)),
             state: watch::Sender::new(Utf8Bytes::default()),
-            board: watch::Sender::new(Utf8Bytes::default()),
+            public: watch::Sender::new(Utf8Bytes::default()),
             followers: AtomicUsize::new(0),
-            most_followers,
-            told: tokio::sync::Mutex::default(),
+            max_followers,
+            cached_responses: tokio::sync::Mutex::default(),
         });
-        room.publish();
-        tokio::spawn(tell_states(Arc::downgrade(&room), room.stage.subscribe()));
-        room
+        lecture.publish();
+        tokio::spawn(send_states(Arc::downgrade(&lecture), lecture.live.subscribe()));
+        lecture
     }
 
-    /// The presenter's key, told once to whoever opened the room.
+    /// The presenter's key, told once to whoever opened the lecture.
     pub fn key(&self) -> &str {
         &self.key
     }
@@ -131,7 +131,7 @@ impl Room {
     /// Refuses whoever is not the presenter.
     pub fn check_key(&self, given: Option<&str>) -> Result<(), Problem> {
         if given == Some(self.key.as_str()) {
-            self.desk().touched = Instant::now();
+            self.presentation().touched = Instant::now();
             return Ok(());
         }
         Err(Problem::new(
@@ -143,99 +143,99 @@ impl Room {
     }
 
     /// What followers are told beside the run.
-    pub fn board(&self) -> Board {
-        let desk = self.desk();
+    pub fn public_state(&self) -> PublicState {
+        let presentation = self.presentation();
         let state = self.session().map(|session| session.state());
-        Board {
+        PublicState {
             code: self.code.clone(),
             title: state.as_ref().map(|state| state.title.clone()),
             source: state.map(|state| state.source.clone()),
-            view: desk.view.clone(),
-            question: desk.question.as_ref().map(Question::view),
+            view: presentation.view.clone(),
+            question: presentation.question.as_ref().map(Question::view),
         }
     }
 
     /// What the presenter is told.
-    pub fn desk_view(&self) -> DeskView {
-        DeskView {
+    pub fn presenter_state(&self) -> PresenterState {
+        PresenterState {
             followers: self.followers.load(Ordering::Relaxed),
-            tally: self.desk().question.as_ref().map(Question::tally),
+            tally: self.presentation().question.as_ref().map(Question::tally),
         }
     }
 
     /// Takes over what the presenter looks at.
     pub fn show(&self, view: Value) -> Result<(), Problem> {
         let size = view.to_string().len();
-        if size > MOST_VIEW {
+        if size > MAX_VIEW_BYTES {
             return Err(Problem::new(
                 StatusCode::PAYLOAD_TOO_LARGE,
                 "view-too-large",
-                format!("what is to be shown takes {size} bytes, more than {MOST_VIEW}"),
+                format!("what is to be shown takes {size} bytes, more than {MAX_VIEW_BYTES}"),
                 "show the scene itself as the room's session",
             ));
         }
-        self.desk().view = view;
+        self.presentation().view = view;
         self.publish();
         Ok(())
     }
 
     /// Shows another session.
-    pub fn stage(&self, session: Arc<Session>) {
-        self.stage.send_replace(Stage::Session(session));
+    pub fn show_session(&self, session: Arc<Session>) {
+        self.live.send_replace(LiveView::Session(session));
         self.publish();
     }
 
     /// Asks a question; the one before is forgotten.
     pub fn ask(&self, new: NewQuestion) -> Result<(), Problem> {
-        let mut desk = self.desk();
-        let question = Question::new(desk.asked + 1, new, 4 * self.most_followers)?;
-        desk.asked += 1;
-        desk.question = Some(question);
-        drop(desk);
+        let mut presentation = self.presentation();
+        let question = Question::new(presentation.asked + 1, new, 4 * self.max_followers)?;
+        presentation.asked += 1;
+        presentation.question = Some(question);
+        drop(presentation);
         self.publish();
         Ok(())
     }
 
     /// Takes an answer.
     pub fn vote(&self, vote: &Vote) -> Result<(), Problem> {
-        self.desk().question.as_mut().ok_or_else(question::none)?.take(vote)
+        self.presentation().question.as_mut().ok_or_else(question::none)?.take(vote)
     }
 
     /// Tells everybody how the answers stand, and which is right.
     pub fn reveal(&self) -> Result<(), Problem> {
-        self.desk().question.as_mut().ok_or_else(question::none)?.reveal();
+        self.presentation().question.as_mut().ok_or_else(question::none)?.reveal();
         self.publish();
         Ok(())
     }
 
     /// Takes the question away.
     pub fn forget_question(&self) {
-        self.desk().question = None;
+        self.presentation().question = None;
         self.publish();
     }
 
     /// The session that is shown.
     pub fn session(&self) -> Option<Arc<Session>> {
-        match &*self.stage.borrow() {
-            Stage::Session(session) => Some(Arc::clone(session)),
-            Stage::Empty | Stage::Closed => None,
+        match &*self.live.borrow() {
+            LiveView::Session(session) => Some(Arc::clone(session)),
+            LiveView::Empty | LiveView::Closed => None,
         }
     }
 
     /// Joins as a follower.
-    pub fn join(self: &Arc<Self>) -> Result<Seat, Problem> {
+    pub fn join(self: &Arc<Self>) -> Result<Follower, Problem> {
         let before = self.followers.fetch_add(1, Ordering::Relaxed);
-        let seat = Seat {
-            stage: self.stage.subscribe(),
+        let seat = Follower {
+            live: self.live.subscribe(),
             state: self.state.subscribe(),
-            board: self.board.subscribe(),
-            room: Arc::clone(self),
+            public: self.public.subscribe(),
+            lecture: Arc::clone(self),
         };
-        if before >= self.most_followers {
+        if before >= self.max_followers {
             return Err(Problem::new(
                 StatusCode::SERVICE_UNAVAILABLE,
                 "room-full",
-                format!("{} already follow this lecture, as many as this server takes", self.most_followers),
+                format!("{} already follow this lecture, as many as this server takes", self.max_followers),
                 "look on with a neighbour; the instructor can start the server with a larger --max-followers",
             ));
         }
@@ -243,62 +243,62 @@ impl Room {
     }
 
     /// What is told of the run at one moment: asked once of the session however many followers want it.
-    pub async fn told<T: Future<Output = Result<Value, Problem>>>(
+    pub async fn cached<T: Future<Output = Result<Value, Problem>>>(
         &self,
         what: &str,
         tell: impl FnOnce(Arc<Session>) -> T,
     ) -> Result<Value, Problem> {
         let session = self.session().ok_or_else(nothing_shown)?;
         // Whoever asks meanwhile waits here, and finds the answer.
-        let mut told = self.told.lock().await;
+        let mut cached = self.cached_responses.lock().await;
         let state = session.state();
         let moment = format!("{} {} {} {}", state.id, state.time, state.changes, state.pull.is_some());
-        if let Some((_, value)) = told.get(what).filter(|(of, _)| *of == moment) {
+        if let Some((_, value)) = cached.get(what).filter(|(of, _)| *of == moment) {
             return Ok(value.clone());
         }
         let value = tell(session).await?;
-        if told.len() >= MOST_TOLD {
-            told.clear();
+        if cached.len() >= MAX_CACHED_RESPONSES {
+            cached.clear();
         }
-        told.insert(what.to_owned(), (moment, value.clone()));
+        cached.insert(what.to_owned(), (moment, value.clone()));
         Ok(value)
     }
 
     /// Ends the lecture for everybody.
     fn close(&self) {
-        self.stage.send_replace(Stage::Closed);
+        self.live.send_replace(LiveView::Closed);
     }
 
     /// How long the presenter has not been heard of, and how old the room is.
     fn ages(&self) -> (Duration, Duration) {
-        (self.desk().touched.elapsed(), self.opened.elapsed())
+        (self.presentation().touched.elapsed(), self.opened.elapsed())
     }
 
     fn publish(&self) {
-        self.board.send_replace(LectureMessage::Room(&self.board()).text());
+        self.public.send_replace(LectureMessage::Room(&self.public_state()).text());
     }
 
-    fn desk(&self) -> MutexGuard<'_, Desk> {
+    fn presentation(&self) -> MutexGuard<'_, Presentation> {
         // Every change is a single assignment or insertion.
-        self.desk.lock().unwrap_or_else(PoisonError::into_inner)
+        self.presentation.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 /// A follower's place: newest state, newest board, and the session whose recording is watched.
 #[derive(Debug)]
-pub struct Seat {
+pub struct Follower {
     /// What is shown.
-    pub stage: watch::Receiver<Stage>,
+    pub live: watch::Receiver<LiveView>,
     /// The newest state as it is sent.
     pub state: watch::Receiver<Utf8Bytes>,
     /// The newest board as it is sent.
-    pub board: watch::Receiver<Utf8Bytes>,
-    room: Arc<Room>,
+    pub public: watch::Receiver<Utf8Bytes>,
+    lecture: Arc<Lecture>,
 }
 
-impl Drop for Seat {
+impl Drop for Follower {
     fn drop(&mut self) {
-        self.room.followers.fetch_sub(1, Ordering::Relaxed);
+        self.lecture.followers.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
@@ -307,7 +307,7 @@ impl Drop for Seat {
 #[serde(tag = "type", rename_all = "kebab-case")]
 pub enum LectureMessage<'a> {
     /// What is shown and asked beside the run.
-    Room(&'a Board),
+    Room(&'a PublicState),
     /// The state of the session that is shown.
     State(&'a SessionState),
     /// A recording begins: the viewer must forget the one before.
@@ -324,36 +324,36 @@ impl LectureMessage<'_> {
 }
 
 /// Writes each state of the session that is shown, at most ten a second, until the room is gone.
-async fn tell_states(room: Weak<Room>, mut stage: watch::Receiver<Stage>) {
+async fn send_states(lecture: Weak<Lecture>, mut live: watch::Receiver<LiveView>) {
     loop {
-        let shown = stage.borrow_and_update().clone();
+        let shown = live.borrow_and_update().clone();
         let mut states = match shown {
-            Stage::Closed => return,
-            Stage::Empty => match stage.changed().await {
+            LiveView::Closed => return,
+            LiveView::Empty => match live.changed().await {
                 Ok(()) => continue,
                 Err(_) => return,
             },
-            Stage::Session(session) => session.states(),
+            LiveView::Session(session) => session.states(),
         };
         states.mark_changed();
         loop {
             let changed = tokio::select! {
-                changed = stage.changed() => match changed {
+                changed = live.changed() => match changed {
                     Ok(()) => break,
                     Err(_) => return,
                 },
                 changed = states.changed() => changed,
             };
-            let Some(room) = room.upgrade() else { return };
+            let Some(lecture) = lecture.upgrade() else { return };
             if changed.is_err() {
                 // The session is gone; another may come.
-                room.stage.send_replace(Stage::Empty);
-                room.publish();
+                lecture.live.send_replace(LiveView::Empty);
+                lecture.publish();
                 break;
             }
             let state = Arc::clone(&states.borrow_and_update());
-            room.state.send_replace(LectureMessage::State(&anonymous(&state, &room.code)).text());
-            drop(room);
+            lecture.state.send_replace(LectureMessage::State(&anonymous(&state, &lecture.code)).text());
+            drop(lecture);
             tokio::time::sleep(STATE_INTERVAL).await;
         }
     }
