@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::net::SocketAddr;
 use std::pin::Pin;
-use std::time::Duration;
 
 use axum::Router;
 use axum::body::{Body, to_bytes};
@@ -13,7 +12,6 @@ use axum::response::Response;
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::time::timeout;
 use triad_lessons::answers::{Answer, TypedValue};
 use triad_lessons::exercise::QuestionBody as Question;
 use triad_lessons::{Course, Lesson, reference_submission};
@@ -22,10 +20,6 @@ use crate::{Reply, get, post, server};
 
 /// Significant digits from which a number is one of its own.
 const DIGITS: usize = 8;
-/// A stream is listened to until it is silent for so long, or has sent so many bytes.
-const QUIET: Duration = Duration::from_millis(200);
-const ENOUGH: usize = 1 << 18;
-
 /// What must not be told: why a right answer is right, what slips are recognised, sources, the right numbers.
 #[derive(Default)]
 struct Secrets {
@@ -232,8 +226,9 @@ async fn no_endpoint_tells_an_answer() {
     assert!(asked > 500);
 }
 
-/// What a WebSocket sends first: frames of a server are not masked, so that texts stand in them as they are.
-async fn overheard(address: SocketAddr, path: &str) -> String {
+/// All that a WebSocket sends until the session is deleted, which is when it has told its state: the stream ends with a
+/// message, not with silence. Frames of a server are not masked, so that texts stand in them as they are.
+async fn overheard(server: &Router, address: SocketAddr, path: &str, session: &str) -> String {
     let mut socket = TcpStream::connect(address).await.expect("a connection");
     let hello = format!(
         "GET {path} HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
@@ -241,13 +236,22 @@ async fn overheard(address: SocketAddr, path: &str) -> String {
     );
     socket.write_all(hello.as_bytes()).await.expect("a request");
     let (mut heard, mut part) = (Vec::new(), vec![0; 64 << 10]);
-    while let Ok(Ok(count @ 1..)) = timeout(QUIET, socket.read(&mut part)).await {
+    let mut deleted = false;
+    loop {
+        let count = socket.read(&mut part).await.expect("what is told");
+        assert!(count > 0, "the stream broke off");
         heard.extend_from_slice(&part[..count]);
-        if heard.len() > ENOUGH {
-            break;
+        let text = String::from_utf8_lossy(&heard);
+        if text.contains(r#"{"type":"closed"}"#) {
+            return text.into_owned();
+        }
+        // A state, and blocks of the recording before or after it.
+        if !deleted && text.contains("frames_encoded") && text.contains("RRF2") {
+            deleted = true;
+            let gone = Request::delete(session).body(Body::empty()).expect("a request");
+            crate::send(server, gone).await;
         }
     }
-    String::from_utf8_lossy(&heard).into_owned()
 }
 
 #[tokio::test]
@@ -261,7 +265,8 @@ async fn no_stream_tells_an_answer() {
         let state = post(&server, "/api/v1/sessions", json!({"lesson": lesson.slug})).await.json();
         let session = state["links"]["self"].as_str().expect("a session").to_owned();
         post(&server, &format!("{session}/play"), json!({})).await;
-        let heard = overheard(address, state["links"]["stream"].as_str().expect("a stream")).await;
+        let stream = state["links"]["stream"].as_str().expect("a stream");
+        let heard = overheard(&server, address, stream, &session).await;
         assert!(
             heard.contains("101 Switching Protocols") && heard.contains("frames"),
             "{}: {heard}",
@@ -269,8 +274,6 @@ async fn no_stream_tells_an_answer() {
         );
         let told = leaks(&heard, &secrets(lesson), &BTreeSet::new(), false);
         assert!(told.is_empty(), "{} tells {told:?}", lesson.slug);
-        let gone = Request::delete(session).body(Body::empty()).expect("a request");
-        crate::send(&server, gone).await;
     }
 }
 

@@ -106,7 +106,7 @@ impl Line {
                 delivery = watcher.next() => match delivery {
                     Some(Delivery::Blocks(blocks)) => self.blocks(blocks).await,
                     Some(Delivery::Restarted) => self.tell(&SessionMessage::Reset).await,
-                    None => return,
+                    None => return self.finish(watcher).await,
                 },
                 _ = state_timer.tick() => match states.has_changed() {
                     Ok(true) => {
@@ -118,18 +118,29 @@ impl Line {
                         self.send(Message::Ping(axum::body::Bytes::new())).await
                     }
                     Ok(false) => Ok(()),
-                    Err(_) => {
-                        // The worker is gone, and with it the session.
-                        drop(self.tell(&SessionMessage::Closed).await);
-                        drop(self.send(Message::Close(None)).await);
-                        return;
-                    }
+                    // The worker is gone, and with it the session.
+                    Err(_) => return self.finish(watcher).await,
                 },
             };
             if sent.is_err() {
                 return;
             }
         }
+    }
+
+    /// Sends what is left of the recording, and says that it was all.
+    async fn finish(mut self, mut watcher: Watcher) {
+        while let Some(delivery) = watcher.poll() {
+            let sent = match delivery {
+                Delivery::Blocks(blocks) => self.blocks(blocks).await,
+                Delivery::Restarted => self.tell(&SessionMessage::Reset).await,
+            };
+            if sent.is_err() {
+                return;
+            }
+        }
+        drop(self.tell(&SessionMessage::Closed).await);
+        drop(self.send(Message::Close(None)).await);
     }
 
     pub async fn blocks(&mut self, blocks: Vec<axum::body::Bytes>) -> Result<(), Disconnected> {
