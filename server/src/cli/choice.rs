@@ -17,3 +17,8 @@ pub(super) fn treatment(word: &str) -> Result<Stabilization, String> {
             .to_owned()
     })
 }
+
+/// The words of `simulation.skip`, and one for all of them.
+pub(super) fn skip_words() -> Vec<&'static str> {
+    triad_engine::scene::Skip::WORDS.into_iter().chain(["all"]).collect()
+}

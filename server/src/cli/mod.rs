@@ -1,32 +1,26 @@
 //! The command line: everything that the page does can be done here too.
 
-mod analyses;
-mod bench;
-mod check;
 mod choice;
-mod csv;
-mod grade;
-mod import;
+mod course;
 mod interrupt;
-mod lesson;
+mod measure;
 mod output;
-mod paper;
-mod preview;
-mod raster;
-mod run;
+mod scene;
 mod serve;
-mod stress;
 mod terminal;
 
-use std::net::IpAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
-use triad_engine::scene::{IntegratorKind, Stabilization};
+use clap::{Parser, Subcommand};
 
-use crate::app::REPORTS;
 use crate::problem::Problem;
+use course::{grade, lesson, preview};
+use measure::{bench, paper, stress};
+use scene::options::Run;
+use scene::{analyses, check, import, run};
+use serve::Serve;
+use terminal::Outcome;
 
 /// Ends of `--help`: what a newcomer does first.
 const EXAMPLES: &str = "\
@@ -216,130 +210,7 @@ enum Lesson {
     #[command(
         after_help = "Example:\n  triad lesson starter rigid-body-rows program --language octave --student ada --out ."
     )]
-    Starter(Starter),
-}
-
-#[derive(Debug, Args)]
-struct Starter {
-    /// The lesson.
-    lesson: String,
-    /// The question.
-    question: String,
-    /// python, octave (the same as matlab) or julia.
-    #[arg(long, default_value = "python")]
-    language: String,
-    /// Whose states; without it, those that everybody sees.
-    #[arg(long, default_value = "", value_name = "NAME")]
-    student: String,
-    /// The folder for the program and states.json.
-    #[arg(long, default_value = ".", value_name = "DIR")]
-    out: PathBuf,
-}
-
-#[derive(Debug, Args)]
-struct Serve {
-    /// Address to listen at; 0.0.0.0 lets the whole network in.
-    #[arg(long, default_value = "127.0.0.1")]
-    host: IpAddr,
-    /// Port to listen at; 0 takes any free one.
-    #[arg(long, default_value_t = 8080)]
-    port: u16,
-    /// The gradebook; made if it is not there.
-    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
-    database: PathBuf,
-    /// Live simulations at a time.
-    #[arg(long, default_value_t = 64, value_name = "N")]
-    max_sessions: usize,
-    /// Bodies that a live simulation may have.
-    #[arg(long, default_value_t = 500, value_name = "N")]
-    max_bodies: usize,
-    /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
-    #[arg(long, default_value = REPORTS, value_name = "DIR")]
-    reports: PathBuf,
-    /// Lecture rooms at a time.
-    #[arg(long, default_value_t = 16, value_name = "N")]
-    max_rooms: usize,
-    /// Followers of one lecture.
-    #[arg(long, default_value_t = 500, value_name = "N")]
-    max_followers: usize,
-}
-
-impl Default for Serve {
-    fn default() -> Self {
-        Self {
-            host: IpAddr::from([127, 0, 0, 1]),
-            port: 8080,
-            database: "triad.db".into(),
-            max_sessions: 64,
-            max_bodies: 500,
-            reports: REPORTS.into(),
-            max_rooms: 16,
-            max_followers: 500,
-        }
-    }
-}
-
-#[derive(Debug, Args)]
-struct Run {
-    /// A built-in scene's name (`triad scenes` lists them), or a file.
-    scene: String,
-    /// End of the run in seconds, instead of the scene's.
-    #[arg(long, value_name = "S")]
-    until: Option<f64>,
-    /// Time between outputs in seconds, instead of the scene's.
-    #[arg(long, value_name = "S")]
-    every: Option<f64>,
-    /// Tolerance of the integrator, instead of the scene's.
-    #[arg(long, value_name = "TOL")]
-    tolerance: Option<f64>,
-    /// Leave nothing out of this kind, though nothing depends on it; `all` for every kind.
-    #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = skip_words())]
-    no_skip: Vec<String>,
-    /// Tell what was left out because nothing depends on it, and what that saved.
-    #[arg(long)]
-    explain: bool,
-    /// Integrator, instead of the scene's: auto, taylor, dop853, dopri5, ode45, radau, rattle.
-    #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
-    integrator: Option<IntegratorKind>,
-    /// What keeps the constraints, instead of the scene's: projection, baumgarte, partitioning, penalty,
-    /// augmented-lagrangian; each with its usual strength.
-    #[arg(long, value_name = "NAME", value_parser = choice::treatment)]
-    treatment: Option<Stabilization>,
-    /// Steps of one size, in seconds, instead of steps by the tolerance.
-    #[arg(long, value_name = "S")]
-    step: Option<f64>,
-    /// Estimate the error by a second solution, by another method or at a tighter tolerance.
-    #[arg(long)]
-    verify: bool,
-    /// Stop after so many integrator steps; what was reached is kept.
-    #[arg(long, value_name = "N")]
-    most_steps: Option<u64>,
-    /// Stop after so many seconds of computing; what was reached is kept.
-    #[arg(long, value_name = "S")]
-    most_seconds: Option<f64>,
-    /// Write positions, velocities and reactions as CSV (`-` for standard output).
-    #[arg(long, value_name = "FILE.csv")]
-    out: Option<PathBuf>,
-    /// Write a recording for the rerun viewer.
-    #[arg(long, value_name = "FILE.rrd")]
-    rrd: Option<PathBuf>,
-    /// Show the run in a native rerun viewer that listens at this address.
-    #[arg(long, value_name = "URL", num_args = 0..=1, default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
-    rerun: Option<String>,
-}
-
-/// The words of `simulation.skip`, and one for all of them.
-fn skip_words() -> Vec<&'static str> {
-    triad_engine::scene::Skip::WORDS.into_iter().chain(["all"]).collect()
-}
-
-/// How a command ended, if nothing was refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Outcome {
-    /// Done.
-    Done,
-    /// Done, and the answer is no.
-    No,
+    Starter(lesson::Starter),
 }
 
 /// Runs the command that the program was called with.

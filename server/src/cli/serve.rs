@@ -1,17 +1,61 @@
 //! `triad serve`.
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
+use std::path::PathBuf;
 
 use axum::http::StatusCode;
+use clap::Args;
 use tokio::net::TcpListener;
 use triad_lessons::Course;
 
-use super::terminal::print_line;
-use super::{Outcome, Serve};
-use crate::app::App;
+use super::terminal::{Outcome, print_line};
+use crate::app::{App, REPORTS};
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::store::Store;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Serve {
+    /// Address to listen at; 0.0.0.0 lets the whole network in.
+    #[arg(long, default_value = "127.0.0.1")]
+    pub(in crate::cli) host: IpAddr,
+    /// Port to listen at; 0 takes any free one.
+    #[arg(long, default_value_t = 8080)]
+    pub(in crate::cli) port: u16,
+    /// The gradebook; made if it is not there.
+    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
+    pub(in crate::cli) database: PathBuf,
+    /// Live simulations at a time.
+    #[arg(long, default_value_t = 64, value_name = "N")]
+    pub(in crate::cli) max_sessions: usize,
+    /// Bodies that a live simulation may have.
+    #[arg(long, default_value_t = 500, value_name = "N")]
+    pub(in crate::cli) max_bodies: usize,
+    /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
+    #[arg(long, default_value = REPORTS, value_name = "DIR")]
+    pub(in crate::cli) reports: PathBuf,
+    /// Lecture rooms at a time.
+    #[arg(long, default_value_t = 16, value_name = "N")]
+    pub(in crate::cli) max_rooms: usize,
+    /// Followers of one lecture.
+    #[arg(long, default_value_t = 500, value_name = "N")]
+    pub(in crate::cli) max_followers: usize,
+}
+
+impl Default for Serve {
+    fn default() -> Self {
+        Self {
+            host: IpAddr::from([127, 0, 0, 1]),
+            port: 8080,
+            database: "triad.db".into(),
+            max_sessions: 64,
+            max_bodies: 500,
+            reports: REPORTS.into(),
+            max_rooms: 16,
+            max_followers: 500,
+        }
+    }
+}
 
 /// Serves until it is told to stop.
 pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {

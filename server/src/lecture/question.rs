@@ -8,10 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
 
-/// Characters of a question, of a choice, and of a voter's name.
-const LONGEST_TEXT: usize = 400;
-const LONGEST_CHOICE: usize = 160;
-const LONGEST_VOTER: usize = 64;
+/// Characters of a question.
+const MAX_TEXT: usize = 400;
+/// Characters of a choice.
+const MAX_CHOICE: usize = 160;
+/// Bytes of a voter's name.
+const MAX_VOTER: usize = 64;
 /// Choices of a question.
 const CHOICES: std::ops::RangeInclusive<usize> = 2..=8;
 
@@ -82,15 +84,15 @@ pub(super) struct Question {
 impl Question {
     pub(super) fn new(number: u64, asked: NewQuestion, max_votes: usize) -> Result<Self, Problem> {
         let wrong = |pointer: &str, detail: String| Err(refused(pointer, detail));
-        if asked.text.trim().is_empty() || asked.text.chars().count() > LONGEST_TEXT {
-            return wrong("/text", format!("the question must have 1 to {LONGEST_TEXT} characters"));
+        if asked.text.trim().is_empty() || asked.text.chars().count() > MAX_TEXT {
+            return wrong("/text", format!("the question must have 1 to {MAX_TEXT} characters"));
         }
         if !CHOICES.contains(&asked.choices.len()) {
             return wrong("/choices", "a question has two to eight choices".to_owned());
         }
         for (index, choice) in asked.choices.iter().enumerate() {
-            if choice.trim().is_empty() || choice.chars().count() > LONGEST_CHOICE {
-                let detail = format!("a choice must have 1 to {LONGEST_CHOICE} characters");
+            if choice.trim().is_empty() || choice.chars().count() > MAX_CHOICE {
+                let detail = format!("a choice must have 1 to {MAX_CHOICE} characters");
                 return wrong(&format!("/choices/{index}"), detail);
             }
         }
@@ -113,8 +115,8 @@ impl Question {
             let detail = format!("choice must be an index below {}", self.asked.choices.len());
             return Err(refused("/choice", detail));
         }
-        if vote.voter.is_empty() || vote.voter.len() > LONGEST_VOTER {
-            return Err(refused("/voter", format!("voter must have 1 to {LONGEST_VOTER} characters")));
+        if vote.voter.is_empty() || vote.voter.len() > MAX_VOTER {
+            return Err(refused("/voter", format!("voter must have 1 to {MAX_VOTER} characters")));
         }
         if self.votes.len() >= self.max_votes && !self.votes.contains_key(&vote.voter) {
             return Err(Problem::new(

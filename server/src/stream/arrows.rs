@@ -7,7 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::description::{JointVisual, SceneDescription};
-use super::sample::{Reaction, Sample};
+use super::sample::Sample;
+use super::scale::{NO_MOMENT, has_moment};
+use super::vector::{cross, minus, norm, plus, times};
 
 /// Which forces are drawn and how they are told.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -61,80 +63,6 @@ pub enum DrawnForces {
     Body(String),
 }
 
-/// How long arrows are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
-    /// m/N.
-    pub force: f64,
-    /// Radius of a moment's circle, m/(N m).
-    pub moment: f64,
-    /// The longest arrow that is drawn, m; a circle is at most half as large.
-    pub longest: f64,
-}
-
-/// Forces at this part of a recording are drawn at their full length.
-const PERCENTILE: f64 = 0.95;
-/// That length, the radius of such a moment, and the longest, beside the size of the mechanism.
-const FULL: f64 = 0.5;
-const FULL_CIRCLE: f64 = 0.22;
-const LONGEST: f64 = 0.8;
-/// Circles are not drawn smaller, beside the size of the mechanism: what turns could not be seen.
-const SMALLEST_CIRCLE: f64 = 0.06;
-/// Radius of the rings about a marked joint, beside the size of the mechanism.
-const RING: f64 = 0.18;
-/// Points on a circle.
-const POINTS: usize = 25;
-/// Beside the force of the same joint times the mechanism's size, a smaller moment is rounding.
-const NO_MOMENT: f64 = 1e-7;
-
-impl Scale {
-    /// Before anything is recorded: the weight of everything is drawn at full length.
-    pub fn of_weight(weight: f64, size: f64) -> Self {
-        let force = FULL * size / if weight > 0.0 { weight } else { 1.0 };
-        Self { force, moment: FULL_CIRCLE / FULL * force / size.max(1e-9), longest: LONGEST * size }
-    }
-
-    /// From a recording; what it has none of keeps its scale.
-    #[must_use]
-    pub fn fitted<'a>(self, samples: impl Iterator<Item = &'a Sample>, size: f64) -> Self {
-        let (mut forces, mut moments) = (Vec::new(), Vec::new());
-        for sample in samples {
-            forces.extend(sample.reactions.iter().map(|r| norm(r.force)));
-            moments.extend(
-                sample.reactions.iter().filter(|r| has_moment(r, size)).map(|reaction| norm(reaction.moment)),
-            );
-            forces.extend(sample.weights.iter().copied().map(norm));
-        }
-        let scaled = |sizes: Vec<f64>, length: f64, old: f64| {
-            percentile(sizes).map_or(old, |full| length * size / full)
-        };
-        Self {
-            force: scaled(forces, FULL, self.force),
-            moment: scaled(moments, FULL_CIRCLE, self.moment),
-            ..self
-        }
-    }
-
-    /// Whether another scale differs so little that eyes would not see it.
-    pub fn is_near(self, other: Self) -> bool {
-        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.2;
-        near(self.force, other.force) && near(self.moment, other.moment)
-    }
-}
-
-fn percentile(mut sizes: Vec<f64>) -> Option<f64> {
-    sizes.retain(|size| size.is_finite() && *size > 0.0);
-    if sizes.is_empty() {
-        return None;
-    }
-    // The place is within the list because the part is below one.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let at = (PERCENTILE * sizes.len() as f64) as usize;
-    let at = at.min(sizes.len() - 1);
-    let (_, found, _) = sizes.select_nth_unstable_by(at, f64::total_cmp);
-    Some(*found)
-}
-
 /// What an arrow stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -167,6 +95,13 @@ pub struct Glyphs {
     /// Circles of moments.
     pub circles: Vec<Vec<[f64; 3]>>,
 }
+
+/// The smallest circle that is drawn, relative to the size of the mechanism: a smaller one is not seen to turn.
+const SMALLEST_CIRCLE: f64 = 0.06;
+/// Radius of the rings about a marked joint, relative to the size of the mechanism.
+const RING: f64 = 0.18;
+/// Points on a circle.
+const POINTS: usize = 25;
 
 impl Arrows {
     /// Whether the forces are drawn alike, whatever is marked.
@@ -273,10 +208,6 @@ impl Arrows {
     }
 }
 
-fn has_moment(reaction: &Reaction, size: f64) -> bool {
-    norm(reaction.moment) > NO_MOMENT * size * norm(reaction.force).max(1e-300)
-}
-
 /// Three quarters of a circle about a moment's axis, with a head where it turns to.
 fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], description: &SceneDescription) {
     let size = norm(moment);
@@ -321,30 +252,11 @@ fn arrow(pieces: &mut Vec<Piece>, kind: Kind, from: [f64; 3], vector: [f64; 3], 
     pieces.push(Piece { kind, from: last.0, vector: last.1 });
 }
 
-fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] + b[k])
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn times(a: [f64; 3], factor: f64) -> [f64; 3] {
-    a.map(|x| x * factor)
-}
-
-fn norm(a: [f64; 3]) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::description::BodyVisual;
-    use super::super::sample::Pose;
+    use super::super::sample::{Pose, Reaction};
+    use super::super::scale::Scale;
     use super::*;
 
     #[test]

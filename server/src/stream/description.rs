@@ -3,7 +3,7 @@
 use triad_engine::model::{BodyRef, Model};
 use triad_engine::scene::{Scene, Shape};
 
-use super::arrows::Scale;
+use super::scale::Scale;
 
 /// A body as it is drawn.
 #[derive(Debug, Clone, PartialEq)]

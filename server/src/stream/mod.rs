@@ -5,20 +5,27 @@
 //!                    └▶ a file, or a native viewer
 //! ```
 
-mod arrows;
-mod description;
-mod geometry;
 mod hub;
-mod layout;
-mod recorder;
 mod sample;
+mod vector;
 
-pub use arrows::{Arrows, DrawnForces, MomentPoint, On, Scale};
+mod scale;
+
+mod description;
+
+mod arrows;
+mod geometry;
+mod layout;
+
+mod recorder;
+
+pub use arrows::{Arrows, DrawnForces, MomentPoint, On};
 pub use description::{BodyVisual, JointVisual, Pattern, SceneDescription};
 pub use hub::{Delivery, Hub, Watcher};
 pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};
 pub use sample::{Pose, Reaction, Sample};
+pub use scale::Scale;
 
 /// Name under which the viewer knows the recordings.
 pub const APPLICATION: &str = "triad";

@@ -10,11 +10,12 @@ use rerun::{
     RecordingStreamResult, Scalars, TimeColumn, Transform3D,
 };
 
-use super::arrows::{Arrows, Glyphs, Piece, Scale};
+use super::arrows::{Arrows, Glyphs, Piece};
 use super::description::SceneDescription;
 use super::geometry::{self, FREE_BODY, MARK, color_of, path, single};
 use super::layout::Camera;
 use super::sample::Sample;
+use super::scale::Scale;
 use super::{APPLICATION, TIMELINE, layout};
 
 /// Why a recording could not be written.

@@ -41,7 +41,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 struct GradedSubmission {
     /// Its name; null where nothing was graded, hence nothing kept.
     id: Option<String>,
-    /// AtTime it came, RFC 3339 in UTC.
+    /// When it came, RFC 3339 in UTC.
     submitted_at: String,
     /// What it earned.
     #[serde(flatten)]

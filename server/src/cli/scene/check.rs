@@ -4,13 +4,12 @@ use serde_json::json;
 use triad_engine::catalogue;
 use triad_engine::check::CheckReport;
 
-use super::Outcome;
-use super::terminal::{print_json, print_line};
+use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
 use crate::scenes;
 
 /// Counts what a scene amounts to.
-pub(super) fn check(spec: &str, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn check(spec: &str, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
     let report = triad_engine::check::check(&scene)?;
     if json {
@@ -44,7 +43,7 @@ fn print(report: &CheckReport) {
 }
 
 /// Lists the built-in scenes.
-pub(super) fn list(json: bool) -> Outcome {
+pub(in crate::cli) fn list(json: bool) -> Outcome {
     if json {
         let entries = catalogue::ENTRIES.iter().map(|e| json!({"name": e.name, "summary": e.summary}));
         print_json(&entries.collect::<Vec<_>>());

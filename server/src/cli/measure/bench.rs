@@ -8,15 +8,14 @@ use serde::de::DeserializeOwned;
 use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
 use triad_lab::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
 
-use super::Outcome;
-use super::output::{make_folder, write};
 use super::raster::{RasterError, png};
-use super::terminal::{print_line, progress};
+use crate::cli::output::{make_folder, write};
+use crate::cli::terminal::{Outcome, print_line, progress};
 use crate::problem::Problem;
 use crate::reports;
 
 #[derive(Debug, Args)]
-pub(super) struct Bench {
+pub(in crate::cli) struct Bench {
     /// Fewer scenes, tolerances and repeats: less than a minute.
     #[arg(long)]
     quick: bool,
@@ -58,7 +57,7 @@ fn treatment(text: &str) -> Result<Stabilization, String> {
 }
 
 /// Measures, prints the times to reach three errors, and writes tables and plots into a folder.
-pub(super) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
     let Bench { quick, scenes, integrators, treatment, coordinates, tolerances, out: folder } = options;
     let plan = if quick { Plan::quick() } else { Plan::full() };
     let plan = plan.with(Wish { scenes, integrators, treatments: treatment, coordinates, tolerances });

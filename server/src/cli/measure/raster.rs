@@ -8,7 +8,7 @@ const SCALE: f32 = 2.0;
 
 /// Why a drawing has no picture of pixels.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum RasterError {
+pub(in crate::cli) enum RasterError {
     /// The drawing is not SVG.
     #[error("the drawing cannot be read: {0}")]
     Drawing(#[from] usvg::Error),
@@ -26,7 +26,7 @@ pub(super) enum RasterError {
 }
 
 /// An SVG drawing as PNG, with a font of its own, so that it looks alike on every machine.
-pub(super) fn png(svg: &str) -> Result<Vec<u8>, RasterError> {
+pub(in crate::cli) fn png(svg: &str) -> Result<Vec<u8>, RasterError> {
     let mut options = Options::default();
     let fonts = options.fontdb_mut();
     fonts.load_font_data(dejavu::sans::regular().to_vec());

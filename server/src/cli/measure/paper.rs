@@ -13,9 +13,8 @@ use triad_lab::paper::{
     CASES, Case, Correlation, Counts, LinearAlgebra, PaperPlant, correlation, reference, run,
 };
 
-use super::Outcome;
-use super::output::write;
-use super::terminal::{print_json, print_line, progress};
+use crate::cli::output::write;
+use crate::cli::terminal::{Outcome, print_json, print_line, progress};
 use crate::problem::Problem;
 
 /// How long one evaluation is measured.
@@ -26,7 +25,7 @@ const ALIKE: f64 = 0.05;
 const PUBLISHED_GAIN: f64 = 0.206;
 
 #[derive(Debug, Clone, Args)]
-pub(super) struct Paper {
+pub(in crate::cli) struct Paper {
     /// Leave out models with more bodies.
     #[arg(long, default_value_t = 39, value_name = "N")]
     bodies: usize,
@@ -70,7 +69,7 @@ struct Seconds {
 }
 
 /// Runs all examples.
-pub(super) fn paper(options: &Paper, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn paper(options: &Paper, json: bool) -> Result<Outcome, Problem> {
     let cases: Vec<&Case> = CASES.iter().filter(|case| case.bodies <= options.bodies).collect();
     if cases.is_empty() {
         return Err(Problem::new(

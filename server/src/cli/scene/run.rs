@@ -10,10 +10,10 @@ use triad_engine::{EngineError, VERSION};
 use triad_lab::verify::{Verification, Verifier};
 
 use super::csv::Table;
-use super::interrupt::Interrupt;
-use super::output::{make_room, unwritable};
-use super::terminal::{Progress, print_json, print_line, progress};
-use super::{Outcome, Run};
+use super::options::Run;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::output::{make_room, unwritable};
+use crate::cli::terminal::{Outcome, Progress, print_json, print_line, progress};
 use crate::problem::Problem;
 use crate::scenes;
 use crate::session::{describe, sample};
@@ -25,7 +25,7 @@ const BATCH: usize = 256;
 const MAX_OUTPUTS: f64 = 1e7;
 
 /// Runs a scene to its end.
-pub(super) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
     let scene = scene(options)?;
     let mut simulation = Simulation::new(&scene)?;
     if let Some(steps) = options.most_steps {
@@ -292,7 +292,7 @@ fn report(
         say(&format!("  written                {}", file.display()));
     }
     if let Some(problem) = stopped {
-        eprintln!("{} {problem}", super::terminal::error_word());
+        eprintln!("{} {problem}", crate::cli::terminal::error_word());
     }
 }
 

@@ -6,13 +6,12 @@ use clap::Args;
 use serde_json::json;
 use triad_urdf::{self as urdf, SideCar};
 
-use super::Outcome;
-use super::terminal::{print_json, print_line};
+use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
 use crate::scenes;
 
 #[derive(Debug, Args)]
-pub(super) struct Import {
+pub(in crate::cli) struct Import {
     /// The robot's description.
     urdf: PathBuf,
     /// A side-car in JSON: joints that close loops, positions at the start, drivers, loads, settings.
@@ -24,7 +23,7 @@ pub(super) struct Import {
 }
 
 /// Reads, converts, writes, and tells what was left out.
-pub(super) fn import(options: &Import, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn import(options: &Import, json: bool) -> Result<Outcome, Problem> {
     let text = scenes::read(&options.urdf, urdf::MAX_TEXT as u64)?;
     let side_car = match &options.with {
         None => SideCar::default(),
@@ -38,7 +37,7 @@ pub(super) fn import(options: &Import, json: bool) -> Result<Outcome, Problem> {
         print_json(&json!({ "scene": imported.scene, "left_out": imported.left_out, "check": report }));
     }
     match &options.out {
-        Some(path) => super::output::write(path, written + "\n")?,
+        Some(path) => crate::cli::output::write(path, written + "\n")?,
         None if json => {}
         None => print_line(&written),
     }

@@ -16,9 +16,8 @@ use tokio::net::TcpListener;
 use tower::ServiceExt;
 use triad_lessons::Course;
 
-use super::Outcome;
-use super::terminal::{counted, print_line};
 use crate::app::App;
+use crate::cli::terminal::{Outcome, counted, print_line};
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::store::Store;
@@ -46,7 +45,7 @@ struct Shown {
 type Shared = Arc<RwLock<Shown>>;
 
 /// Serves the lesson until it is told to stop.
-pub(super) fn preview(course: Option<&Path>, lesson: &str, port: u16) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn preview(course: Option<&Path>, lesson: &str, port: u16) -> Result<Outcome, Problem> {
     let Some(folder) = course else {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,

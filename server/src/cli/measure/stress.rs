@@ -13,9 +13,8 @@ use triad_engine::VERSION;
 use triad_engine::scene::Scene;
 use triad_lab::stress::{self, Case, Entry, Treatment, Verdict};
 
-use super::Outcome;
-use super::output::{make_room, write};
-use super::terminal::{print_json, print_line, progress};
+use crate::cli::output::{make_room, write};
+use crate::cli::terminal::{Outcome, print_json, print_line, progress};
 use crate::problem::Problem;
 
 /// Random mechanisms of the quick and of the full form.
@@ -23,7 +22,7 @@ const SEEDS: (u64, u64) = (100, 2000);
 
 /// What `triad stress` is asked.
 #[derive(Debug, Args)]
-pub(super) struct Stress {
+pub(in crate::cli) struct Stress {
     /// Smaller and shorter cases, and 100 random mechanisms: about a minute.
     #[arg(long)]
     quick: bool,
@@ -78,7 +77,7 @@ struct Column {
 }
 
 /// Runs the suite.
-pub(super) fn stress(options: &Stress, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn stress(options: &Stress, json: bool) -> Result<Outcome, Problem> {
     for file in [&options.html, &options.svg, &options.markdown].into_iter().flatten() {
         make_room(file)?;
     }
@@ -186,7 +185,7 @@ fn add(entries: &mut Vec<Entry>, entry: Entry, json: bool) {
 }
 
 /// The smallest scene that still goes as wrong as that of a seed.
-pub(super) fn smallest(seed: u64) -> Scene {
+pub(in crate::cli) fn smallest(seed: u64) -> Scene {
     let treatment = Treatment::default();
     let wrong = |scene: &Scene| stress::random::judge(scene, &treatment).verdict == Verdict::Wrong;
     stress::shrink::shrink(&stress::random::scene(seed), &wrong)

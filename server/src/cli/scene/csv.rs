@@ -8,7 +8,7 @@ use triad_engine::reaction::JointMultipliers;
 use triad_engine::simulation::{Frame, Summary};
 
 /// One table being written.
-pub(super) struct Table {
+pub(in crate::cli) struct Table {
     out: Box<dyn Write>,
 }
 
@@ -16,7 +16,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Table {
     /// Opens the table (`-` is standard output) and writes its head.
-    pub(super) fn create(
+    pub(in crate::cli) fn create(
         path: &Path,
         scene: &str,
         bodies: &[&str],
@@ -64,7 +64,7 @@ impl Table {
     }
 
     /// Writes one instant.
-    pub(super) fn row(
+    pub(in crate::cli) fn row(
         &mut self,
         frame: &Frame,
         joints: &[JointMultipliers],
@@ -82,7 +82,7 @@ impl Table {
     }
 
     /// Writes what is still held back.
-    pub(super) fn finish(mut self) -> std::io::Result<()> {
+    pub(in crate::cli) fn finish(mut self) -> std::io::Result<()> {
         self.out.flush()
     }
 }

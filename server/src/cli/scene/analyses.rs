@@ -5,14 +5,13 @@ use triad_engine::analysis;
 use triad_engine::reaction::report::{About, Convention, ExpressedIn, Reaction, ReactionReport, Side};
 use triad_engine::simulation::{BodyFrame, Simulation};
 
-use super::Outcome;
-use super::terminal::{print_json, print_line};
+use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
 use crate::scenes;
 
 /// How reactions are wanted.
 #[derive(Debug, Clone, Args)]
-pub(super) struct Words {
+pub(in crate::cli) struct Words {
     /// The body that the reaction acts on.
     #[arg(long, value_enum, default_value_t = OnWord::J)]
     on: OnWord,
@@ -74,7 +73,7 @@ impl Words {
 }
 
 /// Reactions of a scene at a time.
-pub(super) fn reactions(spec: &str, at: f64, words: &Words, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn reactions(spec: &str, at: f64, words: &Words, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
     let mut simulation = Simulation::new(&scene)?;
     simulation.advance_to(at)?;
@@ -155,7 +154,7 @@ fn print_bodies(scene: &triad_engine::Scene, frames: &[BodyFrame]) {
 }
 
 /// Static equilibrium near the start.
-pub(super) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
     let found = analysis::equilibrium(&scene)?;
     if json {
@@ -174,7 +173,7 @@ pub(super) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Problem> {
 }
 
 /// Eigenfrequencies and mode shapes.
-pub(super) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
     let about = if at_start { analysis::About::Start } else { analysis::About::Equilibrium };
     let found = analysis::modes(&scene, about)?;
@@ -208,7 +207,7 @@ pub(super) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Outcome, P
 }
 
 /// Kinematic analysis and inverse dynamics of a driven scene.
-pub(super) fn kinematics(spec: &str, words: &Words, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn kinematics(spec: &str, words: &Words, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
     let found = analysis::kinematics(&scene, words.convention())?;
     if json {
@@ -232,7 +231,7 @@ pub(super) fn kinematics(spec: &str, words: &Words, json: bool) -> Result<Outcom
 }
 
 /// Assembly from a rough start.
-pub(super) fn assemble(spec: &str, keep: &[String], json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn assemble(spec: &str, keep: &[String], json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
     let found = analysis::assemble(&scene, keep)?;
     if json {

@@ -1,21 +1,38 @@
 //! `triad lesson`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use axum::http::StatusCode;
+use clap::Args;
 use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
-use super::output::write;
-use super::terminal::{counted, print_json, print_line};
-use super::{Outcome, Starter};
 use crate::api::unknown_lesson;
+use crate::cli::output::write;
+use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::problem::Problem;
 use crate::variants::Variants;
 
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Starter {
+    /// The lesson.
+    lesson: String,
+    /// The question.
+    question: String,
+    /// python, octave (the same as matlab) or julia.
+    #[arg(long, default_value = "python")]
+    language: String,
+    /// Whose states; without it, those that everybody sees.
+    #[arg(long, default_value = "", value_name = "NAME")]
+    student: String,
+    /// The folder for the program and states.json.
+    #[arg(long, default_value = ".", value_name = "DIR")]
+    out: PathBuf,
+}
+
 /// The course in a folder, or the one that is built in.
-pub(super) fn course(folder: Option<&Path>) -> Result<Course, Problem> {
+pub(in crate::cli) fn course(folder: Option<&Path>) -> Result<Course, Problem> {
     Ok(match folder {
         Some(folder) => Course::load(folder)?,
         None => Course::embedded()?,
@@ -23,12 +40,12 @@ pub(super) fn course(folder: Option<&Path>) -> Result<Course, Problem> {
 }
 
 /// The lesson of that name.
-pub(super) fn find<'a>(course: &'a Course, name: &str) -> Result<&'a Lesson, Problem> {
+pub(in crate::cli) fn find<'a>(course: &'a Course, name: &str) -> Result<&'a Lesson, Problem> {
     course.lesson(name).ok_or_else(|| unknown_lesson(course, name))
 }
 
 /// Lists the lessons.
-pub(super) fn list(course: &Course, json: bool) -> Outcome {
+pub(in crate::cli) fn list(course: &Course, json: bool) -> Outcome {
     let summaries: Vec<_> = course.lessons().iter().map(Lesson::summary).collect();
     if json {
         print_json(&summaries);
@@ -42,7 +59,7 @@ pub(super) fn list(course: &Course, json: bool) -> Outcome {
 }
 
 /// Proves the course, or one lesson of it, and tells how long each lesson took.
-pub(super) fn check(course: &Course, lesson: Option<&str>, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn check(course: &Course, lesson: Option<&str>, json: bool) -> Result<Outcome, Problem> {
     let start = Instant::now();
     let mut faults = triad_lessons::check_course_files(course);
     let lessons: Vec<&Lesson> = match lesson {
@@ -86,7 +103,7 @@ fn rounded(begin: Instant) -> f64 {
 }
 
 /// Writes the skeleton of a lesson into a course.
-pub(super) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome, Problem> {
     let sound = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if slug.is_empty() || slug.len() > 60 || !slug.chars().all(sound) || slug.starts_with('-') {
         let what = format!("\"{slug}\" cannot be the name of a lesson");
@@ -121,7 +138,7 @@ pub(super) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome, Proble
 }
 
 /// Writes a starter and its states.
-pub(super) fn starter(course: &Course, options: &Starter, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn starter(course: &Course, options: &Starter, json: bool) -> Result<Outcome, Problem> {
     let lesson = Variants::default().of(find(course, &options.lesson)?, &options.student)?;
     let (name, text) = crate::api::starter_of(&lesson, &options.question, &options.language)?;
     let dealt = crate::api::deal(&lesson, &options.question)?;
@@ -142,7 +159,7 @@ pub(super) fn starter(course: &Course, options: &Starter, json: bool) -> Result<
 }
 
 /// Prints a schema.
-pub(super) fn schema(of: &str) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn schema(of: &str) -> Result<Outcome, Problem> {
     let schema = match of {
         "scene" => Some(triad_engine::scene::schema()),
         other => triad_lessons::files::schema::of(other),

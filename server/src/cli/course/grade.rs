@@ -4,9 +4,8 @@ use std::path::Path;
 
 use triad_lessons::{Course, Mark, Verdict};
 
-use super::Outcome;
 use super::lesson::find;
-use super::terminal::{print_json, print_line};
+use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
 use crate::variants::Variants;
 use crate::{grading, scenes};
@@ -15,7 +14,12 @@ use crate::{grading, scenes};
 const LARGEST: u64 = 1 << 20;
 
 /// Grades the answers in a file.
-pub(super) fn grade(course: &Course, lesson: &str, file: &Path, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn grade(
+    course: &Course,
+    lesson: &str,
+    file: &Path,
+    json: bool,
+) -> Result<Outcome, Problem> {
     let lesson = find(course, lesson)?;
     let text = scenes::read(file, LARGEST)?;
     let (_, verdict) = grading::grade(lesson, &Variants::default(), &text)?;

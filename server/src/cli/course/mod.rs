@@ -1,0 +1,5 @@
+//! Commands for lessons and their authors.
+
+pub(in crate::cli) mod grade;
+pub(in crate::cli) mod lesson;
+pub(in crate::cli) mod preview;

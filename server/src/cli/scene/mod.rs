@@ -1,0 +1,8 @@
+//! Commands on one scene.
+
+pub(in crate::cli) mod analyses;
+pub(in crate::cli) mod check;
+pub(in crate::cli) mod csv;
+pub(in crate::cli) mod import;
+pub(in crate::cli) mod options;
+pub(in crate::cli) mod run;

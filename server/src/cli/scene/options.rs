@@ -1,0 +1,57 @@
+//! The options of `triad run`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use triad_engine::scene::{IntegratorKind, Stabilization};
+
+use crate::cli::choice;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Run {
+    /// A built-in scene's name (`triad scenes` lists them), or a file.
+    pub(super) scene: String,
+    /// End of the run in seconds, instead of the scene's.
+    #[arg(long, value_name = "S")]
+    pub(super) until: Option<f64>,
+    /// Time between outputs in seconds, instead of the scene's.
+    #[arg(long, value_name = "S")]
+    pub(super) every: Option<f64>,
+    /// Tolerance of the integrator, instead of the scene's.
+    #[arg(long, value_name = "TOL")]
+    pub(super) tolerance: Option<f64>,
+    /// Leave nothing out of this kind, though nothing depends on it; `all` for every kind.
+    #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = choice::skip_words())]
+    pub(super) no_skip: Vec<String>,
+    /// Tell what was left out because nothing depends on it, and what that saved.
+    #[arg(long)]
+    pub(super) explain: bool,
+    /// Integrator, instead of the scene's: auto, taylor, dop853, dopri5, ode45, radau, rattle.
+    #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
+    pub(super) integrator: Option<IntegratorKind>,
+    /// What keeps the constraints, instead of the scene's: projection, baumgarte, partitioning, penalty,
+    /// augmented-lagrangian; each with its usual strength.
+    #[arg(long, value_name = "NAME", value_parser = choice::treatment)]
+    pub(super) treatment: Option<Stabilization>,
+    /// Steps of one size, in seconds, instead of steps by the tolerance.
+    #[arg(long, value_name = "S")]
+    pub(super) step: Option<f64>,
+    /// Estimate the error by a second solution, by another method or at a tighter tolerance.
+    #[arg(long)]
+    pub(super) verify: bool,
+    /// Stop after so many integrator steps; what was reached is kept.
+    #[arg(long, value_name = "N")]
+    pub(super) most_steps: Option<u64>,
+    /// Stop after so many seconds of computing; what was reached is kept.
+    #[arg(long, value_name = "S")]
+    pub(super) most_seconds: Option<f64>,
+    /// Write positions, velocities and reactions as CSV (`-` for standard output).
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) out: Option<PathBuf>,
+    /// Write a recording for the rerun viewer.
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) rrd: Option<PathBuf>,
+    /// Show the run in a native rerun viewer that listens at this address.
+    #[arg(long, value_name = "URL", num_args = 0..=1, default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
+    pub(super) rerun: Option<String>,
+}
