@@ -1,25 +1,29 @@
-// The one door to the server. Every failure becomes an ApiError that carries a Problem.
-import type { Numbers, SceneView, Then } from "./numbers";
+// HTTP client of /api/v1. Every failure becomes an ApiError that carries a Problem.
+import type { Numbers } from "./numbers";
 import type {
+  AfterChange,
   Answer,
-  Board,
   Camera,
   CheckReport,
+  Drag,
   Drawing,
+  GradedSubmission,
+  Hint,
+  ImportedRobot,
   Jacobian,
   JointMultipliers,
-  LeftOut,
+  LectureState,
   Lesson,
   LessonSummary,
+  OpenedLecture,
+  PresenterState,
   Problem,
-  Pull,
   Reactions,
   Scene,
-  SceneSummary,
+  SceneEntry,
+  SessionScene,
   SessionState,
-  Symmetric,
-  Tally,
-  Verdict,
+  SymmetricMatrix,
 } from "./types";
 
 const BASE = "/api/v1";
@@ -111,13 +115,13 @@ export const api = {
   lesson: (slug: string, seed: string, signal?: AbortSignal) =>
     call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
   hint: (slug: string, question: string, k: number, seed?: string) =>
-    call<{ html: string }>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}${whose(seed)}`),
+    call<Hint>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}${whose(seed)}`),
   statesUrl: (slug: string, question: string, seed?: string): string =>
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
   starterUrl: (slug: string, question: string, language: string): string =>
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
   submit: (slug: string, student: string, answers: Record<string, Answer>, seed?: string) =>
-    call<Verdict>(
+    call<GradedSubmission>(
       "POST",
       `/lessons/${id(slug)}/submissions`,
       seed === undefined ? { student, answers } : { student, seed, answers },
@@ -126,43 +130,39 @@ export const api = {
     const search = new URLSearchParams({ student: query.student });
     if (query.lesson) search.set("lesson", query.lesson);
     search.set("limit", String(query.limit ?? 50));
-    return call<Verdict[]>("GET", `/submissions?${search}`, undefined, signal);
+    return call<GradedSubmission[]>("GET", `/submissions?${search}`, undefined, signal);
   },
 
-  scenes: (signal?: AbortSignal) => call<SceneSummary[]>("GET", "/scenes", undefined, signal),
+  scenes: (signal?: AbortSignal) => call<SceneEntry[]>("GET", "/scenes", undefined, signal),
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
   analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", asked: { scene: unknown }) =>
     call<T>("POST", `/analyses/${kind}`, asked),
   importUrdf: (urdf: string, side: unknown) =>
-    call<{ scene: Scene; left_out: LeftOut[] }>(
-      "POST",
-      "/import/urdf",
-      side === undefined ? { urdf } : { urdf, with: side },
-    ),
+    call<ImportedRobot>("POST", "/import/urdf", side === undefined ? { urdf } : { urdf, with: side }),
   sceneSchema: () => call<unknown>("GET", "/schema/scene"),
 
   // What is asked of a run is asked at its address: a session's own, or a lecture room's.
   createSession: (source: SessionSource, change?: Numbers) =>
     call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
   state: (run: string) => call<SessionState>("GET", run),
-  sceneOf: (run: string) => call<SceneView>("GET", `${run}/scene`),
+  sceneOf: (run: string) => call<SessionScene>("GET", `${run}/scene`),
   jacobian: (run: string, at?: number) => call<Jacobian>("GET", `${run}/jacobian${when(at)}`),
   symmetric: (run: string, which: "augmented" | "schur", at?: number) =>
-    call<Symmetric>("GET", `${run}/${which}${when(at)}`),
+    call<SymmetricMatrix>("GET", `${run}/${which}${when(at)}`),
   multipliers: (run: string, at?: number) => call<JointMultipliers[]>("GET", `${run}/multipliers${when(at)}`),
   reactions: (run: string, asked: { on: string; about: string; in: string }, at?: number) =>
     call<Reactions>(
       "GET",
       `${run}/reactions?${new URLSearchParams({ ...asked, ...(at === undefined ? {} : { at: String(at) }) })}`,
     ),
-  change: (run: string, numbers: Numbers, then?: Then) =>
+  change: (run: string, numbers: Numbers, then?: AfterChange) =>
     call<SessionState>("POST", `${run}/parameters`, then ? { ...numbers, then } : numbers),
   draw: (run: string, arrows: Pick<Drawing, "on" | "about" | "drawn" | "marked"> | undefined, fit: boolean) =>
     call<SessionState>("PUT", `${run}/drawing`, arrows ? { arrows, fit } : { fit }),
   lookFrom: (run: string, from: Camera) => call<SessionState>("PUT", `${run}/camera`, { from }),
-  pull: (run: string, pull: Pull) => call<SessionState>("PUT", `${run}/pull`, pull),
+  pull: (run: string, pull: Drag) => call<SessionState>("PUT", `${run}/pull`, pull),
   release: (run: string) => call<SessionState>("DELETE", `${run}/pull`),
   step: (run: string, by: { steps: number } | { seconds: number }) =>
     call<SessionState>("POST", `${run}/step`, by),
@@ -174,21 +174,15 @@ export const api = {
     void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
-  openRoom: (session: string) =>
-    call<{ code: string; key: string; page: string }>("POST", "/rooms", { session }),
-  room: (code: string, signal?: AbortSignal) => call<Board>("GET", `/rooms/${id(code)}`, undefined, signal),
+  openRoom: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
+  room: (code: string, signal?: AbortSignal) =>
+    call<LectureState>("GET", `/rooms/${id(code)}`, undefined, signal),
   closeRoom: (code: string, key: string) =>
     call<void>("DELETE", `/rooms/${id(code)}`, undefined, undefined, key),
   show: (code: string, key: string, what: { session?: string; view?: unknown }) =>
     call<void>("PUT", `/rooms/${id(code)}/view`, what, undefined, key),
   desk: (code: string, key: string) =>
-    call<{ followers: number; tally: Tally | null }>(
-      "GET",
-      `/rooms/${id(code)}/desk`,
-      undefined,
-      undefined,
-      key,
-    ),
+    call<PresenterState>("GET", `/rooms/${id(code)}/desk`, undefined, undefined, key),
   ask: (code: string, key: string, question: { text: string; choices: string[]; right: number | null }) =>
     call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),
   reveal: (code: string, key: string) =>

@@ -1,12 +1,14 @@
 import { describe, expect, it } from "vitest";
-import { at, between, leaves, none, type SceneView, tidy } from "./numbers";
+import { at, between, leaves, none, tidy } from "./numbers";
+import type { Scene, SessionScene } from "./types";
 
-const original = {
+const original: Scene = {
+  name: "pendulum",
   gravity: [0, -9.81, 0],
-  bodies: [{ name: "bob", mass: 1, shape: [{ radius: 1 }] }],
+  bodies: [{ name: "bob", mass: 1, shape: [{ kind: "sphere", center: [0, 0, 0], radius: 1 }] }],
   coordinates: "full",
 };
-const view: SceneView = {
+const view: SessionScene = {
   parameters: [
     {
       name: "mass",

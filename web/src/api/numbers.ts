@@ -1,30 +1,10 @@
 // Numbers of a scene that differ from what its author wrote, and how to get from one set of them to another.
+import type { SessionScene } from "./types";
 
 /** Deviations from the author's scene: parameters by name, any other numbers by JSON pointer. */
 export interface Numbers {
   values: Record<string, number>;
   places: Record<string, unknown>;
-}
-
-export interface Parameter {
-  name: string;
-  label: string;
-  pointers: string[];
-  value: number;
-  initial: number;
-  low: number;
-  high: number;
-  step: number | null;
-  unit: string | null;
-  on_change: Then;
-}
-
-export type Then = "restart" | "continue";
-
-export interface SceneView {
-  parameters: Parameter[];
-  scene: unknown;
-  original: unknown;
 }
 
 export const none = (): Numbers => ({ values: {}, places: {} });
@@ -44,7 +24,7 @@ export function at(document: unknown, pointer: string): unknown {
 }
 
 /** What has to be sent so that the deviations `from` become the deviations `to`. */
-export function between(from: Numbers, to: Numbers, view: SceneView): Numbers {
+export function between(from: Numbers, to: Numbers, view: SessionScene): Numbers {
   const sent = none();
   for (const parameter of view.parameters) {
     const wanted = to.values[parameter.name] ?? parameter.initial;
@@ -60,7 +40,7 @@ export function between(from: Numbers, to: Numbers, view: SceneView): Numbers {
 }
 
 /** A set without the numbers that stand as the author wrote them. */
-export function tidy(set: Numbers, view: SceneView): Numbers {
+export function tidy(set: Numbers, view: SessionScene): Numbers {
   const kept = none();
   for (const parameter of view.parameters) {
     const value = set.values[parameter.name];

@@ -1,6 +1,6 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
 import { api, problemOf } from "../api/client";
-import type { Lesson, Verdict } from "../api/types";
+import type { GradedSubmission, Lesson } from "../api/types";
 import { announce, h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
@@ -112,7 +112,7 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
     }
   };
 
-  const showVerdict = async (verdict: Verdict): Promise<void> => {
+  const showVerdict = async (verdict: GradedSubmission): Promise<void> => {
     const byId = new Map(verdict.questions.map((question) => [question.id, question]));
     for (const field of fields) field.show(byId.get(field.id));
     outcome.replaceChildren(verdictSummary(verdict));

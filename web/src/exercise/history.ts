@@ -1,6 +1,6 @@
 // All submissions of one student to one lesson, from the server: they survive a reload.
 import { api } from "../api/client";
-import type { Lesson, Verdict } from "../api/types";
+import type { GradedSubmission, Lesson } from "../api/types";
 import { h } from "../core/dom";
 import { dateTime, plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
@@ -12,12 +12,12 @@ import { verdictLine } from "./verdict";
 export interface History {
   root: HTMLElement;
   load: () => Promise<void>;
-  add: (verdict: Verdict) => void;
+  add: (verdict: GradedSubmission) => void;
 }
 
 export function historyList(lesson: Lesson): History {
   const root = h("section", { class: "history", "aria-label": "Your submissions", hidden: true });
-  let verdicts: Verdict[] = [];
+  let verdicts: GradedSubmission[] = [];
 
   const paint = (): void => {
     root.hidden = verdicts.length === 0;
@@ -64,7 +64,7 @@ export function historyList(lesson: Lesson): History {
   };
 }
 
-function entry(lesson: Lesson, verdict: Verdict): HTMLElement {
+function entry(lesson: Lesson, verdict: GradedSubmission): HTMLElement {
   const right = verdict.questions.filter((question) => question.verdict === "right").length;
   const details = h(
     "details",

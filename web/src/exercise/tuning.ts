@@ -1,6 +1,6 @@
 // Settings of a run under a budget: integrator, tolerance, stabilization.
 
-import type { Question } from "../api/types";
+import type { IntegratorKind, Question } from "../api/types";
 import { h, uid } from "../core/dom";
 import { type Inputs, type QuestionContext, textInput } from "./field";
 
@@ -23,7 +23,8 @@ export function tuningInput(question: Question, place: QuestionContext, draft: s
     { id: `${base}-integrator`, class: "field", "aria-describedby": described },
     ...offered.integrators.map((kind) => h("option", { value: kind }, WORDS[kind] ?? kind)),
   );
-  if (draft?.[0] && offered.integrators.includes(draft[0])) integrator.value = draft[0];
+  const drafted = offered.integrators.find((kind) => kind === draft?.[0]);
+  if (drafted) integrator.value = drafted;
   const tolerance = textInput(`${base}-tolerance`, "Tolerance", described, draft?.[1] ?? "");
   tolerance.placeholder = "1e-6";
   tolerance.inputMode = "text";
@@ -61,7 +62,7 @@ export function tuningInput(question: Question, place: QuestionContext, draft: s
         ? { value: "" }
         : {
             settings: {
-              integrator: integrator.value,
+              integrator: integrator.value as IntegratorKind,
               tolerance: tolerance.value.trim(),
               ...(offered.baumgarte && kind.value === "baumgarte"
                 ? { baumgarte: [alpha.value.trim() || "0", beta.value.trim() || "0"] as [string, string] }

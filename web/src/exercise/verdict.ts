@@ -1,11 +1,11 @@
 // A verdict in words and a mark: never by colour alone.
 
-import type { QuestionVerdict, Verdict, VerdictKind } from "../api/types";
+import type { GradedSubmission, Mark, QuestionVerdict } from "../api/types";
 import { authored, h } from "../core/dom";
 import { points } from "../core/format";
 import { type IconName, icon } from "../ui/icons";
 
-const WORDS: Record<VerdictKind, { word: string; mark: IconName }> = {
+const WORDS: Record<Mark, { word: string; mark: IconName }> = {
   right: { word: "Right", mark: "check" },
   wrong: { word: "Not yet", mark: "cross" },
   blank: { word: "No answer", mark: "dash" },
@@ -45,7 +45,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   );
 }
 
-export function verdictSummary(verdict: Verdict): HTMLElement {
+export function verdictSummary(verdict: GradedSubmission): HTMLElement {
   const score = `${points(verdict.earned)} of ${points(verdict.possible)} points`;
   const [cls, mark, title, text]: [string, IconName, string, string] = !verdict.gradable
     ? [

@@ -1,6 +1,7 @@
 // Every number of the scene, and the choices that are words: for those who want to change what the author did not offer.
 
-import { at, leaves, type Then } from "../api/numbers";
+import { at, leaves } from "../api/numbers";
+import type { AfterChange } from "../api/types";
 import { h, setText } from "../core/dom";
 import { plural } from "../core/format";
 import type { Session } from "../session/session";
@@ -23,7 +24,7 @@ const TREATMENTS: Record<string, Record<string, unknown>> = {
   "augmented-lagrangian": { kind: "augmented-lagrangian", alpha: 1e9 },
 };
 
-type Set = (pointer: string, value: unknown, then: Then) => void;
+type Set = (pointer: string, value: unknown, then: AfterChange) => void;
 
 export function expertPanel(session: Session, set: Set): { root: HTMLElement; refresh: () => void } {
   const filter = h("input", {
@@ -41,7 +42,7 @@ export function expertPanel(session: Session, set: Set): { root: HTMLElement; re
   const choices = h("div", { class: "expert-choices" });
   const body = h("tbody");
   const said = h("p", { class: "help", role: "status" });
-  const after = (): Then => then.value as Then;
+  const after = (): AfterChange => then.value as AfterChange;
   let shown: unknown;
 
   const paint = (): void => {

@@ -1,6 +1,7 @@
 // What may be changed while it runs: the author's parameters as sliders, every other number for experts.
 
-import { count, type Numbers, none, type Parameter, type Then } from "../api/numbers";
+import { count, type Numbers, none } from "../api/numbers";
+import type { AfterChange, SessionParameter } from "../api/types";
 import { announce, h, setText } from "../core/dom";
 import { num, plural } from "../core/format";
 import type { Session } from "../session/session";
@@ -14,7 +15,7 @@ const STEPS = 200;
 
 interface Row {
   root: HTMLElement;
-  show: (parameter: Parameter, value: number) => void;
+  show: (parameter: SessionParameter, value: number) => void;
 }
 
 export function parametersTab(session: Session): Panel {
@@ -32,7 +33,7 @@ export function parametersTab(session: Session): Panel {
     { type: "button", class: "button small", onclick: () => void attempt(() => session.change(none())) },
     "Reset all",
   );
-  let wanted: { to: Numbers; then?: Then | undefined } | undefined;
+  let wanted: { to: Numbers; then?: AfterChange | undefined } | undefined;
   let sending = false;
 
   const attempt = async (change: () => Promise<void>): Promise<void> => {
@@ -45,7 +46,7 @@ export function parametersTab(session: Session): Panel {
     paint();
   };
   /** A slider that is dragged asks often: one request at a time, the newest wins. */
-  const ask = (to: Numbers, then?: Then): void => {
+  const ask = (to: Numbers, then?: AfterChange): void => {
     wanted = { to, then };
     if (sending) return;
     sending = true;
@@ -120,7 +121,7 @@ export function parametersTab(session: Session): Panel {
   };
 }
 
-function parameterRow(start: Parameter, set: (name: string, value: number) => void): Row {
+function parameterRow(start: SessionParameter, set: (name: string, value: number) => void): Row {
   const { name, label, low, high } = start;
   const step = start.step ?? (high - low) / STEPS;
   // A range over many powers of ten is dragged by its exponent.

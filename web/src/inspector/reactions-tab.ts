@@ -1,7 +1,14 @@
 // Reactions joint by joint, said completely: on which body, about which point, in which frame, unique or not;
 // the multipliers that they are made of; and one body cut free with every force on it.
 import { api } from "../api/client";
-import type { Component, JointMultipliers, Reaction, Reactions, SessionState, Vec3 } from "../api/types";
+import type {
+  JointMultipliers,
+  Reaction,
+  ReactionComponent,
+  Reactions,
+  SessionState,
+  Vec3,
+} from "../api/types";
 import { h, setText } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { bind } from "../core/keys";
@@ -317,7 +324,7 @@ function card(entry: Shown, selected: boolean, toggle: () => void): HTMLElement 
       : ["u", "v", "w"];
   // A moment beside the force, with an arm of a metre: less is rounding.
   const all = values([...entry.force, ...entry.moment]);
-  const row = (label: string, symbol: string, parts: Component[], unit: string): HTMLElement =>
+  const row = (label: string, symbol: string, parts: ReactionComponent[], unit: string): HTMLElement =>
     h(
       "tr",
       null,

@@ -1,6 +1,6 @@
 // A lecture as a follower sees it: the presenter's run, mirrored, or looked around in on one's own.
 import { ApiError, api } from "../api/client";
-import type { Board, SessionState } from "../api/types";
+import type { LectureState, SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { Session } from "../session/session";
 import { tell } from "../session/share";
@@ -8,7 +8,7 @@ import { seenOf } from "../session/shared-view";
 
 export class Follower extends Session {
   override readonly steers = false;
-  board: Board | undefined;
+  board: LectureState | undefined;
   /** Looks around alone: time, selection and panels are one's own until one comes back. */
   roaming = false;
   over = false;
@@ -57,7 +57,7 @@ export class Follower extends Session {
 
   protected override read(message: { type?: string }): void {
     if (message.type === "room") {
-      this.board = message as unknown as Board;
+      this.board = message as unknown as LectureState;
       if (!this.roaming) this.mirror();
       this.emit("board");
     } else if (message.type === "closed") {

@@ -1,6 +1,6 @@
 // The quick question as a follower answers it, and as everybody sees its result.
 import { api } from "../api/client";
-import type { RoomQuestion, Tally } from "../api/types";
+import type { LectureQuestion, Tally } from "../api/types";
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 import { problemNotice } from "../ui/notice";
@@ -15,7 +15,10 @@ function voter(): string {
   return made;
 }
 
-export function ballot(code: string): { root: HTMLElement; show: (question: RoomQuestion | null) => void } {
+export function ballot(code: string): {
+  root: HTMLElement;
+  show: (question: LectureQuestion | null) => void;
+} {
   const root = h("section", {
     class: "ballot",
     hidden: true,
@@ -25,7 +28,7 @@ export function ballot(code: string): { root: HTMLElement; show: (question: Room
   let shown = "";
   let chosen: number | undefined;
 
-  const show = (question: RoomQuestion | null): void => {
+  const show = (question: LectureQuestion | null): void => {
     const key = JSON.stringify(question);
     if (key === shown) return;
     if (!question || JSON.parse(shown || "null")?.number !== question.number) chosen = undefined;

@@ -1,8 +1,8 @@
 // Bodies shown where an analysis found them, or swinging in a mode: apart from the run, which stands still meanwhile.
-import type { BodyFrame, SessionState, Vec3 } from "../api/types";
+import type { BodyState, SessionState, Vec3 } from "../api/types";
 import { add, cross, norm, scale, sub } from "./vec";
 
-export type Placed = Pick<BodyFrame, "position" | "u" | "v" | "w">;
+export type Placed = Pick<BodyState, "position" | "u" | "v" | "w">;
 
 export interface ModeMotion {
   translation: Vec3;

@@ -28,14 +28,14 @@ export const out = (axes: Axes, a: Vec3): Vec3 =>
   add(add(scale(axes[0], a[0]), scale(axes[1], a[1])), scale(axes[2], a[2]));
 
 /** The axes of a body's frame from any of the three ways to state an orientation. */
-export function axesOf(orientation: Orientation | undefined): Axes {
+export function axesOf(orientation: Orientation | null | undefined): Axes {
   if (orientation?.u && orientation.v) {
     const u = unit(orientation.u);
     const w = unit(cross(u, orientation.v));
     return [u, cross(w, u), w];
   }
   if (orientation?.quaternion) return fromQuaternion(orientation.quaternion);
-  if (orientation?.axis && orientation.angle !== undefined) {
+  if (orientation?.axis && typeof orientation.angle === "number") {
     const axis = unit(orientation.axis);
     const s = Math.sin(orientation.angle / 2);
     return fromQuaternion([Math.cos(orientation.angle / 2), axis[0] * s, axis[1] * s, axis[2] * s]);

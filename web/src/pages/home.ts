@@ -1,6 +1,6 @@
 // The list of lessons, written like the contents page of a book, with how far one has come.
 import { api } from "../api/client";
-import type { LessonSummary, Verdict } from "../api/types";
+import type { GradedSubmission, LessonSummary } from "../api/types";
 import { h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { student } from "../core/prefs";
@@ -120,7 +120,7 @@ export function homePage(outlet: HTMLElement): Page {
   };
 }
 
-function bestOf(verdicts: Verdict[]): Map<string, Best> {
+function bestOf(verdicts: GradedSubmission[]): Map<string, Best> {
   const best = new Map<string, Best>();
   for (const verdict of verdicts) {
     if (!verdict.gradable) continue;

@@ -1,6 +1,6 @@
 // One lesson: text, mechanism, exercise. The text comes first, everything else when it can be read.
 import { ApiError, api } from "../api/client";
-import type { Lesson, LessonSummary, Scene } from "../api/types";
+import type { Lesson, LessonSummary } from "../api/types";
 import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
@@ -71,16 +71,12 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   };
 
   const openBench = async (lesson: Lesson): Promise<void> => {
-    const [{ workbench }, scene, seen] = await Promise.all([
-      import("../workbench/workbench"),
-      sceneOf(lesson, leaving.signal),
-      askedView(),
-    ]);
+    const [{ workbench }, seen] = await Promise.all([import("../workbench/workbench"), askedView()]);
     if (leaving.signal.aborted) return;
     undo.push(
       workbench(bench, {
         source: lesson.seed ? { lesson: slug, seed: lesson.seed } : { lesson: slug },
-        scene,
+        scene: lesson.scene,
         seen,
       }),
     );
@@ -137,11 +133,6 @@ async function showNeighbours(
       link("Next lesson", lessons[at + 1]),
     ),
   );
-}
-
-export function sceneOf(lesson: Lesson, signal: AbortSignal): Promise<Scene | undefined> {
-  if (typeof lesson.scene === "object") return Promise.resolve(lesson.scene);
-  return api.scene(lesson.scene, signal).catch(() => undefined);
 }
 
 /** Keeps the room that the workbench will take, so that nothing jumps when it arrives. */

@@ -11,7 +11,7 @@ import type { Seen } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { type BenchOptions, workbench } from "../workbench/workbench";
-import { benchPlaceholder, sceneOf } from "./lesson";
+import { benchPlaceholder } from "./lesson";
 import { OWN_SCENE } from "./scenes";
 
 const STARTING_SCENE = "simple-pendulum";
@@ -188,9 +188,7 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
 }
 
 async function lessonScene(slug: string, signal: AbortSignal): Promise<Scene> {
-  const scene = await sceneOf(await api.lesson(slug, student.get(), signal), signal);
-  if (!scene) throw new Error("The scene of this lesson could not be fetched.");
-  return scene;
+  return (await api.lesson(slug, student.get(), signal)).scene;
 }
 
 /** The scene of a link, written as a person would. What stands in this browser's own draft stays there until it is edited. */

@@ -1,6 +1,6 @@
 // The gallery of built-in mechanisms, and the door to one's own.
 import { api } from "../api/client";
-import type { SceneSummary } from "../api/types";
+import type { SceneEntry } from "../api/types";
 import { h } from "../core/dom";
 import { recall } from "../core/prefs";
 import type { Page } from "../core/router";
@@ -62,17 +62,13 @@ export function scenesPage(outlet: HTMLElement): Page {
   return { title: "Scenes", dispose: () => leaving.abort() };
 }
 
-function card(scene: SceneSummary): HTMLElement {
+function card(scene: SceneEntry): HTMLElement {
   const family = FAMILY.exec(scene.name)?.[1];
   const name = family ? `${family}:${FAMILY_START}` : scene.name;
   return h(
     "li",
     { class: "scene-row" },
-    h(
-      "h2",
-      null,
-      h("a", { href: `/scenes/${encodeURIComponent(name)}` }, scene.title ?? titled(family ?? scene.name)),
-    ),
+    h("h2", null, h("a", { href: `/scenes/${encodeURIComponent(name)}` }, titled(family ?? scene.name))),
     h("p", null, scene.summary),
     h("code", null, scene.name),
   );

@@ -1,7 +1,7 @@
 // One live simulation on the server, steered from the page.
 import { ApiError, api, type SessionSource } from "../api/client";
-import { between, isNone, type Numbers, none, type SceneView, type Then, tidy } from "../api/numbers";
-import type { Camera, Drawing, Pull, SessionState } from "../api/types";
+import { between, isNone, type Numbers, none, tidy } from "../api/numbers";
+import type { AfterChange, Camera, Drag, Drawing, SessionScene, SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { banner } from "../ui/notice";
 import { Clock } from "./clock";
@@ -17,7 +17,7 @@ export class Session extends Clock {
   drawn: Drawn = { what: "all" };
   camera: Camera = "corner";
   /** The scene as it runs, its parameters, and the author's. */
-  view: SceneView | undefined;
+  view: SessionScene | undefined;
   /** What differs from the author's scene. */
   numbers: Numbers;
   /** Numbers were changed, or a body was pulled, in the middle of this run: from its start it would go otherwise. */
@@ -76,7 +76,7 @@ export class Session extends Clock {
   }
 
   /** Runs the scene with these deviations from what its author wrote. Throws what the server refuses. */
-  async change(to: Numbers, then?: Then): Promise<void> {
+  async change(to: Numbers, then?: AfterChange): Promise<void> {
     const from = this.numbers;
     if (await this.put(to, then)) this.before.push(from);
     await this.readScene();
@@ -89,7 +89,7 @@ export class Session extends Clock {
     await this.readScene();
   }
 
-  private async put(to: Numbers, then?: Then): Promise<boolean> {
+  private async put(to: Numbers, then?: AfterChange): Promise<boolean> {
     const view = this.view;
     const run = this.address;
     if (!view || !run) return false;
@@ -106,7 +106,7 @@ export class Session extends Clock {
   }
 
   /** Pulls a body, or lets it go. */
-  async pull(pull: Pull | null): Promise<void> {
+  async pull(pull: Drag | null): Promise<void> {
     const run = this.address;
     if (!run) return;
     await this.alone(async () => {

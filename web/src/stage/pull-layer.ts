@@ -19,7 +19,7 @@ export function pullLayer(session: Session): Layer {
       root.toggleAttribute("hidden", !body);
       root.style.display = body ? "" : "none";
       if (!pull || !body) return;
-      const [x, y] = project(add(body.position, out([body.u, body.v, body.w], pull.point)));
+      const [x, y] = project(add(body.position, out([body.u, body.v, body.w], pull.point ?? [0, 0, 0])));
       const [hx, hy] = project(pull.to);
       line.setAttribute("d", spring(x, y, hx, hy));
       hand.setAttribute("cx", hx.toFixed(1));

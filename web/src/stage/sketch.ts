@@ -1,6 +1,6 @@
 // The scene as a line drawing: at once, without WebGL, and while the 3-D view is on its way.
 
-import type { BodyFrame, Scene, SceneBody, SceneJoint, SessionState, Shape, Vec3 } from "../api/types";
+import type { Body, BodyState, Joint, Scene, SessionState, Shape, Vec3 } from "../api/types";
 import { svg } from "../core/dom";
 import { type Axes, add, along, axesOf, cross, dot, norm, out, scale, sub, unit } from "../mechanics/vec";
 import { type Grip, HEIGHT, inPlane, type Layer, type Project, WIDTH } from "./viewport";
@@ -171,7 +171,7 @@ export function sketch(given: Scene | undefined, over: Layer[], joint: (name: st
 }
 
 /** Turns a point of the body's own frame into the axes that the server reports, using the first state. */
-function converter(frame: BodyFrame, origin: Vec3 = frame.position, stated: Axes): (p: Vec3) => Vec3 {
+function converter(frame: BodyState, origin: Vec3 = frame.position, stated: Axes): (p: Vec3) => Vec3 {
   const axes: Axes = [frame.u, frame.v, frame.w];
   return (p) => along(axes, sub(add(origin, out(stated, p)), frame.position));
 }
@@ -231,7 +231,7 @@ function piecesOf(shape: Shape, body: number, toBody: (p: Vec3) => Vec3): Piece[
 }
 
 /** A joint between two moving bodies is carried by the second one. */
-function jointOn(frame: BodyFrame, body: number, stated: SceneBody | undefined, joint: SceneJoint): Piece[] {
+function jointOn(frame: BodyState, body: number, stated: Body | undefined, joint: Joint): Piece[] {
   const point = joint.point
     ? along([frame.u, frame.v, frame.w], sub(joint.point, frame.position))
     : joint.point_j && converter(frame, stated?.position, axesOf(stated?.orientation))(joint.point_j);

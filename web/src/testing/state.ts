@@ -1,7 +1,7 @@
 // A state of one body, for unit tests.
-import type { BodyFrame, Drawing, SessionState, Vec3 } from "../api/types";
+import type { BodyState, Drawing, SessionState, Vec3 } from "../api/types";
 
-export const body: BodyFrame = {
+export const body: BodyState = {
   name: "bob",
   position: [1, 0, 0],
   u: [0, 1, 0],
@@ -27,7 +27,9 @@ const drawing: Drawing = {
 export const state = (time: number, x: number): SessionState => ({
   id: "a",
   title: "",
-  links: { self: "", stream: "" },
+  source: { builtin: "" },
+  pull: null,
+  links: { self: "", stream: "", scene: "", jacobian: "", multipliers: "" },
   time,
   duration: 10,
   playing: false,
@@ -39,6 +41,11 @@ export const state = (time: number, x: number): SessionState => ({
   position_violation: 0,
   velocity_violation: 0,
   steps: 0,
+  projections: 0,
+  frames: 0,
+  frames_encoded: 0,
+  watchers: 0,
+  notes: [],
   rejected: 0,
   evaluations: 0,
   factorizations: 0,

@@ -1,6 +1,6 @@
 // Φ_q, the augmented matrix and S: picture, the value under the pointer, what is redundant, and the same as a table.
 import { api } from "../../api/client";
-import type { Jacobian, Symmetric } from "../../api/types";
+import type { Jacobian, SymmetricMatrix } from "../../api/types";
 import { h } from "../../core/dom";
 import { num, plural, seconds } from "../../core/format";
 import { fetched } from "../../session/live-query";
@@ -97,7 +97,7 @@ export function matrixTab(session: Session): Panel {
   const show = (): void => {
     if (matrix) picture.show(matrix, session.joint);
   };
-  const source = fetched<Jacobian | Symmetric>(
+  const source = fetched<Jacobian | SymmetricMatrix>(
     session,
     (run, at) => (which === "jacobian" ? api.jacobian(run, at) : api.symmetric(run, which, at)),
     (value) => {
@@ -183,12 +183,12 @@ function aboutJacobian(value: Jacobian): string {
   return `${plural(value.rows.length, "row")} (${constant} constant), rank ${value.rank}, ${plural(value.columns.length, "column")}, ${value.entries.length} entries, ${num(places > 0 ? (100 * value.entries.length) / places : 0, 3)} % filled, at ${seconds(value.time)}.`;
 }
 
-function aboutSymmetric(value: Symmetric): string {
+function aboutSymmetric(value: SymmetricMatrix): string {
   const own = value.places.length - value.fill;
   return `${plural(value.names.length, "row")}, ${own} entries on and below the diagonal, ${value.fill} more by fill, at ${seconds(value.time)}.`;
 }
 
-function sayRedundant(place: HTMLElement, value: Jacobian | Symmetric): void {
+function sayRedundant(place: HTMLElement, value: Jacobian | SymmetricMatrix): void {
   const sets = "redundant" in value ? value.redundant : [];
   place.hidden = sets.length === 0;
   if (!("columns" in value)) return;

@@ -1,6 +1,6 @@
 // Layout of a sparse matrix on paper: sizes, groups of names, which cell is under a point.
 
-import type { Jacobian, Symmetric } from "../../api/types";
+import type { Jacobian, MatrixPart, SymmetricMatrix } from "../../api/types";
 
 export interface Group {
   name: string;
@@ -66,13 +66,11 @@ export function cellAt(
   return { row, column };
 }
 
-export type EntryKind = "own" | "constant" | "changing" | "fill";
-
 export interface Entry {
   row: number;
   column: number;
   value: number;
-  kind: EntryKind;
+  kind: MatrixPart;
 }
 
 /** A sparse matrix as it is drawn. */
@@ -123,7 +121,7 @@ export function ofJacobian(jacobian: Jacobian): Matrix {
 }
 
 /** Both halves of a symmetric matrix. */
-export function ofSymmetric(matrix: Symmetric): Matrix {
+export function ofSymmetric(matrix: SymmetricMatrix): Matrix {
   const entries = matrix.places.flatMap(([row, column, value, kind]): Entry[] =>
     row === column
       ? [{ row, column, value, kind }]

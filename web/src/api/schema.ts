@@ -1,0 +1,2668 @@
+// Generated from server/openapi.json by `npm run types`: do not edit.
+
+export type paths = Record<string, never>;
+export type webhooks = Record<string, never>;
+export interface components {
+    schemas: {
+        /** @description What happens to a run whose scene is changed. */
+        AfterChange: "restart" | "continue";
+        /** @description A scene to analyse. */
+        AnalysisRequest: {
+            /**
+             * @description Modes about the `equilibrium` near the start, or about the `start` itself.
+             * @default equilibrium
+             */
+            about?: components["schemas"]["ModesAbout"];
+            /**
+             * @description Bodies that an assembly must not move.
+             * @default []
+             */
+            pinned?: string[];
+            /** @description The scene; its schema is at /api/v1/schema/scene. */
+            scene: components["schemas"]["Scene"];
+        };
+        /** @description The answer to one question. */
+        Answer: {
+            /** @description The id of the option that was chosen. */
+            choice?: string | null;
+            /** @description The text of a file: JSON or CSV of a program, a table, a scene. */
+            file?: string | null;
+            /** @description Settings of a run. */
+            settings?: components["schemas"]["RunSettings"] | null;
+            /** @description The unit of the value, as typed. */
+            unit?: string | null;
+            /** @description A number, a list of numbers, or a formula, as typed. */
+            value?: components["schemas"]["TypedValue"] | null;
+        };
+        /** @description The body that is acted on. */
+        ArrowSide: "i" | "j";
+        /** @description Which forces are drawn and how they are told. */
+        Arrows: {
+            /**
+             * @description About which point: there the force is drawn and the moment taken.
+             * @default joint
+             */
+            about?: components["schemas"]["MomentPoint"];
+            /**
+             * @description Which of them.
+             * @default all
+             */
+            drawn?: components["schemas"]["DrawnForces"];
+            /**
+             * @description The joint that is marked, because somebody selected it or its rows.
+             * @default null
+             */
+            marked?: string | null;
+            /**
+             * @description On the first or on the second body of each joint.
+             * @default j
+             */
+            on?: components["schemas"]["ArrowSide"];
+        };
+        /** @description What assembly did. */
+        Assembly: {
+            /** @description The bodies, in the scene's order. */
+            bodies: components["schemas"]["Placement"][];
+            /**
+             * Format: uint
+             * @description Newton steps.
+             */
+            iterations: number;
+            /**
+             * Format: double
+             * @description Largest violation that is left, m.
+             */
+            left: number;
+            /**
+             * Format: double
+             * @description Largest violation of positions at the given start, m.
+             */
+            opening: number;
+        };
+        /** @description How the axis of a revolute joint is written. */
+        AxisRows: "cp-2car" | "cp-cv" | "shared";
+        /** @description A rigid body. */
+        Body: {
+            /** @description Angular velocity in the world frame, rad/s. */
+            angular_velocity?: [
+                number,
+                number,
+                number
+            ];
+            /** @description Centre of mass in the body's frame, m. */
+            center_of_mass?: [
+                number,
+                number,
+                number
+            ];
+            /** @description Coordinates of this body, if not those of the scene. */
+            coordinates?: components["schemas"]["Coordinates"] | null;
+            /** @description Inertia about the centre of mass; without it the body is a point mass. */
+            inertia?: components["schemas"]["Inertia"] | null;
+            /**
+             * Format: double
+             * @description Mass, kg; positive.
+             */
+            mass: number;
+            /** @description Unique name. */
+            name: string;
+            /** @description Orientation of the body's frame in the world. */
+            orientation?: components["schemas"]["Orientation"] | null;
+            /**
+             * @description Position of the body's reference point in the world, m.
+             * @default [
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            position?: [
+                number,
+                number,
+                number
+            ];
+            /** @description What to draw; no influence on the motion. */
+            shape?: components["schemas"]["Shape"][];
+            /** @description Velocity of the reference point in the world frame, m/s. */
+            velocity?: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description A body at one moment, in the world frame. */
+        BodyFrame: {
+            /** @description Angular velocity, rad/s. */
+            angular_velocity: [
+                number,
+                number,
+                number
+            ];
+            /** @description Centre of mass, m. */
+            position: [
+                number,
+                number,
+                number
+            ];
+            /** @description Director u, a principal axis. */
+            u: [
+                number,
+                number,
+                number
+            ];
+            /** @description Director v. */
+            v: [
+                number,
+                number,
+                number
+            ];
+            /** @description Velocity of the centre of mass, m/s. */
+            velocity: [
+                number,
+                number,
+                number
+            ];
+            /** @description Director w. */
+            w: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description A body at the session's time. */
+        BodyState: {
+            /** @description Acceleration of the centre of mass in the world, m/s². */
+            acceleration: [
+                number,
+                number,
+                number
+            ];
+            /** @description Angular velocity in the world, rad/s. */
+            angular_velocity: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Mass, kg.
+             */
+            mass: number;
+            /** @description Name. */
+            name: string;
+            /** @description Centre of mass in the world, m. */
+            position: [
+                number,
+                number,
+                number
+            ];
+            /** @description First principal axis in the world. */
+            u: [
+                number,
+                number,
+                number
+            ];
+            /** @description Second principal axis in the world. */
+            v: [
+                number,
+                number,
+                number
+            ];
+            /** @description Velocity of the centre of mass in the world, m/s. */
+            velocity: [
+                number,
+                number,
+                number
+            ];
+            /** @description Third principal axis in the world. */
+            w: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description From where the mechanism is looked at. */
+        Camera: "corner" | "front" | "side" | "above";
+        /** @description Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene. */
+        CheckReport: {
+            /**
+             * Format: uint
+             * @description Moving bodies.
+             */
+            bodies: number;
+            /**
+             * Format: uint
+             * @description Generalized coordinates.
+             */
+            coordinates: number;
+            /**
+             * Format: uint
+             * @description Degrees of freedom: coordinates less rank.
+             */
+            degrees_of_freedom: number;
+            /** @description Name of the scene. */
+            name: string;
+            /** @description What was found or corrected. */
+            notes: string[];
+            /**
+             * Format: uint
+             * @description Rank of those rows near the start.
+             */
+            rank: number;
+            /** @description Rows that depend on others, joint by joint. */
+            redundant: components["schemas"]["RedundantRows"][];
+            /**
+             * Format: uint
+             * @description Constraint rows, those of rigid bodies included.
+             */
+            rows: number;
+        };
+        /** @description An option as a student sees it. */
+        ChoiceOption: {
+            /** @description The option as safe HTML. */
+            html: string;
+            /** @description Id to send. */
+            id: string;
+        };
+        /** @description Which generalized coordinates describe a body. */
+        Coordinates: "full" | "reduced" | "shared";
+        /** @description A spring from a point of a body to a place in the world. */
+        Drag: {
+            /** @description The body. */
+            body: string;
+            /**
+             * @description The point, from the centre of mass along the body's principal axes, m.
+             * @default [
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            point?: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Stiffness, N/m; one that suits the body's mass if it is not given.
+             * @default null
+             */
+            stiffness?: number | null;
+            /** @description Where it is pulled to, in the world, m. */
+            to: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description How forces are drawn in the viewer, for the page to do alike. */
+        Drawing: {
+            /**
+             * @description About which point: there the force is drawn and the moment taken.
+             * @default joint
+             */
+            about: components["schemas"]["MomentPoint"];
+            /** @description From where the mechanism is looked at. */
+            camera: components["schemas"]["Camera"];
+            /**
+             * @description Which of them.
+             * @default all
+             */
+            drawn: components["schemas"]["DrawnForces"];
+            /**
+             * Format: double
+             * @description Length of a force's arrow, m/N.
+             */
+            force_scale: number;
+            /**
+             * Format: double
+             * @description The longest arrow, m; what would be longer is drawn as two in a row.
+             */
+            longest: number;
+            /**
+             * @description The joint that is marked, because somebody selected it or its rows.
+             * @default null
+             */
+            marked: string | null;
+            /**
+             * Format: double
+             * @description Length of a moment's arrow, m/(N m).
+             */
+            moment_scale: number;
+            /**
+             * @description On the first or on the second body of each joint.
+             * @default j
+             */
+            on: components["schemas"]["ArrowSide"];
+        };
+        /** @description Which forces are drawn. */
+        DrawnForces: "none" | "all" | {
+            joint: string;
+        } | {
+            body: string;
+        };
+        /**
+         * @description What moves as prescribed. Points and vectors of bodies are in the frame of their body, those of the ground in the
+         *     world.
+         */
+        Driver: {
+            /** @description The body. */
+            body: string;
+            /** @description Its path in the world, m. */
+            motion: components["schemas"]["VectorMotion"];
+            /** @description Unique name. */
+            name: string;
+            /** @description The point in the body's frame, m. */
+            point: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            type: "point";
+        } | {
+            /** @description The body. */
+            body: string;
+            /** @description Its direction in the world: `fixed` or `turning` unit vectors. */
+            motion: components["schemas"]["VectorMotion"];
+            /** @description Unique name. */
+            name: string;
+            /** @constant */
+            type: "vector";
+            /** @description The vector in the body's frame; made a unit vector. */
+            vector: [
+                number,
+                number,
+                number
+            ];
+        } | {
+            /** @description The joint. */
+            joint: string;
+            /** @description Angle of body j relative to body i about the axis, from that at the start, rad. */
+            motion: components["schemas"]["Motion"];
+            /** @description Unique name. */
+            name: string;
+            /** @constant */
+            type: "angle";
+        } | {
+            /** @description The joint. */
+            joint: string;
+            /** @description Distance from the joint's point on body i to that on body j along the axis, m. */
+            motion: components["schemas"]["Motion"];
+            /** @description Unique name. */
+            name: string;
+            /** @constant */
+            type: "slide";
+        } | {
+            /** @description First body, or `ground`. */
+            body_i: string;
+            /** @description Second body, or `ground`. */
+            body_j: string;
+            /** @description The angle, rad. */
+            motion: components["schemas"]["Motion"];
+            /** @description Unique name. */
+            name: string;
+            /** @constant */
+            type: "angle-cosine";
+            /** @description Vector in the frame of body i; made a unit vector. */
+            vector_i: [
+                number,
+                number,
+                number
+            ];
+            /** @description Vector in the frame of body j; made a unit vector. */
+            vector_j: [
+                number,
+                number,
+                number
+            ];
+        } | {
+            /** @description The body. */
+            body: string;
+            /** @description The angle, rad. */
+            motion: components["schemas"]["Motion"];
+            /** @description Unique name. */
+            name: string;
+            /** @description Vector of the world. */
+            reference: components["schemas"]["VectorMotion"];
+            /** @constant */
+            type: "angle-to-world";
+            /** @description Vector in the body's frame; made a unit vector. */
+            vector: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description A part of the equations. */
+        EquationPart: "phi" | "jacobian" | "gamma" | "mass" | "acceleration";
+        /** @description A position of rest. */
+        Equilibrium: {
+            /** @description The bodies, at rest. */
+            bodies: components["schemas"]["BodyFrame"][];
+            /**
+             * Format: uint
+             * @description Steps of the search.
+             */
+            iterations: number;
+            /**
+             * Format: double
+             * @description Smallest stiffness along a small motion, N/m: a position with a negative one is left at a touch. Motions are
+             *     measured by the displacements of all bodies and by their rotations times the mechanism's length, squared and
+             *     added.
+             */
+            least_stiffness: number;
+            /** @description Reactions at rest. */
+            reactions: components["schemas"]["ReactionReport"];
+            /**
+             * Format: double
+             * @description Generalized force that is left, N.
+             */
+            residual: number;
+            /** @description Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness. */
+            stable: boolean | null;
+        };
+        /** @description A moment at which a number of the mechanism passes a value. A run tells when, as exactly as it knows the motion. */
+        Event: {
+            /** @description Unique name. */
+            name: string;
+            /** @description The number. */
+            of: components["schemas"]["Quantity"];
+            /**
+             * @description In which direction.
+             * @default either
+             */
+            passing?: components["schemas"]["Passing"];
+            /**
+             * @description Whether the run ends there.
+             * @default false
+             */
+            stop?: boolean;
+            /**
+             * Format: double
+             * @description The value that it passes, m or rad.
+             */
+            value: number;
+        };
+        /** @description The questions as a student sees them. */
+        Exercise: {
+            /**
+             * Format: double
+             * @description Share of the points that passes.
+             */
+            pass_mark: number;
+            /** @description The questions in order. */
+            questions: components["schemas"]["Question"][];
+        };
+        /** @description One place in the input that is wrong. */
+        Fault: {
+            /** @description What is wrong there. */
+            detail: string;
+            /**
+             * @description Where: a JSON pointer into the request body, as a URI fragment.
+             * @example #/scene/joints/0/axis
+             */
+            pointer: string;
+        };
+        /** @description Friction along one freedom of a joint: −(viscous ẋ + coulomb tanh(ẋ / smoothing)). */
+        Friction: {
+            /**
+             * Format: double
+             * @description Coulomb friction at full sliding, N or N m.
+             * @default 0
+             */
+            coulomb?: number;
+            /**
+             * Format: double
+             * @description Velocity at which Coulomb friction has reached three quarters, m/s or rad/s.
+             * @default 0.001
+             */
+            smoothing?: number;
+            /**
+             * Format: double
+             * @description Viscous coefficient, N s/m or N m s/rad.
+             * @default 0
+             */
+            viscous?: number;
+        };
+        /** @description The verdict of a submission. */
+        GradedSubmission: {
+            /**
+             * Format: double
+             * @description Points earned.
+             */
+            earned: number;
+            /** @description False if an answer could not be read or needs more digits: fix it and send again, no attempt is used. */
+            gradable: boolean;
+            /** @description Its name; null where nothing was graded, hence nothing kept. */
+            id: string | null;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description Whether the lesson counts as passed: enough points, and nothing left that could not be read. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description What graded it. */
+            provenance: components["schemas"]["Provenance"];
+            /** @description The questions in the lesson's order. */
+            questions: components["schemas"]["QuestionVerdict"][];
+            /** @description The student, if the submission names one. */
+            student?: string | null;
+            /** @description When it came, RFC 3339 in UTC. */
+            submitted_at: string;
+        };
+        /** @description How the server is. */
+        Health: {
+            /**
+             * Format: uint
+             * @description Lessons in the course.
+             */
+            lessons: number;
+            /**
+             * Format: uint
+             * @description Live sessions that there may be.
+             */
+            most_sessions: number;
+            /**
+             * Format: uint
+             * @description Live sessions.
+             */
+            sessions: number;
+            /** @description `ok`. */
+            status: string;
+            /** @description Version of the program. */
+            version: string;
+        };
+        /** @description One hint. */
+        Hint: {
+            /** @description Its text. */
+            html: string;
+        };
+        /** @description A robot as a scene. */
+        ImportedRobot: {
+            /** @description What could not be carried over. */
+            left_out: components["schemas"]["LeftOut"][];
+            /** @description The scene; its schema is at /api/v1/schema/scene. */
+            scene: components["schemas"]["Scene"];
+        };
+        /** @description Inertia about the centre of mass along the axes of the body's frame, kg m². */
+        Inertia: {
+            principal: [
+                number,
+                number,
+                number
+            ];
+        } | {
+            tensor: [
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ]
+            ];
+        };
+        /** @description A body. */
+        InstanceBody: {
+            /** @description `full`: r, u, v, w; `reduced`: r, u, v and w = u × v. */
+            coordinates: string;
+            /**
+             * Format: uint
+             * @description First of its columns, from 0.
+             */
+            first_column: number;
+            /** @description Moments of inertia about u, v, w, kg m². */
+            inertia: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Mass, kg.
+             */
+            mass: number;
+            /** @description Name. */
+            name: string;
+        };
+        /** @description A point or a vector of a body, less another one if there is one. */
+        InstanceFeature: {
+            /** @description The body, or `ground`. */
+            body: string;
+            /** @description `point` (moves with r) or `vector` (only turns). */
+            kind: string;
+            /** @description ξ, η, ζ along u, v, w of the body; of the ground along x, y, z. */
+            local: [
+                number,
+                number,
+                number
+            ];
+            /** @description What is taken off it. */
+            minus?: components["schemas"]["InstanceFeature"] | null;
+        };
+        /** @description A number, or a prescribed one: its value and two derivatives at each state. */
+        InstanceNumber: number | {
+            /** @description Whether c is the cosine of what is prescribed, an angle in rad. */
+            cosine_of_angle: boolean;
+            /** @description What is prescribed: value, rate and second derivative at each state. */
+            states: [
+                number,
+                number,
+                number
+            ][];
+        };
+        /** @description A row of a joint: one or three equations. */
+        InstanceRow: {
+            /** @description Point or vector a. */
+            a: components["schemas"]["InstanceFeature"];
+            /** @description Point or vector b. */
+            b: components["schemas"]["InstanceFeature"];
+            /** @description The number c of a product. */
+            c?: components["schemas"]["InstanceNumber"] | null;
+            /**
+             * Format: uint
+             * @description First of its rows of Φ, from 0.
+             */
+            first_row: number;
+            /** @description `difference`: a − b = 0, three equations (CP, TP, CV, OV). `product`: a · b − c = 0, one equation. */
+            form: string;
+            /** @description The joint and the label of the row. */
+            name: string;
+        };
+        /** @description A state. */
+        InstanceState: {
+            /** @description q, in the order of the columns. */
+            q: number[];
+            /** @description q̇. */
+            qd: number[];
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            t: number;
+        };
+        /** @description The states that are dealt to a student, with everything that is needed to write the equations. */
+        Instances: {
+            /** @description What is to be returned for each state. */
+            asks: components["schemas"]["EquationPart"][];
+            /** @description The bodies. */
+            bodies: components["schemas"]["InstanceBody"][];
+            /** @description Names of all coordinates, in order. */
+            columns: string[];
+            /** @description `triad-states-1`. */
+            format: string;
+            /** @description Acceleration of gravity, m/s². */
+            gravity: [
+                number,
+                number,
+                number
+            ];
+            /** @description The rows of joints and drivers, in their order after the rigid-body rows. */
+            joint_rows: components["schemas"]["InstanceRow"][];
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description The question. */
+            question: string;
+            /** @description Names of all rows of Φ, in order. */
+            rows: string[];
+            /** @description Whose states these are. */
+            seed: string;
+            /** @description The states. */
+            states: components["schemas"]["InstanceState"][];
+        };
+        /** @description Integrators by name. */
+        IntegratorKind: "auto" | "taylor" | "dop853" | "dopri5" | "ode45" | "radau" | "rattle" | "trapezoidal";
+        /** @description The Jacobian of the constraints: a sparse matrix whose rows and columns have names. */
+        Jacobian: {
+            /** @description What each column is: its body, and the coordinate. */
+            columns: string[];
+            /** @description Row, column, value, and whether the entry never changes; entries that are not listed are zero by structure. */
+            entries: [
+                number,
+                number,
+                number,
+                boolean
+            ][];
+            /**
+             * Format: uint
+             * @description Rank near the start.
+             */
+            rank: number;
+            /** @description Rows of which some say again what others say. */
+            redundant: components["schemas"]["RedundantSet"][];
+            /** @description What each row is: its joint or body, and the row. */
+            rows: string[];
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            time: number;
+        };
+        /**
+         * @description A joint between two bodies, or between a body and the ground.
+         *
+         *     Its points and axes are given in the world at the start (`point`, `points`, `axis`, `axes`) or in the frames of
+         *     the two bodies (`point_i`, `point_j`, `axis_i`, `axis_j`; for the ground this is the world).
+         */
+        Joint: {
+            /** @description Two axes in the world at the start: the first fixed in body i, the second in body j. */
+            axes?: [
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ]
+            ] | null;
+            /** @description Common axis in the world at the start. */
+            axis?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Axis in the frame of body i. */
+            axis_i?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Axis in the frame of body j. */
+            axis_j?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description First body, or `ground` (not for a gear). */
+            body_i?: string;
+            /** @description Second body, or `ground` (not for a gear). */
+            body_j?: string;
+            /** @description The two revolute joints that a gear couples. */
+            joints?: [
+                string,
+                string
+            ] | null;
+            /**
+             * Format: double
+             * @description Length of a rod, m; without it, the distance of its points at the start.
+             */
+            length?: number | null;
+            /** @description Unique name. */
+            name: string;
+            /**
+             * Format: double
+             * @description Advance of a screw, m a turn; positive for a right-handed thread.
+             */
+            pitch?: number | null;
+            /** @description Common point in the world at the start, m. */
+            point?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Point in the frame of body i, m. */
+            point_i?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Point in the frame of body j, m. */
+            point_j?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Two points in the world at the start, m: the first fixed in body i, the second in body j. */
+            points?: [
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ]
+            ] | null;
+            /**
+             * Format: double
+             * @description Angle of a gear's second joint for each radian of its first.
+             */
+            ratio?: number | null;
+            /** @description Which rows hold the axis of a revolute joint. */
+            rows?: components["schemas"]["AxisRows"] | null;
+            /** @description What it is. */
+            type: components["schemas"]["JointKind"];
+        };
+        /** @description What a joint or driver does to a body, in the world. */
+        JointForce: {
+            /** @description The joint's point, m. */
+            at: [
+                number,
+                number,
+                number
+            ];
+            /** @description The body at the other side, which feels both reversed. */
+            by: string;
+            /** @description Force, N. */
+            force: [
+                number,
+                number,
+                number
+            ];
+            /** @description The joint or driver. */
+            joint: string;
+            /** @description Moment about the joint's point, N m. */
+            moment: [
+                number,
+                number,
+                number
+            ];
+            /** @description The body that it acts on: body j, or body i if j is the ground. */
+            on: string;
+        };
+        /** @description What a joint is. */
+        JointKind: "spherical" | "revolute" | "universal" | "cylindrical" | "prismatic" | "planar" | "screw" | "fixed" | "rod" | "point-on-line" | "point-in-plane" | "gear";
+        /** @description The reaction in one joint. */
+        JointMultipliers: {
+            /** @description The joint's point in the world, m. */
+            at: [
+                number,
+                number,
+                number
+            ];
+            /** @description The body that exerts it. */
+            by: string;
+            /** @description The frame of all components. */
+            expressed_in: string;
+            /** @description Force on the body `on`, N: body j of the joint, or body i if j is the ground. */
+            force_on_j: [
+                number,
+                number,
+                number
+            ];
+            /** @description Name of the joint. */
+            joint: string;
+            /** @description Moment, N m, about the point `at`. */
+            moment_on_j: [
+                number,
+                number,
+                number
+            ];
+            /** @description The body that the force acts on. */
+            on: string;
+            /** @description The multipliers of its rows. */
+            rows: components["schemas"]["Multiplier"][];
+        };
+        /** @description The answer to one question, as it is kept. */
+        KeptAnswer: {
+            /** @description The id of the option that was chosen. */
+            choice?: string | null;
+            /** @description The file that was handed in. */
+            file?: components["schemas"]["KeptFile"] | null;
+            /** @description Settings of a run. */
+            settings?: components["schemas"]["RunSettings"] | null;
+            /** @description The unit of the value, as typed. */
+            unit?: string | null;
+            /** @description A number, a list of numbers, or a formula, as typed. */
+            value?: components["schemas"]["TypedValue"] | null;
+        };
+        /** @description A file that was handed in. */
+        KeptFile: {
+            /**
+             * Format: uint
+             * @description Its length.
+             */
+            bytes: number;
+        };
+        /** @description A submission that is kept, with its verdict. */
+        KeptSubmission: {
+            /** @description What was handed in, by the question's id. */
+            answers: {
+                [key: string]: components["schemas"]["KeptAnswer"];
+            };
+            /**
+             * Format: double
+             * @description Points earned.
+             */
+            earned: number;
+            /** @description False if an answer could not be read or needs more digits: fix it and send again, no attempt is used. */
+            gradable: boolean;
+            /** @description Its name; null where nothing was graded, hence nothing kept. */
+            id: string | null;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description Whether the lesson counts as passed: enough points, and nothing left that could not be read. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description What graded it. */
+            provenance: components["schemas"]["Provenance"];
+            /** @description The questions in the lesson's order. */
+            questions: components["schemas"]["QuestionVerdict"][];
+            /** @description The student, if the submission names one. */
+            student?: string | null;
+            /** @description When it came, RFC 3339 in UTC. */
+            submitted_at: string;
+        };
+        /** @description A driven mechanism at one moment. */
+        KinematicState: {
+            /** @description Accelerations of their centres of mass, m/s². */
+            accelerations: [
+                number,
+                number,
+                number
+            ][];
+            /** @description Angular accelerations, rad/s². */
+            angular_accelerations: [
+                number,
+                number,
+                number
+            ][];
+            /** @description Positions and velocities of the bodies. */
+            bodies: components["schemas"]["BodyFrame"][];
+            /** @description What joints and drivers have to exert. */
+            reactions: components["schemas"]["ReactionReport"];
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            time: number;
+        };
+        /** @description A driven motion. */
+        Kinematics: {
+            /**
+             * Format: uint
+             * @description Newton-Raphson steps in all.
+             */
+            iterations: number;
+            /** @description The positions, in the order of time. */
+            states: components["schemas"]["KinematicState"][];
+        };
+        /** @description What followers are sent in text. */
+        LectureMessage: components["schemas"]["LectureState"] | components["schemas"]["SessionState"] | {
+            /** @constant */
+            type: "reset";
+        } | {
+            /** @constant */
+            type: "closed";
+        };
+        /** @description A question as everybody sees it. */
+        LectureQuestion: {
+            /** @description What can be answered. */
+            choices: string[];
+            /**
+             * Format: uint64
+             * @description Its number.
+             */
+            number: number;
+            /** @description How the answers stand and which is right; nothing before the reveal. */
+            result?: components["schemas"]["Tally"] | null;
+            /** @description What is asked. */
+            text: string;
+        };
+        /** @description What followers are told beside the run. */
+        LectureState: {
+            /** @description What followers type to join. */
+            code: string;
+            /** @description The question that is asked. */
+            question: components["schemas"]["LectureQuestion"] | null;
+            /** @description Where the scene came from. */
+            source: components["schemas"]["SceneSource"] | null;
+            /** @description Title of the scene; nothing while no session is shown. */
+            title: string | null;
+            /** @description What the presenter looks at, in the page's own words. */
+            view: unknown;
+        };
+        /** @description Something that could not be carried over. */
+        LeftOut: {
+            /**
+             * Format: uint32
+             * @description Its line in the URDF.
+             */
+            line: number;
+            /** @description What it belongs to, such as `joint elbow`. */
+            of: string;
+            /** @description What is missing, and what it means. */
+            what: string;
+        };
+        /** @description A lesson as a student sees it. */
+        Lesson: {
+            /** @description The questions. */
+            exercise: components["schemas"]["Exercise"];
+            /** @description Whether each student gets numbers, or states, of their own. */
+            has_variants: boolean;
+            /** @description The text as safe HTML. */
+            html: string;
+            /**
+             * Format: uint32
+             * @description Time a student needs.
+             */
+            minutes: number;
+            /**
+             * Format: uint32
+             * @description Place in the course, from 1.
+             */
+            number: number;
+            /** @description What the student can do afterwards. */
+            objectives: string[];
+            /** @description Slugs of the lessons that come before. */
+            prerequisites: string[];
+            /** @description The scenario. */
+            scene: components["schemas"]["Scene"];
+            /** @description Whose numbers these are; empty for those that everybody sees without a name. */
+            seed: string;
+            /** @description Stable name for addresses. */
+            slug: string;
+            /** @description Predict, run, check, explain; may be empty. */
+            steps: components["schemas"]["LessonStep"][];
+            /** @description One sentence. */
+            summary: string;
+            /** @description Title. */
+            title: string;
+        };
+        /** @description The lessons of a course. */
+        LessonList: components["schemas"]["LessonSummary"][];
+        /** @description A step as a student sees it. */
+        LessonStep: {
+            /** @description The step as safe HTML. */
+            html: string;
+            /** @description What to do here. */
+            kind: components["schemas"]["StepKind"];
+        };
+        /** @description A lesson in the list of lessons. */
+        LessonSummary: {
+            /**
+             * Format: uint32
+             * @description Time a student needs.
+             */
+            minutes: number;
+            /**
+             * Format: uint32
+             * @description Place in the course, from 1.
+             */
+            number: number;
+            /** @description What the student can do afterwards. */
+            objectives: string[];
+            /** @description Stable name for addresses. */
+            slug: string;
+            /** @description One sentence. */
+            summary: string;
+            /** @description Title. */
+            title: string;
+        };
+        /** @description Where to go from here. */
+        Links: {
+            /** @description Its Jacobian. */
+            jacobian: string;
+            /** @description Its multipliers. */
+            multipliers: string;
+            /** @description Its scene as it is now. */
+            scene: string;
+            /** @description This session. */
+            self: string;
+            /** @description Its stream: a WebSocket. */
+            stream: string;
+        };
+        /** @description A force or moment besides gravity. */
+        Load: {
+            /** @description The body. */
+            body: string;
+            /** @description The force, N. */
+            force: components["schemas"]["VectorMotion"];
+            /**
+             * @description Frame of the force.
+             * @default world
+             */
+            frame?: components["schemas"]["LoadFrame"];
+            /** @description Unique name. */
+            name: string;
+            /**
+             * @description The point in the body's frame, m.
+             * @default [
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            point?: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            type: "force";
+        } | {
+            /** @description The body. */
+            body: string;
+            /**
+             * @description Frame of the moment.
+             * @default world
+             */
+            frame?: components["schemas"]["LoadFrame"];
+            /** @description The moment, N m. */
+            moment: components["schemas"]["VectorMotion"];
+            /** @description Unique name. */
+            name: string;
+            /** @constant */
+            type: "moment";
+        } | {
+            /** @description First body, or `ground`. */
+            body_i: string;
+            /** @description Second body, or `ground`. */
+            body_j: string;
+            /**
+             * Format: double
+             * @description Damping, N s/m.
+             * @default 0
+             */
+            damping?: number;
+            /** @description Pull of the actuator, N. */
+            force?: components["schemas"]["Motion"] | null;
+            /**
+             * Format: double
+             * @description Length without force, m; without it, the length at the start.
+             */
+            free_length?: number | null;
+            /** @description Unique name. */
+            name: string;
+            /** @description Point in the frame of body i, m. */
+            point_i: [
+                number,
+                number,
+                number
+            ];
+            /** @description Point in the frame of body j, m. */
+            point_j: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Stiffness, N/m.
+             * @default 0
+             */
+            stiffness?: number;
+            /** @constant */
+            type: "spring";
+        } | {
+            /**
+             * Format: double
+             * @description Damping, N m s/rad.
+             * @default 0
+             */
+            damping?: number;
+            /**
+             * Format: double
+             * @description Angle without moment, rad.
+             * @default 0
+             */
+            free_angle?: number;
+            /** @description Friction. */
+            friction?: components["schemas"]["Friction"] | null;
+            /** @description The joint. */
+            joint: string;
+            /** @description Unique name. */
+            name: string;
+            /**
+             * Format: double
+             * @description Stiffness, N m/rad.
+             * @default 0
+             */
+            stiffness?: number;
+            /** @description Torque of the motor, N m. */
+            torque?: components["schemas"]["Motion"] | null;
+            /** @constant */
+            type: "torsion";
+        } | {
+            /**
+             * Format: double
+             * @description Damping, N s/m.
+             * @default 0
+             */
+            damping?: number;
+            /** @description Force of the actuator, N. */
+            force?: components["schemas"]["Motion"] | null;
+            /**
+             * Format: double
+             * @description Displacement without force, m.
+             * @default 0
+             */
+            free_length?: number;
+            /** @description Friction. */
+            friction?: components["schemas"]["Friction"] | null;
+            /** @description The joint. */
+            joint: string;
+            /** @description Unique name. */
+            name: string;
+            /**
+             * Format: double
+             * @description Stiffness, N/m.
+             * @default 0
+             */
+            stiffness?: number;
+            /** @constant */
+            type: "slider";
+        };
+        /** @description The frame in which a force or a moment is given. */
+        LoadFrame: "world" | "body";
+        /** @description How one answer was judged. */
+        Mark: "right" | "wrong" | "blank" | "invalid";
+        /** @description What stands at a place of a symmetric matrix. */
+        MatrixPart: "own" | "constant" | "changing" | "fill";
+        /** @description One mode, moving as e^(λt). */
+        Mode: {
+            /**
+             * Format: double
+             * @description Part of critical damping.
+             */
+            damping_ratio: number;
+            /**
+             * Format: double
+             * @description Frequency, Hz.
+             */
+            frequency: number;
+            /**
+             * Format: double
+             * @description Real part of λ, 1/s: negative where the motion dies away.
+             */
+            growth: number;
+            /** @description What it does, in a word: `oscillates`, `decays`, `grows` or `drifts`. */
+            kind: string;
+            /** @description The motion of each body, the largest displacement (or rotation times the mechanism's length) being one. */
+            shape: components["schemas"]["ModeShape"][];
+        };
+        /** @description The part of a mode that one body takes. */
+        ModeShape: {
+            /** @description Rotation, rad. */
+            rotation: [
+                number,
+                number,
+                number
+            ];
+            /** @description Rotation a quarter of a period later, rad. */
+            rotation_later: [
+                number,
+                number,
+                number
+            ];
+            /** @description Displacement of the centre of mass, m; of a mode with damping, its part in phase. */
+            translation: [
+                number,
+                number,
+                number
+            ];
+            /** @description Displacement a quarter of a period later, zero without damping, m. */
+            translation_later: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description All modes of a position. */
+        Modes: {
+            /** @description The bodies at that position. */
+            bodies: components["schemas"]["BodyFrame"][];
+            /**
+             * Format: uint
+             * @description Degrees of freedom.
+             */
+            freedoms: number;
+            /** @description The modes, slowest first. */
+            modes: components["schemas"]["Mode"][];
+            /** @description What has to be known of the result. */
+            notes: string[];
+        };
+        /** @description The position that is looked at. */
+        ModesAbout: "equilibrium" | "start";
+        /** @description The point about which moments are taken. */
+        MomentPoint: "joint" | "center";
+        /** @description A number as a function of time t. */
+        Motion: {
+            /** @constant */
+            kind: "constant";
+            /**
+             * Format: double
+             * @description The value.
+             */
+            value: number;
+        } | {
+            /** @constant */
+            kind: "ramp";
+            /**
+             * Format: double
+             * @description Change in a second.
+             */
+            rate: number;
+            /**
+             * Format: double
+             * @description Value at t = 0.
+             * @default 0
+             */
+            start?: number;
+        } | {
+            /** @description c₀, c₁, …; at most 32. */
+            coefficients: number[];
+            /** @constant */
+            kind: "polynomial";
+        } | {
+            /**
+             * Format: double
+             * @description Greatest deviation from the mean.
+             */
+            amplitude: number;
+            /**
+             * Format: double
+             * @description Angular frequency, rad/s.
+             */
+            frequency: number;
+            /** @constant */
+            kind: "harmonic";
+            /**
+             * Format: double
+             * @description Value about which it swings.
+             * @default 0
+             */
+            mean?: number;
+            /**
+             * Format: double
+             * @description Phase at t = 0, rad.
+             * @default 0
+             */
+            phase?: number;
+        } | {
+            /**
+             * Format: double
+             * @description Time at which it has reached the second value, s.
+             */
+            end: number;
+            /**
+             * Format: double
+             * @description Value until `start`.
+             */
+            from: number;
+            /** @constant */
+            kind: "smooth-step";
+            /**
+             * Format: double
+             * @description Time at which it leaves the first value, s.
+             */
+            start: number;
+            /**
+             * Format: double
+             * @description Value after `end`.
+             */
+            to: number;
+        } | {
+            /** @constant */
+            kind: "table";
+            /** @description Times, s, increasing; at least two, at most 10 000. */
+            times: number[];
+            /** @description Values at those times. */
+            values: number[];
+        };
+        /** @description One multiplier with the label of its equation. */
+        Multiplier: {
+            /** @description Label of the equation within its joint. */
+            label: string;
+            /**
+             * Format: double
+             * @description λ, in N for a row in metres, in N m for a row of unit vectors.
+             */
+            value: number;
+        };
+        /** @description The multipliers of all joints. */
+        MultipliersList: components["schemas"]["JointMultipliers"][];
+        /** @description Where the camera is to stand. */
+        NewCamera: {
+            /** @description From where the mechanism is looked at. */
+            from: components["schemas"]["Camera"];
+        };
+        /** @description How forces are to be drawn; what is not given stays. */
+        NewDrawing: {
+            /** @description Which, on which body, about which point. */
+            arrows?: components["schemas"]["Arrows"] | null;
+            /**
+             * @description Take the scale of forces from the recording so far.
+             * @default false
+             */
+            fit?: boolean;
+        };
+        /** @description The session that a lecture shows. */
+        NewLecture: {
+            /** @description Its id; who knows it may show it. */
+            session: string;
+        };
+        /** @description What the presenter shows. */
+        NewLectureView: {
+            /** @description Another session than before. */
+            session?: string | null;
+            /** @description Time, selection and panels in the page's own words. */
+            view?: unknown;
+        };
+        /** @description A question to be asked. */
+        NewQuestion: {
+            /** @description What can be answered, two to eight choices. */
+            choices: string[];
+            /**
+             * Format: uint
+             * @description The choice that is right, as an index, if one is; told to nobody before the reveal.
+             * @default null
+             */
+            right?: number | null;
+            /**
+             * @description What is asked.
+             * @example Which sign has Fx of the pin at this moment?
+             */
+            text: string;
+        };
+        /** @description What to simulate: exactly one of `lesson`, `builtin` and `scene`. */
+        NewSession: {
+            /**
+             * @description A built-in scene, by name.
+             * @example n-four-bar:2
+             */
+            builtin?: string | null;
+            /** @description Changes that are made before the start; undoing them leads back to the scene as it is written. */
+            change?: components["schemas"]["SceneChange"];
+            /** @description The scenario of a lesson, by the lesson's slug. */
+            lesson?: string | null;
+            /** @description Settings that replace those of the scene. */
+            overrides?: components["schemas"]["Overrides"];
+            /** @description A scene; its schema is at /api/v1/schema/scene. */
+            scene?: components["schemas"]["Scene"] | null;
+            /** @description With `lesson`: whose numbers, a student's name or another seed; without it, those that everybody sees. */
+            seed?: string | null;
+        };
+        /** @description What happens to a run when a parameter changes. */
+        OnChange: "restart" | "continue";
+        /** @description A room that was opened. */
+        OpenedLecture: {
+            /** @description What followers type to join. */
+            code: string;
+            /** @description Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is told only here. */
+            key: string;
+            /** @description Where followers go, below the server's address. */
+            page: string;
+        };
+        /** @description Orientation of a body's frame in the world. */
+        Orientation: {
+            /**
+             * Format: double
+             * @description Angle of the rotation about `axis`, rad.
+             */
+            angle?: number | null;
+            /** @description Axis of a rotation (with `angle`). */
+            axis?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Unit quaternion, scalar first, body to world. */
+            quaternion?: [
+                number,
+                number,
+                number,
+                number
+            ] | null;
+            /** @description First director u (with `v`); made orthonormal if it is nearly so. */
+            u?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Second director v (with `u`). */
+            v?: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Third director w, if it is stated: then it must be u × v. */
+            w?: [
+                number,
+                number,
+                number
+            ] | null;
+        };
+        /** @description Settings that replace those of the scene. */
+        Overrides: {
+            /**
+             * Format: double
+             * @description End of the simulation, s.
+             * @default null
+             */
+            duration?: number | null;
+            /**
+             * Format: double
+             * @description Time between frames, s.
+             * @default null
+             */
+            every?: number | null;
+            /**
+             * @description How the constraints are kept.
+             * @default null
+             */
+            stabilization?: components["schemas"]["Stabilization"] | null;
+            /**
+             * Format: double
+             * @description Tolerance of the integrator.
+             * @default null
+             */
+            tolerance?: number | null;
+        };
+        /** @description A number of the scene that the author offers to be changed while it runs. */
+        Parameter: {
+            /**
+             * Format: double
+             * @description Greatest value.
+             */
+            high: number;
+            /** @description Name for people. */
+            label: string;
+            /**
+             * Format: double
+             * @description Least value.
+             */
+            low: number;
+            /** @description Unique name, used in addresses. */
+            name: string;
+            /**
+             * @description What happens to a run whose value is changed.
+             * @default restart
+             */
+            on_change?: components["schemas"]["OnChange"];
+            /** @description Where its number stands in the scene; several places if they change together. */
+            pointer: components["schemas"]["Places"];
+            /**
+             * Format: double
+             * @description Between two values of a slider.
+             */
+            step?: number | null;
+            /** @description Unit, for people. */
+            unit?: string | null;
+        };
+        /** @description In which direction a number passes a value. */
+        Passing: "either" | "upwards" | "downwards";
+        /** @description A place in the scene. */
+        Place: string | {
+            /**
+             * Format: double
+             * @description The number there is the parameter times this factor.
+             */
+            factor: number;
+            /** @description A JSON pointer. */
+            pointer: string;
+        };
+        /** @description A body's place after assembly, in the terms in which its author writes it. */
+        Placement: {
+            /** @description Angular velocity in the world, rad/s. */
+            angular_velocity: [
+                number,
+                number,
+                number
+            ];
+            /** @description The body. */
+            body: string;
+            /**
+             * Format: double
+             * @description How far its centre of mass was moved, m.
+             */
+            moved: number;
+            /** @description Position of its reference point, m. */
+            position: [
+                number,
+                number,
+                number
+            ];
+            /** @description Orientation of its frame, unit quaternion with the scalar first. */
+            quaternion: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description How far it was turned, rad.
+             */
+            turned: number;
+            /** @description Velocity of its reference point, m/s. */
+            velocity: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description One place or several. */
+        Places: components["schemas"]["Place"] | components["schemas"]["Place"][];
+        /** @description How fast to play. */
+        PlayRequest: {
+            /**
+             * Format: double
+             * @description Simulated seconds a second, 0.001 to 1000; 1 if it is not given.
+             */
+            speed?: number | null;
+        };
+        /** @description What only the presenter is told. */
+        PresenterState: {
+            /**
+             * Format: uint
+             * @description How many follow now.
+             */
+            followers: number;
+            /** @description How the answers stand. */
+            tally: components["schemas"]["Tally"] | null;
+        };
+        /** @description The members of a problem document as they go over the wire. */
+        Problem: {
+            /**
+             * @description The stable name of this kind of problem.
+             * @example unknown-lesson
+             */
+            code: string;
+            /** @description What happened this time. */
+            detail: string;
+            /** @description The places in the input that are wrong; empty if the problem is not about the input. */
+            errors: components["schemas"]["Fault"][];
+            /** @description What to try. */
+            hint: string;
+            /**
+             * Format: uint16
+             * @description The HTTP status, repeated.
+             */
+            status: number;
+            /** @description A short summary, the same for every problem of this kind. */
+            title: string;
+            /** @description Names this one occurrence, to be quoted in a report; the server's log has the same. */
+            trace_id: string;
+            /**
+             * @description A stable name for this kind of problem, as a URI.
+             * @example urn:triad:problem:unknown-lesson
+             */
+            type: string;
+        };
+        /** @description What graded a submission, so that a grade can be traced and repeated. */
+        Provenance: {
+            /** @description Version of the engine and of the grader. */
+            engine: string;
+            /** @description Fingerprint of every file of the lesson (64-bit FNV-1a, hexadecimal). */
+            lesson_hash: string;
+            /**
+             * @description The numbers that were drawn.
+             * @default {}
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * @description Seed of the numbers and states; empty for those that everybody sees.
+             * @default
+             */
+            seed: string;
+        };
+        /** @description A number that changes with the motion. */
+        Quantity: {
+            /** @description The body. */
+            body: string;
+            /** @description The direction; made a unit vector. */
+            direction: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * @description The point in the body's frame, m.
+             * @default [
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            point?: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            type: "coordinate";
+        } | {
+            /** @description First body, or `ground`. */
+            body_i: string;
+            /** @description Second body, or `ground`. */
+            body_j: string;
+            /**
+             * @description Point in the frame of body i, m.
+             * @default [
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            point_i?: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * @description Point in the frame of body j, m.
+             * @default [
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            point_j?: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            type: "distance";
+        } | {
+            /** @description The joint. */
+            joint: string;
+            /** @constant */
+            type: "angle";
+        } | {
+            /** @description The joint. */
+            joint: string;
+            /** @constant */
+            type: "slide";
+        };
+        /** @description A question as a student sees it. */
+        Question: {
+            /** @description What a program returns for each state (implement). */
+            asks?: components["schemas"]["EquationPart"][];
+            /** @description True if the student has to give the unit. */
+            asks_unit: boolean;
+            /** @description Columns of the table besides `t` (trajectory). */
+            columns?: components["schemas"]["TableColumn"][];
+            /** @description Earlier questions whose answer is carried through, right or wrong. */
+            follows?: string[];
+            /**
+             * Format: uint
+             * @description How many hints there are.
+             */
+            hints_available: number;
+            /** @description Id under which the answer is sent. */
+            id: string;
+            /** @description Kind. */
+            kind: components["schemas"]["QuestionKind"];
+            /** @description Options of a choice. */
+            options?: components["schemas"]["ChoiceOption"][] | null;
+            /**
+             * Format: double
+             * @description Points.
+             */
+            points: number;
+            /** @description What is asked, as safe HTML. */
+            prompt_html: string;
+            /** @description What counts as right, in words. */
+            rule: string;
+            /** @description Rows and columns to fill in. */
+            size?: [
+                number,
+                number
+            ] | null;
+            /** @description Symbols that a formula may use. */
+            symbols?: string[];
+            /** @description What may be chosen (tuning). */
+            tuning?: components["schemas"]["TuningChoices"] | null;
+            /** @description Unit that is assumed unless another is given; absent for choices and where the unit is asked. */
+            unit?: string | null;
+        };
+        /** @description Kind of a question. */
+        QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "implement" | "trajectory" | "model" | "tuning";
+        /** @description The outcome for one question. */
+        QuestionVerdict: {
+            /**
+             * Format: double
+             * @description Points earned.
+             */
+            earned: number;
+            /** @description A picture of what was computed, as SVG that the grader drew. */
+            figure_svg?: string | null;
+            /** @description The question's id. */
+            id: string;
+            /** @description Feedback for the student, as safe HTML. */
+            message_html: string;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description The right answer and its source, as safe HTML, where the author opens it. */
+            reference_html?: string | null;
+            /** @description Name of the slip that was recognised; for statistics and for the checks of authors. */
+            slip?: string | null;
+            /** @description Right, wrong, blank or invalid. */
+            verdict: components["schemas"]["Mark"];
+        };
+        /** @description The reaction of a joint or driver. */
+        Reaction: {
+            /** @description The point about which the moment is taken, in words. */
+            about: string;
+            /** @description That point in the world, m. */
+            about_at: [
+                number,
+                number,
+                number
+            ];
+            /** @description Its axes in the world. */
+            axes: [
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ]
+            ];
+            /** @description The body that exerts it. */
+            by: string;
+            /** @description Whether it is a driver. */
+            driver: boolean;
+            /** @description The frame of the components, in words. */
+            expressed_in: string;
+            /** @description Force, N. */
+            force: [
+                components["schemas"]["ReactionComponent"],
+                components["schemas"]["ReactionComponent"],
+                components["schemas"]["ReactionComponent"]
+            ];
+            /** @description The joint or driver. */
+            joint: string;
+            /** @description Moment, N m. */
+            moment: [
+                components["schemas"]["ReactionComponent"],
+                components["schemas"]["ReactionComponent"],
+                components["schemas"]["ReactionComponent"]
+            ];
+            /** @description The body that the reaction acts on. */
+            on: string;
+        };
+        /** @description One component of a force or moment. */
+        ReactionComponent: {
+            /** @description Whether the equations of motion determine it. */
+            unique: boolean;
+            /**
+             * Format: double
+             * @description Value, N or N m; where it is not unique, that of the smallest multipliers that give the same motion.
+             */
+            value: number;
+        };
+        /** @description Every reaction at one moment. */
+        ReactionReport: {
+            /**
+             * Format: double
+             * @description A row of unit length of which less than this is across the others depends on them.
+             */
+            rank_tolerance: number;
+            /** @description The reactions, joints before drivers. */
+            reactions: components["schemas"]["Reaction"][];
+            /** @description Sets of joints that share redundant rows at this position. */
+            redundancies: components["schemas"]["Redundancy"][];
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            time: number;
+            /**
+             * Format: double
+             * @description A component that changes by less than this part of its own size is unique.
+             */
+            tolerance: number;
+        };
+        /** @description Every reaction at one moment. */
+        Reactions: {
+            /** @description The reactions, joints before drivers. */
+            reactions: components["schemas"]["Reaction"][];
+            /** @description Sets of joints that share redundant rows at this position. */
+            redundancies: components["schemas"]["Redundancy"][];
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            time: number;
+        };
+        /** @description A set of joints and drivers whose rows repeat each other. */
+        Redundancy: {
+            /** @description The joints and drivers that share them; none of them alone is to blame. */
+            joints: string[];
+            /** @description Changes that together remove the redundancy and keep the mobility, if the usual ones do. */
+            remedies: components["schemas"]["Remedy"][];
+            /**
+             * Format: uint
+             * @description How many rows are too many.
+             */
+            rows: number;
+        };
+        /** @description Dependent rows of one joint. */
+        RedundantRows: {
+            /** @description The joint. */
+            joint: string;
+            /** @description Labels of its dependent rows. */
+            rows: string[];
+        };
+        /** @description Rows of one form of which some say again what others say. */
+        RedundantSet: {
+            /**
+             * Format: uint
+             * @description How many of them are too many.
+             */
+            dependent: number;
+            /** @description The rows, as indices. */
+            rows: number[];
+        };
+        /** @description A change of one joint. */
+        Remedy: {
+            /** @description What it would become. */
+            becomes: components["schemas"]["JointKind"];
+            /** @description What it would no longer hold, in words. */
+            gives_up: string;
+            /** @description The joint. */
+            joint: string;
+        };
+        /** @description Settings of a run, as chosen. */
+        RunSettings: {
+            /** @description Baumgarte's α and β in 1/s, as typed; without them the state is projected. */
+            baumgarte?: [
+                components["schemas"]["TypedValue"],
+                components["schemas"]["TypedValue"]
+            ] | null;
+            /** @description The integrator. */
+            integrator: components["schemas"]["IntegratorKind"];
+            /** @description Its tolerance, as typed. */
+            tolerance: components["schemas"]["TypedValue"];
+        };
+        /** @description A mechanism, its surroundings and how to run it. */
+        Scene: {
+            /** @description The moving bodies. */
+            bodies: components["schemas"]["Body"][];
+            /** @description Coordinates of every body that does not choose for itself. */
+            coordinates?: components["schemas"]["Coordinates"];
+            /** @description What the scene shows and where its data come from. */
+            description?: string;
+            /** @description What moves as prescribed. */
+            drivers?: components["schemas"]["Driver"][];
+            /** @description Moments to look for. */
+            events?: components["schemas"]["Event"][];
+            /**
+             * @description Acceleration of gravity in the world frame, m/s².
+             * @default [
+             *       0,
+             *       0,
+             *       -9.81
+             *     ]
+             */
+            gravity?: [
+                number,
+                number,
+                number
+            ];
+            /** @description The joints. */
+            joints?: components["schemas"]["Joint"][];
+            /** @description Forces and moments besides gravity. */
+            loads?: components["schemas"]["Load"][];
+            /** @description Short name in lower case, used in file names and addresses. */
+            name: string;
+            /** @description Numbers of the scene that may be changed while it runs. */
+            parameters?: components["schemas"]["Parameter"][];
+            /** @description How to run the scene. */
+            simulation?: components["schemas"]["Settings"];
+            /** @description Title for people. */
+            title?: string;
+        };
+        /** @description Other values for numbers of the scene. */
+        SceneChange: {
+            /**
+             * @description Values of any other numbers, by JSON pointers into the scene; also `/coordinates`, `/simulation/integrator`
+             *     and `/simulation/stabilization`.
+             * @default {}
+             * @example {
+             *       "/simulation/tolerance": 0.000001
+             *     }
+             */
+            places?: {
+                [key: string]: unknown;
+            };
+            /**
+             * @description What happens to the run: as the parameters say if it is not given, and a restart for other numbers.
+             * @default null
+             */
+            then?: components["schemas"]["AfterChange"] | null;
+            /**
+             * @description Values of the parameters that the scene's author offers, by name.
+             * @default {}
+             * @example {
+             *       "mass": 2.5
+             *     }
+             */
+            values?: {
+                [key: string]: number;
+            };
+        };
+        /** @description A built-in scene. */
+        SceneEntry: {
+            /** @description Name to run it by. */
+            name: string;
+            /** @description What it is. */
+            summary: string;
+        };
+        /** @description The built-in scenes. */
+        SceneList: components["schemas"]["SceneEntry"][];
+        /** @description A JSON Schema. */
+        SceneSchema: {
+            [key: string]: unknown;
+        };
+        /** @description Where a session's scene came from. */
+        SceneSource: {
+            lesson: string;
+        } | {
+            builtin: string;
+        } | {
+            scene: string;
+        };
+        /** @description What a watcher is told in text. */
+        SessionMessage: components["schemas"]["SessionState"] | {
+            /** @constant */
+            type: "reset";
+        } | {
+            /** @constant */
+            type: "closed";
+        };
+        /** @description A number that may be changed, as it is now. */
+        SessionParameter: {
+            /**
+             * Format: double
+             * @description Greatest value.
+             */
+            high: number;
+            /**
+             * Format: double
+             * @description Its value in the scene as the author wrote it.
+             */
+            initial: number;
+            /** @description Name for people. */
+            label: string;
+            /**
+             * Format: double
+             * @description Least value.
+             */
+            low: number;
+            /** @description Name in requests. */
+            name: string;
+            /** @description What happens to the run when it changes. */
+            on_change: components["schemas"]["AfterChange"];
+            /** @description Where its number stands in the scene. */
+            pointers: string[];
+            /**
+             * Format: double
+             * @description Between two values of a slider.
+             */
+            step: number | null;
+            /** @description Unit, for people. */
+            unit: string | null;
+            /**
+             * Format: double
+             * @description Its value.
+             */
+            value: number;
+        };
+        /** @description A session's scene as it is now. */
+        SessionScene: {
+            /** @description The same, before any change. */
+            original: components["schemas"]["Scene"];
+            /** @description The parameters that its author offers. */
+            parameters: components["schemas"]["SessionParameter"][];
+            /** @description The scene with everything written out that may be changed. */
+            scene: components["schemas"]["Scene"];
+        };
+        /** @description A session at one moment. */
+        SessionState: {
+            /** @description The bodies, in the scene's order. */
+            bodies: components["schemas"]["BodyState"][];
+            /**
+             * Format: uint64
+             * @description How often the scene was changed since the session began.
+             */
+            changes: number;
+            /** @description How forces are drawn. */
+            drawing: components["schemas"]["Drawing"];
+            /**
+             * Format: double
+             * @description End of the simulation, s.
+             */
+            duration: number;
+            /**
+             * Format: double
+             * @description Energy, J.
+             */
+            energy: number;
+            /**
+             * Format: double
+             * @description Change of the energy since the start, J.
+             */
+            energy_drift: number;
+            /** @description Why the simulation stopped before its end; the last good state is kept. */
+            error?: components["schemas"]["Problem"] | null;
+            /**
+             * Format: uint64
+             * @description Evaluations of the equations of motion.
+             */
+            evaluations: number;
+            /**
+             * Format: uint64
+             * @description Factorizations of a matrix.
+             */
+            factorizations: number;
+            /** @description Whether the end was reached. */
+            finished: boolean;
+            /** @description Forces in joints and drivers; empty for scenes of more than 64 of them. */
+            forces: components["schemas"]["JointForce"][];
+            /**
+             * Format: uint64
+             * @description Frames recorded, and how many of them were encoded because somebody watched.
+             */
+            frames: number;
+            /**
+             * Format: uint64
+             * @description See `frames`.
+             */
+            frames_encoded: number;
+            /** @description Acceleration of gravity, m/s². */
+            gravity: [
+                number,
+                number,
+                number
+            ];
+            /** @description Its name in addresses. */
+            id: string;
+            /** @description Where to go from here. */
+            links: components["schemas"]["Links"];
+            /** @description What the engine found or corrected in the scene, and what speaks against the result so far. */
+            notes: string[];
+            /** @description Whether time runs. */
+            playing: boolean;
+            /**
+             * Format: double
+             * @description Largest violation of the position constraints.
+             */
+            position_violation: number;
+            /**
+             * Format: uint64
+             * @description Projections onto the constraints.
+             */
+            projections: number;
+            /** @description The hand's spring, while a body is pulled. */
+            pull: components["schemas"]["Drag"] | null;
+            /** @description Generalized coordinates, in the order of the Jacobian's columns. */
+            q: number[];
+            /** @description Their rates. */
+            q_dot: number[];
+            /**
+             * Format: uint64
+             * @description Integrator steps rejected.
+             */
+            rejected: number;
+            /** @description Where its scene came from. */
+            source: components["schemas"]["SceneSource"];
+            /**
+             * Format: double
+             * @description Simulated seconds a second while it plays.
+             */
+            speed: number;
+            /**
+             * Format: uint64
+             * @description Integrator steps accepted.
+             */
+            steps: number;
+            /**
+             * Format: double
+             * @description Time of the simulation, s.
+             */
+            time: number;
+            /** @description Title of its scene. */
+            title: string;
+            /**
+             * Format: double
+             * @description Largest violation of the velocity constraints.
+             */
+            velocity_violation: number;
+            /**
+             * Format: uint
+             * @description How many watch the stream.
+             */
+            watchers: number;
+        };
+        /** @description How to run a scene. */
+        Settings: {
+            /**
+             * Format: double
+             * @description End of the run, s.
+             * @default 10
+             */
+            duration?: number;
+            /**
+             * Format: double
+             * @description Interval of output, s.
+             * @default 0.01
+             */
+            every?: number;
+            /**
+             * @description Integrator.
+             * @default auto
+             */
+            integrator?: components["schemas"]["IntegratorKind"];
+            /** @description What is left out because nothing depends on it. */
+            skip?: components["schemas"]["Skip"];
+            /**
+             * @description What keeps the constraints satisfied.
+             * @default {
+             *       "kind": "projection"
+             *     }
+             */
+            stabilization?: components["schemas"]["Stabilization"];
+            /**
+             * Format: double
+             * @description Size of the steps, s: fixed, instead of chosen by the tolerance.
+             */
+            step?: number | null;
+            /**
+             * Format: double
+             * @description Relative and absolute tolerance of the step control.
+             * @default 1e-9
+             */
+            tolerance?: number;
+        };
+        /** @description A primitive drawn in a body's frame, lengths in m. */
+        Shape: {
+            /** @description One end. */
+            from: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            kind: "rod";
+            /**
+             * Format: double
+             * @description Radius.
+             */
+            radius: number;
+            /** @description The other end. */
+            to: [
+                number,
+                number,
+                number
+            ];
+        } | {
+            /** @description Centre. */
+            center: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            kind: "sphere";
+            /**
+             * Format: double
+             * @description Radius.
+             */
+            radius: number;
+        } | {
+            /** @description Centre. */
+            center: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            kind: "box";
+            /** @description Full edge lengths. */
+            size: [
+                number,
+                number,
+                number
+            ];
+        };
+        /**
+         * @description What is left out because nothing depends on it. Every word is true unless it is switched off; then the run takes
+         *     longer and gives the same motion. `triad run --explain` tells what each word saved.
+         */
+        Skip: {
+            /**
+             * @description Measuring the constraints after a step whose projection has just shown that they hold (integrator `taylor`).
+             * @default true
+             */
+            checks?: boolean;
+            /**
+             * @description Entries of the matrix that never change: they are written once (integrator `taylor`).
+             * @default true
+             */
+            constants?: boolean;
+            /**
+             * @description Bodies that rigid connections tie to the ground (integrator `taylor`).
+             * @default true
+             */
+            fixed?: boolean;
+            /**
+             * @description Steps that bodies need not take with others that nothing connects them with (integrator `taylor`).
+             * @default true
+             */
+            islands?: boolean;
+            /**
+             * @description Steps that end at each output: outputs are read off the polynomials of the steps.
+             * @default true
+             */
+            outputs?: boolean;
+            /**
+             * @description Coordinates and rows out of the plane, where joints hold all bodies in a plane (integrator `taylor`).
+             * @default true
+             */
+            planar?: boolean;
+            /**
+             * @description Energy, reactions and the Jacobian of every step: they are found when somebody asks.
+             * @default true
+             */
+            reports?: boolean;
+        };
+        /** @description What keeps the constraints satisfied during a run. */
+        Stabilization: {
+            /** @constant */
+            kind: "projection";
+        } | {
+            /**
+             * Format: double
+             * @description α, 1/s.
+             */
+            alpha: number;
+            /**
+             * Format: double
+             * @description β, 1/s.
+             */
+            beta: number;
+            /** @constant */
+            kind: "baumgarte";
+        } | {
+            /** @constant */
+            kind: "partitioning";
+        } | {
+            /**
+             * Format: double
+             * @description α, kg: how many times the masses of the mechanism. Violations shrink with 1/α.
+             * @default 10000000
+             */
+            alpha?: number;
+            /** @constant */
+            kind: "penalty";
+            /**
+             * Format: double
+             * @description μ, 1 for critical damping.
+             * @default 1
+             */
+            mu?: number;
+            /**
+             * Format: double
+             * @description Ω, rad/s.
+             * @default 10
+             */
+            omega?: number;
+        } | {
+            /**
+             * Format: double
+             * @description α, N/m: the penalty with which the multipliers are augmented.
+             * @default 1000000000
+             */
+            alpha?: number;
+            /** @constant */
+            kind: "augmented-lagrangian";
+        };
+        /** @description The four steps of a lesson. */
+        StepKind: "predict" | "run" | "check" | "explain";
+        /** @description How far to step: `steps` of the integrator or simulated `seconds`; one step if neither is given. */
+        StepRequest: {
+            /**
+             * Format: double
+             * @description Simulated seconds, above 0.
+             */
+            seconds?: number | null;
+            /**
+             * Format: uint32
+             * @description Integrator steps, 1 to 100000.
+             */
+            steps?: number | null;
+        };
+        /** @description A student's answers to the questions of one lesson. */
+        Submission: {
+            /** @description The answers by the question's id. A question that is left out is blank. */
+            answers: {
+                [key: string]: components["schemas"]["Answer"];
+            };
+            /** @description The numbers that were asked about, if not the student's own: the seed of the lesson as it was shown. */
+            seed?: string | null;
+            /** @description Who answers; any name the class agrees on. */
+            student?: string | null;
+        };
+        /** @description Submissions, newest first. */
+        SubmissionList: components["schemas"]["KeptSubmission"][];
+        /** @description A symmetric matrix: what stands on and below its diagonal. */
+        SymmetricMatrix: {
+            /**
+             * Format: uint
+             * @description Places on or below the diagonal that a factorization fills.
+             */
+            fill: number;
+            /** @description What each row is, and each column alike. */
+            names: string[];
+            /** @description Row, column, value, and what it is: `own`, `constant`, `changing` or `fill`. */
+            places: [
+                number,
+                number,
+                number,
+                components["schemas"]["MatrixPart"]
+            ][];
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            time: number;
+        };
+        /** @description A column of a table. */
+        TableColumn: {
+            /** @description Its name in the first line. */
+            name: string;
+            /** @description What it holds. */
+            what: string;
+        };
+        /** @description How the answers stand. */
+        Tally: {
+            /** @description Answers for each choice. */
+            counts: number[];
+            /**
+             * Format: uint64
+             * @description The question's number.
+             */
+            number: number;
+            /** @description Whether everybody has been told. */
+            revealed: boolean;
+            /**
+             * Format: uint
+             * @description The choice that is right.
+             */
+            right: number | null;
+        };
+        /** @description What may be chosen for a run. */
+        TuningChoices: {
+            /** @description Whether Baumgarte's stabilization may be chosen. */
+            baumgarte: boolean;
+            /**
+             * Format: uint64
+             * @description Evaluations that may be spent.
+             */
+            budget: number;
+            /**
+             * Format: double
+             * @description The error to reach.
+             */
+            error: number;
+            /** @description Integrators. */
+            integrators: components["schemas"]["IntegratorKind"][];
+        };
+        /** @description A value as typed: text keeps the digits that were written, a JSON number is taken as its shortest text. */
+        TypedValue: string | number | unknown[];
+        /** @description A robot to be imported. */
+        UrdfImport: {
+            /** @description The text of the URDF. */
+            urdf: string;
+            /** @description What it does not say: joints that close loops, positions at the start, drivers, loads, settings. */
+            with?: components["schemas"]["UrdfSupplement"];
+        };
+        /** @description What the root link is. */
+        UrdfRoot: "ground" | "free";
+        /** @description What a URDF does not say. */
+        UrdfSupplement: {
+            /**
+             * @description What moves as prescribed.
+             * @default []
+             */
+            drivers?: components["schemas"]["Driver"][];
+            /**
+             * @description Acceleration of gravity, m/s².
+             * @default null
+             */
+            gravity?: [
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * @description Joints that close loops; bodies are links, points and axes are given in their frames.
+             * @default []
+             */
+            joints?: components["schemas"]["Joint"][];
+            /**
+             * @description Forces and moments.
+             * @default []
+             */
+            loads?: components["schemas"]["Load"][];
+            /**
+             * @description Positions of joints at the start, by name: rad or m.
+             * @default {}
+             */
+            positions?: {
+                [key: string]: number;
+            };
+            /** @description Whether the root link is the ground or moves freely. */
+            root?: components["schemas"]["UrdfRoot"];
+            /**
+             * @description How to run the scene.
+             * @default {
+             *       "duration": 10,
+             *       "every": 0.01,
+             *       "integrator": "auto",
+             *       "stabilization": {
+             *         "kind": "projection"
+             *       },
+             *       "tolerance": 1e-9
+             *     }
+             */
+            simulation?: components["schemas"]["Settings"];
+            /**
+             * @description Velocities of joints at the start, by name: rad/s or m/s.
+             * @default {}
+             */
+            velocities?: {
+                [key: string]: number;
+            };
+        };
+        /** @description A vector as a function of time. */
+        VectorMotion: {
+            /** @constant */
+            kind: "fixed";
+            /** @description The vector. */
+            vector: [
+                number,
+                number,
+                number
+            ];
+        } | {
+            /** @constant */
+            kind: "components";
+            /** @description First component. */
+            x: components["schemas"]["Motion"];
+            /** @description Second component. */
+            y: components["schemas"]["Motion"];
+            /** @description Third component. */
+            z: components["schemas"]["Motion"];
+        } | {
+            /** @description The angle, rad. */
+            angle: components["schemas"]["Motion"];
+            /** @description The axis; made a unit vector. */
+            axis: [
+                number,
+                number,
+                number
+            ];
+            /** @constant */
+            kind: "turning";
+            /** @description The vector where the angle is zero. */
+            start: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description A follower's answer. */
+        Vote: {
+            /**
+             * Format: uint
+             * @description The choice, as an index.
+             */
+            choice: number;
+            /**
+             * Format: uint64
+             * @description The question's number.
+             */
+            question: number;
+            /** @description A name that the follower's browser made up: the same voter votes anew, not twice. */
+            voter: string;
+        };
+    };
+    responses: never;
+    parameters: never;
+    requestBodies: never;
+    headers: never;
+    pathItems: never;
+}
+export type $defs = Record<string, never>;
+export type operations = Record<string, never>;
