@@ -3,7 +3,7 @@ import { applyTheme } from "./core/prefs";
 import { startRouter } from "./core/router";
 import { homePage } from "./pages/home";
 import { lessonPage } from "./pages/lesson";
-import { missingPage } from "./pages/not-found";
+import { notFoundPage } from "./pages/not-found";
 import { header } from "./ui/shell";
 
 applyTheme();
@@ -29,7 +29,7 @@ if (head && main) {
       },
       {
         pattern: /^\/room\/([^/]+)$/,
-        open: lazily("Lecture", () => import("./pages/lecture").then((page) => page.roomPage)),
+        open: lazily("Lecture", () => import("./pages/lecture").then((page) => page.lecturePage)),
       },
       {
         pattern: /^\/scenes$/,
@@ -40,7 +40,7 @@ if (head && main) {
         open: lazily("Scene", () => import("./pages/scene").then((page) => page.scenePage)),
       },
     ],
-    missingPage,
+    notFoundPage,
   );
 }
 

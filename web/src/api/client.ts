@@ -174,14 +174,14 @@ export const api = {
     void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
-  openRoom: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
+  openLecture: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
   room: (code: string, signal?: AbortSignal) =>
     call<LectureState>("GET", `/rooms/${id(code)}`, undefined, signal),
-  closeRoom: (code: string, key: string) =>
+  closeLecture: (code: string, key: string) =>
     call<void>("DELETE", `/rooms/${id(code)}`, undefined, undefined, key),
   show: (code: string, key: string, what: { session?: string; view?: unknown }) =>
     call<void>("PUT", `/rooms/${id(code)}/view`, what, undefined, key),
-  desk: (code: string, key: string) =>
+  presenterState: (code: string, key: string) =>
     call<PresenterState>("GET", `/rooms/${id(code)}/desk`, undefined, undefined, key),
   ask: (code: string, key: string, question: { text: string; choices: string[]; right: number | null }) =>
     call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),

@@ -1,12 +1,12 @@
 import { expect, test } from "vitest";
-import { placeIn } from "./bookmark";
+import { parseBookmark } from "./bookmark";
 
 test("a place is a lesson and a part of it, nothing else", () => {
-  expect(placeIn('{"title":"Drift","href":"/lessons/drift#eq-15.2"}')).toEqual({
+  expect(parseBookmark('{"title":"Drift","href":"/lessons/drift#eq-15.2"}')).toEqual({
     title: "Drift",
     href: "/lessons/drift#eq-15.2",
   });
-  expect(placeIn('{"title":"Drift","href":"/lessons/drift"}')?.href).toBe("/lessons/drift");
+  expect(parseBookmark('{"title":"Drift","href":"/lessons/drift"}')?.href).toBe("/lessons/drift");
   for (const text of [
     null,
     "",
@@ -16,6 +16,6 @@ test("a place is a lesson and a part of it, nothing else", () => {
     '{"title":"x","href":"https://example.org"}',
     '{"title":"x","href":"javascript:1"}',
   ]) {
-    expect(placeIn(text)).toBeNull();
+    expect(parseBookmark(text)).toBeNull();
   }
 });

@@ -3,7 +3,7 @@ import { api } from "../api/client";
 import { h, uid } from "../core/dom";
 import { type Completion, complete } from "./schema";
 
-const MOST = 12;
+const MAX_STATES = 12;
 
 export function suggestions(area: HTMLTextAreaElement, written: () => void): HTMLElement {
   const id = uid("suggest");
@@ -65,7 +65,7 @@ export function suggestions(area: HTMLTextAreaElement, written: () => void): HTM
       close();
       return;
     }
-    shown = { ...found, offers: found.offers.slice(0, MOST) };
+    shown = { ...found, offers: found.offers.slice(0, MAX_STATES) };
     list.replaceChildren(
       ...shown.offers.map((offer, k) =>
         h(

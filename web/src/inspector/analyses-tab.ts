@@ -19,7 +19,7 @@ interface Mode {
   shape: ModeMotion[];
 }
 
-const MOST_ROWS = 21;
+const MAX_ROWS = 21;
 /** A mode is shown at a pace that eyes follow, s a period. */
 const PERIOD = 2;
 
@@ -135,7 +135,7 @@ export function analysesTab(session: Session): Panel {
         { label: "moment", unit: "N m", number: true },
       ]),
     );
-    const stride = Math.max(1, Math.ceil(found.states.length / MOST_ROWS));
+    const stride = Math.max(1, Math.ceil(found.states.length / MAX_ROWS));
     table.update(
       found.states
         .filter((_, k) => k % stride === 0)

@@ -6,7 +6,7 @@ import { h, setText } from "../core/dom";
 import { plural } from "../core/format";
 import type { Session } from "../session/session";
 
-const MOST_ROWS = 120;
+const MAX_ROWS = 120;
 const INTEGRATORS = [
   ["auto", "Chosen by the engine"],
   ["taylor", "Taylor series"],
@@ -81,7 +81,7 @@ export function expertPanel(session: Session, set: Set): { root: HTMLElement; re
       words.every((word) => leaf.label.toLowerCase().includes(word)),
     );
     body.replaceChildren(
-      ...all.slice(0, MOST_ROWS).map((leaf) => {
+      ...all.slice(0, MAX_ROWS).map((leaf) => {
         const changed = at(session.view?.original, leaf.pointer) !== leaf.value;
         const field = h("input", {
           type: "text",
@@ -107,8 +107,8 @@ export function expertPanel(session: Session, set: Set): { root: HTMLElement; re
     );
     setText(
       said,
-      all.length > MOST_ROWS
-        ? `The first ${MOST_ROWS} of ${all.length} numbers: find others by their names.`
+      all.length > MAX_ROWS
+        ? `The first ${MAX_ROWS} of ${all.length} numbers: find others by their names.`
         : plural(all.length, "number"),
     );
   };

@@ -13,7 +13,7 @@ import { multipliersTab } from "./reactions-tab";
 import { stateTab } from "./state-tab";
 
 /** Panels that are nothing to somebody who only watches. */
-const STEERING = new Set(["parameters", "analyses"]);
+const PRESENTER_ONLY = new Set(["parameters", "analyses"]);
 
 export function inspector(
   session: Session,
@@ -39,7 +39,7 @@ export function inspector(
       { key: "bodies", label: "Bodies", panel: panel("bodies") },
       { key: "plots", label: "Plots", panel: panel("plots") },
       { key: "analyses", label: "Analyses", panel: panel("analyses") },
-    ].filter((tab) => session.steers || !STEERING.has(tab.key)),
+    ].filter((tab) => session.steers || !PRESENTER_ONLY.has(tab.key)),
     panelAsked ?? recall("tab:inspector"),
     (key) => {
       if (session.steers) remember("tab:inspector", key);

@@ -14,8 +14,8 @@ import { num, seconds } from "../core/format";
 import { bind } from "../core/keys";
 import { type Drawn, freeBody, momentAbout } from "../mechanics/forces";
 import { norm } from "../mechanics/vec";
-import type { Told } from "../session/events";
-import { fetched } from "../session/live-query";
+import type { ReactionConvention } from "../session/events";
+import { liveQuery } from "../session/live-query";
 import type { Session } from "../session/session";
 import { empty, problemNotice } from "../ui/notice";
 import type { Panel } from "../ui/panel";
@@ -40,7 +40,7 @@ export function multipliersTab(session: Session): Panel {
       ["j", "second body"],
       ["i", "first body"],
     ],
-    (value) => session.tellAs({ on: value as Told["on"] }),
+    (value) => session.setConvention({ on: value as ReactionConvention["on"] }),
   );
   const about = choice(
     "Moment about",
@@ -48,7 +48,7 @@ export function multipliersTab(session: Session): Panel {
       ["joint", "the joint"],
       ["center", "centre of mass"],
     ],
-    (value) => session.tellAs({ about: value as Told["about"] }),
+    (value) => session.setConvention({ about: value as ReactionConvention["about"] }),
   );
   const frame = choice(
     "Components in",
@@ -57,7 +57,7 @@ export function multipliersTab(session: Session): Panel {
       ["joint", "joint’s axes"],
       ["body", "body axes"],
     ],
-    (value) => session.tellAs({ in: value as Told["in"] }),
+    (value) => session.setConvention({ in: value as ReactionConvention["in"] }),
   );
   const drawn = choice("Arrows", [], (value) =>
     session.draw(
@@ -87,9 +87,9 @@ export function multipliersTab(session: Session): Panel {
       ...bodies.map((name): [string, string] => [`body:${name}`, `${name} cut free`]),
     ]);
     drawn.set(session.drawn.what === "body" ? `body:${session.drawn.body}` : session.drawn.what);
-    on.set(session.told.on);
-    about.set(session.told.about);
-    frame.set(session.told.in);
+    on.set(session.convention.on);
+    about.set(session.convention.about);
+    frame.set(session.convention.in);
   };
 
   const paint = (): void => {
@@ -114,10 +114,10 @@ export function multipliersTab(session: Session): Panel {
     paintFreeBody(cutFree, state, session.drawn);
   };
 
-  const source = fetched(
+  const source = liveQuery(
     session,
     async (run, at): Promise<Answer> => {
-      const { on: side, about: point, in: axes } = session.told;
+      const { on: side, about: point, in: axes } = session.convention;
       const [multipliers, reactions] = await Promise.all([
         api.multipliers(run, at),
         api.reactions(run, { on: side, about: point, in: axes }, at),
@@ -130,9 +130,9 @@ export function multipliersTab(session: Session): Panel {
       paint();
     },
     (error) => list.replaceChildren(problemNotice(error)),
-    () => `${session.told.on}${session.told.about}${session.told.in}`,
+    () => `${session.convention.on}${session.convention.about}${session.convention.in}`,
   );
-  session.on("told", () => {
+  session.on("view", () => {
     paint();
     source.refresh();
   });

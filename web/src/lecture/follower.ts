@@ -3,12 +3,12 @@ import { ApiError, api } from "../api/client";
 import type { LectureState, SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { Session } from "../session/session";
-import { tell } from "../session/share";
-import { seenOf } from "../session/shared-view";
+import { applyView } from "../session/share";
+import { parseView } from "../session/shared-view";
 
 export class Follower extends Session {
   override readonly steers = false;
-  board: LectureState | undefined;
+  lecture: LectureState | undefined;
   /** Looks around alone: time, selection and panels are one's own until one comes back. */
   roaming = false;
   over = false;
@@ -42,7 +42,7 @@ export class Follower extends Session {
     if (this.roaming) return;
     this.roaming = true;
     announce("You look around on your own. The lecture goes on; come back whenever you like.");
-    this.emit("board");
+    this.emit("lecture");
   }
 
   /** Comes back to what the presenter shows. */
@@ -50,20 +50,20 @@ export class Follower extends Session {
     this.roaming = false;
     this.toNewest();
     this.mirror();
-    this.emit("board");
+    this.emit("lecture");
     this.emit("shown");
     announce("You see what the presenter shows.");
   }
 
   protected override read(message: { type?: string }): void {
     if (message.type === "room") {
-      this.board = message as unknown as LectureState;
+      this.lecture = message as unknown as LectureState;
       if (!this.roaming) this.mirror();
-      this.emit("board");
+      this.emit("lecture");
     } else if (message.type === "closed") {
       this.over = true;
       this.connection.end();
-      this.emit("board");
+      this.emit("lecture");
     } else super.read(message);
   }
 
@@ -74,9 +74,9 @@ export class Follower extends Session {
   }
 
   private mirror(): void {
-    const seen = seenOf(this.board?.view);
+    const seen = parseView(this.lecture?.view);
     if (!seen || !this.latest) return;
-    tell(this, seen);
+    applyView(this, seen);
     if (seen.panel) this.panel?.(seen.panel);
     // The presenter looks back: so does everybody. Otherwise the newest state is shown as it comes.
     if (seen.back && seen.time !== undefined) super.seek(seen.time);
@@ -105,7 +105,7 @@ export class Follower extends Session {
     // At the newest moment there is nothing to look back to: the picture stops here all the same.
     this.cursor ??= this.latest?.time ?? 0;
     this.emit("shown");
-    this.tell();
+    this.announceState();
     return Promise.resolve();
   }
 
@@ -133,7 +133,7 @@ export class Follower extends Session {
 
   protected override async comeBack(): Promise<"there" | "gone" | "silent"> {
     try {
-      this.board = await api.room(this.code);
+      this.lecture = await api.room(this.code);
       return "there";
     } catch (error) {
       return error instanceof ApiError && error.gone ? "gone" : "silent";
@@ -143,7 +143,7 @@ export class Follower extends Session {
   protected override recreate(): Promise<void> {
     this.over = true;
     this.connection.end();
-    this.emit("board");
+    this.emit("lecture");
     return Promise.resolve();
   }
 }

@@ -1,9 +1,9 @@
-// The presenter's desk: opens a room for the run of this page, sends what is looked at, asks, reveals.
+// What a presenter sees: opens a lecture for the run of this page, sends what is looked at, asks, reveals.
 import { ApiError, api } from "../api/client";
 import type { Tally } from "../api/types";
 import { announce, h, setText } from "../core/dom";
 import type { Session } from "../session/session";
-import type { Seen } from "../session/shared-view";
+import type { SharedView } from "../session/shared-view";
 import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
@@ -11,7 +11,7 @@ import { histogram } from "./voter";
 
 /** Between two messages to the room, ms. */
 const SEND_MS = 150;
-const DESK_MS = 1000;
+const POLL_MS = 1000;
 
 interface Room {
   code: string;
@@ -39,13 +39,13 @@ function remembered(): Room | undefined {
   }
 }
 
-export interface Desk {
+export interface PresenterPanel {
   button: HTMLElement;
   root: HTMLElement;
   dispose: () => void;
 }
 
-export function desk(session: Session, seen: () => Seen): Desk {
+export function presenterPanel(session: Session, seen: () => SharedView): PresenterPanel {
   let room = remembered();
   let sent = "";
   let shown = "";
@@ -141,7 +141,7 @@ export function desk(session: Session, seen: () => Seen): Desk {
     const id = session.latest?.id;
     if (!id) return;
     try {
-      const opened = await api.openRoom(id);
+      const opened = await api.openLecture(id);
       room = { code: opened.code, key: opened.key };
       keep(room);
       sent = "";
@@ -157,7 +157,7 @@ export function desk(session: Session, seen: () => Seen): Desk {
   };
   const end = (): Promise<void> =>
     attempt(async (it) => {
-      await api.closeRoom(it.code, it.key);
+      await api.closeLecture(it.code, it.key);
       forget();
       announce("The lecture is over.");
     });
@@ -250,7 +250,7 @@ export function desk(session: Session, seen: () => Seen): Desk {
   };
   const look = (): Promise<void> =>
     attempt(async (it) => {
-      const told = await api.desk(it.code, it.key);
+      const told = await api.presenterState(it.code, it.key);
       setText(
         followers,
         told.followers === 0
@@ -260,8 +260,8 @@ export function desk(session: Session, seen: () => Seen): Desk {
       showTally(told.tally);
     });
 
-  const timer = window.setInterval(() => void look(), DESK_MS);
-  const silence = (["shown", "told", "selected", "opened"] as const).map((event) => session.on(event, send));
+  const timer = window.setInterval(() => void look(), POLL_MS);
+  const silence = (["shown", "view", "selected", "opened"] as const).map((event) => session.on(event, send));
   paint();
   return {
     button,

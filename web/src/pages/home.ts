@@ -8,7 +8,7 @@ import type { Page } from "../core/router";
 import { heroDrawing } from "../ui/hero";
 import { icon } from "../ui/icons";
 import { empty, problemNotice, skeleton } from "../ui/notice";
-import { lastPlace } from "./reading-position";
+import { lastBookmark } from "./reading-position";
 
 interface Best {
   earned: number;
@@ -21,7 +21,7 @@ export function homePage(outlet: HTMLElement): Page {
   const leaving = new AbortController();
   const list = h("div", { class: "contents", "aria-busy": "true" }, skeleton(8));
   const progress = h("p", { class: "contents-progress" });
-  const place = lastPlace();
+  const place = lastBookmark();
 
   outlet.append(
     h(

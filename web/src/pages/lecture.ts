@@ -7,7 +7,7 @@ import { ballot } from "../lecture/voter";
 import { linkTo } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { bench } from "../workbench/workbench";
+import { mountWorkbench } from "../workbench/workbench";
 
 export function joinPage(outlet: HTMLElement): Page {
   const code = h("input", {
@@ -49,7 +49,7 @@ export function joinPage(outlet: HTMLElement): Page {
   return { title: "Join a lecture" };
 }
 
-export function roomPage(outlet: HTMLElement, params: string[]): Page {
+export function lecturePage(outlet: HTMLElement, params: string[]): Page {
   const code = (params[0] ?? "").toUpperCase();
   const leaving = new AbortController();
   const place = h("section", { class: "bench", "aria-label": "Mechanism" });
@@ -74,12 +74,12 @@ export function roomPage(outlet: HTMLElement, params: string[]): Page {
 
   const open = (): void => {
     const follower = new Follower(code);
-    const made = bench(place, follower, {});
+    const made = mountWorkbench(place, follower, {});
     end = made.dispose;
     follower.panel = made.selectPanel;
     back.onclick = () => follower.comeBackToLecture();
     const paint = (): void => {
-      const board = follower.board;
+      const board = follower.lecture;
       votes.show(follower.over ? null : (board?.question ?? null));
       setText(title, board?.title ?? "Lecture");
       if (board?.title) setTitle(board.title);
@@ -99,7 +99,7 @@ export function roomPage(outlet: HTMLElement, params: string[]): Page {
         if (href) own.href = href;
       });
     };
-    follower.on("board", paint);
+    follower.on("lecture", paint);
     follower.on("scene", paint);
     void follower.start();
   };
@@ -127,7 +127,7 @@ export function roomPage(outlet: HTMLElement, params: string[]): Page {
 
 /** Where a follower runs the same scene alone, with the presenter's numbers. */
 async function ownLink(follower: Follower): Promise<string | undefined> {
-  const source = follower.board?.source;
+  const source = follower.lecture?.source;
   const scene = follower.view?.scene;
   if (!source || !scene) return undefined;
   const changed = JSON.stringify(scene) !== JSON.stringify(follower.view?.original);

@@ -6,9 +6,9 @@ import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
 import { exerciseSection } from "../exercise/exercise";
-import { askedView } from "../session/requested-view";
+import { requestedView } from "../session/requested-view";
 import { problemNotice, skeleton } from "../ui/notice";
-import { keepPlace } from "./reading-position";
+import { trackReadingPosition } from "./reading-position";
 import { steps } from "./steps";
 
 const MATHS_PATIENCE_MS = 350;
@@ -21,7 +21,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   const bench = h(
     "section",
     { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
-    benchPlaceholder(),
+    workbenchPlaceholder(),
   );
   const exercise = h("section", { class: "exercise", id: "exercise", "aria-label": "Exercise" });
   outlet.append(
@@ -52,7 +52,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
       await setMaths(text);
       await setMaths(exercise);
       if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
-      undo.push(keepPlace(slug, lesson.title));
+      undo.push(trackReadingPosition(slug, lesson.title));
       await afterPaint();
       void showNeighbours(text, exercise, slug, leaving.signal);
       if (leaving.signal.aborted) return;
@@ -71,7 +71,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   };
 
   const openBench = async (lesson: Lesson): Promise<void> => {
-    const [{ workbench }, seen] = await Promise.all([import("../workbench/workbench"), askedView()]);
+    const [{ workbench }, seen] = await Promise.all([import("../workbench/workbench"), requestedView()]);
     if (leaving.signal.aborted) return;
     undo.push(
       workbench(bench, {
@@ -86,7 +86,7 @@ export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   const renamed = (): void => {
     if (!shown?.has_variants || shown.seed === student.get()) return;
     for (const step of undo.splice(0)) step();
-    bench.replaceChildren(benchPlaceholder());
+    bench.replaceChildren(workbenchPlaceholder());
     void load().then(() => exercise.scrollIntoView({ block: "start" }));
   };
   addEventListener("triad:student", renamed);
@@ -136,7 +136,7 @@ async function showNeighbours(
 }
 
 /** Keeps the room that the workbench will take, so that nothing jumps when it arrives. */
-export function benchPlaceholder(): HTMLElement {
+export function workbenchPlaceholder(): HTMLElement {
   return h(
     "div",
     { class: "bench-wait", "aria-hidden": "true" },

@@ -1,7 +1,7 @@
 import { h } from "../core/dom";
 import type { Page } from "../core/router";
 
-export function missingPage(outlet: HTMLElement, params: string[]): Page {
+export function notFoundPage(outlet: HTMLElement, params: string[]): Page {
   outlet.append(
     h(
       "div",

@@ -1,5 +1,5 @@
 // Where a student stopped reading, so that the first page can lead back there.
-import { type Place, placeIn } from "../core/bookmark";
+import { type Bookmark, parseBookmark } from "../core/bookmark";
 import { recall, remember } from "../core/prefs";
 
 /** Parts of a lesson that an address can name. */
@@ -7,7 +7,7 @@ const PARTS = ".math.display[id], #steps, fieldset.question[id]";
 const AFTER_MS = 400;
 
 /** Remembers the part that is being read until the returned function is called. */
-export function keepPlace(slug: string, title: string): () => void {
+export function trackReadingPosition(slug: string, title: string): () => void {
   let timer = 0;
   const note = (): void => {
     const middle = innerHeight / 2;
@@ -33,6 +33,6 @@ export function keepPlace(slug: string, title: string): () => void {
 }
 
 /** Where the student stopped, if anywhere. */
-export function lastPlace(): Place | null {
-  return placeIn(recall("place"));
+export function lastBookmark(): Bookmark | null {
+  return parseBookmark(recall("place"));
 }

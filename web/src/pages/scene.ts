@@ -6,12 +6,12 @@ import { recall, remember, student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
 import { sceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
-import { askedView } from "../session/requested-view";
-import type { Seen } from "../session/shared-view";
+import { requestedView } from "../session/requested-view";
+import type { SharedView } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { type BenchOptions, workbench } from "../workbench/workbench";
-import { benchPlaceholder } from "./lesson";
+import { type WorkbenchOptions, workbench } from "../workbench/workbench";
+import { workbenchPlaceholder } from "./lesson";
 import { OWN_SCENE } from "./scenes";
 
 const STARTING_SCENE = "simple-pendulum";
@@ -46,7 +46,7 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
   const bench = h(
     "section",
     { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
-    benchPlaceholder(),
+    workbenchPlaceholder(),
   );
   const run = h(
     "button",
@@ -109,11 +109,11 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
   );
   outlet.append(h("div", { class: "lesson is-scene" }, side, bench));
 
-  const open = (options: BenchOptions): void => {
+  const open = (options: WorkbenchOptions): void => {
     endRun?.();
     endRun = workbench(bench, options);
   };
-  const runText = (seen?: Seen): void => {
+  const runText = (seen?: SharedView): void => {
     try {
       const scene = JSON.parse(editor.text()) as Scene;
       shownAs = editor.text();
@@ -149,7 +149,7 @@ function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
         ? await lessonScene(lesson, leaving.signal)
         : await api.scene(own ? STARTING_SCENE : name, leaving.signal);
       original = pretty(scene);
-      const seen = await askedView();
+      const seen = await requestedView();
       const draft = draftKey ? ((own ? shownText(seen) : null) ?? recall(draftKey)) : null;
       if (own) {
         about.textContent =
@@ -192,7 +192,7 @@ async function lessonScene(slug: string, signal: AbortSignal): Promise<Scene> {
 }
 
 /** The scene of a link, written as a person would. What stands in this browser's own draft stays there until it is edited. */
-function shownText(seen: Seen | undefined): string | null {
+function shownText(seen: SharedView | undefined): string | null {
   if (seen?.scene === undefined) return null;
   try {
     return pretty(JSON.parse(seen.scene));

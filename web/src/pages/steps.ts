@@ -4,7 +4,7 @@ import type { Lesson } from "../api/types";
 import { authored, h, setText } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 
-const LONGEST = 2000;
+const MAX_LENGTH = 2000;
 const ASKED: Record<string, string> = { predict: "Your prediction", explain: "In your own words" };
 
 export function steps(lesson: Lesson): HTMLElement[] {
@@ -46,7 +46,7 @@ function said(key: `said:${string}`, label: string, again: HTMLElement | null): 
   const area = h("textarea", {
     class: "field",
     rows: "2",
-    maxlength: String(LONGEST),
+    maxlength: String(MAX_LENGTH),
     "aria-label": label,
     placeholder: label,
   });

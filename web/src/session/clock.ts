@@ -3,7 +3,7 @@
 import type { SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
-import { Teller } from "./events";
+import { Emitter } from "./events";
 import { History } from "./history";
 
 /** Between two states of a running session, s. */
@@ -11,7 +11,7 @@ const STATE_INTERVAL = 0.1;
 /** Between two moments of a replay that tables and plots see, ms. */
 const REPLAY_MS = 50;
 
-export class Clock extends Teller {
+export class Clock extends Emitter {
   /** The newest state that the server reported. */
   latest: SessionState | undefined;
   readonly past = new History();
@@ -123,7 +123,7 @@ export class Clock extends Teller {
 
   /** A replay has reached the newest state. */
   protected replayEnded(): void {
-    this.tell();
+    this.announceState();
   }
 
   setSpeed(speed: number): void {
@@ -142,7 +142,7 @@ export class Clock extends Teller {
   }
 
   /** Says the state that is shown to a screen reader. */
-  protected tell(): void {
+  protected announceState(): void {
     const state = this.shown;
     if (!state) return;
     const lead = state.finished ? "The run is complete" : "Paused";

@@ -1,7 +1,7 @@
 // What happens in a session, and who is told; how forces are told.
 import type { Drawn } from "../mechanics/forces";
 
-export interface Told {
+export interface ReactionConvention {
   on: "i" | "j";
   about: "joint" | "center";
   in: "world" | "joint" | "body";
@@ -21,14 +21,14 @@ type Events = {
   /** The scene's numbers are known, or were changed. */
   scene: () => void;
   /** Forces are told or drawn in another way. */
-  told: () => void;
+  view: () => void;
   /** A lecture's presenter shows or asks something else. */
-  board: () => void;
+  lecture: () => void;
   problem: (error: unknown) => void;
 };
 
 /** Tells whoever listens. */
-export class Teller {
+export class Emitter {
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
     shown: new Set(),
     blocks: new Set(),
@@ -36,8 +36,8 @@ export class Teller {
     problem: new Set(),
     selected: new Set(),
     scene: new Set(),
-    told: new Set(),
-    board: new Set(),
+    view: new Set(),
+    lecture: new Set(),
   };
 
   on<K extends keyof Events>(event: K, listener: Events[K]): () => void {

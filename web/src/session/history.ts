@@ -1,7 +1,7 @@
 // The states that arrived, kept for looking back: thinned out evenly when they become many.
 import type { SessionState, Vec3 } from "../api/types";
 
-const MOST = 3000;
+const MAX_STATES = 3000;
 
 export class History {
   private states: SessionState[] = [];
@@ -16,7 +16,7 @@ export class History {
     if (last && state.time === last.time) this.states[this.states.length - 1] = state;
     else this.states.push(state);
     // Every second state goes; the first and the last stay.
-    if (this.states.length > MOST)
+    if (this.states.length > MAX_STATES)
       this.states = this.states.filter((_, k, all) => k % 2 === 0 || k === all.length - 1);
   }
 

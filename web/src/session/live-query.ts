@@ -4,18 +4,18 @@ import type { Session } from "./session";
 
 const PAUSE_MS = 300;
 
-export interface Fetched {
+export interface LiveQuery {
   refresh: () => void;
 }
 
 /** `ask` is given the run's address and the time, if it is not the present. */
-export function fetched<T>(
+export function liveQuery<T>(
   session: Session,
   ask: (run: string, at: number | undefined) => Promise<T>,
   show: (value: T, of: SessionState) => void,
   failed: (error: unknown) => void,
   asked: () => string = () => "",
-): Fetched {
+): LiveQuery {
   let busy = false;
   let seen = "";
 

@@ -1,9 +1,9 @@
 // What the page's address asks to be shown, with a word where it cannot be read.
 
 import { banner } from "../ui/notice";
-import { asked, type Seen } from "./shared-view";
+import { asked, type SharedView } from "./shared-view";
 
-export async function askedView(): Promise<Seen | undefined> {
+export async function requestedView(): Promise<SharedView | undefined> {
   const seen = await asked();
   if (seen === undefined)
     banner("This link is damaged: the lesson or scene is shown from its start.", {

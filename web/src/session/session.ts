@@ -6,13 +6,13 @@ import { announce } from "../core/dom";
 import { banner } from "../ui/notice";
 import { Clock } from "./clock";
 import { Connection } from "./connection";
-import type { Drawn, Told } from "./events";
+import type { Drawn, ReactionConvention } from "./events";
 
 export class Session extends Clock {
   /** Name of the selected joint. */
   joint: string | null = null;
   /** How reactions are told: on which body, about which point, in which frame. */
-  told: Told = { on: "j", about: "joint", in: "world" };
+  convention: ReactionConvention = { on: "j", about: "joint", in: "world" };
   /** Which forces are drawn. */
   drawn: Drawn = { what: "all" };
   camera: Camera = "corner";
@@ -171,11 +171,11 @@ export class Session extends Clock {
   async pause(): Promise<void> {
     if (this.replaying) {
       this.seek(this.time);
-      this.tell();
+      this.announceState();
       return;
     }
     await this.ask((run) => api.pause(run));
-    this.tell();
+    this.announceState();
   }
 
   toggle(): Promise<void> {
@@ -185,7 +185,7 @@ export class Session extends Clock {
   async step(by: { steps: number } | { seconds: number }): Promise<void> {
     this.toNewest();
     await this.ask((run) => api.step(run, by));
-    this.tell();
+    this.announceState();
   }
 
   /** One moment on: the next recorded one while looking back, one step of the integrator otherwise. */
@@ -235,21 +235,21 @@ export class Session extends Clock {
   }
 
   /** Tells reactions in another way, in every view. */
-  tellAs(change: Partial<Told>): void {
-    this.told = { ...this.told, ...change };
-    this.emit("told");
+  setConvention(change: Partial<ReactionConvention>): void {
+    this.convention = { ...this.convention, ...change };
+    this.emit("view");
     void this.redraw(false);
   }
 
   draw(drawn: Drawn): void {
     this.drawn = drawn;
-    this.emit("told");
+    this.emit("view");
     void this.redraw(false);
   }
 
   /** Another panel of the inspector is looked at. */
   showPanel(): void {
-    this.emit("told");
+    this.emit("view");
   }
 
   fitScale(): void {
@@ -258,13 +258,13 @@ export class Session extends Clock {
 
   lookFrom(camera: Camera): void {
     this.camera = camera;
-    this.emit("told");
+    this.emit("view");
     const run = this.address;
     if (run && this.steers) void this.ask(() => api.lookFrom(run, camera));
   }
 
   private arrows(): Pick<Drawing, "on" | "about" | "drawn" | "marked"> {
-    const { told, drawn, joint } = this;
+    const { convention, drawn, joint } = this;
     const which =
       drawn.what === "body"
         ? { body: drawn.body }
@@ -273,7 +273,7 @@ export class Session extends Clock {
           : joint === null
             ? ("none" as const)
             : { joint };
-    return { on: told.on, about: told.about, drawn: which, marked: joint };
+    return { on: convention.on, about: convention.about, drawn: which, marked: joint };
   }
 
   /** Lets the server draw forces as the page tells them: one request at a time, the newest wish wins. */
@@ -292,7 +292,7 @@ export class Session extends Clock {
       this.drawnAs = wanted;
       if (this.latest && this.latest.id === state.id)
         this.latest = { ...this.latest, drawing: state.drawing };
-      this.emit("told");
+      this.emit("view");
     } catch {
       // The sketch and the tables tell it already; the next wish asks again.
     } finally {
@@ -335,7 +335,7 @@ export class Session extends Clock {
       void this.readScene();
     this.emit("shown");
     if (state.error && !before?.error) this.emit("problem", state.error);
-    if (state.finished && before && !before.finished) this.tell();
+    if (state.finished && before && !before.finished) this.announceState();
   }
 
   protected read(message: { type?: string }): void {

@@ -6,9 +6,9 @@ import { announce, h } from "../core/dom";
 import type { Drawn } from "../mechanics/forces";
 import { icon } from "../ui/icons";
 import { banner } from "../ui/notice";
-import type { Told } from "./events";
+import type { ReactionConvention } from "./events";
 import type { Session } from "./session";
-import { LONGEST, linkTo, type Seen } from "./shared-view";
+import { linkTo, MAX_LENGTH, type SharedView } from "./shared-view";
 
 /** How long the word of success stays. */
 const GLANCE_MS = 6000;
@@ -36,8 +36,8 @@ export function shareButton(shared: Shared): HTMLElement {
 }
 
 async function copy(shared: Shared): Promise<void> {
-  const link = await linkTo(shared.own?.path ?? location.pathname, seenIn(shared));
-  if (link.length > LONGEST) {
+  const link = await linkTo(shared.own?.path ?? location.pathname, viewOf(shared));
+  if (link.length > MAX_LENGTH) {
     banner(
       `This scene is too large for a link (${Math.round(link.length / 1000)} kB). Save its file and send that.`,
       { label: "Close", run: () => banner(null) },
@@ -64,13 +64,13 @@ async function copy(shared: Shared): Promise<void> {
   }
 }
 
-export function seenIn({ session, panel, picture, own }: Shared): Seen {
-  const { told, drawn, camera } = session;
-  const seen: Seen = {
+export function viewOf({ session, panel, picture, own }: Shared): SharedView {
+  const { convention, drawn, camera } = session;
+  const seen: SharedView = {
     time: Number(session.time.toPrecision(12)),
     panel: panel(),
     picture: picture(),
-    told: `${told.on}.${told.about}.${told.in}`,
+    told: `${convention.on}.${convention.about}.${convention.in}`,
     drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what,
     camera,
   };
@@ -81,8 +81,8 @@ export function seenIn({ session, panel, picture, own }: Shared): Seen {
 }
 
 /** Brings a session that has just started to what a link shows. */
-export async function restore(session: Session, seen: Seen): Promise<void> {
-  tell(session, seen);
+export async function restore(session: Session, seen: SharedView): Promise<void> {
+  applyView(session, seen);
   if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera)
     session.lookFrom(seen.camera as Camera);
   if (seen.time) await session.goTo(seen.time);
@@ -91,14 +91,14 @@ export async function restore(session: Session, seen: Seen): Promise<void> {
 const CAMERAS: Camera[] = ["corner", "front", "side", "above"];
 
 /** Selects, tells and draws forces as somebody else does. */
-export function tell(session: Session, seen: Seen): void {
+export function applyView(session: Session, seen: SharedView): void {
   if (seen.told) {
     const [on, about, frame] = seen.told.split(".");
-    const told: Partial<Told> = {};
+    const told: Partial<ReactionConvention> = {};
     if (on === "i" || on === "j") told.on = on;
     if (about === "joint" || about === "center") told.about = about;
     if (frame === "world" || frame === "joint" || frame === "body") told.in = frame;
-    session.tellAs(told);
+    session.setConvention(told);
   }
   const drawn = drawnOf(seen.drawn);
   if (drawn) session.draw(drawn);

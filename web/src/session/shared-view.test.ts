@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { pack, type Seen, unpack } from "./shared-view";
+import { pack, type SharedView, unpack } from "./shared-view";
 
 describe("a link", () => {
   it("says the same when it is read again", async () => {
-    const seen: Seen = {
+    const seen: SharedView = {
       numbers: { values: { mass: 2.5 }, places: { "/simulation/stabilization": { kind: "projection" } } },
       time: 1.25,
       joint: "pin “A”",
@@ -25,7 +25,7 @@ describe("a link", () => {
       joint: 7,
       numbers: { values: { mass: "x" }, places: {} },
       picture: "evil",
-    } as unknown as Seen);
+    } as unknown as SharedView);
     expect(await unpack(forged)).toEqual({});
   });
   it("does not unpack without bound", async () => {

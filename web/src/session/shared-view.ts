@@ -2,7 +2,7 @@
 import type { Numbers } from "../api/numbers";
 
 /** What a link says beside the lesson or scene of its path. */
-export interface Seen {
+export interface SharedView {
   numbers?: Numbers;
   time?: number;
   /** The time lies behind the newest one. */
@@ -21,13 +21,13 @@ export interface Seen {
 }
 
 /** Links beyond this are cut by mail programs and chats. */
-export const LONGEST = 16_000;
+export const MAX_LENGTH = 16_000;
 /** A small link must not unpack to more than a scene's text may have. */
-const MOST_TEXT = 2_000_000;
+const MAX_TEXT = 2_000_000;
 const NAME = "show";
 
 /** The value of the link's one parameter. */
-export async function pack(seen: Seen): Promise<string> {
+export async function pack(seen: SharedView): Promise<string> {
   const bytes = new TextEncoder().encode(JSON.stringify(seen));
   const packed = await through(bytes, new CompressionStream("deflate-raw"), Infinity);
   let text = "";
@@ -36,21 +36,21 @@ export async function pack(seen: Seen): Promise<string> {
 }
 
 /** What a link says; undefined where it says nothing that can be read. */
-export async function unpack(text: string): Promise<Seen | undefined> {
+export async function unpack(text: string): Promise<SharedView | undefined> {
   try {
     const raw = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(raw, (sign) => sign.charCodeAt(0));
     const json = new TextDecoder().decode(
-      await through(bytes, new DecompressionStream("deflate-raw"), MOST_TEXT),
+      await through(bytes, new DecompressionStream("deflate-raw"), MAX_TEXT),
     );
-    return seenOf(JSON.parse(json));
+    return parseView(JSON.parse(json));
   } catch {
     return undefined;
   }
 }
 
 /** The page's address with this view in it. */
-export async function linkTo(path: string, seen: Seen): Promise<string> {
+export async function linkTo(path: string, seen: SharedView): Promise<string> {
   const url = new URL(path, location.href);
   url.search = "";
   url.hash = "";
@@ -59,16 +59,16 @@ export async function linkTo(path: string, seen: Seen): Promise<string> {
 }
 
 /** What the page's own address asks to be shown: null if nothing, undefined if it cannot be read. */
-export async function asked(): Promise<Seen | null | undefined> {
+export async function asked(): Promise<SharedView | null | undefined> {
   const text = new URLSearchParams(location.search).get(NAME);
   return text === null ? null : unpack(text);
 }
 
 /** Keeps what has the right type; a link may come from anybody. */
-export function seenOf(value: unknown): Seen | undefined {
+export function parseView(value: unknown): SharedView | undefined {
   if (typeof value !== "object" || value === null || Array.isArray(value)) return undefined;
   const given = value as Record<string, unknown>;
-  const seen: Seen = {};
+  const seen: SharedView = {};
   for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const)
     if (typeof given[key] === "string") seen[key] = given[key];
   if (given.back === true) seen.back = true;

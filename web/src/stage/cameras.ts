@@ -24,7 +24,7 @@ export function cameras(session: Session): { root: HTMLElement; dispose: () => v
     ...SIDES.map(([value, label]) => h("option", { value }, label)),
   );
   select.addEventListener("change", () => session.lookFrom(select.value as Camera));
-  const silence = session.on("told", () => {
+  const silence = session.on("view", () => {
     select.value = session.camera;
   });
   const release = bind([

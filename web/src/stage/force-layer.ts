@@ -8,7 +8,7 @@ import { HEIGHT, type Layer, type Project, WIDTH } from "./viewport";
 
 const HEAD = 11;
 /** Circles of moments are not drawn smaller, in units of the drawing: what turns could not be seen. */
-const SMALLEST_CIRCLE = 18;
+const MIN_CIRCLE = 18;
 /** About the length of the legend's bar. */
 const BAR = 120;
 /** What would be drawn shorter than this is rounding, and is called zero. */
@@ -34,7 +34,7 @@ export function forceLayer(session: Session): Layer {
   const root = svg("g", { class: "force-layer" });
   const update: Layer["update"] = (state, project, perMetre) => {
     // Forces belong to the run, not to what an analysis shows in its place.
-    const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.told);
+    const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.convention);
     // The scale is that of the newest state at all times: one for the whole scene.
     const drawing = session.latest?.drawing ?? state.drawing;
     const sizes: Sizes = {
@@ -114,7 +114,7 @@ function turn(arrow: Arrow, project: Project, sizes: Sizes, perMetre: number): S
   const b = cross(axis, a);
   const wanted = norm(arrow.moment ?? [0, 0, 0]) * sizes.moment;
   const largest = sizes.longest / 2;
-  const radius = Math.max(SMALLEST_CIRCLE, Math.min(largest, wanted)) / perMetre;
+  const radius = Math.max(MIN_CIRCLE, Math.min(largest, wanted)) / perMetre;
   const at = (angle: number, r = radius): [number, number] =>
     project(add(arrow.at, add(scale(a, r * Math.cos(angle)), scale(b, r * Math.sin(angle)))));
   const last = 1.5 * Math.PI;

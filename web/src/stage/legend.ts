@@ -27,7 +27,7 @@ export function legend(session: Session): { root: HTMLElement; update: () => voi
       `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. ${turning ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. ` : ""}Drawn double: more than shown.`,
     );
     const [arrow] =
-      session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.told);
+      session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.convention);
     setText(
       told,
       arrow

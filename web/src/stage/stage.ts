@@ -195,7 +195,7 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
       draw();
       if (session.moving && !ticking && !reducedMotion()) requestAnimationFrame(tick);
     }),
-    session.on("told", draw),
+    session.on("view", draw),
     session.on("selected", draw),
     // Only at its start does a scene say where the parts of its bodies are.
     session.on("scene", () => {

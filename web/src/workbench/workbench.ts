@@ -3,27 +3,27 @@ import type { SessionSource } from "../api/client";
 import type { Scene } from "../api/types";
 import { h } from "../core/dom";
 import { inspector } from "../inspector/inspector";
-import { desk } from "../lecture/presenter";
+import { presenterPanel } from "../lecture/presenter";
 import { Session } from "../session/session";
-import { restore, seenIn, shareButton } from "../session/share";
-import type { Seen } from "../session/shared-view";
+import { restore, shareButton, viewOf } from "../session/share";
+import type { SharedView } from "../session/shared-view";
 import { stage } from "../stage/stage";
 import { trouble } from "./run-problems";
 import { transport } from "./transport";
 
-export interface BenchOptions {
+export interface WorkbenchOptions {
   source: SessionSource;
   scene: Scene | undefined;
   /** What a link asks to be shown. */
-  seen?: Seen | undefined;
+  seen?: SharedView | undefined;
   /** Where a scene that stands only here is opened from a link, and its text. */
   own?: { path: string; text: string } | undefined;
 }
 
 /** Fills `root` and starts the run; the returned function ends both. */
-export function workbench(root: HTMLElement, options: BenchOptions): () => void {
+export function workbench(root: HTMLElement, options: WorkbenchOptions): () => void {
   const session = new Session(options.source, options.seen?.numbers);
-  const made = bench(root, session, options);
+  const made = mountWorkbench(root, session, options);
   void session.start().then(async () => {
     if (options.seen && session.latest) await restore(session, options.seen);
   });
@@ -31,15 +31,15 @@ export function workbench(root: HTMLElement, options: BenchOptions): () => void 
 }
 
 /** Picture, controls and inspector of a run that somebody else starts. */
-export function bench(
+export function mountWorkbench(
   root: HTMLElement,
   session: Session,
-  options: Partial<BenchOptions>,
+  options: Partial<WorkbenchOptions>,
 ): { dispose: () => void; selectPanel: (key: string) => void } {
   const picture = stage(session, options.scene, options.seen?.picture);
   const details = inspector(session, options.seen?.panel);
   const shared = { session, panel: details.current, picture: picture.current, own: options.own };
-  const lecture = session.steers ? desk(session, () => seenIn(shared)) : undefined;
+  const lecture = session.steers ? presenterPanel(session, () => viewOf(shared)) : undefined;
   const more = h(
     "span",
     { class: "row tight" },

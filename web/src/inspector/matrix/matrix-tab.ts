@@ -3,7 +3,7 @@ import { api } from "../../api/client";
 import type { Jacobian, SymmetricMatrix } from "../../api/types";
 import { h } from "../../core/dom";
 import { num, plural, seconds } from "../../core/format";
-import { fetched } from "../../session/live-query";
+import { liveQuery } from "../../session/live-query";
 import type { Session } from "../../session/session";
 import { empty, problemNotice } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
@@ -97,7 +97,7 @@ export function matrixTab(session: Session): Panel {
   const show = (): void => {
     if (matrix) picture.show(matrix, session.joint);
   };
-  const source = fetched<Jacobian | SymmetricMatrix>(
+  const source = liveQuery<Jacobian | SymmetricMatrix>(
     session,
     (run, at) => (which === "jacobian" ? api.jacobian(run, at) : api.symmetric(run, which, at)),
     (value) => {

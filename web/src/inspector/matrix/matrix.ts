@@ -39,15 +39,15 @@ export interface Layout {
   named: boolean;
 }
 
-const LARGEST_CELL = 26;
+const MAX_CELL = 26;
 const NAMED_FROM = 13;
-const SMALLEST_CELL = 3;
+const MIN_CELL = 3;
 
 /** Fits the matrix to a width; names are drawn where a cell leaves room for them. */
 export function layout(rows: number, columns: number, room: number, wide: boolean): Layout {
   const left = wide ? 168 : 92;
   const fit = (margin: number): number => Math.floor((room - margin - 2) / Math.max(1, columns));
-  const cell = Math.max(SMALLEST_CELL, Math.min(LARGEST_CELL, fit(left)));
+  const cell = Math.max(MIN_CELL, Math.min(MAX_CELL, fit(left)));
   const named = cell >= NAMED_FROM;
   const top = named ? 78 : 26;
   return { cell, left, top, named, width: left + cell * columns + 2, height: top + cell * rows + 2 };
