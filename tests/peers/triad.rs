@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 use triad_engine::catalogue;
+use triad_engine::run::{Frame, Simulation};
 use triad_engine::scene::Scene;
-use triad_engine::simulation::{Frame, Simulation};
 
 /// Samples a second.
 const RATE: f64 = 100.0;

@@ -2,12 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 use triad_engine::Scene;
+use triad_engine::constraints::mechanism::Mechanism;
+use triad_engine::constraints::rank;
 use triad_engine::equations;
-use triad_engine::integrate::Plant;
-use triad_engine::jacobian::Jacobian;
-use triad_engine::mechanism::Mechanism;
+use triad_engine::equations::jacobian::Jacobian;
 use triad_engine::model::Model;
-use triad_engine::rank;
 use triad_engine::scene::Coordinates;
 use triad_engine::system::System;
 
@@ -35,8 +34,8 @@ impl Probe {
     pub fn assembled(mut self) -> Self {
         self.mechanism.assemble(&mut self.y).unwrap();
         let n = self.n();
-        let rank =
-            rank::analyze(&self.mechanism.system, &mut self.mechanism.elimination, &self.y[..n]).dependent;
+        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
+        let rank = rank::analyze(system, state, elimination, &self.y[..n]).dependent;
         self.mechanism.elimination.set_redundant(!rank.is_empty());
         self
     }
@@ -59,19 +58,19 @@ impl Probe {
     /// Φ at y.
     pub fn phi(&mut self, y: &[f64]) -> DVector<f64> {
         self.mechanism.set_state(0.0, y);
-        equations::constraints(&self.mechanism.system, &self.mechanism.elimination).into()
+        equations::constraints(&self.mechanism.system, &self.mechanism.state).into()
     }
 
     /// γ at y.
     pub fn gamma(&mut self, y: &[f64]) -> DVector<f64> {
         self.mechanism.set_state(0.0, y);
-        equations::gamma(&self.mechanism.system, &self.mechanism.elimination).into()
+        equations::gamma(&self.mechanism.system, &self.mechanism.state).into()
     }
 
     /// Φ_q at y, as a full matrix.
     pub fn jacobian(&mut self, y: &[f64]) -> DMatrix<f64> {
         self.mechanism.set_state(0.0, y);
-        let sparse = Jacobian::new(&self.mechanism.system, &self.mechanism.elimination);
+        let sparse = Jacobian::new(&self.mechanism.system, &self.mechanism.state);
         let mut dense = DMatrix::zeros(sparse.rows.len(), sparse.columns.len());
         for entry in sparse.entries {
             dense[(entry.row, entry.column)] += entry.value;
@@ -89,7 +88,7 @@ impl Probe {
     /// Energy at y, J.
     pub fn energy(&mut self, y: &[f64]) -> f64 {
         self.mechanism.set_state(0.0, y);
-        self.mechanism.elimination.energy(&self.mechanism.system)
+        self.mechanism.state.energy(&self.mechanism.system)
     }
 
     /// Accelerations q̈ at y by the augmented system, written down as eqs. (6.3), (6.5) and (6.6) say and solved densely with

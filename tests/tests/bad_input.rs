@@ -4,8 +4,9 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use serde_json::{Value, json};
+use triad_engine::EngineError;
+use triad_engine::analysis::check;
 use triad_engine::scene::Scene;
-use triad_engine::{EngineError, check};
 use triad_tests::program::{Server, assert_problem, run, run_json};
 
 /// A bar that hangs on the ground and a second bar that hangs on the first.

@@ -7,8 +7,9 @@
 use nalgebra::Vector3;
 use std::time::Instant;
 use triad_engine::catalogue;
+use triad_engine::run::{Simulation, Summary};
 use triad_engine::scene::{Coordinates, IntegratorKind, Scene};
-use triad_engine::simulation::{BodyFrame, Simulation, Summary};
+use triad_engine::state::BodyFrame;
 use triad_tests::reference::{Reference, distance};
 
 const ALL: [Coordinates; 3] = [Coordinates::Full, Coordinates::Reduced, Coordinates::Shared];

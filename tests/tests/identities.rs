@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use proptest::prelude::*;
+use triad_engine::run::Simulation;
 use triad_engine::scene::IntegratorKind;
-use triad_engine::simulation::{BodyFrame, Simulation};
+use triad_engine::state::BodyFrame;
 use triad_tests::probe::Probe;
 use triad_tests::random::{Choice, scenes};
 use triad_tests::reference::distance;
@@ -124,7 +125,7 @@ proptest! {
         let gravity = nalgebra::Vector3::from(scene.gravity);
         let mut weight = nalgebra::Vector3::zeros();
         let mut moment = nalgebra::Vector3::zeros();
-        for (state, body) in probe.mechanism.elimination.bodies.iter().zip(&probe.mechanism.system.bodies) {
+        for (state, body) in probe.mechanism.state.bodies().iter().zip(&probe.mechanism.system.bodies) {
             weight += gravity * body.mass;
             moment += state.q.r.cross(&(gravity * body.mass));
         }
@@ -133,7 +134,7 @@ proptest! {
             let y = probe.along(&rate, k * h);
             probe.mechanism.set_state(0.0, &y);
             let (mut p, mut l) = (nalgebra::Vector3::zeros(), nalgebra::Vector3::zeros());
-            for (state, body) in probe.mechanism.elimination.bodies.iter().zip(&probe.mechanism.system.bodies) {
+            for (state, body) in probe.mechanism.state.bodies().iter().zip(&probe.mechanism.system.bodies) {
                 p += state.q_dot.r * body.mass;
                 l += state.q.r.cross(&state.q_dot.r) * body.mass;
                 for k in 0..3 {

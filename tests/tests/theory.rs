@@ -39,7 +39,7 @@ fn every_cited_label_exists_once() {
     }
 
     let mut files = Vec::new();
-    for folder in ["engine/src", "server/src", "tests/src", "tests/tests"] {
+    for folder in ["engine/dynamics/src", "engine/engine/src", "server/src", "tests/src", "tests/tests"] {
         rust_files(&root().join(folder), &mut files);
     }
     let mut cited = 0;

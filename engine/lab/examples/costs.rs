@@ -9,8 +9,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use triad_engine::EngineError;
 use triad_engine::catalogue;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_engine::simulation::Simulation;
 
 const FAMILIES: [(&str, [usize; 5]); 2] =
     [("spatial-chain", [10, 50, 200, 1000, 2000]), ("n-four-bar", [10, 40, 100, 400, 1000])];

@@ -7,12 +7,12 @@
 use std::time::Instant;
 use triad_engine::EngineError;
 use triad_engine::catalogue;
+use triad_engine::constraints::mechanism::Mechanism;
+use triad_engine::constraints::rank;
 use triad_engine::integrate::Integrator;
-use triad_engine::mechanism::Mechanism;
 use triad_engine::model::Model;
-use triad_engine::rank;
+use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene};
-use triad_engine::simulation::Simulation;
 use triad_engine::system::System;
 
 const BUILT_IN: [&str; 11] = [
@@ -147,7 +147,8 @@ fn run(scene: &Scene, kind: IntegratorKind, tolerance: f64, sample: bool) -> Opt
     let (q, q_dot) = y.split_at_mut(n);
     mechanism.system.start(q, q_dot);
     mechanism.assemble(&mut y).ok()?;
-    let rank = rank::analyze(&mechanism.system, &mut mechanism.elimination, &y[..n]);
+    let Mechanism { system, state, elimination, .. } = &mut mechanism;
+    let rank = rank::analyze(system, state, elimination, &y[..n]);
     mechanism.elimination.set_redundant(!rank.dependent.is_empty());
     mechanism.set_state(0.0, &y);
     let mut integrator = Integrator::start(kind, &mut mechanism, 0.0, &y);

@@ -19,7 +19,7 @@ pub use plant::{LinearAlgebra, PaperPlant};
 use serde::Serialize;
 use triad_engine::EngineError;
 use triad_engine::integrate::{Explicit, ODE45_TOLERANCE};
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_scene::{Coordinates, IntegratorKind, Scene, Settings, Stabilization};
 
 /// Interval at which two runs are compared, s.

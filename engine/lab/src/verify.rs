@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use triad_engine::EngineError;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_scene::{IntegratorKind, Scene, Stabilization};
 
 /// How much tighter the tolerance of the second solution is, and the least there is.

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_lab::verify::Verifier;
 use triad_scene::catalogue;
 use triad_scene::{IntegratorKind, Stabilization};

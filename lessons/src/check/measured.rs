@@ -5,8 +5,8 @@
 //! from a second run by another method.
 
 use thiserror::Error;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_engine::simulation::Simulation;
 
 use super::findings::Findings;
 use crate::answers::tolerance::{distance, norm};

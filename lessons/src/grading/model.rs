@@ -1,8 +1,8 @@
 //! A scene of the student's own, judged by what it does.
 
-use triad_engine::check::{CheckReport, check};
+use triad_engine::analysis::check::{CheckReport, check};
+use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene, Settings, Stabilization};
-use triad_engine::simulation::Simulation;
 
 use crate::answers::Answer;
 use crate::answers::tolerance::{distance, norm};

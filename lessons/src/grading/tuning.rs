@@ -1,7 +1,7 @@
 //! Settings of a run under a budget: the run is made, its error and its work are measured and drawn.
 
+use triad_engine::run::Simulation;
 use triad_engine::scene::{Scene, Stabilization};
-use triad_engine::simulation::Simulation;
 
 use super::picture::{Picture, Point};
 use crate::answers::tolerance::distance;

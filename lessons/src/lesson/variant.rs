@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 use triad_engine::EngineError;
+use triad_engine::run::Simulation;
 use triad_engine::scene::{Scene, SceneError};
-use triad_engine::simulation::Simulation;
 
 use super::content::Lesson;
 use crate::answers::tolerance::{distance, norm};

@@ -1,27 +1,25 @@
 //! The equations of a mechanism at a state, right and wrong, for whoever needs more than a run.
 
+use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::equations;
-use triad_engine::lift::Lift;
-use triad_engine::literal::Literal;
-use triad_engine::mechanism::Mechanism;
+use triad_engine::equations::augmented::Literal;
 use triad_engine::scene::{Coordinates, Driver, Motion, Scene, VectorMotion};
+use triad_engine::system::natural::Lift;
 
 /// The equations as they are first written, at a state.
 pub(crate) fn literal_at(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Literal {
     mechanism.set_state(t, y);
-    let Mechanism { system, elimination, .. } = mechanism;
-    elimination.set_forces(system);
-    Literal::new(system, elimination)
+    Literal::new(&mechanism.system, &mechanism.state)
 }
 
 /// γ of the lifted coordinates alone and −Φ_Q V̇q̇, at the state that is in place.
 pub(crate) fn gamma_parts(mechanism: &Mechanism) -> Vec<[f64; 2]> {
-    equations::gamma_parts(&mechanism.system, &mechanism.elimination)
+    equations::gamma_parts(&mechanism.system, &mechanism.state)
 }
 
 /// The equations at the state that is in place, with +M V̇q̇ of reduced bodies in the place of −M V̇q̇.
 pub(crate) fn wrong_sign(mechanism: &Mechanism, mut literal: Literal) -> Literal {
-    for (body, state) in mechanism.system.bodies.iter().zip(&mechanism.elimination.bodies) {
+    for (body, state) in mechanism.system.bodies.iter().zip(mechanism.state.bodies()) {
         if body.coordinates == Coordinates::Reduced {
             let mut twice = Lift::default();
             twice.e[2] = state.q_dot.e[0].cross(&state.q_dot.e[1]) * (4.0 * body.ibar[2]);

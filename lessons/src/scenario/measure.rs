@@ -2,10 +2,11 @@
 
 use thiserror::Error;
 use triad_engine::EngineError;
-use triad_engine::check::check as engine_check;
-use triad_engine::reaction::JointMultipliers;
+use triad_engine::analysis::check::check as engine_check;
+use triad_engine::reactions::JointMultipliers;
+use triad_engine::run::Simulation;
 use triad_engine::scene::{GROUND, IntegratorKind, Scene, Settings, Stabilization};
-use triad_engine::simulation::{BodyFrame, Simulation};
+use triad_engine::state::BodyFrame;
 
 use crate::answers::tolerance::{distance, norm};
 use crate::files::{Component, CountKind, MeasuredFile, MotionKind};

@@ -2,11 +2,10 @@
 
 use thiserror::Error;
 use triad_engine::EngineError;
-use triad_engine::integrate::Plant;
-use triad_engine::mechanism::Mechanism;
+use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::model::Model;
-use triad_engine::motion::{Curve, VectorCurve};
-use triad_engine::reaction;
+use triad_engine::model::motion::{Curve, VectorCurve};
+use triad_engine::reactions;
 use triad_engine::scene::{Coordinates, Driver, GROUND, Motion, Scene, VectorMotion};
 use triad_engine::system::System;
 
@@ -111,10 +110,8 @@ fn at_rest(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, WrongMode
     let n = mechanism.system.coordinates;
     let mut y = run.q().to_vec();
     y.resize(2 * n, 0.0);
-    let mut rate = vec![0.0; 2 * n];
-    mechanism.rate(0.0, &y, &mut rate);
-    let reactions = reaction::multipliers(&mechanism.system, &mechanism.elimination);
-    let mut frame = run.clone().frame();
+    let reactions = reactions::multipliers(&mechanism.accelerations(0.0, &y).multipliers);
+    let mut frame = run.frame();
     for body in &mut frame.bodies {
         (body.velocity, body.angular_velocity) = ([0.0; 3], [0.0; 3]);
     }
@@ -180,21 +177,8 @@ fn with_wrong_sign(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, W
     }
     mechanism.set_state(measured.time, &y);
     let seen = Observation {
-        bodies: mechanism.elimination.bodies.iter().map(frame_of).collect(),
+        bodies: mechanism.state.bodies().iter().map(Into::into).collect(),
         reactions: Vec::new(),
     };
     Ok(component(seen.vector(scene, measured)?, measured.component))
-}
-
-fn frame_of(state: &triad_engine::elimination::BodyState) -> triad_engine::simulation::BodyFrame {
-    let e = state.q.e;
-    let turn = (0..3).fold(e[0] * 0.0, |sum, k| sum + e[k].cross(&state.q_dot.e[k]) * 0.5);
-    triad_engine::simulation::BodyFrame {
-        position: state.q.r.into(),
-        u: e[0].into(),
-        v: e[1].into(),
-        w: e[2].into(),
-        velocity: state.q_dot.r.into(),
-        angular_velocity: turn.into(),
-    }
 }

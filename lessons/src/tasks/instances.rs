@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 use triad_engine::EngineError;
-use triad_engine::lift::Director;
-use triad_engine::literal::Literal;
-use triad_engine::mechanism::Mechanism;
-use triad_engine::row::Form;
+use triad_engine::constraints::mechanism::Mechanism;
+use triad_engine::equations::augmented::Literal;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_engine::simulation::Simulation;
+use triad_engine::system::natural::Director;
+use triad_engine::system::row::Form;
 
 use super::grid::Grid;
 use crate::exercise::{Implement, QuestionBody};

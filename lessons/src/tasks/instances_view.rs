@@ -3,12 +3,12 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_engine::equations::{column_names, row_names};
-use triad_engine::feature::{Difference, FeatureId, Target};
-use triad_engine::lift::Director;
 use triad_engine::model::BodyRef;
-use triad_engine::row::Form;
 use triad_engine::scene::GROUND;
 use triad_engine::system::System;
+use triad_engine::system::feature::{Difference, FeatureId, Target};
+use triad_engine::system::natural::Director;
+use triad_engine::system::row::Form;
 
 use super::instances::{Instance, InstanceError, Instances, seed, task};
 use crate::files::EquationPart;
@@ -146,13 +146,14 @@ impl InstanceState {
 }
 
 fn bodies(system: &System) -> Vec<InstanceBody> {
-    let body = |(body, model): (&triad_engine::body::Body, &triad_engine::model::ModelBody)| InstanceBody {
-        name: model.name.clone(),
-        coordinates: if body.layout.directors.contains(&Director::Product) { "reduced" } else { "full" },
-        first_column: body.layout.first,
-        mass: body.mass,
-        inertia: body.principal.into(),
-    };
+    let body =
+        |(body, model): (&triad_engine::system::body::Body, &triad_engine::model::ModelBody)| InstanceBody {
+            name: model.name.clone(),
+            coordinates: if body.layout.directors.contains(&Director::Product) { "reduced" } else { "full" },
+            first_column: body.layout.first,
+            mass: body.mass,
+            inertia: body.principal.into(),
+        };
     system.bodies.iter().zip(&system.model.bodies).map(body).collect()
 }
 

@@ -1,8 +1,8 @@
 //! The equations as misconceptions have them, so that these can be recognised in what a student's program sends.
 
 use triad_engine::EngineError;
-use triad_engine::literal::Literal;
-use triad_engine::mechanism::Mechanism;
+use triad_engine::constraints::mechanism::Mechanism;
+use triad_engine::equations::augmented::Literal;
 use triad_engine::model::Model;
 use triad_engine::scene::{Coordinates, Scene};
 use triad_engine::system::System;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 
 use crate::exercise::Trajectory;
 use crate::scenario::measure::{MeasureError, measure, reference_scenes, start};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use tokio::sync::oneshot;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 
 use super::change::{Drag, SceneChange, SessionScene};
 use super::state::SessionState;

@@ -1,7 +1,7 @@
 //! The states that a run has gone through, for whoever looks back: what is asked is told for the state of then.
 
 use axum::http::StatusCode;
-use triad_engine::simulation::{Moment, Simulation};
+use triad_engine::run::{Simulation, Snapshot};
 
 use crate::problem::Problem;
 
@@ -25,7 +25,7 @@ pub(super) struct History {
 struct Segment {
     /// The run when its numbers were replaced; nothing while they are those of the present.
     run: Option<Box<Simulation>>,
-    moments: Vec<Moment>,
+    moments: Vec<Snapshot>,
 }
 
 impl History {
@@ -41,7 +41,7 @@ impl History {
 
     /// Keeps the state of the present.
     pub(super) fn keep(&mut self, simulation: &mut Simulation) {
-        let moment = simulation.moment();
+        let moment = simulation.snapshot();
         self.bytes += moment.size();
         if let Some(segment) = self.segments.last_mut() {
             segment.moments.push(moment);
@@ -60,7 +60,7 @@ impl History {
                 keep
             });
         }
-        self.bytes = self.segments.iter().flat_map(|segment| &segment.moments).map(Moment::size).sum();
+        self.bytes = self.segments.iter().flat_map(|segment| &segment.moments).map(Snapshot::size).sum();
     }
 
     /// From now on the run has other numbers; `old` is how it was.
@@ -87,7 +87,7 @@ impl History {
         let (segment, moment) = found.ok_or_else(|| unknown(time))?;
         if self.looked.as_ref().is_none_or(|looked| looked.time() != moment.time) {
             let run = segment.run.as_deref().unwrap_or(present);
-            self.looked = run.at_moment(moment).map(Box::new);
+            self.looked = run.at_snapshot(moment).map(Box::new);
         }
         self.looked.as_deref_mut().ok_or_else(|| unknown(time))
     }
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn what_is_kept_is_bounded() {
         let mut run = pendulum(1.0);
-        let mut history = History::new(64 * run.moment().size());
+        let mut history = History::new(64 * run.snapshot().size());
         for k in 0..1000 {
             run.advance_to(1e-3 * f64::from(k)).expect("runs");
             history.keep(&mut run);

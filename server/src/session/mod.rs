@@ -22,8 +22,8 @@ use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
 use triad_engine::EngineError;
 use triad_engine::model::Model;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_engine::simulation::Simulation;
 
 use crate::limits::Limits;
 use crate::problem::Problem;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_engine::simulation::Simulation;
 
 use crate::problem::Problem;
 use crate::stream::{

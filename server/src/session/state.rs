@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 
 use super::change::Drag;
 use super::recording::Recording;

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use tokio::sync::watch;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_engine::simulation::Simulation;
 
 use super::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
 use super::command::{Command, Signals};

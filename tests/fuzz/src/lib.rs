@@ -10,7 +10,7 @@ pub use requests::requests;
 use std::collections::BTreeMap;
 
 use triad_engine::Scene;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_lessons::Lesson;
 use triad_lessons::Submission;
 use triad_lessons::answers::expression::Expression;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use triad_engine::EngineError;
-use triad_engine::simulation::{Simulation, Summary};
+use triad_engine::run::{Simulation, Summary};
 use triad_scene::Scene;
 use triad_scene::catalogue;
 

@@ -1,7 +1,7 @@
 //! Positions that runs are compared with.
 
 use triad_engine::EngineError;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_scene::IntegratorKind;
 use triad_scene::Scene;
 

@@ -3,12 +3,13 @@
 use super::{Case, PaperError, scene};
 use nalgebra::{DMatrix, DVector};
 use triad_engine::EngineError;
-use triad_engine::elimination::Elimination;
+use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations;
+use triad_engine::equations::augmented::{DEPENDENT, Literal, for_mass_entries, force};
+use triad_engine::equations::jacobian::Jacobian;
 use triad_engine::integrate::Plant;
-use triad_engine::jacobian::Jacobian;
-use triad_engine::literal::{DEPENDENT, Literal, for_mass_entries, force};
 use triad_engine::model::Model;
+use triad_engine::state::State;
 use triad_engine::system::System;
 use triad_linalg::{Columns, SparseLu, independent_rows};
 use triad_scene::Coordinates;
@@ -28,6 +29,7 @@ pub enum LinearAlgebra {
 #[derive(Clone, Debug)]
 pub struct PaperPlant {
     system: System,
+    state: State,
     elimination: Elimination,
     algebra: LinearAlgebra,
     damping: f64,
@@ -52,16 +54,16 @@ impl PaperPlant {
         let mut start = vec![0.0; 2 * n];
         let (q, q_dot) = start.split_at_mut(n);
         system.start(q, q_dot);
-        elimination.place(&system, q);
-        elimination.set_velocity(&system, q_dot);
-        let jacobian = Jacobian::new(&system, &elimination);
-        let kept = independent_rows(&Literal::new(&system, &elimination).jacobian, DEPENDENT);
+        let state = State::at(&system, 0.0, q, q_dot);
+        let jacobian = Jacobian::new(&system, &state);
+        let kept = independent_rows(&Literal::new(&system, &state).jacobian, DEPENDENT);
         elimination.set_redundant(kept.len() < system.rigid_rows + system.equations);
         let mut place = vec![None; system.rigid_rows + system.equations];
         for (k, &row) in kept.iter().enumerate() {
             place[row] = Some(k);
         }
         Ok(Self {
+            state,
             elimination,
             algebra,
             damping: 2.0 * case.alpha,
@@ -95,9 +97,8 @@ impl PaperPlant {
     /// Energy and largest |Φ| at a state.
     pub(super) fn observe(&mut self, y: &[f64]) -> (f64, f64) {
         let (q, q_dot) = y.split_at(self.system.coordinates);
-        self.elimination.place(&self.system, q);
-        self.elimination.set_velocity(&self.system, q_dot);
-        (self.elimination.energy(&self.system), self.elimination.violation(&self.system).0)
+        self.state.set(&self.system, 0.0, q, q_dot);
+        (self.state.energy(&self.system), self.state.position_violation(&self.system))
     }
 
     /// Writes ẏ. False if the equations are singular.
@@ -105,13 +106,12 @@ impl PaperPlant {
         let n = self.system.coordinates;
         let (q, q_dot) = y.split_at(n);
         rate[..n].copy_from_slice(q_dot);
+        self.state.set(&self.system, 0.0, q, q_dot);
         if self.algebra == LinearAlgebra::Elimination {
             let baumgarte = (0.5 * self.damping, self.stiffness.sqrt());
-            self.elimination.accelerate(&self.system, q, q_dot, baumgarte, &mut rate[n..]);
+            self.elimination.accelerate(&self.system, &self.state, baumgarte).write(&mut rate[n..]);
             return rate.iter().all(|x| x.is_finite());
         }
-        self.elimination.place(&self.system, q);
-        self.elimination.set_velocity(&self.system, q_dot);
         let mut right = self.write(q_dot);
         let solved = if self.algebra == LinearAlgebra::Dense {
             let size = n + self.kept;
@@ -135,13 +135,12 @@ impl PaperPlant {
     /// Writes the augmented matrix as entries; returns the right-hand side (g, γ − 2αΦ̇ − β²Φ).
     fn write(&mut self, q_dot: &[f64]) -> DVector<f64> {
         let n = self.system.coordinates;
-        self.elimination.set_forces(&self.system);
-        self.jacobian.refresh(&self.system, &self.elimination);
+        self.jacobian.refresh(&self.system, &self.state);
         let mut right = DVector::zeros(n + self.kept);
-        right.rows_mut(0, n).copy_from(&force(&self.system, &self.elimination));
+        right.rows_mut(0, n).copy_from(&force(&self.system, &self.state));
         let entries = &mut self.entries;
         entries.clear();
-        for_mass_entries(&self.system, &self.elimination, |row, column, value| {
+        for_mass_entries(&self.system, &self.state, |row, column, value| {
             if value != 0.0 {
                 entries.push((row, column, value));
             }
@@ -156,8 +155,8 @@ impl PaperPlant {
                 entries.push((entry.column, n + k, entry.value));
             }
         }
-        let values = equations::constraints(&self.system, &self.elimination);
-        let gamma = equations::gamma(&self.system, &self.elimination);
+        let values = equations::constraints(&self.system, &self.state);
+        let gamma = equations::gamma(&self.system, &self.state);
         for (row, place) in self.place.iter().enumerate() {
             if let Some(k) = place {
                 right[n + k] = gamma[row] - self.damping * rates[row] - self.stiffness * values[row];

@@ -53,6 +53,6 @@ pub fn spring(name: &str, from: Triple, body: &str, stiffness: f64, free: f64, d
 }
 
 /// Distance of a body's centre of mass from a point.
-pub fn distance(frame: &triad_engine::simulation::Frame, body: usize, point: [f64; 3]) -> f64 {
+pub fn distance(frame: &triad_engine::run::Frame, body: usize, point: [f64; 3]) -> f64 {
     (Vector3::from(frame.bodies[body].position) - Vector3::from(point)).norm()
 }

@@ -4,7 +4,7 @@ use super::build::{DOWN, GROUND, body, distance, pin, rod, scene};
 use super::oracle::OneDegree;
 use super::{Case, Outcome, Treatment, Trial, Verdict};
 use nalgebra::Vector3;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 
 const FAMILY: &str = "long";
 

@@ -166,7 +166,7 @@ fn twice(treatment: &Treatment, _: bool) -> Outcome {
             scene.joints.push(joint);
         }
     }
-    let Ok(mut other) = triad_engine::simulation::Simulation::new(&once) else {
+    let Ok(mut other) = triad_engine::run::Simulation::new(&once) else {
         return Outcome::nothing(Verdict::Wrong, "the reference does not start".to_owned());
     };
     Trial::new(scene, treatment)

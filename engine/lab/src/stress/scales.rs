@@ -87,7 +87,7 @@ fn chain(ratio: f64, treatment: &Treatment) -> Outcome {
     reduced.coordinates = triad_scene::Coordinates::Reduced;
     // The series lift both forms alike: only another integrator makes the comparison mean something.
     reduced.simulation.integrator = triad_scene::IntegratorKind::Dop853;
-    let mut other = triad_engine::simulation::Simulation::new(&reduced).ok();
+    let mut other = triad_engine::run::Simulation::new(&reduced).ok();
     Trial::new(scene, treatment)
         .against("the same in reduced coordinates by another integrator", (1e-5, 1e-2), move |run| {
             let Some(other) = other.as_mut() else { return f64::NAN };
@@ -192,7 +192,7 @@ fn triangle(treatment: &Treatment, _: bool) -> Outcome {
     }
     scene.bodies.push(body("hung", 1.0, [1e-12, 1.0, 1.0], [0.0, 5.0, 0.0]));
     scene.joints.push(joint("ball", JointKind::Spherical, GROUND, "hung", [-0.5, 5.0, 0.0]));
-    let momentum = |run: &mut triad_engine::simulation::Simulation| -> Vec<nalgebra::Vector3<f64>> {
+    let momentum = |run: &mut triad_engine::run::Simulation| -> Vec<nalgebra::Vector3<f64>> {
         let frame = run.frame();
         let moments = inertias.iter().zip(&frame.bodies).map(|(principal, shown)| {
             let omega = nalgebra::Vector3::from(shown.angular_velocity);

@@ -212,7 +212,7 @@ fn slider_crank(treatment: &Treatment, _: bool) -> Outcome {
 fn at_rest(treatment: &Treatment, _: bool) -> Outcome {
     let mut scene = windows(1, FRAC_PI_2, 0.0);
     scene.simulation.duration = 3.0;
-    let told = triad_engine::simulation::Simulation::new(&scene)
+    let told = triad_engine::run::Simulation::new(&scene)
         .is_ok_and(|run| run.notes().iter().any(|note| note.contains("singular")));
     let mut outcome = Trial::new(scene, treatment)
         .against("a branch: parallel or crossed", (1e-6, 1e-3), |run| {

@@ -3,7 +3,7 @@
 use super::build::{DOWN, GROUND, distance, pin, rod, scene};
 use super::trial::must_be_refused;
 use super::{Case, Outcome, Treatment, Trial, Verdict};
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_scene::{Orientation, Scene};
 
 const FAMILY: &str = "wrong starts";

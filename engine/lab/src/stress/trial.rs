@@ -2,7 +2,7 @@
 
 use super::{Outcome, Treatment, Verdict};
 use triad_engine::EngineError;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_scene::Scene;
 
 /// Steps that a run is given unless it asks for more.

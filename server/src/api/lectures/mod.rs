@@ -10,7 +10,7 @@ use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -268,7 +268,7 @@ async fn symmetric(
     code: &str,
     name: &str,
     when: AtTime,
-    matrix: fn(&mut Simulation) -> triad_engine::matrices::Symmetric,
+    matrix: fn(&Simulation) -> triad_engine::reactions::matrices::Symmetric,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("{name} {:?}", when.at);
     let room = app.lectures.get(code)?;

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::Serialize;
 use serde_json::Value;
 use triad_engine::analysis::{self, About, AnalysisError, Assembly, Equilibrium, Kinematics, Modes};
-use triad_engine::reaction::report::Convention;
+use triad_engine::reactions::report::Convention;
 use triad_engine::scene::Scene;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;

@@ -8,8 +8,8 @@ use axum::extract::State;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
+use triad_engine::analysis::check::CheckReport;
 use triad_engine::catalogue;
-use triad_engine::check::CheckReport;
 use triad_engine::scene::{self, Scene};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -71,7 +71,7 @@ async fn check(State(app): State<App>, Json(value): Json<Value>) -> Result<Answe
     blocking(move || {
         let scene = Scene::from_json(&value.to_string())?;
         session::bounded(&scene, &app.limits)?;
-        Ok(Answer(triad_engine::check::check(&scene)?))
+        Ok(Answer(triad_engine::analysis::check::check(&scene)?))
     })
     .await
 }

@@ -4,9 +4,9 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use triad_engine::check::dependent_sets;
-use triad_engine::matrices::{Part, Symmetric};
-use triad_engine::simulation::Simulation;
+use triad_engine::analysis::check::dependent_sets;
+use triad_engine::reactions::matrices::{Part, Symmetric};
+use triad_engine::run::Simulation;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -144,7 +144,7 @@ async fn schur(
 pub(in crate::api) async fn symmetric_of(
     session: &Session,
     at: Option<f64>,
-    matrix: fn(&mut Simulation) -> Symmetric,
+    matrix: fn(&Simulation) -> Symmetric,
 ) -> Result<SymmetricView, Problem> {
     session
         .look(at, move |run| {

@@ -7,9 +7,9 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use triad_engine::reaction::Multiplier;
-use triad_engine::reaction::report::{About, Convention, ExpressedIn, Reaction, Side};
-use triad_engine::uniqueness::Redundancy;
+use triad_engine::reactions::Multiplier;
+use triad_engine::reactions::report::{About, Convention, ExpressedIn, Reaction, Side};
+use triad_engine::reactions::uniqueness::Redundancy;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 

@@ -2,8 +2,9 @@
 
 use clap::{Args, ValueEnum};
 use triad_engine::analysis;
-use triad_engine::reaction::report::{About, Convention, ExpressedIn, Reaction, ReactionReport, Side};
-use triad_engine::simulation::{BodyFrame, Simulation};
+use triad_engine::reactions::report::{About, Convention, ExpressedIn, Reaction, ReactionReport, Side};
+use triad_engine::run::Simulation;
+use triad_engine::state::BodyFrame;
 
 use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
@@ -118,7 +119,7 @@ fn print_reactions(report: &ReactionReport) {
 }
 
 fn print_reaction(reaction: &Reaction) {
-    let line = |what: &str, unit: &str, components: &[triad_engine::reaction::report::Component; 3]| {
+    let line = |what: &str, unit: &str, components: &[triad_engine::reactions::report::Component; 3]| {
         let numbers: Vec<String> = components
             .iter()
             .map(|c| format!("{}{:>14.6}", if c.unique { ' ' } else { '~' }, c.value + 0.0))

@@ -1,8 +1,8 @@
 //! `triad check` and `triad scenes`.
 
 use serde_json::json;
+use triad_engine::analysis::check::CheckReport;
 use triad_engine::catalogue;
-use triad_engine::check::CheckReport;
 
 use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
@@ -11,7 +11,7 @@ use crate::scenes;
 /// Counts what a scene amounts to.
 pub(in crate::cli) fn check(spec: &str, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
-    let report = triad_engine::check::check(&scene)?;
+    let report = triad_engine::analysis::check::check(&scene)?;
     if json {
         print_json(&report);
     } else {

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use triad_engine::reaction::JointMultipliers;
-use triad_engine::simulation::{Frame, Summary};
+use triad_engine::reactions::JointMultipliers;
+use triad_engine::run::{Frame, Summary};
 
 /// One table being written.
 pub(in crate::cli) struct Table {

@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use axum::http::StatusCode;
 use serde_json::json;
+use triad_engine::EngineError;
+use triad_engine::VERSION;
+use triad_engine::run::{LeftOut, Simulation, Summary};
 use triad_engine::scene::{Scene, Skip};
-use triad_engine::simulation::{LeftOut, Simulation, Summary};
-use triad_engine::{EngineError, VERSION};
 use triad_lab::verify::{Verification, Verifier};
 
 use super::csv::Table;

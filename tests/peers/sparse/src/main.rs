@@ -14,13 +14,14 @@ use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, factorize_symbolic_l
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 use std::time::Instant;
-use triad_engine::matrices::{self, Part};
-use triad_engine::mechanism::Mechanism;
+use triad_engine::reactions::matrices::{self, Part};
+use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::model::Model;
 use triad_linalg::BlockCholesky;
 use triad_linalg::block_cholesky::stride;
 use triad_engine::system::System;
-use triad_engine::{catalogue, rank};
+use triad_engine::catalogue;
+use triad_engine::constraints::rank;
 
 const SCENES: [&str; 6] = [
     "spatial-chain:10",
@@ -58,10 +59,10 @@ fn matrix(name: &str) -> (Vec<(usize, usize, f64)>, Vec<usize>) {
     mechanism.system.start(q, q_dot);
     mechanism.assemble(&mut y).expect("a scene that can be assembled");
     let redundant =
-        !rank::analyze(&mechanism.system, &mut mechanism.elimination, &y[..n]).dependent.is_empty();
+        !rank::analyze(&mechanism.system, &mut mechanism.state, &mut mechanism.elimination, &y[..n]).dependent.is_empty();
     mechanism.set_state(0.0, &y);
     let mut entries = Vec::new();
-    for place in matrices::schur(&mechanism.system, &mut mechanism.elimination).places {
+    for place in matrices::schur(&mechanism.system, &mechanism.state, &mut mechanism.elimination).places {
         if place.part != Part::Fill {
             let shift = if redundant && place.row == place.column { 1.0 + 1e-9 } else { 1.0 };
             entries.push((place.row, place.column, place.value * shift));

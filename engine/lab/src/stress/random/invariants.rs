@@ -4,7 +4,7 @@ use crate::stress::trial::{kinetic_energy, larger};
 use crate::stress::{Outcome, Treatment, Verdict};
 use nalgebra::Vector3;
 use triad_engine::EngineError;
-use triad_engine::simulation::Simulation;
+use triad_engine::run::Simulation;
 use triad_scene::{Coordinates, IntegratorKind, Load, LoadFrame, Scene, Stabilization};
 
 /// Steps of a random mechanism of half a second.

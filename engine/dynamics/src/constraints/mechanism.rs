@@ -1,0 +1,239 @@
+//! A system with its changing state: what integrators move, and where consistency is made and kept.
+
+use crate::constraints::ConstraintError;
+use crate::constraints::violation;
+use crate::dynamics::elimination::{Accelerations, Elimination};
+use crate::scene::Stabilization;
+use crate::state::{self, State};
+use crate::system::System;
+
+/// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
+const NEGLIGIBLE: f64 = 0.1;
+/// |Φ| and |Φ̇| relative to the size of the mechanism below which a state is consistent.
+const CONSISTENT: f64 = 1e-13;
+/// A step of assembly that is below this part of the mechanism's size and does not shrink any more is rounding.
+const STALLED: f64 = 1e-9;
+/// Newton steps of an assembly.
+const MOST_ASSEMBLING: usize = 40;
+/// |Φ| of each row relative to its size below which a start is assembled.
+const CLOSED: f64 = 1e-9;
+/// Most corrections of the velocities of a start. They have failed if they leave more than these parts of the largest rate
+/// that was to be made up for, and of the fastest turning body.
+const MOST_CORRECTING: usize = 12;
+const UNSOLVED: f64 = 1e-6;
+const ROUNDING: f64 = 1e-9;
+/// Rates that are left at the end of a step, 1/s, for each part of the tolerance, are none.
+const LEFT: f64 = 1e3;
+/// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
+const FARTHEST: f64 = 0.35;
+
+/// A system, a state, and the solver of its equations.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    /// What never changes.
+    pub system: System,
+    /// The state that was taken over last.
+    pub state: State,
+    /// The solver.
+    pub elimination: Elimination,
+    /// Projections of steps so far.
+    pub projections: u64,
+}
+
+impl Mechanism {
+    /// Allocates for a system.
+    pub fn new(system: System) -> Self {
+        Self { state: State::new(&system), elimination: Elimination::new(&system), system, projections: 0 }
+    }
+
+    /// Takes over t and y = (q, q̇) without evaluating anything else.
+    pub fn set_state(&mut self, t: f64, y: &[f64]) {
+        let (q, q_dot) = y.split_at(self.system.coordinates);
+        self.state.set(&self.system, t, q, q_dot);
+    }
+
+    /// Accelerations and multipliers at t and y = (q, q̇), with the terms of Baumgarte's stabilization where it is used.
+    pub fn accelerations(&mut self, t: f64, y: &[f64]) -> Accelerations<'_> {
+        self.set_state(t, y);
+        let baumgarte = self.baumgarte();
+        self.elimination.accelerate(&self.system, &self.state, baumgarte)
+    }
+
+    /// Refuses the state at the end of a step that is off the constraints: it must not be taken for a result.
+    pub fn check(&mut self, t: f64, y: &[f64]) -> Result<(), ConstraintError> {
+        self.set_state(t, y);
+        violation::check(&self.system, &self.state, t)?;
+        let settings = &self.system.model.settings;
+        if self.system.model.drivers.is_empty() || settings.stabilization != Stabilization::Projection {
+            return Ok(());
+        }
+        // What a projection leaves of the rates, no velocities satisfy.
+        let most = LEFT * settings.tolerance + UNSOLVED * state::fastest(&self.system, y);
+        if violation::largest_rate(&self.system, &self.state) <= most {
+            return Ok(());
+        }
+        self.check_motion(t, most)
+    }
+
+    /// Moves a start onto the constraints. Returns what was corrected, in words.
+    pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
+        self.state.reset_revolutions();
+        self.assemble_at(0.0, y)
+    }
+
+    /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.
+    pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
+        let n = self.system.coordinates;
+        let length = self.system.length;
+        let mut notes = Vec::new();
+        let given = y.to_vec();
+        self.set_state(t, y);
+        let was_redundant = self.elimination.is_redundant();
+        self.elimination.set_redundant(true);
+        let opening = self.state.position_violation(&self.system);
+        let mut last = f64::INFINITY;
+        // Differences of large numbers are never smaller than these are exact.
+        let rounding = |x: &[f64]| 2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+        let most = if opening <= CONSISTENT * length + rounding(&given[..n]) { 0 } else { MOST_ASSEMBLING };
+        for _ in 0..most {
+            self.elimination.linearize(&self.system, &self.state);
+            let step = self.elimination.correct_positions(&self.system, &self.state, &mut y[..n]);
+            self.state.set_positions(&self.system, &y[..n]);
+            // In a long chain rounding keeps the steps from shrinking further.
+            let stalled = step > 0.5 * last && step <= STALLED * length;
+            if step.is_nan() || step <= CONSISTENT * length || stalled {
+                break;
+            }
+            last = step;
+        }
+        let left = violation::opening(&self.system, &self.state).relative;
+        let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+        // A comparison that is false for NaN as well.
+        let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
+        if !solved {
+            return Err(self.assembly_error(t, &given, y, moved));
+        }
+        let limit = FARTHEST * length.max(1.0);
+        if moved > limit {
+            self.set_state(t, &given);
+            let opening = violation::opening(&self.system, &self.state);
+            let (joint, pointer) = (opening.names(&self.system).0, opening.pointer(&self.system));
+            return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
+        }
+        if opening > 1e-9 * length {
+            notes.push(format!(
+                "positions violated the constraints by {opening:.3e}; bodies were moved by up to {moved:.3e} onto them"
+            ));
+        }
+        self.state.set_velocities(&self.system, &y[n..]);
+        let rate = self.state.velocity_violation(&self.system);
+        if rate > CONSISTENT * length + rounding(&given[n..]) {
+            let asked = violation::rates(&self.system, &self.state).into_iter().fold(0.0, f64::max);
+            self.elimination.linearize(&self.system, &self.state);
+            for _ in 0..MOST_CORRECTING {
+                let step = self.elimination.correct_velocities(&self.system, &self.state, &mut y[n..]);
+                self.state.set_velocities(&self.system, &y[n..]);
+                if step <= CONSISTENT * length {
+                    break;
+                }
+            }
+            self.check_motion(t, UNSOLVED * asked + ROUNDING * state::fastest(&self.system, y))?;
+        }
+        let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+        if rate > 1e-9 * length {
+            notes.push(format!(
+                "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
+            ));
+        }
+        self.elimination.set_redundant(was_redundant);
+        Ok(notes)
+    }
+
+    /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
+    /// Without drivers there are always velocities: zero.
+    fn check_motion(&self, time: f64, most: f64) -> Result<(), ConstraintError> {
+        let Self { system, state, .. } = self;
+        let rates = violation::rates(system, state);
+        let drivers = (0..rates.len()).filter(|&group| system.groups[group].driver);
+        let driver = drivers.max_by(|&a, &b| rates[a].total_cmp(&rates[b]));
+        let unsolved = rates.iter().any(|rate| *rate > most);
+        let Some(driver) = driver.filter(|_| unsolved) else { return Ok(()) };
+        let others = violation::worst(&rates).into_iter().filter(|&(group, _)| group != driver);
+        let name = |group: usize| system.groups[group].name.clone();
+        Err(ConstraintError::MotionImpossible {
+            time,
+            driver: name(driver),
+            with: others.take(violation::NAMED).map(|(group, _)| name(group)).collect(),
+            pointer: violation::pointer(system, driver),
+            missed: rates[driver],
+        })
+    }
+
+    fn assembly_error(&mut self, t: f64, given: &[f64], reached: &[f64], moved: f64) -> ConstraintError {
+        // The best compromise leaves open the joints that contradict each other, and closes all others. Where there
+        // is none (bodies were stretched instead), the joint that is open at the given start says most.
+        let mut opening = violation::opening(&self.system, &self.state);
+        let worst = opening.groups.first().map_or(0.0, |&(_, open)| open);
+        if !reached.iter().all(|x| x.is_finite()) || worst < 0.1 * opening.relative {
+            self.set_state(t, given);
+            opening = violation::opening(&self.system, &self.state);
+        }
+        let (joint, with) = opening.names(&self.system);
+        let pointer = opening.pointer(&self.system);
+        let violation = opening.groups.first().map_or(opening.relative, |&(_, violation)| violation);
+        ConstraintError::Assembly { joint, with, pointer, violation, moved }
+    }
+
+    /// α and β of Baumgarte's stabilization, or zero.
+    pub fn baumgarte(&self) -> (f64, f64) {
+        match self.system.model.settings.stabilization {
+            Stabilization::Baumgarte { alpha, beta } => (alpha, beta),
+            _ => (0.0, 0.0),
+        }
+    }
+
+    /// Writes ẏ = (q̇, q̈) at t and y = (q, q̇).
+    pub fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+        let n = self.system.coordinates;
+        rate[..n].copy_from_slice(&y[n..]);
+        self.accelerations(t, y).write(&mut rate[n..]);
+    }
+
+    /// Ends an accepted step at t: counts revolutions from there, and moves y onto the constraints where projection keeps
+    /// them. ẏ is renewed if that move was not negligible.
+    pub fn settle(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
+        self.state.commit_revolutions();
+        if self.system.model.settings.stabilization != Stabilization::Projection {
+            return;
+        }
+        self.projections += 1;
+        let n = self.system.coordinates;
+        let length = self.system.length;
+        let (mut moved, mut least) = (0.0, f64::INFINITY);
+        for _ in 0..3 {
+            let step = self.elimination.correct_positions(&self.system, &self.state, &mut y[..n]);
+            self.state.set_positions(&self.system, &y[..n]);
+            moved += step;
+            // Stop when consistent, or when rounding keeps the correction from shrinking.
+            if step <= CONSISTENT * length || step > 0.5 * least {
+                break;
+            }
+            least = step;
+        }
+        self.state.set_velocities(&self.system, &y[n..]);
+        for _ in 0..2 {
+            let step = self.elimination.correct_velocities(&self.system, &self.state, &mut y[n..]);
+            self.state.set_velocities(&self.system, &y[n..]);
+            moved += step;
+            if step <= CONSISTENT * length {
+                break;
+            }
+        }
+        let tolerance = self.system.model.settings.tolerance;
+        if moved > NEGLIGIBLE * tolerance {
+            self.rate(t, y, rate);
+        } else {
+            rate[..n].copy_from_slice(&y[n..]);
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The small motions that the joints allow at one position — eq. (10.4).
+
+use crate::dynamics::elimination::Elimination;
+use crate::state::State;
+use crate::system::System;
+use nalgebra::DMatrix;
+use triad_linalg::left_null_space;
+
+/// A row of unit length of which less than this is across the others depends on them.
+const DEPENDENT: f64 = 1e-9;
+
+/// An orthonormal basis of the twists allowed, lengths of arc measured with the mechanism's length: columns of (v, ω)
+/// body by body. The positions of the state are linearized.
+pub fn twists(system: &System, state: &State, elimination: &mut Elimination) -> DMatrix<f64> {
+    let length = system.length;
+    elimination.linearize(system, state);
+    // Aᵀ with columns of unit length; A ξ = 0 does not mind.
+    let mut a = DMatrix::zeros(6 * system.bodies.len(), system.solver_rows);
+    for (index, incidence) in system.incidences.iter().enumerate() {
+        let first = system.groups[incidence.group].solver.start;
+        for (k, row) in elimination.jacobian().rows_on(system, index).chunks_exact(6).enumerate() {
+            for c in 0..6 {
+                let scale = if c < 3 { 1.0 } else { 1.0 / length };
+                a[(6 * incidence.body + c, first + k)] = row[c] * scale;
+            }
+        }
+    }
+    for mut column in a.column_iter_mut() {
+        let norm = column.norm();
+        if norm > 0.0 {
+            column /= norm;
+        }
+    }
+    let mut basis = left_null_space(&a, DEPENDENT);
+    for (row, mut values) in basis.row_iter_mut().enumerate() {
+        if row % 6 >= 3 {
+            values /= length;
+        }
+    }
+    basis
+}

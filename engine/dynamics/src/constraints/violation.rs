@@ -1,0 +1,198 @@
+//! How far a state is from its constraints, each row measured by its own size, and what else speaks against a result.
+//!
+//! A distance is compared with the length of the mechanism, a product of unit vectors with one: so a mechanism of
+//! micrometres is held as strictly as one of kilometres.
+
+use crate::constraints::ConstraintError;
+use crate::scene::{Settings, Stabilization};
+use crate::state::State;
+use crate::system::feature::Difference;
+use crate::system::row::Form;
+use crate::system::{Row, System};
+
+/// The rows that are violated most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// Largest |Φ| relative to the size of its row, rigid-body rows included.
+    pub relative: f64,
+    /// Joints and drivers that are open, the worst first: index of the group and relative |Φ|.
+    pub groups: Vec<(usize, f64)>,
+}
+
+/// Most joints that an error names.
+pub const NAMED: usize = 4;
+
+impl Opening {
+    /// Name of the joint that is open most, and of those open with it.
+    pub fn names(&self, system: &System) -> (String, Vec<String>) {
+        let name = |&(index, _): &(usize, f64)| system.groups.get(index).map(|g| g.name.clone());
+        let mut names = self.groups.iter().take(NAMED).filter_map(name);
+        (names.next().unwrap_or_default(), names.collect())
+    }
+
+    /// JSON pointer of the element that is open most.
+    pub fn pointer(&self, system: &System) -> String {
+        pointer(system, self.groups.first().map_or(0, |&(index, _)| index))
+    }
+}
+
+/// JSON pointer of a joint or driver, by the index of its group: rows are written by joints, then by drivers.
+pub fn pointer(system: &System, group: usize) -> String {
+    match group.checked_sub(system.model.joints.len()) {
+        Some(driver) => format!("/drivers/{driver}"),
+        None => format!("/joints/{group}"),
+    }
+}
+
+/// A joint counts as open with the worst one if it is violated by more than this part of it.
+const SHARE: f64 = 0.05;
+
+/// A relative |Φ| above which a run with projection has lost its constraints.
+const LOST: f64 = 1e-6;
+/// The same with Baumgarte's stabilization or penalties, which keep a bounded violation by design.
+const LOST_BY_FEEDBACK: f64 = 0.1;
+
+/// Refuses positions that are off the constraints: they are no result.
+pub fn check(system: &System, at: &State, time: f64) -> Result<(), ConstraintError> {
+    let limit = match system.model.settings.stabilization {
+        Stabilization::Projection
+        | Stabilization::Partitioning
+        | Stabilization::AugmentedLagrangian { .. } => LOST,
+        Stabilization::Baumgarte { .. } | Stabilization::Penalty { .. } => LOST_BY_FEEDBACK,
+    };
+    if relative(system, at) <= limit {
+        return Ok(());
+    }
+    let opening = opening(system, at);
+    if !opening.relative.is_finite() {
+        return Err(ConstraintError::NotFinite { time });
+    }
+    let (joint, with) = opening.names(system);
+    Err(ConstraintError::Lost { time, joint, with, violation: opening.relative })
+}
+
+/// Largest |Φ| of the positions of a state, relative to the size of its row; allocates nothing.
+pub fn relative(system: &System, at: &State) -> f64 {
+    let rows = system.rows.iter().map(|row| row_opening(system, at, &row.form));
+    rows.fold(rigid_opening(at), larger)
+}
+
+fn row_opening(system: &System, at: &State, form: &Form) -> f64 {
+    at.row_violation(form) / row_size(system, form)
+}
+
+/// Measures the positions of a state.
+pub fn opening(system: &System, at: &State) -> Opening {
+    let groups = worst(&by_group(system, |form| row_opening(system, at, form)));
+    let relative = groups.first().map_or(0.0, |&(_, open)| open);
+    Opening { relative: larger(rigid_opening(at), relative), groups }
+}
+
+/// Largest |Φ̇| of each joint and driver at the velocities of a state, relative to the size of its rows, 1/s.
+pub fn rates(system: &System, at: &State) -> Vec<f64> {
+    by_group(system, |form| at.row_rate_violation(form) / row_size(system, form))
+}
+
+/// The largest of them; allocates nothing.
+pub fn largest_rate(system: &System, at: &State) -> f64 {
+    let rows = system.rows.iter();
+    rows.map(|row| at.row_rate_violation(&row.form) / row_size(system, &row.form)).fold(0.0, larger)
+}
+
+/// The largest number of the rows of each group.
+fn by_group(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
+    let largest = |forms: &[Row]| forms.iter().map(|row| of(&row.form)).fold(0.0, larger);
+    system.groups.iter().map(|group| largest(&system.rows[group.forms.clone()])).collect()
+}
+
+/// The groups with the largest numbers, the worst first.
+pub fn worst(numbers: &[f64]) -> Vec<(usize, f64)> {
+    let worst = numbers.iter().copied().fold(0.0, larger);
+    let counts = |&(_, open): &(usize, f64)| open > SHARE * worst || open.is_nan();
+    let mut groups: Vec<(usize, f64)> = numbers.iter().copied().enumerate().filter(counts).collect();
+    groups.sort_by(|a, b| b.1.total_cmp(&a.1));
+    groups
+}
+
+/// Largest violation of a rigid-body row.
+fn rigid_opening(at: &State) -> f64 {
+    let mut largest = 0.0;
+    for state in at.bodies() {
+        for k in 0..3 {
+            for l in 0..=k {
+                let unit = if k == l { 1.0 } else { 0.0 };
+                largest = larger(largest, (state.q.e[k].dot(&state.q.e[l]) - unit).abs());
+            }
+        }
+    }
+    largest
+}
+
+/// What a row's Φ is measured in: m for each point in it.
+fn row_size(system: &System, form: &Form) -> f64 {
+    let points = |d: Difference| {
+        if system.features[d.plus].point { system.length } else { 1.0 }
+    };
+    match *form {
+        Form::Coincidence { .. } => system.length,
+        Form::Product { a, b, .. } => points(a) * points(b),
+        Form::Relation { slide: Some((_, _, factor)), .. } => (system.length * factor.abs()).max(1.0),
+        Form::CommonVector { .. } | Form::Relation { .. } => 1.0,
+    }
+}
+
+/// What a run has shown of itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Signs {
+    /// When it first passed a singular position, s.
+    pub passed: Option<f64>,
+    /// Energy that is missing, relative to the largest kinetic energy.
+    pub drift: f64,
+    /// Largest |Φ| relative to the size of its row.
+    pub open: f64,
+    /// Part of the lightest mass that is lost in the rounding of penalties.
+    pub swallowed: f64,
+}
+
+/// Energy may be missing, and rows may be open, by so many tolerances, within these bounds.
+const ALLOWED: f64 = 1e4;
+const ALLOWED_WITHIN: (f64, f64) = (1e-6, 1e-2);
+
+/// What speaks against the result of a run, in words, with what to use instead.
+pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
+    let treatment = settings.stabilization;
+    let projected = treatment == Stabilization::Projection;
+    let instead = match settings.step {
+        _ if !projected => "use projection, with taylor or dop853",
+        Some(_) => "use shorter steps, or leave their size to the tolerance",
+        None => "tighten the tolerance, or use taylor",
+    };
+    let mut doubts = Vec::new();
+    if let Some(time) = signs.passed.filter(|_| !projected) {
+        doubts.push(format!(
+            "a singular position was passed at t = {time:.6} s, through which {} holds neither the constraints nor the \
+             branch of the motion: what follows may be wrong; {instead}",
+            treatment
+        ));
+    }
+    let allowed = (ALLOWED * settings.tolerance).clamp(ALLOWED_WITHIN.0, ALLOWED_WITHIN.1);
+    for (size, what) in [
+        (signs.drift, "of the largest kinetic energy came from nowhere or went there"),
+        (signs.open, "of the mechanism's size is how far the joints are open"),
+        (signs.swallowed, "of the lightest mass is lost in the rounding of the penalties"),
+    ] {
+        // True for NaN as well.
+        if larger(size, allowed) != allowed {
+            doubts.push(format!(
+                "{size:.1e} {what}, more than a tolerance of {:.0e} promises; {instead}",
+                settings.tolerance
+            ));
+        }
+    }
+    doubts
+}
+
+/// The larger of two numbers; NaN is larger than any.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}

@@ -1,0 +1,5 @@
+//! Accelerations and multipliers: at one state by elimination, and as power series about one.
+
+pub mod elimination;
+
+pub mod series;

@@ -1,0 +1,322 @@
+//! Accelerations and multipliers by exact elimination of the rigid-body rows — THEORY section 7.
+//!
+//! The augmented system M q̈ + Φ_qᵀ λ = g, Φ_q q̈ = γ splits body by body: the rigid-body rows leave the twist
+//! ξ = (ṙ, ω) free, so that only the rows of joints remain, A ξ̇ = γ', with the 6 × 6 inertia diag(m I, I_g) of each
+//! body. Their multipliers come from S λ = …, S = A diag(m I, I_g)⁻¹ Aᵀ, which is block-sparse. This is exact for any
+//! directors, orthonormal or not, and for full and reduced bodies alike.
+
+mod factor;
+mod increment;
+mod right_side;
+mod solution;
+mod twist_jacobian;
+
+pub use solution::{Accelerations, Multipliers};
+pub use twist_jacobian::TwistJacobian;
+
+use crate::state::{AppliedForces, State};
+use crate::system::System;
+use crate::system::natural::Lift;
+use nalgebra::{Matrix3, Vector3};
+use right_side::gram;
+use triad_linalg::BlockCholesky;
+use triad_linalg::block_cholesky::Slot;
+
+/// Regularization of S where rows are redundant, relative to its diagonal.
+///
+/// Large enough that rounding in a nearly singular S stays harmless through singular positions (with 1e-11 the step
+/// control stalls there at tolerances of 1e-12), small enough that two refinements remove its effect elsewhere.
+pub const REGULARIZATION: f64 = 1e-9;
+/// A relative pivot below this calls for the regularization.
+const NEAR_SINGULAR: f64 = 1e-9;
+/// Refinement steps where the factor is that of a regularized or lent system.
+const REFINEMENTS: usize = 3;
+
+/// Work done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Counters {
+    /// Evaluations of the accelerations.
+    pub evaluations: u64,
+    /// Factorizations of S.
+    pub factorizations: u64,
+    /// Back-solves with its factor.
+    pub solves: u64,
+}
+
+/// A product A_p D⁻¹ A_qᵀ that is added to a block of S.
+#[derive(Clone, Copy, Debug)]
+struct Contribution {
+    slot: Slot,
+    left: usize,
+    right: usize,
+}
+
+/// What is solved for a body.
+#[derive(Clone, Debug, Default)]
+pub struct BodySolve {
+    /// Particular acceleration Q̈ᵖ that satisfies the rigid-body rows.
+    pub particular: Lift,
+    /// Generalized applied force G.
+    pub force: Lift,
+    /// Resultant force and moment (F, T) about the centre of mass, inertial part of Q̈ᵖ included.
+    pub wrench: [Vector3<f64>; 2],
+    /// Inverse of the inertia used by the factorization.
+    pub inverse: Matrix3<f64>,
+    /// Solution ξ̇ = (v̇, ω̇).
+    pub twist: [Vector3<f64>; 2],
+    /// ω̇ for which the regularizing inertia has been taken out so far.
+    returned: Vector3<f64>,
+}
+
+/// The linear solve: its matrices at the positions that were linearized last, and its last solution.
+#[derive(Clone, Debug)]
+pub struct Elimination {
+    bodies: Vec<BodySolve>,
+    /// C Q̈ᵖ of each feature.
+    particular: Vec<Vector3<f64>>,
+    forces: AppliedForces,
+    /// A, and A D⁻¹ block by block.
+    jacobian: TwistJacobian,
+    b: Vec<f64>,
+    factor: BlockCholesky,
+    contributions: Vec<Contribution>,
+    /// γ' of the solver rows.
+    gamma: Vec<f64>,
+    /// Multipliers of the solver rows.
+    lambda: Vec<f64>,
+    residual: Vec<f64>,
+    /// Whether S is known to be singular (redundant rows): always regularized.
+    redundant: bool,
+    /// Whether the current factor is that of a regularized S.
+    regularized: bool,
+    regularizes_inertia: bool,
+    /// Work done so far.
+    pub counters: Counters,
+}
+
+impl Elimination {
+    /// Allocates for a system.
+    pub fn new(system: &System) -> Self {
+        let sizes: Vec<usize> = system.groups.iter().map(|g| g.solver.len()).collect();
+        let edges = system.incidences_of_body.iter().flat_map(|incidences| {
+            incidences.iter().enumerate().flat_map(move |(k, &p)| {
+                incidences[k + 1..]
+                    .iter()
+                    .map(move |&q| (system.incidences[p].group, system.incidences[q].group))
+            })
+        });
+        let factor = BlockCholesky::new(&sizes, edges);
+        let mut contributions = Vec::new();
+        for incidences in &system.incidences_of_body {
+            for (k, &p) in incidences.iter().enumerate() {
+                for &q in &incidences[k..] {
+                    let slot = factor.slot(system.incidences[p].group, system.incidences[q].group);
+                    let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
+                    contributions.push(Contribution { slot, left, right });
+                }
+            }
+        }
+        let rows = system.solver_rows;
+        Self {
+            bodies: vec![BodySolve::default(); system.bodies.len()],
+            particular: vec![Vector3::zeros(); system.features.len()],
+            forces: AppliedForces::none(system),
+            jacobian: TwistJacobian::new(system),
+            b: vec![0.0; system.block_numbers],
+            factor,
+            contributions,
+            gamma: vec![0.0; rows],
+            lambda: vec![0.0; rows],
+            residual: vec![0.0; rows],
+            redundant: false,
+            regularized: false,
+            regularizes_inertia: system.regularizes_inertia(),
+            counters: Counters::default(),
+        }
+    }
+
+    /// Says that S is singular at every state, so that the regularization is not tried for first.
+    pub fn set_redundant(&mut self, redundant: bool) {
+        self.redundant = redundant;
+    }
+
+    /// Says which solver rows depend on others at every state, so that S is singular there.
+    pub fn set_dependent(&mut self, rows: &[usize]) {
+        self.redundant = !rows.is_empty();
+        self.factor.set_dependent(rows);
+    }
+
+    /// How firmly each joint holds at the positions that were factored last: see [`BlockCholesky::holds`].
+    pub fn holds(&self) -> &[f64] {
+        self.factor.pivot_products()
+    }
+
+    /// Whether S is regularized at every state.
+    pub fn is_redundant(&self) -> bool {
+        self.redundant
+    }
+
+    /// Accelerations and multipliers at a state. α and β are those of Baumgarte's stabilization, or zero.
+    pub fn accelerate<'a>(
+        &'a mut self,
+        system: &'a System,
+        state: &'a State,
+        baumgarte: (f64, f64),
+    ) -> Accelerations<'a> {
+        state.require_velocities();
+        self.linearize(system, state);
+        self.set_forces(system, state);
+        let (damping, stiffness) = (2.0 * baumgarte.0, baumgarte.1 * baumgarte.1);
+        let correction = move |value: f64, rate: f64| -damping * rate - stiffness * value;
+        self.set_particular(system, state, true, |q, q_dot| {
+            gram(|k, l| {
+                let value = q.e[k].dot(&q.e[l]) - if k == l { 1.0 } else { 0.0 };
+                let rate = q.e[k].dot(&q_dot.e[l]) + q.e[l].dot(&q_dot.e[k]);
+                -2.0 * q_dot.e[k].dot(&q_dot.e[l]) + correction(value, rate)
+            })
+        });
+        self.set_gamma(system, state, true, correction);
+        self.solve(system);
+        self.counters.evaluations += 1;
+        let multipliers = Multipliers::new(system, state, &self.jacobian, &self.lambda);
+        Accelerations::new(multipliers, &self.bodies)
+    }
+
+    /// One mass-orthogonal Newton step of the positions q towards Φ = 0, with the factor at hand. Returns the size
+    /// of the step.
+    pub fn correct_positions(&mut self, system: &System, state: &State, q: &mut [f64]) -> f64 {
+        self.clear_forces();
+        self.set_particular(system, state, false, |q, _| {
+            gram(|k, l| if k == l { 1.0 } else { 0.0 } - q.e[k].dot(&q.e[l]))
+        });
+        self.set_gamma(system, state, false, |value, _| -value);
+        self.apply_correction(system, state, q)
+    }
+
+    /// One mass-orthogonal Newton step of the velocities q̇ towards Φ̇ = 0, with the factor at hand.
+    pub fn correct_velocities(&mut self, system: &System, state: &State, q_dot: &mut [f64]) -> f64 {
+        state.require_velocities();
+        self.clear_forces();
+        self.set_particular(system, state, false, |q, q_dot| {
+            gram(|k, l| -(q.e[k].dot(&q_dot.e[l]) + q.e[l].dot(&q_dot.e[k])))
+        });
+        self.set_gamma(system, state, false, |_, rate| -rate);
+        self.apply_correction(system, state, q_dot)
+    }
+
+    fn apply_correction(&mut self, system: &System, state: &State, target: &mut [f64]) -> f64 {
+        self.solve(system);
+        let mut largest: f64 = 0.0;
+        for (index, body) in system.bodies.iter().enumerate() {
+            let solution = self.solution(state, index);
+            body.layout.own_numbers(&solution, |column, dx| {
+                target[column] += dx;
+                largest = largest.max(dx.abs());
+            });
+        }
+        largest
+    }
+
+    /// Solves for ξ̇ and λ with the wrenches and γ' in place.
+    fn solve(&mut self, system: &System) {
+        for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
+            state.twist = [state.wrench[0] / body.mass, state.inverse * state.wrench[1]];
+            state.returned = Vector3::zeros();
+        }
+        // λ = S⁻¹ (A ξ₀ − γ'), ξ = ξ₀ − D⁻¹ Aᵀ λ.
+        self.row_residual(system);
+        self.factor.solve(&mut self.residual);
+        self.counters.solves += 1;
+        self.lambda.copy_from_slice(&self.residual);
+        self.apply_multipliers(system);
+        if self.regularized || self.regularizes_inertia {
+            for _ in 0..REFINEMENTS {
+                self.remove_regularization(system);
+                self.row_residual(system);
+                self.factor.solve(&mut self.residual);
+                self.counters.solves += 1;
+                for (lambda, correction) in self.lambda.iter_mut().zip(&self.residual) {
+                    *lambda += correction;
+                }
+                self.apply_multipliers(system);
+            }
+        }
+    }
+
+    /// residual ← A ξ − γ'.
+    fn row_residual(&mut self, system: &System) {
+        for (residual, gamma) in self.residual.iter_mut().zip(&self.gamma) {
+            *residual = -gamma;
+        }
+        for incidence in &system.incidences {
+            let [v, w] = self.bodies[incidence.body].twist;
+            let first = system.groups[incidence.group].solver.start;
+            let block = &self.jacobian.a[incidence.offset..incidence.offset + 6 * incidence.rows];
+            for (a, residual) in block.chunks_exact(6).zip(&mut self.residual[first..]) {
+                *residual +=
+                    a[0] * v[0] + a[1] * v[1] + a[2] * v[2] + a[3] * w[0] + a[4] * w[1] + a[5] * w[2];
+            }
+        }
+    }
+
+    /// ξ ← ξ − D⁻¹ Aᵀ (residual as multipliers).
+    fn apply_multipliers(&mut self, system: &System) {
+        for incidence in &system.incidences {
+            let [v, w] = &mut self.bodies[incidence.body].twist;
+            let first = system.groups[incidence.group].solver.start;
+            let block = &self.b[incidence.offset..incidence.offset + 6 * incidence.rows];
+            for (b, lambda) in block.chunks_exact(6).zip(&self.residual[first..]) {
+                for c in 0..3 {
+                    v[c] -= b[c] * lambda;
+                    w[c] -= b[3 + c] * lambda;
+                }
+            }
+        }
+    }
+
+    /// One proximal step for bodies whose inertia is regularized: D_δ ξ_(k+1) = D_δ ξ_k + δ (ω̇_k − ω̇_(k−1)).
+    fn remove_regularization(&mut self, system: &System) {
+        if !self.regularizes_inertia {
+            return;
+        }
+        for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
+            if body.regularizing_inertia > 0.0 {
+                let current = state.twist[1];
+                state.twist[1] += state.inverse * ((current - state.returned) * body.regularizing_inertia);
+                state.returned = current;
+            }
+        }
+    }
+
+    /// Q̈ (or a correction of Q) of a body from the last solution, which belongs to this state.
+    pub fn solution(&self, state: &State, body: usize) -> Lift {
+        natural_acceleration(&self.bodies[body], &state.bodies()[body].q)
+    }
+
+    /// What was solved for each body.
+    pub fn bodies(&self) -> &[BodySolve] {
+        &self.bodies
+    }
+
+    /// A at the positions that were linearized last.
+    pub fn jacobian(&self) -> &TwistJacobian {
+        &self.jacobian
+    }
+
+    /// The rows A_b D_b⁻¹ of an incidence, six numbers each.
+    pub fn weighted_rows_on(&self, system: &System, incidence: usize) -> &[f64] {
+        let incidence = &system.incidences[incidence];
+        &self.b[incidence.offset..incidence.offset + 6 * incidence.rows]
+    }
+
+    /// The joints in the order in which S is eliminated.
+    pub fn elimination_order(&self) -> Vec<usize> {
+        self.factor.order()
+    }
+}
+
+/// Q̈ = Q̈ᵖ + (v̇, ω̇ × e_k) of a body at position q.
+fn natural_acceleration(body: &BodySolve, q: &Lift) -> Lift {
+    let e = [0, 1, 2].map(|k| body.particular.e[k] + body.twist[1].cross(&q.e[k]));
+    Lift { r: body.twist[0], e }
+}

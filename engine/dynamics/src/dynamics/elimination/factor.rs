@@ -1,0 +1,107 @@
+//! S = A D⁻¹ Aᵀ and its factor — eq. (7.6).
+
+use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
+use crate::state::State;
+use crate::system::System;
+use crate::system::natural::Lift;
+use nalgebra::{Matrix3, Vector3};
+use triad_linalg::block_cholesky::stride;
+
+impl Elimination {
+    /// Builds A, S and its factor at the positions of a state.
+    pub fn linearize(&mut self, system: &System, state: &State) {
+        self.set_up(system, state);
+        self.regularized = self.redundant;
+        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
+        self.assemble(system);
+        let smallest = self.factor.factor(epsilon, 0.0);
+        self.counters.factorizations += 1;
+        if !self.redundant && smallest < NEAR_SINGULAR {
+            self.regularized = true;
+            self.assemble(system);
+            self.factor.factor(REGULARIZATION, 0.0);
+            self.counters.factorizations += 1;
+        }
+    }
+
+    /// Relative pivots of S at the positions of a state, with dependent rows dropped: (solver row, pivot). The factor is
+    /// none to solve with.
+    pub fn pivots(&mut self, system: &System, state: &State, skip: f64) -> Vec<(usize, f64)> {
+        self.set_up(system, state);
+        self.assemble(system);
+        self.factor.factor(0.0, skip);
+        self.factor.relative_pivots().iter().copied().enumerate().collect()
+    }
+
+    /// From now on keeps how firmly joints hold.
+    pub fn keep_holds(&mut self) {
+        self.factor.keep_pivot_products();
+    }
+
+    /// How firmly each joint holds at the positions of a state: see [`triad_linalg::BlockCholesky::pivot_products`]. The factor is
+    /// none to solve with.
+    pub fn holds_at(&mut self, system: &System, state: &State) -> &[f64] {
+        self.set_up(system, state);
+        self.assemble(system);
+        self.factor.factor(0.0, 0.0);
+        self.factor.pivot_products()
+    }
+
+    fn set_up(&mut self, system: &System, state: &State) {
+        self.jacobian.fill(system, state);
+        let bodies = system.bodies.iter().zip(state.bodies());
+        for (solve, (body, at)) in self.bodies.iter_mut().zip(bodies) {
+            solve.inverse = inverse_inertia(&at.q, &body.ibar, body.regularizing_inertia);
+        }
+        self.scale_blocks(system);
+    }
+
+    fn scale_blocks(&mut self, system: &System) {
+        for incidence in &system.incidences {
+            let inverse = &self.bodies[incidence.body].inverse;
+            let inverse_mass = 1.0 / system.bodies[incidence.body].mass;
+            let range = incidence.offset..incidence.offset + 6 * incidence.rows;
+            for (a, b) in
+                self.jacobian.a[range.clone()].chunks_exact(6).zip(self.b[range].chunks_exact_mut(6))
+            {
+                let moment = inverse * Vector3::new(a[3], a[4], a[5]);
+                for c in 0..3 {
+                    b[c] = a[c] * inverse_mass;
+                    b[3 + c] = moment[c];
+                }
+            }
+        }
+    }
+
+    fn assemble(&mut self, system: &System) {
+        self.factor.clear();
+        let values = self.factor.values_mut();
+        for contribution in &self.contributions {
+            let (left, right) =
+                (&system.incidences[contribution.left], &system.incidences[contribution.right]);
+            let a = &self.jacobian.a[left.offset..left.offset + 6 * left.rows];
+            let b = &self.b[right.offset..right.offset + 6 * right.rows];
+            let target = &mut values[contribution.slot.offset..];
+            for (a, out) in a.chunks_exact(6).zip(target.chunks_exact_mut(stride(right.rows))) {
+                for (b, out) in b.chunks_exact(6).zip(out) {
+                    *out += a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+                }
+            }
+        }
+    }
+}
+
+/// Inverse of I_g = Σ Ī_k (|e_k|² I − e_k e_kᵀ), with `regularization` added to its diagonal.
+fn inverse_inertia(q: &Lift, ibar: &Vector3<f64>, regularization: f64) -> Matrix3<f64> {
+    let mut inertia = Matrix3::from_diagonal_element(regularization);
+    for k in 0..3 {
+        let e = q.e[k];
+        let trace = ibar[k] * e.norm_squared();
+        inertia += Matrix3::from_diagonal_element(trace) - e * e.transpose() * ibar[k];
+    }
+    let [a, b, c] = [0, 1, 2].map(|k| inertia.column(k).into_owned());
+    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
+    let scale = 1.0 / a.dot(&bc);
+    // Rows of the inverse of a matrix with columns a, b, c; it is symmetric.
+    Matrix3::from_columns(&[bc * scale, ca * scale, ab * scale])
+}

@@ -1,0 +1,183 @@
+//! Right-hand sides: the particular accelerations that satisfy the rigid-body rows, the wrenches and γ — eq. (7.1).
+
+use super::Elimination;
+use crate::model::BodyRef;
+use crate::scene::Coordinates;
+use crate::state::{BodyState, State};
+use crate::system::System;
+use crate::system::feature::Difference;
+use crate::system::natural::Lift;
+use crate::system::row::Form;
+use nalgebra::{Matrix3, Vector3};
+
+impl Elimination {
+    /// Sets the particular accelerations and the wrenches from the right-hand sides Γ of the rigid-body rows.
+    ///
+    /// `gamma(q, q̇)` returns the symmetric matrix of those rows of a body: units on the diagonal, right angles off it.
+    pub(super) fn set_particular(
+        &mut self,
+        system: &System,
+        state: &State,
+        velocity_terms: bool,
+        gamma: impl Fn(&Lift, &Lift) -> Matrix3<f64>,
+    ) {
+        let bodies = system.bodies.iter().zip(state.bodies());
+        for (solve, (body, at)) in self.bodies.iter_mut().zip(bodies) {
+            let g = gamma(&at.q, &at.q_dot);
+            let particular = particular_directors(
+                body.coordinates,
+                &at.q,
+                &g,
+                |w, a| {
+                    if velocity_terms {
+                        *w += 2.0 * a.e[0].cross(&a.e[1]);
+                    }
+                },
+                &at.q_dot,
+            );
+            solve.particular = Lift { r: Vector3::zeros(), e: particular };
+            let mut moment = Vector3::zeros();
+            for k in 0..3 {
+                let p = solve.force.e[k] - particular[k] * body.ibar[k];
+                moment += at.q.e[k].cross(&p);
+            }
+            solve.wrench = [solve.force.r, moment];
+        }
+        for (particular, feature) in self.particular[..system.moving].iter_mut().zip(&system.features) {
+            if let BodyRef::Moving(body) = feature.body {
+                *particular = self.bodies[body].particular.arm(&feature.local);
+            }
+        }
+        for place in system.moving..system.changing {
+            let feature = &system.features[place];
+            let Some(curve) = feature.curve else { continue };
+            let [local, local_rate, local_acceleration] = state.curve(curve);
+            let mut particular = Vector3::zeros();
+            if let BodyRef::Moving(body) = feature.body {
+                let BodyState { q, q_dot } = &state.bodies()[body];
+                particular += self.bodies[body].particular.arm(&local);
+                if velocity_terms {
+                    particular += q_dot.arm(&local_rate) * 2.0 + q.arm(&local_acceleration);
+                }
+            } else if velocity_terms {
+                particular = local_acceleration;
+            }
+            self.particular[place] = particular;
+        }
+    }
+
+    /// Writes γ' = γ − Φ_Q Q̈ᵖ of the solver rows, γ of a product's velocity terms included if asked for, and of
+    /// each equation whatever `shift(Φ, Φ̇)` adds.
+    pub(super) fn set_gamma(
+        &mut self,
+        system: &System,
+        state: &State,
+        velocity_terms: bool,
+        shift: impl Fn(f64, f64) -> f64,
+    ) {
+        for (index, row) in system.rows.iter().enumerate() {
+            match row.form {
+                Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
+                    let value = state.feature_value(a) - state.feature_value(b);
+                    let rate = state.feature_rate(a) - state.feature_rate(b);
+                    let gamma = Vector3::from_fn(|k, _| shift(value[k], rate[k]))
+                        - (self.particular[a] - self.particular[b]);
+                    if matches!(row.form, Form::Coincidence { .. }) {
+                        self.gamma[row.solver..row.solver + 3].copy_from_slice(gamma.as_slice());
+                    } else {
+                        for k in 0..2 {
+                            self.gamma[row.solver + k] = self.jacobian.transverse(index)[k].dot(&gamma);
+                        }
+                    }
+                }
+                Form::Product { a, b, target } => {
+                    let [c, c_rate, c_acceleration] = state.target(target);
+                    let product = state.product(a, b);
+                    let mut gamma = shift(product.value - c, product.rate - c_rate)
+                        - self.particular_product(state, a, b);
+                    if velocity_terms {
+                        gamma += c_acceleration - product.curvature;
+                    }
+                    self.gamma[row.solver] = gamma;
+                }
+                Form::Relation { .. } => {
+                    let relation = state.relation(&row.form);
+                    let mut gamma = shift(relation.value, relation.rate)
+                        - self.particular_relation(system, state, &row.form);
+                    if velocity_terms {
+                        gamma -= relation.curvature;
+                    }
+                    self.gamma[row.solver] = gamma;
+                }
+            }
+        }
+    }
+
+    /// The second derivative of a · b along Q̈ᵖ.
+    pub(super) fn particular_product(&self, state: &State, a: Difference, b: Difference) -> f64 {
+        let (x, y) = (a.of(|f| state.feature_value(f)), b.of(|f| state.feature_value(f)));
+        let (xp, yp) = (a.of(|f| self.particular[f]), b.of(|f| self.particular[f]));
+        x.dot(&yp) + xp.dot(&y)
+    }
+
+    /// The second derivative of the left side of a relation along Q̈ᵖ.
+    pub(super) fn particular_relation(&self, system: &System, state: &State, form: &Form) -> f64 {
+        let mut sum = 0.0;
+        let Form::Relation { angles, slide, .. } = *form else { return sum };
+        for (angle, factor) in angles.into_iter().flatten() {
+            let features = system.angles[angle].features();
+            let gradient = &state.angles()[angle].gradient;
+            let particular: f64 =
+                features.iter().zip(gradient).map(|(&f, g)| g.dot(&self.particular[f])).sum();
+            sum += factor * particular;
+        }
+        if let Some((a, b, factor)) = slide {
+            sum += factor * self.particular_product(state, a, b);
+        }
+        sum
+    }
+
+    /// Weight of each body and all loads at a state.
+    pub fn set_forces(&mut self, system: &System, state: &State) {
+        self.forces.evaluate(system, state);
+        for (solve, force) in self.bodies.iter_mut().zip(&self.forces.bodies) {
+            solve.force = *force;
+        }
+    }
+
+    pub(super) fn clear_forces(&mut self) {
+        for solve in &mut self.bodies {
+            solve.force = Lift::default();
+        }
+    }
+}
+
+/// Symmetric 3 × 3 matrix of entries (k, l), k ≥ l.
+pub(super) fn gram(entry: impl Fn(usize, usize) -> f64) -> Matrix3<f64> {
+    let (a, b, c) = (entry(1, 0), entry(2, 0), entry(2, 1));
+    Matrix3::new(entry(0, 0), a, b, a, entry(1, 1), c, b, c, entry(2, 2))
+}
+
+/// ë_l = ½ Σ_k Γ_kl eᵏ with the dual basis eᵏ of the directors — eq. (7.1). For a reduced body only u and v have
+/// rows, and ẅ follows from w = u × v; `extra` adds its velocity term.
+pub(super) fn particular_directors(
+    coordinates: Coordinates,
+    q: &Lift,
+    gamma: &Matrix3<f64>,
+    extra: impl Fn(&mut Vector3<f64>, &Lift),
+    q_dot: &Lift,
+) -> [Vector3<f64>; 3] {
+    let [u, v, w] = q.e;
+    let dual = [v.cross(&w), w.cross(&u), u.cross(&v)];
+    let half = 0.5 / u.dot(&dual[0]);
+    match coordinates {
+        Coordinates::Full | Coordinates::Shared => [0, 1, 2]
+            .map(|l| (dual[0] * gamma[(0, l)] + dual[1] * gamma[(1, l)] + dual[2] * gamma[(2, l)]) * half),
+        Coordinates::Reduced => {
+            let [a, b] = [0, 1].map(|l| (dual[0] * gamma[(0, l)] + dual[1] * gamma[(1, l)]) * half);
+            let mut c = a.cross(&v) + u.cross(&b);
+            extra(&mut c, q_dot);
+            [a, b, c]
+        }
+    }
+}

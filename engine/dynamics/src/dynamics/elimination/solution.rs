@@ -1,0 +1,91 @@
+//! What an evaluation has found at a state: accelerations and multipliers. They hold the state, so that it cannot change
+//! under them.
+
+use super::{BodySolve, TwistJacobian, natural_acceleration};
+use crate::state::State;
+use crate::system::System;
+use crate::system::natural::Lift;
+use crate::system::row::Form;
+use nalgebra::Vector3;
+
+/// Multipliers of all joints and drivers at a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Multipliers<'a> {
+    /// The system.
+    pub system: &'a System,
+    /// The state.
+    pub state: &'a State,
+    /// A at that state.
+    pub jacobian: &'a TwistJacobian,
+    lambda: &'a [f64],
+}
+
+impl<'a> Multipliers<'a> {
+    /// Of the multipliers of the solver rows, with A at the state.
+    pub fn new(system: &'a System, state: &'a State, jacobian: &'a TwistJacobian, lambda: &'a [f64]) -> Self {
+        Self { system, state, jacobian, lambda }
+    }
+
+    /// λ of the solver rows.
+    pub fn solver_rows(&self) -> &'a [f64] {
+        self.lambda
+    }
+
+    /// λ of the equations of a row, as written: those of a common vector are μ₁ t₁ + μ₂ t₂.
+    pub fn of_row(&self, index: usize) -> Vec<f64> {
+        let row = &self.system.rows[index];
+        match row.form {
+            Form::Coincidence { .. } => self.lambda[row.solver..row.solver + 3].to_vec(),
+            Form::CommonVector { .. } => {
+                let [t1, t2] = self.jacobian.transverse(index);
+                let sum = t1 * self.lambda[row.solver] + t2 * self.lambda[row.solver + 1];
+                sum.as_slice().to_vec()
+            }
+            Form::Product { .. } | Form::Relation { .. } => vec![self.lambda[row.solver]],
+        }
+    }
+
+    /// Force and moment about the centre of mass, −A_bᵀ λ, of a joint on a body.
+    pub fn wrench_on(&self, incidence: usize) -> [Vector3<f64>; 2] {
+        let group = self.system.incidences[incidence].group;
+        let lambda = &self.lambda[self.system.groups[group].solver.clone()];
+        let mut wrench = [Vector3::zeros(); 2];
+        let rows = self.jacobian.rows_on(self.system, incidence);
+        for (a, lambda) in rows.chunks_exact(6).zip(lambda) {
+            wrench[0] -= Vector3::new(a[0], a[1], a[2]) * *lambda;
+            wrench[1] -= Vector3::new(a[3], a[4], a[5]) * *lambda;
+        }
+        wrench
+    }
+}
+
+/// Accelerations and multipliers at a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Accelerations<'a> {
+    /// The multipliers.
+    pub multipliers: Multipliers<'a>,
+    bodies: &'a [BodySolve],
+}
+
+impl<'a> Accelerations<'a> {
+    pub(super) fn new(multipliers: Multipliers<'a>, bodies: &'a [BodySolve]) -> Self {
+        Self { multipliers, bodies }
+    }
+
+    /// Q̈ of a body.
+    pub fn of_body(&self, body: usize) -> Lift {
+        natural_acceleration(&self.bodies[body], &self.multipliers.state.bodies()[body].q)
+    }
+
+    /// G of a body, its generalized applied force.
+    pub fn force_on(&self, body: usize) -> &'a Lift {
+        &self.bodies[body].force
+    }
+
+    /// Writes q̈.
+    pub fn write(&self, out: &mut [f64]) {
+        for (index, body) in self.multipliers.system.bodies.iter().enumerate() {
+            body.layout.store(&self.of_body(index), out);
+        }
+    }
+}

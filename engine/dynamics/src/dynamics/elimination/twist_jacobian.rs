@@ -1,0 +1,121 @@
+//! The twist Jacobian A of the solver rows: six columns for each body — eq. (7.4).
+
+use crate::state::State;
+use crate::system::row::Form;
+use crate::system::{NO_INCIDENCE, Row, System};
+use nalgebra::Vector3;
+use triad_linalg::orthonormal_basis;
+
+/// A, block by block, in twist form.
+#[derive(Clone, Debug)]
+pub struct TwistJacobian {
+    pub(super) a: Vec<f64>,
+    /// For each row of form `CommonVector`, the two directions across the vector.
+    transverse: Vec<[Vector3<f64>; 2]>,
+}
+
+impl TwistJacobian {
+    /// Allocates for a system.
+    pub fn new(system: &System) -> Self {
+        Self {
+            a: vec![0.0; system.block_numbers],
+            transverse: vec![[Vector3::zeros(); 2]; system.rows.len()],
+        }
+    }
+
+    /// The two directions across the vector of row `index` that the solver keeps.
+    pub fn transverse(&self, index: usize) -> [Vector3<f64>; 2] {
+        self.transverse[index]
+    }
+
+    /// The rows A_b of an incidence, six numbers each: translation, then rotation.
+    pub fn rows_on(&self, system: &System, incidence: usize) -> &[f64] {
+        let incidence = &system.incidences[incidence];
+        &self.a[incidence.offset..incidence.offset + 6 * incidence.rows]
+    }
+
+    /// Takes A at the positions of a state.
+    pub fn fill(&mut self, system: &System, state: &State) {
+        self.a.fill(0.0);
+        for (index, row) in system.rows.iter().enumerate() {
+            match row.form {
+                Form::Coincidence { a, b } => {
+                    for k in 0..3 {
+                        let g = Vector3::ith(k, 1.0);
+                        self.add_gradient(system, state, row, k, 0, a, &g);
+                        self.add_gradient(system, state, row, k, 1, b, &-g);
+                    }
+                }
+                Form::CommonVector { a, b } => {
+                    self.transverse[index] = orthonormal_basis(&state.feature_value(a).normalize());
+                    for k in 0..2 {
+                        let t = self.transverse[index][k];
+                        self.add_gradient(system, state, row, k, 0, a, &t);
+                        self.add_gradient(system, state, row, k, 1, b, &-t);
+                    }
+                }
+                Form::Product { a, b, .. } => {
+                    let (x, y) = (a.of(|f| state.feature_value(f)), b.of(|f| state.feature_value(f)));
+                    let mut place = 0;
+                    for (difference, g) in [(a, y), (b, x)] {
+                        self.add_gradient(system, state, row, 0, place, difference.plus, &g);
+                        place += 1;
+                        if let Some(minus) = difference.minus {
+                            self.add_gradient(system, state, row, 0, place, minus, &-g);
+                            place += 1;
+                        }
+                    }
+                }
+                Form::Relation { angles, slide, .. } => {
+                    let mut place = 0;
+                    for (angle, factor) in angles.into_iter().flatten() {
+                        let gradient = state.angles()[angle].gradient;
+                        for (feature, g) in system.angles[angle].features().into_iter().zip(gradient) {
+                            self.add_gradient(system, state, row, 0, place, feature, &(g * factor));
+                            place += 1;
+                        }
+                    }
+                    if let Some((a, b, factor)) = slide {
+                        let (x, y) = (a.of(|f| state.feature_value(f)), b.of(|f| state.feature_value(f)));
+                        for (difference, g) in [(a, y * factor), (b, x * factor)] {
+                            self.add_gradient(system, state, row, 0, place, difference.plus, &g);
+                            place += 1;
+                            if let Some(minus) = difference.minus {
+                                self.add_gradient(system, state, row, 0, place, minus, &-g);
+                                place += 1;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the row gᵀ C of one feature, in twist form (g, arm × g) — eq. (7.4).
+    fn add_gradient(
+        &mut self,
+        system: &System,
+        state: &State,
+        row: &Row,
+        k: usize,
+        place: usize,
+        feature: usize,
+        g: &Vector3<f64>,
+    ) {
+        let incidence = row.incidence[place];
+        if incidence == NO_INCIDENCE {
+            return;
+        }
+        let at = system.incidences[incidence].offset + 6 * (row.local + k);
+        let moment = state.feature_arm(feature).cross(g);
+        let block = &mut self.a[at..at + 6];
+        if system.features[feature].point {
+            for c in 0..3 {
+                block[c] += g[c];
+            }
+        }
+        for c in 0..3 {
+            block[3 + c] += moment[c];
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers; and
+//! the power of what drivers and loads bring in — eq. (11.8).
+
+use super::{Bodies, Dependent, Series};
+use crate::dynamics::elimination::TwistJacobian;
+use crate::system::System;
+use nalgebra::Vector3;
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
+    /// What rows demand of κ Q_(n+2) beyond its own part.
+    #[inline(always)]
+    pub(super) fn demand(&mut self, n: usize, kappa: f64) {
+        if self.rows.curved() {
+            self.rows.set_convolutions(n, kappa);
+        }
+        self.angles.demand(n + 2, kappa, &mut self.rows.extra);
+        self.prescribed.demand(n + 2, kappa, &mut self.rows.extra);
+    }
+
+    /// Generalized forces of order n that loads and multipliers of lower order make.
+    #[inline(always)]
+    pub(super) fn set_known_forces(&mut self, n: usize) {
+        self.forces.fill([[0.0; L]; 3]);
+        self.rows.add_known_forces(n, &mut self.forces);
+        self.angles.add_known_forces(n, &mut self.forces);
+        let (q, stride) = (&self.q, self.stride);
+        let coefficient = |b: usize, i: usize| &q[b * stride + i];
+        self.loads.apply::<L, B>(n, coefficient, &mut self.forces, &mut self.bundles);
+        self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
+        for bundle in &mut self.bundles {
+            for slot in bundle.slots() {
+                B::pull_back(&self.slots[slot], &self.forces[slot], bundle.force_mut());
+            }
+        }
+    }
+
+    /// What prescribed features have in order m besides the part that their bodies' coefficient m makes.
+    #[inline(always)]
+    pub(super) fn prepare_prescribed(&mut self, m: usize, factor: f64) {
+        let (q, stride) = (&self.q, self.stride);
+        self.prescribed.prepare::<L, B>(m, factor, |b, i| &q[b * stride + i]);
+    }
+
+    /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
+    pub(super) fn find_power(&mut self, order: usize) {
+        let (q, stride, lambda, rows) = (&self.q, self.stride, &self.lambda, self.correction.len());
+        let coefficient = |b: usize, i: usize| &q[b * stride + i];
+        let multiplier = |i: usize, row: usize| lambda[i * rows + row];
+        self.power.fill(0.0);
+        for (n, power) in self.power.iter_mut().enumerate().take(order.saturating_sub(1)) {
+            *power = self.loads.power::<L, B>(n, coefficient)
+                + self.prescribed.power::<L, B>(n, coefficient, multiplier);
+        }
+    }
+
+    /// Work of drivers and of loads without potential in a time τ after the point of the last expansion, J.
+    pub fn work(&self, tau: f64) -> f64 {
+        self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
+    }
+
+    /// Multipliers of the solver rows a time τ after the point of the last expansion, from the series up to order `order` of
+    /// Q; A is that of the state there. Not where rows are redundant: which of all multipliers that fit are smallest
+    /// changes within a step.
+    pub fn multipliers(
+        &self,
+        system: &System,
+        tau: f64,
+        order: usize,
+        jacobian: &TwistJacobian,
+    ) -> Option<Vec<f64>> {
+        if self.dependent != Dependent::None || order < 2 {
+            return None;
+        }
+        let rows = self.correction.len();
+        let last = (order - 1) * rows;
+        let multiplier = |row: usize| {
+            let coefficients = self.lambda[..last].iter().skip(row).step_by(rows);
+            coefficients.rev().fold(0.0, |sum, c| sum * tau + c)
+        };
+        let mut lambda: Vec<f64> = (0..rows).map(multiplier).collect();
+        for common in &self.rows.commons {
+            // From the directions across the vector at the point of expansion to those at the state.
+            let [t1, t2] = common.expanded.map(Vector3::from);
+            let first = system.rows[common.index].solver;
+            let sum = t1 * lambda[first] + t2 * lambda[first + 1];
+            for (k, t) in jacobian.transverse(common.index).iter().enumerate() {
+                lambda[first + k] = t.dot(&sum);
+            }
+        }
+        Some(lambda)
+    }
+
+    /// Takes over the time of the state, s: prescribed functions are expanded about it.
+    pub fn set_time(&mut self, t: f64) {
+        self.time = t;
+        self.prescribed.expand(t, &mut self.slots, &mut self.ground);
+        self.loads.expand(t);
+        self.next_break = self.prescribed.next_break(t).min(self.loads.next_break(t));
+    }
+
+    /// How many times prescribed functions change to another piece before `end`, at most so many.
+    pub fn knots_before(&self, end: f64, most: usize) -> usize {
+        let next = |&t: &f64| Some(self.prescribed.next_break(t).min(self.loads.next_break(t)));
+        std::iter::successors(Some(self.next_break), next).take(most).take_while(|&t| t < end).count()
+    }
+
+    /// Whether prescribed functions are, a time h after the point of expansion, what their series say, but for a
+    /// relative error.
+    pub(super) fn meets_prescribed(&self, h: f64, time: f64, error: f64) -> bool {
+        self.prescribed.meets(h, time, error) && self.loads.meets(h, time, error)
+    }
+}

@@ -1,0 +1,352 @@
+//! Joint angles as series, and the rows that relate them: gears and screws — eq. (11.6), (11.7).
+
+use super::lanes::Triple;
+use super::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, value};
+use super::rows::Place;
+use crate::state::AngleState;
+use crate::system::System;
+use crate::system::feature::{Difference, FeatureId};
+use crate::system::row::Form;
+use nalgebra::Vector3;
+
+/// The angle of a joint, θ = atan2(a₂ · b, a₁ · b).
+#[derive(Clone, Debug)]
+pub struct Angle {
+    places: [Place; 3],
+    /// Coefficients of a₁, a₂, b, of x = a₁ · b, y = a₂ · b and x² + y², and of x and y over x² + y².
+    vectors: [Vectors; 3],
+    x: Vec<f64>,
+    y: Vec<f64>,
+    square: Vec<f64>,
+    cosine: Vec<f64>,
+    sine: Vec<f64>,
+    /// Coefficients of θ.
+    pub theta: Vec<f64>,
+    /// Value and gradient at the state; whole turns are counted from the value that the last series gave.
+    pub state: AngleState,
+}
+
+impl Angle {
+    fn new(places: [Place; 3], stride: usize, start: f64) -> Self {
+        let scalar = || vec![0.0; stride];
+        Self {
+            places,
+            vectors: [0; 3].map(|_| vec![Vector3::zeros(); stride]),
+            x: scalar(),
+            y: scalar(),
+            square: scalar(),
+            cosine: scalar(),
+            sine: scalar(),
+            theta: scalar(),
+            state: AngleState { reference: start, ..AngleState::default() },
+        }
+    }
+
+    /// Takes over the positions of the features.
+    pub fn place<const L: usize>(&mut self, values: &[Triple<L>]) {
+        self.state.set_position(self.places.map(|p| p.get(values).into()));
+    }
+
+    /// Takes over coefficient m of the features, all before it being known.
+    pub fn store<const L: usize>(&mut self, m: usize, values: &[Triple<L>]) {
+        for (vectors, place) in self.vectors.iter_mut().zip(self.places) {
+            vectors[m] = place.get(values).into();
+        }
+        let [a1, a2, b] = &self.vectors;
+        self.x[m] = dot(a1, b, m);
+        self.y[m] = dot(a2, b, m);
+        self.square[m] = product(&self.x, &self.x, m) + product(&self.y, &self.y, m);
+        self.cosine[m] = quotient(self.x[m], &self.square, &self.cosine, m);
+        self.sine[m] = quotient(self.y[m], &self.square, &self.sine, m);
+        if m == 0 {
+            self.place(values);
+            self.theta[0] = self.state.value;
+        } else {
+            self.theta[m] = self.term(m, self.x[m], self.y[m]);
+        }
+    }
+
+    /// θ_m for given x_m and y_m: ρ θ̇ = x ẏ − y ẋ with ρ = x² + y².
+    fn term(&self, m: usize, x_m: f64, y_m: f64) -> f64 {
+        let (x, y) = (&self.x, &self.y);
+        let mut sum = m as f64 * (x[0] * y_m - y[0] * x_m);
+        for i in 1..m {
+            let k = (m - i) as f64;
+            sum += k * (x[i] * y[m - i] - y[i] * x[m - i] - self.square[i] * self.theta[m - i]);
+        }
+        sum / (m as f64 * self.square[0])
+    }
+
+    /// θ_m without what coefficient m of the features adds to it.
+    fn known(&self, m: usize) -> f64 {
+        let [a1, a2, b] = &self.vectors;
+        self.term(m, inner_dot(a1, b, m), inner_dot(a2, b, m))
+    }
+
+    /// Ends a step: whole turns are counted from the value at its end.
+    pub fn advance(&mut self, h: f64, order: usize) {
+        self.state.reference = value(&self.theta[..=order], h);
+    }
+
+    /// How far the angle turns at most within h, rad.
+    pub fn sweep(&self, h: f64, order: usize) -> f64 {
+        self.theta[1..=order].iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * h)
+    }
+}
+
+/// A row Σ cᵢ θᵢ + d (x · y) − c = 0.
+#[derive(Clone, Debug)]
+struct Relation {
+    row: usize,
+    constant: f64,
+    angles: [Option<Turn>; 2],
+    slide: Option<Slide>,
+    /// Coefficients of its multiplier.
+    lambda: Vec<f64>,
+    /// Its features and gradient with respect to them at the state, in the order of [`Form::features`].
+    places: Vec<Place>,
+    gradients: Vec<Vector3<f64>>,
+}
+
+/// The part of an angle, with the series of its multiplier times x and y over x² + y².
+#[derive(Clone, Debug)]
+struct Turn {
+    angle: usize,
+    factor: f64,
+    cosine: Vec<f64>,
+    sine: Vec<f64>,
+}
+
+/// The part of a displacement: minuend and subtrahend of both factors, and their series.
+#[derive(Clone, Debug)]
+struct Slide {
+    places: [[Option<Place>; 2]; 2],
+    factor: f64,
+    sides: [Vectors; 2],
+}
+
+impl Slide {
+    fn side<const L: usize>(&self, side: usize, values: &[Triple<L>]) -> Vector3<f64> {
+        let [plus, minus] = self.places[side].map(|p| p.map_or(Vector3::zeros(), |p| p.get(values).into()));
+        plus - minus
+    }
+}
+
+/// All angles, and the rows that relate them.
+#[derive(Clone, Debug)]
+pub struct Angles {
+    /// The angles, in the order of the system's.
+    pub list: Vec<Angle>,
+    relations: Vec<Relation>,
+}
+
+impl Angles {
+    /// Of a system, with room for `stride` coefficients; `turns` are the angles at the start.
+    pub fn new(system: &System, place: &[Place], stride: usize, turns: &[f64]) -> Self {
+        let starts = turns.iter().copied().chain(std::iter::repeat(0.0));
+        let angles = system.angles.iter().zip(starts);
+        let list = angles.map(|(a, start)| Angle::new(a.features().map(|f| place[f]), stride, start));
+        let relations = system.rows.iter().filter_map(|row| {
+            let Form::Relation { angles, slide, constant } = row.form else { return None };
+            let places: Vec<Place> = row.form.features(&system.angles).iter().map(|&f| place[f]).collect();
+            let at = |f: FeatureId| place[f];
+            let pair = |d: Difference| [Some(at(d.plus)), d.minus.map(at)];
+            Some(Relation {
+                row: row.solver,
+                constant,
+                angles: angles.map(|term| {
+                    let (angle, factor) = term?;
+                    Some(Turn { angle, factor, cosine: vec![0.0; stride], sine: vec![0.0; stride] })
+                }),
+                slide: slide.map(|(a, b, factor)| Slide {
+                    places: [pair(a), pair(b)],
+                    factor,
+                    sides: [0; 2].map(|_| vec![Vector3::zeros(); stride]),
+                }),
+                lambda: vec![0.0; stride],
+                gradients: vec![Vector3::zeros(); places.len()],
+                places,
+            })
+        });
+        Self { relations: relations.collect(), list: list.collect() }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty() && self.relations.is_empty()
+    }
+
+    /// Takes over the positions of features: values and gradients at the state.
+    pub fn place<const L: usize>(&mut self, values: &[Triple<L>]) {
+        for angle in &mut self.list {
+            angle.place(values);
+        }
+        for relation in &mut self.relations {
+            relation.set_gradients(&self.list, values);
+        }
+    }
+
+    /// Gradient k of relation r.
+    pub fn gradient(&self, r: usize, k: usize) -> [f64; 3] {
+        self.relations[r].gradients[k].into()
+    }
+
+    /// Takes over coefficient m of all features.
+    #[inline(always)]
+    pub fn store<const L: usize>(&mut self, m: usize, values: &[Triple<L>]) {
+        for angle in &mut self.list {
+            angle.store(m, values);
+        }
+        for relation in &mut self.relations {
+            if let Some(slide) = &mut relation.slide {
+                for side in 0..2 {
+                    slide.sides[side][m] = slide.side(side, values);
+                }
+            }
+            if m == 0 {
+                relation.set_gradients(&self.list, values);
+            }
+        }
+    }
+
+    /// Takes over the multipliers of order n.
+    #[inline(always)]
+    pub fn store_multipliers(&mut self, n: usize, lambda: &[f64]) {
+        for relation in &mut self.relations {
+            relation.lambda[n] = lambda[relation.row];
+            for turn in relation.angles.iter_mut().flatten() {
+                let angle = &self.list[turn.angle];
+                turn.cosine[n] = product(&relation.lambda, &angle.cosine, n);
+                turn.sine[n] = product(&relation.lambda, &angle.sine, n);
+            }
+        }
+    }
+
+    /// What relations demand of coefficient m beyond its own part, times a factor.
+    #[inline(always)]
+    pub fn demand(&self, m: usize, factor: f64, extra: &mut [f64]) {
+        for relation in &self.relations {
+            let turns = relation.angles.iter().flatten();
+            let mut known: f64 = turns.map(|t| t.factor * self.list[t.angle].known(m)).sum();
+            if let Some(slide) = &relation.slide {
+                known += slide.factor * inner_dot(&slide.sides[0], &slide.sides[1], m);
+            }
+            extra[relation.row] = factor * known;
+        }
+    }
+
+    /// Φ of relations.
+    pub fn set_violation<const L: usize>(&self, values: &[Triple<L>], extra: &mut [f64]) {
+        for relation in &self.relations {
+            let turns = relation.angles.iter().flatten();
+            let turned: f64 = turns.map(|t| t.factor * self.list[t.angle].state.value).sum();
+            let slid =
+                relation.slide.as_ref().map_or(0.0, |s| s.factor * s.side(0, values).dot(&s.side(1, values)));
+            extra[relation.row] = turned + slid - relation.constant;
+        }
+    }
+
+    /// Φ̇ of relations from the rates of features.
+    pub fn set_rate_violation<const L: usize>(&self, rates: &[Triple<L>], extra: &mut [f64]) {
+        for relation in &self.relations {
+            extra[relation.row] = relation.along(rates);
+        }
+    }
+
+    /// What is left of relations, given the features' part of the unknown.
+    #[inline(always)]
+    pub fn residual<const L: usize>(&self, values: &[Triple<L>], extra: &[f64], out: &mut [f64]) {
+        for relation in &self.relations {
+            out[relation.row] = relation.along(values) + extra[relation.row];
+        }
+    }
+
+    /// Generalized forces of multipliers of the current order.
+    #[inline(always)]
+    pub fn add_forces<const L: usize>(&self, lambda: &[f64], forces: &mut [Triple<L>]) {
+        for relation in &self.relations {
+            for (place, gradient) in relation.places.iter().zip(&relation.gradients) {
+                place.add(forces, (gradient * -lambda[relation.row]).into());
+            }
+        }
+    }
+
+    /// Generalized forces of order n that multipliers of lower order make.
+    #[inline(always)]
+    pub fn add_known_forces<const L: usize>(&mut self, n: usize, forces: &mut [Triple<L>]) {
+        if n == 0 {
+            return;
+        }
+        for relation in &mut self.relations {
+            relation.lambda[n] = 0.0;
+            let Relation { lambda, angles, slide, .. } = relation;
+            for turn in angles.iter_mut().flatten() {
+                let angle = &self.list[turn.angle];
+                turn.cosine[n] = product(lambda, &angle.cosine, n);
+                turn.sine[n] = product(lambda, &angle.sine, n);
+                let [a1, a2, b] = &angle.vectors;
+                let [on_a1, on_a2, on_b] = angle.places;
+                on_a1.add(forces, (scaled(&turn.sine, b, n) * turn.factor).into());
+                on_a2.add(forces, (scaled(&turn.cosine, b, n) * -turn.factor).into());
+                let across = scaled(&turn.sine, a1, n) - scaled(&turn.cosine, a2, n);
+                on_b.add(forces, (across * turn.factor).into());
+            }
+            let Some(slide) = slide else { continue };
+            for side in 0..2 {
+                let force = scaled(lambda, &slide.sides[1 - side], n) * -slide.factor;
+                for (place, sign) in slide.places[side].into_iter().zip([1.0, -1.0]) {
+                    if let Some(place) = place {
+                        place.add(forces, (force * sign).into());
+                    }
+                }
+            }
+        }
+    }
+
+    /// The part of h, by halves, within which no angle turns by more than `most`.
+    pub fn limit(&self, mut h: f64, order: usize, most: f64) -> f64 {
+        for angle in &self.list {
+            for _ in 0..60 {
+                if angle.sweep(h, order) <= most {
+                    break;
+                }
+                h *= 0.5;
+            }
+        }
+        h
+    }
+
+    /// Ends a step of size h.
+    pub fn advance(&mut self, h: f64, order: usize) {
+        for angle in &mut self.list {
+            angle.advance(h, order);
+        }
+    }
+}
+
+impl Relation {
+    fn set_gradients<const L: usize>(&mut self, angles: &[Angle], values: &[Triple<L>]) {
+        let mut k = 0;
+        for turn in self.angles.iter().flatten() {
+            for gradient in angles[turn.angle].state.gradient {
+                self.gradients[k] = gradient * turn.factor;
+                k += 1;
+            }
+        }
+        let Some(slide) = &self.slide else { return };
+        for side in 0..2 {
+            let gradient = slide.side(1 - side, values) * slide.factor;
+            for (_, sign) in slide.places[side].iter().zip([1.0, -1.0]).filter(|(place, _)| place.is_some()) {
+                self.gradients[k] = gradient * sign;
+                k += 1;
+            }
+        }
+    }
+
+    /// The gradient times values of features.
+    #[inline(always)]
+    fn along<const L: usize>(&self, values: &[Triple<L>]) -> f64 {
+        let terms = self.places.iter().zip(&self.gradients);
+        terms.map(|(place, gradient)| gradient.dot(&Vector3::from(place.get(values)))).sum()
+    }
+}

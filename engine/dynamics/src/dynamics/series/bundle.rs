@@ -1,0 +1,429 @@
+//! L bodies side by side: the part of the equations of motion that concerns each body alone — THEORY sections 7, 11.
+
+use super::bodies::Bodies;
+use super::convolution::{gram, moment, symmetric};
+use super::lanes::{
+    Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, inverse_root, less, minor, multiply, negative,
+    plus, scaled, sum, times, zero,
+};
+use super::slot::Slot;
+use crate::system::System;
+use crate::system::body::Body;
+use crate::system::natural::Lift;
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// L bodies: what never changes, what belongs to the point of expansion, and the solution at hand.
+#[derive(Clone, Debug)]
+pub struct Bundle<const L: usize> {
+    /// The bodies; fewer than L in the last bundle, whose other lanes hold bodies at rest without joints.
+    bodies: Range<usize>,
+    /// Their features.
+    slots: Range<usize>,
+    /// 1/m.
+    inverse_mass: Lane<L>,
+    /// Ī of u, v, w.
+    ibar: Triple<L>,
+    /// Lent inertia.
+    regularization: Lane<L>,
+    /// Constant generalized force: the weight.
+    weight: Triple<L>,
+    /// Half the dual basis of the directors.
+    dual: [Triple<L>; 3],
+    /// Rows of I_g⁻¹, the regularizing inertia included.
+    inverse: [Triple<L>; 3],
+    /// Lower triangle (00, 10, 11, 20, 21, 22) of C⁻¹, I_g = C Cᵀ.
+    lower: [Lane<L>; 6],
+    /// Generalized force that acts, less the known convolutions.
+    force: Lifted<L>,
+    /// Moment about the centre of mass that acts besides.
+    moment: Triple<L>,
+    /// The unknown: κ Q_(n+2), or a correction of Q.
+    solution: Lifted<L>,
+    /// Its twist part ω̇, and the part for which the regularizing inertia has been taken out.
+    omega: Triple<L>,
+    returned: Triple<L>,
+}
+
+impl<const L: usize> Bundle<L> {
+    fn vector(x: &Lifted<L>, k: usize, lane: usize) -> Vector3<f64> {
+        Vector3::from_fn(|c, _| x[k][c][lane])
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, q: &Lifted<L>, moment: &Triple<L>) {
+        let omega = multiply(&self.inverse, moment);
+        for c in 0..3 {
+            self.omega[c] = sum(&self.omega[c], &omega[c]);
+        }
+        for k in 0..3 {
+            add_cross(&mut self.solution[1 + k], &omega, &q[1 + k]);
+        }
+    }
+}
+
+impl<const L: usize> Bodies<L> for Bundle<L> {
+    type Lifted = Lifted<L>;
+    type Rigid = [Lane<L>; 6];
+    type Moment = Triple<L>;
+    type Directors = [Triple<L>; 3];
+    type Mobility = [Triple<L>; 3];
+    const DIRECTIONS: usize = 3;
+    const TWIST: usize = 6;
+    const STRIPS: usize = 3;
+
+    fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self {
+        let zeros = [[0.0; L]; 3];
+        Self {
+            bodies,
+            slots,
+            inverse_mass: [1.0; L],
+            ibar: [[1.0; L]; 3],
+            regularization: [0.0; L],
+            weight: zeros,
+            dual: [zeros; 3],
+            inverse: [zeros; 3],
+            lower: [[0.0; L]; 6],
+            force: zero(),
+            moment: zeros,
+            solution: zero(),
+            omega: zeros,
+            returned: zeros,
+        }
+    }
+
+    fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
+        self.inverse_mass[lane] = 1.0 / body.mass;
+        self.regularization[lane] = body.regularizing_inertia;
+        for c in 0..3 {
+            self.ibar[c][lane] = body.ibar[c];
+            self.weight[c][lane] = body.mass * system.model.gravity[c];
+        }
+    }
+
+    fn bodies(&self) -> Range<usize> {
+        self.bodies.clone()
+    }
+
+    fn slots(&self) -> Range<usize> {
+        self.slots.clone()
+    }
+
+    #[inline(always)]
+    fn zero() -> Lifted<L> {
+        zero()
+    }
+
+    fn at_rest() -> Lifted<L> {
+        let mut q = zero();
+        for k in 0..3 {
+            q[1 + k][k] = [1.0; L];
+        }
+        q
+    }
+
+    #[inline(always)]
+    fn no_directors() -> [Triple<L>; 3] {
+        [[[0.0; L]; 3]; 3]
+    }
+
+    #[inline(always)]
+    fn no_mobility() -> [Triple<L>; 3] {
+        [[[0.0; L]; 3]; 3]
+    }
+
+    #[inline(always)]
+    fn lanes(x: &Lifted<L>) -> &[Lane<L>] {
+        x.as_flattened()
+    }
+
+    #[inline(always)]
+    fn lanes_mut(x: &mut Lifted<L>) -> &mut [Lane<L>] {
+        x.as_flattened_mut()
+    }
+
+    fn read(&self, lane: usize, lift: &Lift, out: &mut Lifted<L>) {
+        for (out, vector) in out.iter_mut().zip([lift.r, lift.e[0], lift.e[1], lift.e[2]]) {
+            for c in 0..3 {
+                out[c][lane] = vector[c];
+            }
+        }
+    }
+
+    fn write(&self, lane: usize, x: &Lifted<L>, _rate: bool) -> Lift {
+        let [r, u, v, w] = [0, 1, 2, 3].map(|k| Self::vector(x, k, lane));
+        Lift { r, e: [u, v, w] }
+    }
+
+    #[inline(always)]
+    fn value(slot: &Slot<L>, x: &Lifted<L>) -> Triple<L> {
+        let mut value = scaled(&slot.point, &x[0]);
+        for k in 0..3 {
+            add_scaled(&mut value, &slot.local[k], &x[1 + k]);
+        }
+        value
+    }
+
+    #[inline(always)]
+    fn add_constant(&self, _: &Slot<L>, _: &mut Triple<L>) {}
+
+    #[inline(always)]
+    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Lifted<L>) {
+        add_scaled(&mut sum[0], &slot.point, f);
+        for k in 0..3 {
+            add_scaled(&mut sum[1 + k], &slot.local[k], f);
+        }
+    }
+
+    fn arm(local: &Vector3<f64>, q: &Lifted<L>, lane: usize, _order: usize) -> Vector3<f64> {
+        Vector3::from_fn(|c, _| (0..3).map(|k| local[k] * q[1 + k][c][lane]).sum())
+    }
+
+    fn center(q: &Lifted<L>, lane: usize) -> Vector3<f64> {
+        Self::vector(q, 0, lane)
+    }
+
+    fn spin(e: &Lifted<L>, f: &Lifted<L>, lane: usize) -> Vector3<f64> {
+        let cross = |k: usize| Self::vector(e, k, lane).cross(&Self::vector(f, k, lane));
+        (1..4).map(cross).sum::<Vector3<f64>>() * 0.5
+    }
+
+    fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..3 {
+            self.force[0][c][lane] += force[c];
+        }
+        self.add_director_force(lane, at, force);
+    }
+
+    fn add_director_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..3 {
+            for k in 0..3 {
+                self.force[1 + k][c][lane] += at[k] * force[c];
+            }
+        }
+    }
+
+    fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>) {
+        for c in 0..3 {
+            self.moment[c][lane] += moment[c];
+        }
+    }
+
+    /// Dual basis and inertia at the position q.
+    #[inline(always)]
+    fn linearize(&mut self, q: &Lifted<L>) {
+        let [_, u, v, w] = q;
+        let dual = [cross(v, w), cross(w, u), cross(u, v)];
+        let mut half = dot(u, &dual[0]);
+        for l in 0..L {
+            half[l] = 0.5 / half[l];
+        }
+        self.dual = dual.map(|d| scaled(&half, &d));
+        // I_g = Σ Ī_k (|e_k|² 1 − e_k e_kᵀ) from its second term; xx, xy, yy, xz, yz, zz.
+        let mut products = [[0.0; L]; 6];
+        for k in 0..3 {
+            let e = &q[1 + k];
+            let weighted = scaled(&self.ibar[k], e);
+            for (sum, (i, j)) in products.iter_mut().zip([(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)]) {
+                *sum = plus(&weighted[i], &e[j], sum);
+            }
+        }
+        let [xx, xy, yy, xz, yz, zz] = &products;
+        let mut diagonal = [[0.0; L]; 3];
+        for (out, (a, b)) in diagonal.iter_mut().zip([(yy, zz), (xx, zz), (xx, yy)]) {
+            *out = sum(&sum(a, b), &self.regularization);
+        }
+        // C⁻¹ of I_g = C Cᵀ, and I_g⁻¹ = C⁻ᵀ C⁻¹.
+        let p0 = inverse_root(&diagonal[0]);
+        let (l10, l20) = (negative(&times(xy, &p0)), negative(&times(xz, &p0)));
+        let p1 = inverse_root(&less(&l10, &l10, &diagonal[1]));
+        let l21 = times(&less(&l20, &l10, &negative(yz)), &p1);
+        let p2 = inverse_root(&less(&l20, &l20, &less(&l21, &l21, &diagonal[2])));
+        let m10 = negative(&times(&times(&l10, &p0), &p1));
+        let m21 = negative(&times(&times(&l21, &p1), &p2));
+        let m20 = negative(&times(&plus(&l20, &p0, &times(&l21, &m10)), &p2));
+        let corner = plus(&m10, &p1, &times(&m20, &m21));
+        let (side, low) = (times(&m20, &p2), times(&m21, &p2));
+        let first = plus(&p0, &p0, &plus(&m10, &m10, &times(&m20, &m20)));
+        let middle = plus(&p1, &p1, &times(&m21, &m21));
+        self.inverse = [[first, corner, side], [corner, middle, low], [side, low, times(&p2, &p2)]];
+        self.lower = [p0, m10, p1, m20, m21, p2];
+    }
+
+    /// C⁻¹ s̃ of a feature's arm s: three rows.
+    #[inline(always)]
+    fn half_mobility(&self, slot: &Slot<L>, q: &Lifted<L>) -> [Triple<L>; 3] {
+        let mut arm = [[0.0; L]; 3];
+        for k in 0..3 {
+            add_scaled(&mut arm, &slot.local[k], &q[1 + k]);
+        }
+        let [x, y, z] = &arm;
+        let [p0, m10, p1, m20, m21, p2] = &self.lower;
+        // s̃ = [[0, −z, y], [z, 0, −x], [−y, x, 0]].
+        [
+            [[0.0; L], negative(&times(p0, z)), times(p0, y)],
+            [times(p1, z), negative(&times(m10, z)), minor(m10, y, p1, x)],
+            [minor(m21, z, p2, y), minor(p2, x, m20, z), minor(m20, y, m21, x)],
+        ]
+    }
+
+    #[inline(always)]
+    fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]) {
+        for (row, g) in row.iter_mut().zip(g) {
+            *row += factor * g;
+        }
+    }
+
+    #[inline(always)]
+    fn set_unit_rotations(m: &[Triple<L>; 3], lane: usize, sign: f64, block: &mut [f64]) {
+        let lane = lane % L;
+        let Some(block) = block.as_chunks_mut::<6>().0.first_chunk_mut::<3>() else { return };
+        for (k, row) in block.iter_mut().enumerate() {
+            for (c, z) in m.iter().enumerate() {
+                row[3 + c] = sign * z[k][lane];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn add_rotation(m: &[Triple<L>; 3], lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]) {
+        let (lane, Some(row)) = (lane % L, row.first_chunk_mut::<6>()) else { return };
+        for (c, z) in m.iter().enumerate() {
+            row[3 + c] += sign * (z[0][lane] * g[0] + z[1][lane] * g[1] + z[2][lane] * g[2]);
+        }
+    }
+
+    #[inline(always)]
+    fn pair(a: &[Triple<L>; 3], b: &[Triple<L>; 3]) -> [[Lane<L>; 4]; 3] {
+        let mut block = [[[0.0; L]; 4]; 3];
+        for (i, strip) in block.iter_mut().enumerate() {
+            for (k, out) in strip.iter_mut().enumerate().take(3) {
+                let first = times(&a[0][i], &b[0][k]);
+                *out = plus(&a[2][i], &b[2][k], &plus(&a[1][i], &b[1][k], &first));
+            }
+        }
+        block
+    }
+
+    #[inline(always)]
+    fn clear_force(&mut self) {
+        self.force = zero();
+        self.moment = [[0.0; L]; 3];
+    }
+
+    #[inline(always)]
+    fn add_weight(&mut self) {
+        self.force[0] = self.weight;
+    }
+
+    #[inline(always)]
+    fn force_mut(&mut self) -> &mut Lifted<L> {
+        &mut self.force
+    }
+
+    #[inline(always)]
+    fn solution(&self) -> &Lifted<L> {
+        &self.solution
+    }
+
+    #[inline(always)]
+    fn gram(q: &[Lifted<L>], n: usize, kappa: f64) -> [Lane<L>; 6] {
+        gram(q, n).map(|entry| entry.map(|x| kappa * x))
+    }
+
+    #[inline(always)]
+    fn moment(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+        moment(q, p, n)
+    }
+
+    #[inline(always)]
+    fn no_moment() -> Triple<L> {
+        [[0.0; L]; 3]
+    }
+
+    #[inline(always)]
+    fn position_correction(&self, q: &Lifted<L>) -> [Lane<L>; 6] {
+        let mut gamma = symmetric(q, q);
+        for (k, entry) in gamma.iter_mut().enumerate() {
+            for x in entry {
+                *x = if k < 3 { 1.0 - 0.5 * *x } else { -0.5 * *x };
+            }
+        }
+        gamma
+    }
+
+    #[inline(always)]
+    fn velocity_correction(&self, q: &Lifted<L>, q_dot: &Lifted<L>) -> [Lane<L>; 6] {
+        symmetric(q, q_dot).map(|entry| entry.map(|x| -x))
+    }
+
+    /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
+    #[inline(always)]
+    fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
+        let mut moment = known;
+        for c in 0..3 {
+            moment[c] = sum(&moment[c], &self.moment[c]);
+        }
+        let [uu, vv, ww, uv, uw, vw] = gamma;
+        let d = &self.dual;
+        let mut particular = [[[0.0; L]; 3]; 3];
+        for (out, row) in particular.iter_mut().zip([[uu, uv, uw], [uv, vv, vw], [uw, vw, ww]]) {
+            for k in 0..3 {
+                add_scaled(out, row[k], &d[k]);
+            }
+        }
+        for k in 0..3 {
+            let mut p = self.force[1 + k];
+            for c in 0..3 {
+                p[c] = less(&self.ibar[k], &particular[k][c], &p[c]);
+            }
+            add_cross(&mut moment, &q[1 + k], &p);
+        }
+        self.omega = multiply(&self.inverse, &moment);
+        self.returned = [[0.0; L]; 3];
+        self.solution[0] = scaled(&self.inverse_mass, &self.force[0]);
+        for k in 0..3 {
+            self.solution[1 + k] = particular[k];
+            add_cross(&mut self.solution[1 + k], &self.omega, &q[1 + k]);
+        }
+    }
+
+    /// Adds what further generalized forces do.
+    #[inline(always)]
+    fn apply(&mut self, q: &Lifted<L>, force: &Lifted<L>) {
+        let mut moment = [[0.0; L]; 3];
+        for k in 0..3 {
+            add_cross(&mut moment, &q[1 + k], &force[1 + k]);
+        }
+        add_scaled(&mut self.solution[0], &self.inverse_mass, &force[0]);
+        self.turn(q, &moment);
+        for (all, force) in self.force.as_flattened_mut().iter_mut().zip(force.as_flattened()) {
+            *all = sum(all, force);
+        }
+    }
+
+    /// One proximal step for bodies whose inertia is regularized.
+    #[inline(always)]
+    fn remove_regularization(&mut self, q: &Lifted<L>) {
+        let mut moment = [[0.0; L]; 3];
+        for c in 0..3 {
+            for l in 0..L {
+                moment[c][l] = self.regularization[l] * (self.omega[c][l] - self.returned[c][l]);
+            }
+        }
+        self.returned = self.omega;
+        self.turn(q, &moment);
+    }
+
+    /// p_k = P_k − Ī_k ë_k of the solution: what the directors' moments are made of.
+    #[inline(always)]
+    fn director_forces(&self) -> [Triple<L>; 3] {
+        let mut p = [self.force[1], self.force[2], self.force[3]];
+        for k in 0..3 {
+            for c in 0..3 {
+                p[k][c] = less(&self.ibar[k], &self.solution[1 + k][c], &p[k][c]);
+            }
+        }
+        p
+    }
+}

@@ -1,0 +1,163 @@
+//! The series of one island, bundled as suits its number of bodies: the one place where the kernels are compiled.
+
+use super::{Plan, Planar, Series, Taken};
+use crate::dynamics::elimination::{Counters, TwistJacobian};
+use crate::system::System;
+
+/// The series, bundled as suits the number of bodies.
+#[derive(Clone, Debug)]
+enum Bundled {
+    /// One body.
+    Narrow(Box<Series<1>>),
+    /// Several.
+    Wide(Box<Series<4>>),
+    /// One body in a plane.
+    NarrowPlanar(Box<Series<1, Planar<1>>>),
+    /// Several bodies in a plane.
+    WidePlanar(Box<Series<4, Planar<4>>>),
+}
+
+/// Runs `$call` with `$series` bound to the series.
+macro_rules! with {
+    ($island:expr, $series:ident => $call:expr) => {
+        match $island {
+            Bundled::Narrow($series) => $call,
+            Bundled::Wide($series) => $call,
+            Bundled::NarrowPlanar($series) => $call,
+            Bundled::WidePlanar($series) => $call,
+        }
+    };
+}
+
+/// The series of one island.
+#[derive(Clone, Debug)]
+pub struct IslandSeries(Bundled);
+
+impl IslandSeries {
+    /// Allocates for motion in space, and coefficients up to order `order`; `turns` are the angles of joints at the start.
+    pub fn in_space(system: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
+        Self(match system.bodies.len() {
+            1 => Bundled::Narrow(Box::new(Series::new(system, order, redundant, turns))),
+            _ => Bundled::Wide(Box::new(Series::new(system, order, redundant, turns))),
+        })
+    }
+
+    /// The same for motion in a plane, of a system that has been reduced to it.
+    pub fn in_plane(flat: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
+        Self(match flat.bodies.len() {
+            1 => Bundled::NarrowPlanar(Box::new(Series::planar(flat, order, redundant, turns))),
+            _ => Bundled::WidePlanar(Box::new(Series::planar(flat, order, redundant, turns))),
+        })
+    }
+
+    /// Whether it moves in a plane.
+    pub fn is_planar(&self) -> bool {
+        matches!(self.0, Bundled::NarrowPlanar(_) | Bundled::WidePlanar(_))
+    }
+
+    /// Whether entries of the matrix that never change are written once.
+    pub fn keep_constants(&mut self, keep: bool) {
+        with!(&mut self.0, s => s.keep_constants(keep));
+    }
+
+    /// Entries of the matrix that were not written again.
+    pub fn constants_kept(&self) -> u64 {
+        with!(&self.0, s => s.constants_kept())
+    }
+
+    /// Takes over a state as the point of expansion.
+    pub fn place(&mut self, system: &System, t: f64, y: &[f64]) {
+        with!(&mut self.0, s => s.place(system, t, y));
+    }
+
+    /// Finds the rows that depend on others everywhere, and tells whether there are any.
+    pub fn find_dependent(&mut self, length: f64) -> bool {
+        with!(&mut self.0, s => s.find_dependent(length))
+    }
+
+    /// Makes room for evaluations of S inside steps.
+    pub fn allow_looks(&mut self) {
+        with!(&mut self.0, s => s.allow_looks());
+    }
+
+    /// Builds and factors S at the point of expansion.
+    pub fn linearize(&mut self) {
+        with!(&mut self.0, s => s.linearize());
+    }
+
+    /// Evaluates the accelerations: order 0 of the series.
+    pub fn evaluate(&mut self) {
+        with!(&mut self.0, s => s.evaluate());
+    }
+
+    /// Writes the accelerations that were evaluated last.
+    pub fn store_accelerations(&self, system: &System, out: &mut [f64]) {
+        with!(&self.0, s => s.store_accelerations(system, out));
+    }
+
+    /// One mass-orthogonal Newton step of the positions towards Φ = 0. Returns its size.
+    pub fn correct_positions(&mut self) -> f64 {
+        with!(&mut self.0, s => s.correct_positions())
+    }
+
+    /// How firmly each joint holds at the point of expansion.
+    pub fn holds(&self) -> &[f64] {
+        with!(&self.0, s => s.holds())
+    }
+
+    /// How firmly each joint holds a time τ after the start t of the last step, whose series have the given order.
+    pub fn holds_inside(&mut self, t: f64, tau: f64, order: usize) -> &[f64] {
+        with!(&mut self.0, s => s.holds_inside(t, tau, order))
+    }
+
+    /// How fast rows turn at the state, 1/s.
+    pub fn pace(&self, system: &System) -> f64 {
+        with!(&self.0, s => s.pace(system))
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        with!(&self.0, s => s.counters)
+    }
+
+    /// Takes one step.
+    pub fn step(&mut self, plan: Plan) -> Taken {
+        with!(&mut self.0, s => s.step(plan))
+    }
+
+    /// Writes the coordinates of its bodies at the point of expansion.
+    pub fn store(&self, system: &System, y: &mut [f64]) {
+        with!(&self.0, s => s.store(system, y));
+    }
+
+    /// Writes the coordinates of its bodies a time τ after the start of the last step.
+    pub fn interpolate(&self, system: &System, tau: f64, order: usize, y: &mut [f64]) {
+        with!(&self.0, s => s.interpolate(system, tau, order, y));
+    }
+
+    /// Work of drivers and of loads without potential over the last step up to τ, J.
+    pub fn work(&self, tau: f64) -> f64 {
+        with!(&self.0, s => s.work(tau))
+    }
+
+    /// The step that the series allow at the point of expansion, s.
+    pub fn natural_step(&mut self, order: usize, tolerance: f64) -> f64 {
+        with!(&mut self.0, s => s.natural_step(order, tolerance))
+    }
+
+    /// How many times prescribed functions change to another piece before `end`, at most so many.
+    pub fn knots_before(&self, end: f64, most: usize) -> usize {
+        with!(&self.0, s => s.knots_before(end, most))
+    }
+
+    /// Multipliers of the solver rows a time τ after the start of the last step; A is that of the state there.
+    pub fn multipliers(
+        &self,
+        system: &System,
+        tau: f64,
+        order: usize,
+        jacobian: &TwistJacobian,
+    ) -> Option<Vec<f64>> {
+        with!(&self.0, s => s.multipliers(system, tau, order, jacobian))
+    }
+}

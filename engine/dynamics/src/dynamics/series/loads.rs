@@ -1,0 +1,378 @@
+//! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
+
+use super::angles::Angle;
+use super::bodies::Bodies;
+use super::lanes::Triple;
+use super::recurrence::{
+    Vectors, dot, product, product_with_rate, quotient, rate, root, scaled, value, vector_value,
+};
+use super::rows::Place;
+use crate::model::motion::VectorCurve;
+use crate::model::{BodyRef, Element};
+use crate::scene::LoadFrame;
+use crate::system::System;
+use crate::system::feature::FeatureId;
+use crate::system::load;
+use nalgebra::Vector3;
+
+/// Coulomb friction has its full value where the velocity is this many times its smoothing.
+const SATURATED: f64 = 20.0;
+/// Part of the distance to the nearest pole of tanh that a step may go.
+const NEAR_POLE: f64 = 0.4;
+
+/// Bundle and lane of a body.
+type Seat = [usize; 2];
+
+/// A load on series.
+#[derive(Clone, Debug)]
+enum Load {
+    /// A force at a point of a body, or a moment on it.
+    Given {
+        seat: Seat,
+        at: Option<Vector3<f64>>,
+        curve: VectorCurve,
+        body_frame: bool,
+        /// It as given, it in the world, and the velocity of its point or the angular velocity.
+        local: Vectors,
+        world: Vectors,
+        speed: Vectors,
+    },
+    /// Along the line between two points.
+    Spring { from: Place, to: Place, between: Vectors, square: Vec<f64>, over_length: Vec<f64>, element: Law },
+    /// About the axis of a joint.
+    Torsion { angle: usize, axis: Place, seats: [Option<Seat>; 2], direction: Vectors, element: Law },
+    /// Along the axis of a joint.
+    Slider { axis: Place, ends: [Option<Place>; 2], direction: Vectors, between: Vectors, element: Law },
+}
+
+/// −k (x − x₀) − d ẋ + f*(t) − friction, as a series of x.
+#[derive(Clone, Debug)]
+struct Law {
+    element: Element,
+    x: Vec<f64>,
+    drive: Vec<f64>,
+    /// ẋ over the smoothing of friction, its tanh and 1 − tanh².
+    slip: Vec<f64>,
+    tanh: Vec<f64>,
+    rest: Vec<f64>,
+    /// The force, and what of it is not the spring's.
+    force: Vec<f64>,
+    other: Vec<f64>,
+}
+
+impl Law {
+    fn new(element: &Element, stride: usize) -> Self {
+        let zeros = || vec![0.0; stride];
+        Self {
+            element: element.clone(),
+            x: zeros(),
+            drive: zeros(),
+            slip: zeros(),
+            tanh: zeros(),
+            rest: zeros(),
+            force: zeros(),
+            other: zeros(),
+        }
+    }
+
+    /// The force of order n; x must be known to order n + 1.
+    #[inline(always)]
+    fn find(&mut self, n: usize) {
+        let Element { stiffness, free, damping, friction, .. } = self.element;
+        let speed = rate(&self.x, n);
+        let mut other = self.drive[n] - damping * speed;
+        if let Some(friction) = friction {
+            other -= friction.viscous * speed;
+            if friction.coulomb != 0.0 {
+                self.slip[n] = speed / friction.smoothing;
+                self.set_tanh(n);
+                other -= friction.coulomb * self.tanh[n];
+            }
+        }
+        let stretch = if n == 0 { self.x[0] - free } else { self.x[n] };
+        self.other[n] = other;
+        self.force[n] = other - stiffness * stretch;
+    }
+
+    fn set_tanh(&mut self, n: usize) {
+        if n == 0 {
+            self.tanh[0] = self.slip[0].tanh();
+            // 1 − tanh² would be rounded to zero too early.
+            self.rest[0] = self.slip[0].cosh().powi(-2);
+            return;
+        }
+        self.tanh[n] = (1..=n).map(|j| j as f64 * self.slip[j] * self.rest[n - j]).sum::<f64>() / n as f64;
+        self.rest[n] = -product(&self.tanh, &self.tanh, n);
+    }
+
+    /// Whether it is the spring −k x, for which the length as such need not be known.
+    fn is_linear(&self) -> bool {
+        let Element { free, damping, drive, friction, .. } = &self.element;
+        *free == 0.0 && *damping == 0.0 && drive.is_none() && friction.is_none()
+    }
+
+    /// Whether x is the length of nothing, or of no consequence.
+    fn without_direction(&self) -> bool {
+        self.x[0] < f64::MIN_POSITIVE || self.is_linear()
+    }
+
+    fn expand(&mut self, t: f64) {
+        if let Some(drive) = &self.element.drive {
+            drive.expand(t, &mut self.drive);
+        }
+    }
+
+    fn next_break(&self, t: f64) -> f64 {
+        self.element.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
+    }
+
+    /// The part of h within which friction is near its series. Far from rest tanh is constant to rounding
+    /// and its series cannot foresee that it turns: there a step ends where the velocity comes near rest; within that
+    /// range it keeps away from the poles of tanh.
+    fn limit(&self, mut h: f64, order: usize) -> f64 {
+        if self.element.friction.is_none_or(|f| f.coulomb == 0.0) {
+            return h;
+        }
+        let start = self.slip[0].abs();
+        let margin = NEAR_POLE * start.hypot(std::f64::consts::FRAC_PI_2);
+        let room = margin.max(start - SATURATED);
+        let change = |h: f64| self.slip[1..order - 1].iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * h);
+        for _ in 0..60 {
+            if change(h) <= room {
+                break;
+            }
+            h *= 0.7;
+        }
+        h
+    }
+}
+
+/// All loads, their weight aside.
+#[derive(Clone, Debug)]
+pub struct Loads {
+    list: Vec<Load>,
+}
+
+impl Loads {
+    /// Of a system, with room for `stride` coefficients.
+    pub fn new(system: &System, place: &[Place], lanes: usize, stride: usize) -> Self {
+        let seat = |body: usize| [body / lanes, body % lanes];
+        let vectors = || vec![Vector3::zeros(); stride];
+        let at = |f: FeatureId| place[f];
+        let given =
+            |body: usize, at: Option<Vector3<f64>>, curve: &VectorCurve, frame: LoadFrame| Load::Given {
+                seat: seat(body),
+                at,
+                curve: curve.clone(),
+                body_frame: frame == LoadFrame::Body,
+                local: vectors(),
+                world: vectors(),
+                speed: vectors(),
+            };
+        let list = system.loads.iter().map(|load| match load {
+            load::Load::Force { body, local, force, frame } => given(*body, Some(*local), force, *frame),
+            load::Load::Moment { body, moment, frame } => given(*body, None, moment, *frame),
+            load::Load::Spring { from, to, element } => Load::Spring {
+                from: at(*from),
+                to: at(*to),
+                between: vectors(),
+                square: vec![0.0; stride],
+                over_length: vec![0.0; stride],
+                element: Law::new(element, stride),
+            },
+            load::Load::Torsion { angle, bodies, element, .. } => Load::Torsion {
+                angle: *angle,
+                axis: at(system.angles[*angle].axis),
+                seats: bodies.map(|body| match body {
+                    BodyRef::Ground => None,
+                    BodyRef::Moving(body) => Some(seat(body)),
+                }),
+                direction: vectors(),
+                element: Law::new(element, stride),
+            },
+            load::Load::Slider { axis, between, element } => Load::Slider {
+                axis: at(*axis),
+                ends: [Some(at(between.plus)), between.minus.map(at)],
+                direction: vectors(),
+                between: vectors(),
+                element: Law::new(element, stride),
+            },
+        });
+        Self { list: list.collect() }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The first moment after t at which a prescribed force has another piece, s.
+    pub fn next_break(&self, t: f64) -> f64 {
+        let breaks = self.list.iter().map(|load| match load {
+            Load::Given { curve, .. } => curve.next_break(t),
+            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
+                element.next_break(t)
+            }
+        });
+        breaks.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Expands prescribed forces about time t.
+    pub fn expand(&mut self, t: f64) {
+        for load in &mut self.list {
+            match load {
+                Load::Given { curve, local, .. } => curve.expand(t, local),
+                Load::Spring { element, .. }
+                | Load::Torsion { element, .. }
+                | Load::Slider { element, .. } => element.expand(t),
+            }
+        }
+    }
+
+    /// Whether prescribed forces are at `time`, h after the point of expansion, what their series say, but for a
+    /// relative error.
+    pub fn meets(&self, h: f64, time: f64, error: f64) -> bool {
+        self.list.iter().all(|load| match load {
+            Load::Given { curve, local, .. } => {
+                let exact = curve.at(time)[0];
+                (exact - vector_value(local, h)).amax() <= error * (1.0 + exact.amax())
+            }
+            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
+                element.element.drive.as_ref().is_none_or(|drive| {
+                    let exact = drive.at(time)[0];
+                    (exact - value(&element.drive, h)).abs() <= error * (1.0 + exact.abs())
+                })
+            }
+        })
+    }
+
+    /// Takes over coefficient m of all features.
+    #[inline(always)]
+    pub fn store<const L: usize>(&mut self, m: usize, values: &[Triple<L>], angles: &[Angle]) {
+        for load in &mut self.list {
+            match load {
+                Load::Given { .. } => {}
+                Load::Spring { from, to, between, square, element, .. } => {
+                    between[m] = difference([Some(*to), Some(*from)], values);
+                    square[m] = dot(between, between, m);
+                    element.x[m] = root(square[m], &element.x, m);
+                }
+                Load::Torsion { angle, axis, direction, element, .. } => {
+                    direction[m] = axis.get(values).into();
+                    element.x[m] = angles[*angle].theta[m];
+                }
+                Load::Slider { axis, ends, direction, between, element } => {
+                    direction[m] = axis.get(values).into();
+                    between[m] = difference(*ends, values);
+                    element.x[m] = dot(direction, between, m);
+                }
+            }
+        }
+    }
+
+    /// Adds the generalized forces of order n; `coefficient(b, i)` is Q_i of bundle b.
+    #[inline(always)]
+    pub fn apply<'a, const L: usize, B: Bodies<L> + 'a>(
+        &mut self,
+        n: usize,
+        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
+        forces: &mut [Triple<L>],
+        bundles: &mut [B],
+    ) {
+        for load in &mut self.list {
+            match load {
+                Load::Given { seat, at, body_frame, local, world, .. } => {
+                    let [bundle, lane] = *seat;
+                    world[n] = if *body_frame {
+                        (0..=n).map(|i| B::arm(&local[i], coefficient(bundle, n - i), lane, n - i)).sum()
+                    } else {
+                        local[n]
+                    };
+                    match at {
+                        Some(at) => bundles[bundle].add_force(lane, at, &world[n]),
+                        None => bundles[bundle].add_moment(lane, &world[n]),
+                    }
+                }
+                Load::Spring { from, to, between, over_length, element, .. } => {
+                    let force = spring_force(n, between, over_length, element);
+                    to.add(forces, force.into());
+                    from.add(forces, (-force).into());
+                }
+                Load::Torsion { seats, direction, element, .. } => {
+                    element.find(n);
+                    let moment = scaled(&element.force, direction, n);
+                    for (seat, sign) in seats.iter().zip([-1.0, 1.0]) {
+                        if let Some([bundle, lane]) = *seat {
+                            bundles[bundle].add_moment(lane, &(moment * sign));
+                        }
+                    }
+                }
+                Load::Slider { axis, ends, direction, between, element } => {
+                    element.find(n);
+                    let force = scaled(&element.force, direction, n);
+                    for (place, sign) in ends.iter().zip([1.0, -1.0]) {
+                        if let Some(place) = place {
+                            place.add(forces, (force * sign).into());
+                        }
+                    }
+                    axis.add(forces, scaled(&element.force, between, n).into());
+                }
+            }
+        }
+    }
+
+    /// Power of order n of all that is not a spring; lower orders must have been asked for before.
+    pub fn power<'a, const L: usize, B: Bodies<L> + 'a>(
+        &mut self,
+        n: usize,
+        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
+    ) -> f64 {
+        let power = |load: &mut Load| match load {
+            Load::Given { seat: [bundle, lane], at, world, speed, .. } => {
+                let q = |i: usize| coefficient(*bundle, i);
+                speed[n] = match at {
+                    Some(at) => {
+                        (B::center(q(n + 1), *lane) + B::arm(at, q(n + 1), *lane, n + 1)) * (n + 1) as f64
+                    }
+                    None => (0..=n).map(|i| B::spin(q(i), q(n - i + 1), *lane) * (n - i + 1) as f64).sum(),
+                };
+                dot(world, speed, n)
+            }
+            Load::Spring { element, .. } if element.without_direction() => 0.0,
+            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
+                product_with_rate(&element.other, &element.x, n)
+            }
+        };
+        self.list.iter_mut().map(power).sum()
+    }
+
+    /// The part of h within which friction is near its series.
+    pub fn limit(&self, h: f64, order: usize) -> f64 {
+        self.list.iter().fold(h, |h, load| match load {
+            Load::Given { .. } => h,
+            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
+                element.limit(h, order)
+            }
+        })
+    }
+}
+
+/// The force on the second point of a spring: f / l times the way between its points.
+fn spring_force(n: usize, between: &[Vector3<f64>], over_length: &mut [f64], law: &mut Law) -> Vector3<f64> {
+    if law.is_linear() {
+        return between[n] * -law.element.stiffness;
+    }
+    // A spring of no length has no direction to pull in.
+    if law.without_direction() {
+        return Vector3::zeros();
+    }
+    law.find(n);
+    over_length[n] = quotient(law.force[n], &law.x, over_length, n);
+    scaled(over_length, between, n)
+}
+
+/// Difference of two features.
+fn difference<const L: usize>([plus, minus]: [Option<Place>; 2], values: &[Triple<L>]) -> Vector3<f64> {
+    let value = |place: Option<Place>| place.map_or(Vector3::zeros(), |p| p.get(values).into());
+    value(plus) - value(minus)
+}

@@ -1,0 +1,447 @@
+//! L bodies side by side that move in a plane: the same formulation with one director z of two components.
+//!
+//! A point is P = r + a z + b J z with J a quarter turn, the only rigid-body row is z · z = 1, the twist is
+//! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
+
+use super::bodies::Bodies;
+use super::lanes::{Lane, Triple, less, plus, sum, times};
+use super::slot::Slot;
+use crate::system::System;
+use crate::system::body::{Body, PlanarPose};
+use crate::system::natural::Lift;
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// A vector in the plane for each lane.
+pub type Pair<const L: usize> = [Lane<L>; 2];
+
+/// L bodies in a plane.
+#[derive(Clone, Debug)]
+pub struct Planar<const L: usize> {
+    bodies: Range<usize>,
+    slots: Range<usize>,
+    /// How each body stands in the plane, and the plane itself.
+    poses: [PlanarPose; L],
+    height: Lane<L>,
+    mass: Lane<L>,
+    /// 1/m, or zero for a body that hangs on the ground by a point: then 1, that point in the body's frame, and on the ground.
+    inverse_mass: Lane<L>,
+    hangs: Lane<L>,
+    pivot: Pair<L>,
+    ground: Pair<L>,
+    /// From the centre of mass to the pivot, at the point of expansion.
+    arm: Pair<L>,
+    inertia: Lane<L>,
+    regularization: Lane<L>,
+    weight: Pair<L>,
+    /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
+    dual: Pair<L>,
+    particular: Pair<L>,
+    /// 1 / I_g and its root, about the pivot where there is one, the regularizing inertia included.
+    inverse: Lane<L>,
+    root: Lane<L>,
+    force: [Pair<L>; 2],
+    /// Moment that acts besides.
+    moment: Lane<L>,
+    solution: [Pair<L>; 2],
+    omega: Lane<L>,
+    returned: Lane<L>,
+}
+
+#[inline(always)]
+fn each<const L: usize>(of: impl Fn(usize) -> f64) -> Lane<L> {
+    let mut out = [0.0; L];
+    for (l, out) in out.iter_mut().enumerate() {
+        *out = of(l);
+    }
+    out
+}
+
+/// a z + b J z.
+#[inline(always)]
+fn turned<const L: usize>([a, b]: &Pair<L>, z: &Pair<L>) -> Pair<L> {
+    let mut out = [[0.0; L]; 2];
+    for l in 0..L {
+        out[0][l] = a[l].mul_add(z[0][l], -(b[l] * z[1][l]));
+        out[1][l] = a[l].mul_add(z[1][l], b[l] * z[0][l]);
+    }
+    out
+}
+
+#[inline(always)]
+fn cross<const L: usize>(a: &Pair<L>, b: &Pair<L>) -> Lane<L> {
+    each(|l| a[0][l] * b[1][l] - a[1][l] * b[0][l])
+}
+
+impl<const L: usize> Planar<L> {
+    /// Adds what a force at the centre of mass and a moment about it do. z̈ is made anew of ω̇: where inertia is regularized, its
+    /// large parts must not leave their rounding in z · z̈.
+    #[inline(always)]
+    fn turn(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
+        let about_pivot = cross(&self.arm, force);
+        for l in 0..L {
+            let omega = self.inverse[l] * (moment[l] - about_pivot[l]);
+            self.omega[l] += omega;
+            self.solution[0][0][l] += self.inverse_mass[l] * force[0][l] + omega * self.arm[1][l];
+            self.solution[0][1][l] += self.inverse_mass[l] * force[1][l] - omega * self.arm[0][l];
+            self.solution[1][0][l] = self.particular[0][l] - self.omega[l] * z[1][l];
+            self.solution[1][1][l] = self.particular[1][l] + self.omega[l] * z[0][l];
+        }
+    }
+}
+
+impl<const L: usize> Bodies<L> for Planar<L> {
+    type Lifted = [Pair<L>; 2];
+    /// Of z · z = 1, and of what holds a pivot.
+    type Rigid = (Lane<L>, Pair<L>);
+    type Moment = Lane<L>;
+    type Directors = Pair<L>;
+    type Mobility = Pair<L>;
+    const DIRECTIONS: usize = 2;
+    const TWIST: usize = 3;
+    const STRIPS: usize = 1;
+
+    fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self {
+        let zeros = [[0.0; L]; 2];
+        Self {
+            bodies,
+            slots,
+            poses: [PlanarPose::default(); L],
+            height: [0.0; L],
+            mass: [1.0; L],
+            inverse_mass: [1.0; L],
+            hangs: [0.0; L],
+            pivot: zeros,
+            ground: zeros,
+            arm: zeros,
+            inertia: [1.0; L],
+            regularization: [0.0; L],
+            weight: zeros,
+            dual: zeros,
+            particular: zeros,
+            inverse: [1.0; L],
+            root: [1.0; L],
+            force: [zeros; 2],
+            moment: [0.0; L],
+            solution: [zeros; 2],
+            omega: [0.0; L],
+            returned: [0.0; L],
+        }
+    }
+
+    fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
+        self.mass[lane] = body.mass;
+        self.inverse_mass[lane] = body.free_inverse_mass();
+        if let Some(pivot) = body.pivot {
+            self.hangs[lane] = 1.0;
+            for c in 0..2 {
+                self.pivot[c][lane] = pivot.local[c];
+                self.ground[c][lane] = pivot.ground[c];
+            }
+        }
+        self.inertia[lane] = body.ibar[0];
+        self.regularization[lane] = body.regularizing_inertia;
+        for c in 0..2 {
+            self.weight[c][lane] = body.mass * system.model.gravity[c];
+        }
+        if let Some(pose) = body.planar_pose {
+            self.poses[lane] = pose;
+            self.height[lane] = pose.height;
+        }
+    }
+
+    fn bodies(&self) -> Range<usize> {
+        self.bodies.clone()
+    }
+
+    fn slots(&self) -> Range<usize> {
+        self.slots.clone()
+    }
+
+    #[inline(always)]
+    fn zero() -> [Pair<L>; 2] {
+        [[[0.0; L]; 2]; 2]
+    }
+
+    fn at_rest() -> [Pair<L>; 2] {
+        [[[0.0; L]; 2], [[1.0; L], [0.0; L]]]
+    }
+
+    #[inline(always)]
+    fn no_directors() -> Pair<L> {
+        [[0.0; L]; 2]
+    }
+
+    #[inline(always)]
+    fn no_mobility() -> Pair<L> {
+        [[0.0; L]; 2]
+    }
+
+    #[inline(always)]
+    fn lanes(x: &[Pair<L>; 2]) -> &[Lane<L>] {
+        x.as_flattened()
+    }
+
+    #[inline(always)]
+    fn lanes_mut(x: &mut [Pair<L>; 2]) -> &mut [Lane<L>] {
+        x.as_flattened_mut()
+    }
+
+    fn read(&self, lane: usize, lift: &Lift, out: &mut [Pair<L>; 2]) {
+        let ([x, y], [c, s]) = self.poses[lane].lower(lift);
+        for (out, value) in out.as_flattened_mut().iter_mut().zip([x, y, c, s]) {
+            out[lane] = value;
+        }
+    }
+
+    fn write(&self, lane: usize, x: &[Pair<L>; 2], rate: bool) -> Lift {
+        let [r, z] = x.map(|v| [v[0][lane], v[1][lane]]);
+        self.poses[lane].raise(r, z, rate)
+    }
+
+    #[inline(always)]
+    fn value(slot: &Slot<L>, x: &[Pair<L>; 2]) -> Triple<L> {
+        let [r, z] = x;
+        let ([a, b, _], point) = (&slot.local, &slot.point);
+        [
+            each(|l| point[l] * r[0][l] + a[l] * z[0][l] - b[l] * z[1][l]),
+            each(|l| point[l] * r[1][l] + a[l] * z[1][l] + b[l] * z[0][l]),
+            [0.0; L],
+        ]
+    }
+
+    #[inline(always)]
+    fn add_constant(&self, slot: &Slot<L>, value: &mut Triple<L>) {
+        for l in 0..L {
+            value[2][l] += slot.local[2][l] + slot.point[l] * self.height[l];
+        }
+    }
+
+    #[inline(always)]
+    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut [Pair<L>; 2]) {
+        let ([a, b, _], point, [x, y, _]) = (&slot.local, &slot.point, f);
+        for l in 0..L {
+            sum[0][0][l] += point[l] * x[l];
+            sum[0][1][l] += point[l] * y[l];
+            sum[1][0][l] += a[l] * x[l] + b[l] * y[l];
+            sum[1][1][l] += a[l] * y[l] - b[l] * x[l];
+        }
+    }
+
+    fn arm(local: &Vector3<f64>, q: &[Pair<L>; 2], lane: usize, order: usize) -> Vector3<f64> {
+        let (a, b, [c, s]) = (local[0], local[1], [0, 1].map(|k| q[1][k][lane]));
+        let normal = if order == 0 { local[2] } else { 0.0 };
+        Vector3::new(a * c - b * s, a * s + b * c, normal)
+    }
+
+    fn center(q: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
+        Vector3::new(q[0][0][lane], q[0][1][lane], 0.0)
+    }
+
+    fn spin(e: &[Pair<L>; 2], f: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
+        let ([_, z], [_, rate]) = (e, f);
+        Vector3::new(0.0, 0.0, z[0][lane] * rate[1][lane] - z[1][lane] * rate[0][lane])
+    }
+
+    fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        for c in 0..2 {
+            self.force[0][c][lane] += force[c];
+        }
+        self.add_director_force(lane, at, force);
+    }
+
+    fn add_director_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>) {
+        let (a, b, x, y) = (at[0], at[1], force[0], force[1]);
+        self.force[1][0][lane] += a * x + b * y;
+        self.force[1][1][lane] += a * y - b * x;
+    }
+
+    fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>) {
+        self.moment[lane] += moment[2];
+    }
+
+    #[inline(always)]
+    fn linearize(&mut self, q: &[Pair<L>; 2]) {
+        let z = &q[1];
+        self.arm = turned(&self.pivot, z);
+        for l in 0..L {
+            let square = z[0][l] * z[0][l] + z[1][l] * z[1][l];
+            let half = 0.5 / square;
+            self.dual[0][l] = half * z[0][l];
+            self.dual[1][l] = half * z[1][l];
+            let [x, y] = self.arm.map(|s| s[l]);
+            let about_pivot = self.mass[l] * (x * x + y * y);
+            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_pivot + self.regularization[l]);
+            self.root[l] = self.inverse[l].sqrt();
+        }
+    }
+
+    #[inline(always)]
+    fn half_mobility(&self, slot: &Slot<L>, q: &[Pair<L>; 2]) -> Pair<L> {
+        let [a, b, _] = slot.local;
+        let ([x, y], [from_x, from_y], root) = (turned(&[a, b], &q[1]), &self.arm, &self.root);
+        [
+            each(|l| root[l] * (slot.point[l] * from_y[l] - y[l])),
+            each(|l| root[l] * (x[l] - slot.point[l] * from_x[l])),
+        ]
+    }
+
+    #[inline(always)]
+    fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]) {
+        for (row, g) in row.iter_mut().take(2).zip(g) {
+            *row += factor * g;
+        }
+    }
+
+    #[inline(always)]
+    fn set_unit_rotations(m: &Pair<L>, lane: usize, sign: f64, block: &mut [f64]) {
+        let lane = lane % L;
+        let Some(block) = block.as_chunks_mut::<3>().0.first_chunk_mut::<2>() else { return };
+        for (k, row) in block.iter_mut().enumerate() {
+            row[2] = sign * m[k][lane];
+        }
+    }
+
+    #[inline(always)]
+    fn add_rotation(m: &Pair<L>, lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]) {
+        let (lane, Some(row)) = (lane % L, row.first_chunk_mut::<3>()) else { return };
+        row[2] += sign * (m[0][lane] * g[0] + m[1][lane] * g[1]);
+    }
+
+    #[inline(always)]
+    fn pair(a: &Pair<L>, b: &Pair<L>) -> [[Lane<L>; 4]; 3] {
+        let mut strip = [[0.0; L]; 4];
+        for i in 0..2 {
+            for k in 0..2 {
+                for l in 0..L {
+                    strip[2 * i + k][l] = a[i][l] * b[k][l];
+                }
+            }
+        }
+        [strip, [[0.0; L]; 4], [[0.0; L]; 4]]
+    }
+
+    #[inline(always)]
+    fn clear_force(&mut self) {
+        self.force = Self::zero();
+        self.moment = [0.0; L];
+    }
+
+    #[inline(always)]
+    fn add_weight(&mut self) {
+        self.force[0] = self.weight;
+    }
+
+    #[inline(always)]
+    fn force_mut(&mut self) -> &mut [Pair<L>; 2] {
+        &mut self.force
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, q: &[Pair<L>; 2], (gamma, held): &Self::Rigid, mut moment: Lane<L>) {
+        let z = &q[1];
+        for l in 0..L {
+            self.particular[0][l] = gamma[l] * self.dual[0][l];
+            self.particular[1][l] = gamma[l] * self.dual[1][l];
+            let p = [0, 1].map(|c| self.force[1][c][l] - self.inertia[l] * self.particular[c][l]);
+            moment[l] += self.moment[l] + z[0][l] * p[1] - z[1][l] * p[0];
+            self.omega[l] = 0.0;
+            self.returned[l] = 0.0;
+        }
+        // The pivot stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the pivot.
+        let particular = turned(&self.pivot, &self.particular);
+        self.solution[0] = [0, 1].map(|c| each(|l| held[c][l] - particular[c][l]));
+        let force: Pair<L> =
+            [0, 1].map(|c| each(|l| self.force[0][c][l] - self.mass[l] * self.solution[0][c][l]));
+        self.turn(z, &force, &moment);
+    }
+
+    #[inline(always)]
+    fn apply(&mut self, q: &[Pair<L>; 2], force: &[Pair<L>; 2]) {
+        let z = &q[1];
+        let moment = cross(z, &force[1]);
+        for c in 0..2 {
+            for l in 0..L {
+                self.force[0][c][l] += force[0][c][l];
+                self.force[1][c][l] += force[1][c][l];
+            }
+        }
+        self.turn(z, &force[0], &moment);
+    }
+
+    #[inline(always)]
+    fn remove_regularization(&mut self, q: &[Pair<L>; 2]) {
+        let moment = each(|l| self.regularization[l] * (self.omega[l] - self.returned[l]));
+        self.returned = self.omega;
+        self.turn(&q[1], &[[0.0; L]; 2], &moment);
+    }
+
+    #[inline(always)]
+    fn solution(&self) -> &[Pair<L>; 2] {
+        &self.solution
+    }
+
+    #[inline(always)]
+    fn director_forces(&self) -> Pair<L> {
+        let held: Pair<L> =
+            [0, 1].map(|c| each(|l| self.mass[l] * self.solution[0][c][l] - self.force[0][c][l]));
+        // Along z and J z, as in [`Bodies::pull_back`].
+        let [a, b] = &self.pivot;
+        let pulled: Pair<L> = [
+            each(|l| a[l] * held[0][l] + b[l] * held[1][l]),
+            each(|l| a[l] * held[1][l] - b[l] * held[0][l]),
+        ];
+        [0, 1]
+            .map(|c| each(|l| self.force[1][c][l] + pulled[c][l] - self.inertia[l] * self.solution[1][c][l]))
+    }
+
+    #[inline(always)]
+    fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
+        let mut sums = [[0.0; L]; 2];
+        let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
+        for ([_, a], [_, b]) in heads.zip(tails).take((n - 1) / 2) {
+            for (c, all) in sums.iter_mut().enumerate() {
+                *all = plus(&a[c], &b[c], all);
+            }
+        }
+        let half = sum(&sums[0], &sums[1]);
+        let mut all = sum(&half, &half);
+        if n.is_multiple_of(2) {
+            let [_, z] = &q[n / 2];
+            all = plus(&z[0], &z[0], &plus(&z[1], &z[1], &all));
+        }
+        (times(&[-kappa; L], &all), [[0.0; L]; 2])
+    }
+
+    #[inline(always)]
+    fn moment(q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
+        let mut sums = [[0.0; L]; 2];
+        for ([_, z], p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
+            sums[0] = plus(&z[0], &p[1], &sums[0]);
+            sums[1] = less(&z[1], &p[0], &sums[1]);
+        }
+        sum(&sums[0], &sums[1])
+    }
+
+    #[inline(always)]
+    fn no_moment() -> Lane<L> {
+        [0.0; L]
+    }
+
+    #[inline(always)]
+    fn position_correction(&self, q: &[Pair<L>; 2]) -> Self::Rigid {
+        let [r, z] = q;
+        let arm = turned(&self.pivot, z);
+        let open: Pair<L> =
+            [0, 1].map(|c| each(|l| self.hangs[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
+        (each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l])), open)
+    }
+
+    #[inline(always)]
+    fn velocity_correction(&self, q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Self::Rigid {
+        let (z, [r_rate, rate]) = (&q[1], q_dot);
+        let arm = turned(&self.pivot, rate);
+        let open: Pair<L> = [0, 1].map(|c| each(|l| -self.hangs[l] * (r_rate[c][l] + arm[c][l])));
+        (each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l])), open)
+    }
+}

@@ -1,0 +1,408 @@
+//! The matrix S = A D⁻¹ Aᵀ of the joints' rows, as H Hᵀ with H = A C⁻ᵀ and D = C Cᵀ.
+
+use super::angles::Angles;
+use super::bodies::Bodies;
+use super::lanes::{plus, rows_of_lanes};
+use super::rows::{Place, Rows};
+use crate::system::row::Form;
+use crate::system::{NO_INCIDENCE, System};
+use pulp::Simd;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use triad_linalg::BlockCholesky;
+use triad_linalg::block_cholesky::stride;
+
+/// Which gradient a term of H has.
+#[derive(Clone, Copy, Debug)]
+enum Gradient {
+    /// The three unit vectors, in three rows.
+    Unit,
+    /// The two directions across common vector k, in two rows.
+    Across(usize),
+    /// The other factor of lane `lane` of product bundle `bundle`: 0 for x, 1 for y.
+    Factor { bundle: usize, lane: usize, side: usize },
+    /// Gradient k of relation r.
+    Relation { r: usize, k: usize },
+}
+
+/// A feature's part of a row form in the block of its body.
+#[derive(Clone, Copy, Debug)]
+struct Term {
+    incidence: usize,
+    at: usize,
+    place: Place,
+    gradient: Gradient,
+    sign: f64,
+    /// 1/√m for points, 0 for vectors.
+    translation: f64,
+}
+
+/// A product H_p H_qᵀ that is added to a block of S.
+#[derive(Clone, Copy, Debug)]
+struct Contribution {
+    offset: usize,
+    left: usize,
+    right: usize,
+    rows: usize,
+    columns: usize,
+}
+
+/// A product of what two features of a bundle do to each other, and the blocks of S that it is added to: joints that
+/// are nothing but a common point need no rows of H.
+#[derive(Clone, Debug)]
+struct Pair {
+    slots: [usize; 2],
+    targets: Range<usize>,
+}
+
+/// Where the product of a pair goes in one lane.
+#[derive(Clone, Copy, Debug)]
+struct Target {
+    lane: usize,
+    sign: f64,
+    offset: usize,
+    /// σ/m, which is the same at every state; zero for a body that hangs on the ground.
+    constant: f64,
+}
+
+/// S and its factor.
+#[derive(Clone, Debug)]
+pub struct Schur {
+    /// Terms of common points, and all others.
+    units: Vec<Term>,
+    terms: Vec<Term>,
+    /// Where the others stand in H.
+    changing: Vec<Range<usize>>,
+    contributions: Vec<Contribution>,
+    h: Vec<f64>,
+    pairs: Vec<Pair>,
+    targets: Vec<Target>,
+    /// What of S never changes.
+    base: Vec<f64>,
+    /// Whether what never changes is written once.
+    pub keep_constants: bool,
+    /// Entries that were not written again.
+    pub constants_kept: u64,
+    /// The factor.
+    pub factor: BlockCholesky,
+}
+
+impl Schur {
+    /// Writes the program of S for twists of so many components.
+    pub fn new(system: &System, place: &[Place], lanes: usize, twist: usize) -> Self {
+        let sizes: Vec<usize> = system.groups.iter().map(|g| g.solver.len()).collect();
+        // A joint without rows (in the plane) meets nobody.
+        let touching: Vec<Vec<usize>> = system
+            .incidences_of_body
+            .iter()
+            .map(|list| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect())
+            .collect();
+        let edges = touching.iter().flat_map(|incidences: &Vec<usize>| {
+            incidences.iter().enumerate().flat_map(move |(k, &p)| {
+                let group = |i: usize| system.incidences[i].group;
+                incidences[k + 1..].iter().map(move |&q| (group(p), group(q)))
+            })
+        });
+        let factor = BlockCholesky::new(&sizes, edges);
+        let ends = ends(system, place);
+        let mut contributions = Vec::new();
+        let mut pairs: BTreeMap<[usize; 2], Vec<Target>> = BTreeMap::new();
+        for (body, incidences) in touching.iter().enumerate() {
+            for (k, &p) in incidences.iter().enumerate() {
+                for &q in &incidences[k..] {
+                    let slot = factor.slot(system.incidences[p].group, system.incidences[q].group);
+                    let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
+                    let offset = slot.offset;
+                    if let (Some(a), Some(b)) = (ends[left], ends[right]) {
+                        let sign = a.sign * b.sign;
+                        let constant = sign * system.bodies[body].free_inverse_mass();
+                        let target = Target { lane: a.place.lane, sign, offset, constant };
+                        pairs.entry([a.place.slot, b.place.slot]).or_default().push(target);
+                        continue;
+                    }
+                    let (left, right) = (&system.incidences[left], &system.incidences[right]);
+                    contributions.push(Contribution {
+                        offset,
+                        left: left.offset / 6 * twist,
+                        right: right.offset / 6 * twist,
+                        rows: left.rows,
+                        columns: right.rows,
+                    });
+                }
+            }
+        }
+        // In the order of memory, so that the sums run through the store once.
+        contributions.sort_by_key(|c| c.offset);
+        let h = vec![0.0; system.block_numbers / 6 * twist];
+        let (units, terms): (Vec<Term>, Vec<Term>) = terms(system, place, lanes, twist)
+            .into_iter()
+            .partition(|t| matches!(t.gradient, Gradient::Unit));
+        // Joints that are only a common point need no rows in H unless they meet others.
+        let mixed = |unit: &Term| {
+            let body = system.incidences[unit.incidence].body;
+            touching[body].iter().any(|&i| ends[i].is_none())
+        };
+        let units = units.into_iter().filter(mixed).collect();
+        let changing = changing(&terms, twist);
+        let mut targets = Vec::new();
+        let mut list = Vec::new();
+        for (slots, own) in pairs {
+            let first = targets.len();
+            targets.extend(own);
+            list.push(Pair { slots, targets: first..targets.len() });
+        }
+        let mut schur = Self {
+            units,
+            terms,
+            changing,
+            contributions,
+            h,
+            pairs: list,
+            targets,
+            base: vec![0.0; factor.values().len()],
+            keep_constants: true,
+            constants_kept: 0,
+            factor,
+        };
+        schur.write_constants(twist, if twist == 3 { 2 } else { 3 });
+        schur
+    }
+
+    /// Builds S from C⁻¹ s̃ of all features.
+    #[inline(always)]
+    pub fn assemble<S: Simd, const L: usize, B: Bodies<L>>(
+        &mut self,
+        simd: S,
+        rows: &Rows<L>,
+        angles: &Angles,
+        mobility: &[B::Mobility],
+    ) {
+        self.set_terms::<L, B>(rows, angles, mobility);
+        self.factor.values_mut().copy_from_slice(&self.base);
+        self.add_pairs::<S, L, B>(simd, mobility);
+        if B::TWIST == 3 {
+            self.multiply::<3>();
+        } else {
+            self.multiply::<6>();
+        }
+    }
+
+    /// H. Rows of common points have a part that never changes: it is written once.
+    #[inline(always)]
+    fn set_terms<const L: usize, B: Bodies<L>>(
+        &mut self,
+        rows: &Rows<L>,
+        angles: &Angles,
+        mobility: &[B::Mobility],
+    ) {
+        if self.keep_constants {
+            self.constants_kept += ((self.units.len() + self.targets.len()) * B::DIRECTIONS) as u64;
+        } else {
+            self.write_constants(B::TWIST, B::DIRECTIONS);
+        }
+        for unit in &self.units {
+            let block = &mut self.h[unit.at..unit.at + B::TWIST * B::DIRECTIONS];
+            B::set_unit_rotations(&mobility[unit.place.slot], unit.place.lane, unit.sign, block);
+        }
+        for range in &self.changing {
+            self.h[range.clone()].fill(0.0);
+        }
+        for term in &self.terms {
+            let z = &mobility[term.place.slot];
+            let mut block = self.h[term.at..].chunks_exact_mut(B::TWIST);
+            let mut add = |g: &[f64; 3]| {
+                if let Some(row) = block.next() {
+                    B::add_translation(g, term.sign * term.translation, row);
+                    B::add_rotation(z, term.place.lane, g, term.sign, row);
+                }
+            };
+            match term.gradient {
+                Gradient::Unit => {}
+                Gradient::Across(k) => rows.commons[k].across.iter().for_each(add),
+                Gradient::Factor { bundle, lane, side } => add(&rows.product_factors(bundle, lane)[1 - side]),
+                Gradient::Relation { r, k } => add(&angles.gradient(r, k)),
+            }
+        }
+    }
+
+    /// What joints that are only common points add to S: σ (1/m + s̃ᵀ I⁻¹ s̃), whose first part stands there.
+    #[inline(always)]
+    fn add_pairs<S: Simd, const L: usize, B: Bodies<L>>(&mut self, simd: S, mobility: &[B::Mobility]) {
+        let values = self.factor.values_mut();
+        for pair in &self.pairs {
+            let [a, b] = pair.slots.map(|slot| &mobility[slot]);
+            // No closures: they are not compiled for the instructions at hand.
+            let [first, second, third] = B::pair(a, b);
+            let strips =
+                [rows_of_lanes(simd, first), rows_of_lanes(simd, second), rows_of_lanes(simd, third)];
+            for &Target { lane, sign, offset, .. } in &self.targets[pair.targets.clone()] {
+                let block = &mut values[offset..offset + 4 * B::STRIPS];
+                for (out, strip) in block.as_chunks_mut::<4>().0.iter_mut().zip(&strips) {
+                    *out = plus(&[sign; 4], &strip[lane % L], out);
+                }
+            }
+        }
+    }
+
+    /// The translations in rows of common points: ±1/√m along each direction, and what they make in S.
+    fn write_constants(&mut self, twist: usize, directions: usize) {
+        for unit in &self.units {
+            for k in 0..directions {
+                let row = &mut self.h[unit.at + k * twist..unit.at + (k + 1) * twist];
+                row.fill(0.0);
+                row[k] = unit.sign * unit.translation;
+            }
+        }
+        self.base.fill(0.0);
+        for target in &self.targets {
+            for k in 0..directions {
+                self.base[target.offset + k * (stride(directions) + 1)] += target.constant;
+            }
+        }
+    }
+
+    /// S = H Hᵀ.
+    #[inline(always)]
+    fn multiply<const W: usize>(&mut self) {
+        let values = self.factor.values_mut();
+        for c in &self.contributions {
+            let (left, right) =
+                (&self.h[c.left..c.left + W * c.rows], &self.h[c.right..c.right + W * c.columns]);
+            let out = &mut values[c.offset..c.offset + c.rows * stride(c.columns)];
+            match (c.rows, c.columns) {
+                (2, 2) => add_product::<W, 2>(left, right, out),
+                (3, 3) => add_product::<W, 3>(left, right, out),
+                (5, 5) => add_product::<W, 5>(left, right, out),
+                _ => {
+                    for (a, out) in
+                        left.as_chunks::<W>().0.iter().zip(out.chunks_exact_mut(stride(c.columns)))
+                    {
+                        for (b, out) in right.as_chunks::<W>().0.iter().zip(out) {
+                            *out += dot(a, b);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
+    let mut sum = a[0] * b[0];
+    for k in 1..W {
+        sum = a[k].mul_add(b[k], sum);
+    }
+    sum
+}
+
+#[inline(always)]
+fn add_product<const W: usize, const N: usize>(left: &[f64], right: &[f64], out: &mut [f64]) {
+    let (left, right) = (left.as_chunks::<W>().0, right.as_chunks::<W>().0);
+    let (Some(left), Some(right)) = (left.first_chunk::<N>(), right.first_chunk::<N>()) else { return };
+    for (a, out) in left.iter().zip(out.chunks_exact_mut(stride(N))) {
+        for k in 0..N {
+            out[k] += dot(a, &right[k]);
+        }
+    }
+}
+
+/// The point of a joint that is nothing but a common point, on one body.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    place: Place,
+    sign: f64,
+}
+
+/// For each incidence its point, if its joint is nothing but a common point.
+fn ends(system: &System, place: &[Place]) -> Vec<Option<End>> {
+    let mut ends = vec![None; system.incidences.len()];
+    for group in &system.groups {
+        let [row] = &system.rows[group.forms.clone()] else { continue };
+        let Form::Coincidence { a, b } = row.form else { continue };
+        for (order, feature, sign) in [(0, a, 1.0), (1, b, -1.0)] {
+            let incidence = row.incidence[order];
+            if incidence != NO_INCIDENCE {
+                ends[incidence] = Some(End { place: place[feature], sign });
+            }
+        }
+    }
+    ends
+}
+
+/// The rows of H that terms add to, in pieces.
+fn changing(terms: &[Term], twist: usize) -> Vec<Range<usize>> {
+    let mut rows: Vec<Range<usize>> = terms
+        .iter()
+        .map(|term| {
+            let rows = if matches!(term.gradient, Gradient::Across(_)) { 2 } else { 1 };
+            term.at..term.at + rows * twist
+        })
+        .collect();
+    rows.sort_by_key(|range| range.start);
+    let mut pieces: Vec<Range<usize>> = Vec::new();
+    for range in rows {
+        match pieces.last_mut() {
+            Some(last) if last.end >= range.start => last.end = last.end.max(range.end),
+            _ => pieces.push(range),
+        }
+    }
+    pieces
+}
+
+/// The terms of H, row form by row form.
+fn terms(system: &System, place: &[Place], lanes: usize, twist: usize) -> Vec<Term> {
+    let mut terms = Vec::new();
+    let (mut commons, mut products, mut relations) = (0, 0, 0);
+    for row in &system.rows {
+        let mut add = |order: usize, feature: usize, gradient: Gradient, sign: f64| {
+            let place_of = row.incidence[order];
+            if place_of == NO_INCIDENCE {
+                return;
+            }
+            let incidence = &system.incidences[place_of];
+            let point = system.features[feature].point;
+            let inverse_mass = system.bodies[incidence.body].free_inverse_mass();
+            terms.push(Term {
+                incidence: place_of,
+                at: incidence.offset / 6 * twist + twist * row.local,
+                place: place[feature],
+                gradient,
+                sign,
+                translation: if point { inverse_mass.sqrt() } else { 0.0 },
+            });
+        };
+        match row.form {
+            Form::Coincidence { a, b } => {
+                add(0, a, Gradient::Unit, 1.0);
+                add(1, b, Gradient::Unit, -1.0);
+            }
+            Form::CommonVector { a, b } => {
+                add(0, a, Gradient::Across(commons), 1.0);
+                add(1, b, Gradient::Across(commons), -1.0);
+                commons += 1;
+            }
+            Form::Product { a, b, .. } => {
+                let mut order = 0;
+                for (side, difference) in [a, b].into_iter().enumerate() {
+                    let gradient =
+                        Gradient::Factor { bundle: products / lanes, lane: products % lanes, side };
+                    add(order, difference.plus, gradient, 1.0);
+                    order += 1;
+                    if let Some(minus) = difference.minus {
+                        add(order, minus, gradient, -1.0);
+                        order += 1;
+                    }
+                }
+                products += 1;
+            }
+            Form::Relation { .. } => {
+                for (k, feature) in row.form.features(&system.angles).into_iter().enumerate() {
+                    add(k, feature, Gradient::Relation { r: relations, k }, 1.0);
+                }
+                relations += 1;
+            }
+        }
+    }
+    terms
+}

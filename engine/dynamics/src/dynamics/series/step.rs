@@ -1,0 +1,313 @@
+//! One step of the series: expand, choose how far the terms reach, move there, and project.
+
+use super::lanes::largest;
+use super::{Bodies, Dependent, Series};
+use pulp::{Arch, Simd, WithSimd};
+
+/// A correction of positions above this part of the tolerance calls for a new factor.
+const NEGLIGIBLE: f64 = 0.01;
+/// A Newton step of this size, relative to the mechanism, leaves an error of its square.
+const CONSISTENT: f64 = 1e-7;
+
+/// Newton steps of the positions at the end of a step.
+const MOST_CORRECTIONS: usize = 3;
+
+/// Orders that are found in any case.
+const LEAST_ORDER: usize = 8;
+/// A step that leaves its constraints, or a prescribed function its series, by this many tolerances is taken anew, half
+/// as long, but not more often than this.
+const FAR: f64 = 100.0;
+const MOST_REJECTED: u64 = 12;
+/// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
+/// end of a step.
+const FARTHEST_TURN: f64 = 3.0;
+
+/// What a step has to do.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// Highest order of the series.
+    pub order: usize,
+    /// Relative and absolute tolerance.
+    pub tolerance: f64,
+    /// A length of the mechanism, m.
+    pub length: f64,
+    /// End of the run, s: no step goes beyond it.
+    pub end: f64,
+    /// Whether to tell only how far the series reach, without knots.
+    pub look_only: bool,
+}
+
+/// What a step was.
+#[derive(Clone, Copy, Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "findings that have nothing to do with each other")]
+pub struct Taken {
+    /// Its size, s.
+    pub h: f64,
+    /// The time at its end, s.
+    pub time: f64,
+    /// Whether it ends where a prescribed function has another piece: then it may be as short as it likes.
+    pub at_break: bool,
+    /// The order at which the series was cut.
+    pub order: usize,
+    /// How often it was shortened because it had left the constraints, or prescribed functions their series.
+    pub rejected: u64,
+    /// Whether it has left them all the same, as far as it was shortened.
+    pub far: bool,
+    /// Whether the new state is made of finite numbers.
+    pub finite: bool,
+    /// Whether Newton's method has just shown that the constraints hold: its last step was of no size, with a regular
+    /// factor.
+    pub proven: bool,
+}
+
+/// A step, to be compiled for each set of vector instructions.
+struct Step<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Plan);
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
+    type Output = Taken;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Taken {
+        self.0.step_here(simd, self.1)
+    }
+}
+
+/// A piece of a step on its own, likewise: all of them together, so that each is compiled once.
+struct Piece<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Which);
+
+#[derive(Clone, Copy)]
+enum Which {
+    /// S without its factor.
+    Assemble,
+    Linearize,
+    /// Of the positions (0) or the velocities (1).
+    Correct(usize),
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Piece<'_, L, B> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        match self.1 {
+            Which::Assemble => self.0.assemble_here(simd),
+            Which::Linearize => self.0.linearize_here(simd),
+            Which::Correct(which) => return self.0.correct_here(which),
+        }
+        0.0
+    }
+}
+
+/// An evaluation of the accelerations, likewise.
+struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.0.linearize_here(simd);
+        self.0.expand(2, |_, _| false);
+    }
+}
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
+    /// Accelerations and multipliers at the state: builds and factors S, then order 0.
+    pub fn evaluate(&mut self) {
+        Arch::new().dispatch(Evaluate(self));
+    }
+
+    /// Builds and factors S at the point of expansion.
+    pub fn linearize(&mut self) {
+        self.piece(Which::Linearize);
+    }
+
+    /// Builds S at the point of expansion.
+    pub(super) fn assemble(&mut self) {
+        self.piece(Which::Assemble);
+    }
+
+    pub(super) fn correct(&mut self, which: usize) -> f64 {
+        self.piece(Which::Correct(which))
+    }
+
+    /// Pieces on their own are for the start of a run and for tests.
+    #[inline(never)]
+    fn piece(&mut self, which: Which) -> f64 {
+        Arch::new().dispatch(Piece(self, which))
+    }
+
+    /// Takes a step from the state, at which S must be factored, and factors S at its end.
+    pub fn step(&mut self, plan: Plan) -> Taken {
+        Arch::new().dispatch(Step(self, plan))
+    }
+
+    /// The step that the series at the state allow, at which S must be factored, if no knot were in the way, s.
+    pub fn natural_step(&mut self, order: usize, tolerance: f64) -> f64 {
+        self.step(Plan { order, tolerance, length: 0.0, end: f64::INFINITY, look_only: true }).h
+    }
+
+    #[inline(always)]
+    fn step_here<S: Simd>(&mut self, simd: S, plan: Plan) -> Taken {
+        // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
+        let end = plan.end.min(self.next_break);
+        let (start, left) = (self.time, end - self.time);
+        let allowance = self.allowance(plan.tolerance);
+        // Pieces are polynomials of degree five: orders above that of their accelerations say how good the series are.
+        let order = self.expand(plan.order, |s, k| {
+            end < plan.end
+                && !plan.look_only
+                && k > LEAST_ORDER
+                && s.reached(k - 1, allowance, 0.0).min(s.reached(k, allowance, 0.0)) >= left
+        });
+        if !self.power.is_empty() {
+            self.find_power(order);
+        }
+        let (h, order) = self.reach(order, allowance);
+        if plan.look_only {
+            return Taken {
+                h,
+                time: start,
+                at_break: false,
+                order,
+                rejected: 0,
+                far: false,
+                finite: true,
+                proven: false,
+            };
+        }
+        let mut h = self.loads.limit(self.angles.limit(h.min(left), order, FARTHEST_TURN), order);
+        let mut rejected = 0;
+        loop {
+            let mut time = start + h;
+            if 1.01 * h >= left {
+                (h, time) = (left, end);
+            }
+            let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
+            if met {
+                let most = (rejected < MOST_REJECTED).then_some(FAR * plan.tolerance);
+                if let Some((moved, closed)) = self.arrive(simd, h, time, order, plan, most) {
+                    // Rows that are left out are measured.
+                    let proven = closed && !self.regularized && self.dependent == Dependent::None;
+                    let finite = self.is_finite();
+                    let far = moved.is_nan() || moved > FAR * plan.tolerance;
+                    return Taken { h, time, at_break: time == end, order, rejected, far, finite, proven };
+                }
+            }
+            rejected += 1;
+            h *= 0.5;
+        }
+    }
+
+    /// Moves to the end of a step, factors S there and projects positions and velocities. Tells how far the positions were
+    /// moved and whether Newton's method has converged, or nothing if it moved the positions by more than `most`: what the terms that were left out would have
+    /// added.
+    #[inline(always)]
+    fn arrive<S: Simd>(
+        &mut self,
+        simd: S,
+        h: f64,
+        time: f64,
+        order: usize,
+        plan: Plan,
+        most: Option<f64>,
+    ) -> Option<(f64, bool)> {
+        self.advance(h, order);
+        self.set_time(time);
+        let (mut moved, mut closed) = (0.0f64, false);
+        for round in 0..=MOST_CORRECTIONS {
+            let last = closed || round == MOST_CORRECTIONS;
+            if last && most.is_some_and(|most| moved.is_nan() || moved > most) {
+                return None;
+            }
+            if round == 0 || (last && moved > NEGLIGIBLE * plan.tolerance) {
+                self.linearize_here(simd);
+            }
+            let step = self.correct_here(usize::from(last));
+            if last {
+                break;
+            }
+            moved += step;
+            closed = step <= CONSISTENT * plan.length;
+        }
+        Some((moved, closed))
+    }
+
+    /// The largest terms of positions and velocities that a tolerance allows.
+    #[inline(always)]
+    fn allowance(&self, tolerance: f64) -> [f64; 2] {
+        let size = |which: usize| {
+            let sizes = self.state.iter().map(|state| largest(B::lanes(&state[which])));
+            sizes.fold(0.0, f64::max)
+        };
+        [0, 1].map(|which| tolerance * (1.0 + size(which)))
+    }
+
+    /// The step that the term of order k allows, or zero if it is shorter than `least`: found without roots.
+    #[inline(always)]
+    fn reached(&self, k: usize, [position, velocity]: [f64; 2], least: f64) -> f64 {
+        let term = self.size_of(k);
+        let (by_position, by_velocity) = (position / term, velocity / (k as f64 * term));
+        let power = (1..k).fold(1.0, |power, _| power * least);
+        if by_velocity < power || by_position < power * least {
+            return 0.0;
+        }
+        let root = |x: f64, k: usize| (x.ln() / k as f64).exp();
+        root(by_position, k).min(root(by_velocity, k - 1))
+    }
+
+    /// The step and the order at which the series is cut: the longest step that two successive terms of positions and
+    /// velocities allow. Near singular positions high terms are noise, and lower ones decide.
+    #[inline(always)]
+    fn reach(&self, order: usize, allowance: [f64; 2]) -> (f64, usize) {
+        let mut best = (0.0, order);
+        let mut next = self.reached(order, allowance, 0.0);
+        for k in (3..=order).rev() {
+            let previous = self.reached(k - 1, allowance, best.0);
+            let h = previous.min(next);
+            if h > best.0 {
+                best = (h, k);
+            }
+            next = previous;
+        }
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraints::mechanism::Mechanism;
+    use crate::model::Model;
+    use crate::scene::catalogue;
+    use crate::system::System;
+
+    /// Products and sums are fused whether the processor does it or not.
+    #[test]
+    fn every_set_of_instructions_gives_the_same_bits() {
+        for name in ["spatial-chain:5", "spatial-slider-crank"] {
+            let scene = catalogue::scene(name).unwrap();
+            let mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
+            let system = &mechanism.system;
+            let mut y = vec![0.0; 2 * system.coordinates];
+            let (q, q_dot) = y.split_at_mut(system.coordinates);
+            system.start(q, q_dot);
+            let mut own = Series::<4>::new(system, 12, false, &[]);
+            own.place(system, 0.0, &y);
+            own.linearize();
+            let mut plain = own.clone();
+            let plan = Plan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, look_only: false };
+            for _ in 0..5 {
+                let taken = own.step(plan);
+                assert_eq!(
+                    taken.h.to_bits(),
+                    Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits()
+                );
+            }
+            let mut other = y.clone();
+            own.store(system, &mut y);
+            plain.store(system, &mut other);
+            assert!(y.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! A checked scene: names resolved, every physical check made, principal axes found.
+//!
+//! A [`Model`] can only be made from a [`Scene`], and everything after it relies on what is checked here. Points and
+//! vectors of a body are from now on written in its *principal frame*: origin at the centre of mass, axes along the
+//! directors u, v, w, which the formulation wants to be principal axes of inertia — THEORY eq. (2.1).
+
+pub mod motion;
+
+mod body;
+mod driver;
+mod error;
+mod event;
+mod joint;
+mod load;
+mod parameter;
+mod reader;
+
+pub use body::ModelBody;
+pub use driver::{DriverKind, ModelDriver};
+pub use error::ModelError;
+pub use event::{EventQuantity, ModelEvent};
+pub use joint::{ModelJoint, director_along};
+pub use load::{Element, LoadKind, ModelLoad};
+
+use crate::scene::{Scene, Settings, Stabilization};
+use nalgebra::Vector3;
+use reader::Reader;
+use std::collections::HashMap;
+
+/// A body by its place in the model, or the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum BodyRef {
+    /// The fixed body, whose frame is the world.
+    Ground,
+    /// A moving body.
+    Moving(usize),
+}
+
+/// A checked scene.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Name of the scene.
+    pub name: String,
+    /// Acceleration of gravity, m/s².
+    pub gravity: Vector3<f64>,
+    /// The moving bodies, in the scene's order.
+    pub bodies: Vec<ModelBody>,
+    /// The joints, in the scene's order.
+    pub joints: Vec<ModelJoint>,
+    /// The drivers, in the scene's order.
+    pub drivers: Vec<ModelDriver>,
+    /// The loads besides gravity, in the scene's order.
+    pub loads: Vec<ModelLoad>,
+    /// Moments to look for, in the scene's order.
+    pub events: Vec<ModelEvent>,
+    /// How to run it.
+    pub settings: Settings,
+    /// What was found or corrected, for the author.
+    pub notes: Vec<String>,
+}
+
+impl Model {
+    /// Checks a scene and resolves its names.
+    pub fn new(scene: &Scene) -> Result<Self, ModelError> {
+        finite(&scene.gravity, "/gravity")?;
+        check_settings(&scene.simulation)?;
+        if scene.bodies.is_empty() {
+            return Err(ModelError::NoBodies);
+        }
+        let mut notes = Vec::new();
+        let mut names = HashMap::new();
+        let mut bodies = Vec::with_capacity(scene.bodies.len());
+        for (index, written) in scene.bodies.iter().enumerate() {
+            unique_name(&mut names, "bodies", index, &written.name)?;
+            bodies.push(ModelBody::new(written, index, scene.coordinates, &mut notes)?);
+        }
+        // Joints and drivers share one space of names: both label rows.
+        let mut row_names = HashMap::new();
+        let mut joints = Vec::with_capacity(scene.joints.len());
+        for (index, written) in scene.joints.iter().enumerate() {
+            unique_name(&mut row_names, "joints", index, &written.name)?;
+            let (list, name) = ("joints", written.name.as_str());
+            let reader = Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
+            let joint = ModelJoint::new(written, &reader, &mut notes)?;
+            joints.push(joint);
+        }
+        let reader =
+            |list, index, name| Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
+        let mut drivers = Vec::with_capacity(scene.drivers.len());
+        for (index, written) in scene.drivers.iter().enumerate() {
+            unique_name(&mut row_names, "drivers", index, written.name())?;
+            drivers.push(ModelDriver::new(written, &reader("drivers", index, written.name()))?);
+        }
+        let mut load_names = HashMap::new();
+        let mut loads = Vec::with_capacity(scene.loads.len());
+        for (index, written) in scene.loads.iter().enumerate() {
+            unique_name(&mut load_names, "loads", index, written.name())?;
+            loads.push(ModelLoad::new(written, &reader("loads", index, written.name()))?);
+        }
+        let mut event_names = HashMap::new();
+        let mut events = Vec::with_capacity(scene.events.len());
+        for (index, written) in scene.events.iter().enumerate() {
+            unique_name(&mut event_names, "events", index, &written.name)?;
+            events.push(ModelEvent::new(written, &reader("events", index, &written.name))?);
+        }
+        parameter::check(scene)?;
+        Ok(Self {
+            name: scene.name.clone(),
+            gravity: Vector3::from(scene.gravity),
+            bodies,
+            joints,
+            drivers,
+            loads,
+            events,
+            settings: scene.simulation.clone(),
+            notes,
+        })
+    }
+}
+
+fn unique_name(
+    names: &mut HashMap<String, usize>,
+    list: &'static str,
+    index: usize,
+    name: &str,
+) -> Result<(), ModelError> {
+    if name.is_empty() || name == crate::scene::GROUND {
+        return Err(ModelError::ReservedName { list, index, name: name.to_owned() });
+    }
+    match names.insert(name.to_owned(), index) {
+        Some(first) => Err(ModelError::DuplicateName { list, index, first, name: name.to_owned() }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses infinities and NaN.
+fn finite(values: &[f64], pointer: &str) -> Result<(), ModelError> {
+    match values.iter().find(|x| !x.is_finite()) {
+        Some(&value) => Err(ModelError::NotFinite { pointer: pointer.to_owned(), value }),
+        None => Ok(()),
+    }
+}
+
+fn check_settings(settings: &Settings) -> Result<(), ModelError> {
+    let range = |key: &'static str, value: f64, low: f64, high: f64| {
+        if value >= low && value <= high {
+            Ok(())
+        } else {
+            Err(ModelError::OutOfRange { pointer: format!("/simulation/{key}"), value, low, high })
+        }
+    };
+    range("duration", settings.duration, 0.0, 1e6)?;
+    range("every", settings.every, 1e-6, 1e6)?;
+    range("tolerance", settings.tolerance, 1e-14, 1e-1)?;
+    if let Some(step) = settings.step {
+        range("step", step, 1e-9, 1e3)?;
+    }
+    match settings.stabilization {
+        Stabilization::Projection | Stabilization::Partitioning => Ok(()),
+        Stabilization::Baumgarte { alpha, beta } => {
+            range("stabilization/alpha", alpha, 0.0, 1e6)?;
+            range("stabilization/beta", beta, 0.0, 1e6)
+        }
+        Stabilization::Penalty { alpha, omega, mu } => {
+            range("stabilization/alpha", alpha, 1e-3, 1e15)?;
+            range("stabilization/omega", omega, 0.0, 1e6)?;
+            range("stabilization/mu", mu, 0.0, 1e3)
+        }
+        Stabilization::AugmentedLagrangian { alpha } => range("stabilization/alpha", alpha, 1e-3, 1e15),
+    }
+}

@@ -1,0 +1,138 @@
+//! Drivers with their motions ready to be evaluated.
+
+use super::reader::Reader;
+use super::{BodyRef, ModelError};
+use crate::model::motion::{Curve, VectorCurve};
+use crate::scene::{Driver, JointKind};
+use nalgebra::Vector3;
+
+/// A checked driver.
+#[derive(Clone, Debug)]
+pub struct ModelDriver {
+    /// Name.
+    pub name: String,
+    /// What it prescribes.
+    pub kind: DriverKind,
+}
+
+/// What a driver prescribes; local coordinates are in principal frames.
+#[derive(Clone, Debug)]
+pub enum DriverKind {
+    /// A point follows a path (TP).
+    Point {
+        /// The body.
+        body: usize,
+        /// The point.
+        local: Vector3<f64>,
+        /// Its path.
+        motion: VectorCurve,
+    },
+    /// A vector follows a vector (OV).
+    Vector {
+        /// The body.
+        body: usize,
+        /// The vector.
+        local: Vector3<f64>,
+        /// Its direction.
+        motion: VectorCurve,
+    },
+    /// The angle of a joint.
+    Angle {
+        /// The joint.
+        joint: usize,
+        /// The angle, rad.
+        motion: Curve,
+    },
+    /// The displacement of a joint.
+    Slide {
+        /// The joint.
+        joint: usize,
+        /// The displacement, m.
+        motion: Curve,
+    },
+    /// The cosine of the angle between two vectors (AR).
+    Cosine {
+        /// The two bodies.
+        bodies: [BodyRef; 2],
+        /// The two vectors.
+        locals: [Vector3<f64>; 2],
+        /// The angle, rad.
+        motion: Curve,
+    },
+    /// The cosine of the angle between a vector and a moving vector of the world (AR*).
+    CosineToWorld {
+        /// The body.
+        body: usize,
+        /// Its vector.
+        local: Vector3<f64>,
+        /// The vector of the world.
+        reference: VectorCurve,
+        /// The angle, rad.
+        motion: Curve,
+    },
+}
+
+impl ModelDriver {
+    /// Checks a driver.
+    pub(super) fn new(driver: &Driver, reader: &Reader) -> Result<Self, ModelError> {
+        let vector = |body: usize, key: &str, value| {
+            Ok::<_, ModelError>(reader.local_vector(BodyRef::Moving(body), &reader.unit(key, value)?))
+        };
+        let kind = match driver {
+            Driver::Point { body, point, motion, .. } => {
+                let body = reader.moving_body("body", body)?;
+                let point = reader.vector("point", *point)?;
+                DriverKind::Point {
+                    body,
+                    local: reader.local_point(BodyRef::Moving(body), &point),
+                    motion: reader.vector_curve("motion", motion)?,
+                }
+            }
+            Driver::Vector { body, vector: local, motion, .. } => {
+                let body = reader.moving_body("body", body)?;
+                let local = vector(body, "vector", *local)?;
+                let motion = reader.vector_curve("motion", motion)?;
+                let length = motion.at(0.0)[0].norm();
+                if (length - 1.0).abs() > 1e-6 {
+                    let reason = format!("the direction that it follows has the length {length}, not 1");
+                    return Err(reader.wrong("motion", reason));
+                }
+                DriverKind::Vector { body, local, motion }
+            }
+            Driver::Angle { joint, motion, .. } => DriverKind::Angle {
+                joint: reader
+                    .joint(joint, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])?,
+                motion: reader.curve("motion", motion)?,
+            },
+            Driver::Slide { joint, motion, .. } => DriverKind::Slide {
+                joint: reader
+                    .joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])?,
+                motion: reader.curve("motion", motion)?,
+            },
+            Driver::AngleCosine { body_i, vector_i, body_j, vector_j, motion, .. } => {
+                let bodies = [reader.body("body_i", body_i)?, reader.body("body_j", body_j)?];
+                if bodies[0] == bodies[1] {
+                    return Err(reader.wrong("body_j", "it drives a body relative to itself"));
+                }
+                DriverKind::Cosine {
+                    bodies,
+                    locals: [
+                        reader.local_vector(bodies[0], &reader.unit("vector_i", *vector_i)?),
+                        reader.local_vector(bodies[1], &reader.unit("vector_j", *vector_j)?),
+                    ],
+                    motion: reader.curve("motion", motion)?,
+                }
+            }
+            Driver::AngleToWorld { body, vector: local, reference, motion, .. } => {
+                let body = reader.moving_body("body", body)?;
+                DriverKind::CosineToWorld {
+                    body,
+                    local: vector(body, "vector", *local)?,
+                    reference: reader.vector_curve("reference", reference)?,
+                    motion: reader.curve("motion", motion)?,
+                }
+            }
+        };
+        Ok(Self { name: driver.name().to_owned(), kind })
+    }
+}

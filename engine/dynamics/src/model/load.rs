@@ -1,0 +1,171 @@
+//! Loads with their motions ready to be evaluated.
+
+use super::reader::Reader;
+use super::{BodyRef, ModelError};
+use crate::model::motion::{Curve, VectorCurve};
+use crate::scene::{Friction, JointKind, Load, LoadFrame};
+use nalgebra::Vector3;
+
+/// Greatest stiffness, damping or friction that a load may have, SI units.
+const GREATEST: f64 = 1e15;
+
+/// A checked load.
+#[derive(Clone, Debug)]
+pub struct ModelLoad {
+    /// Name.
+    pub name: String,
+    /// What it does.
+    pub kind: LoadKind,
+}
+
+/// −stiffness (x − free) − damping ẋ + drive(t) − friction, along one freedom.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// Stiffness.
+    pub stiffness: f64,
+    /// x without force.
+    pub free: f64,
+    /// Damping.
+    pub damping: f64,
+    /// Prescribed force or torque.
+    pub drive: Option<Curve>,
+    /// Friction.
+    pub friction: Option<Friction>,
+}
+
+/// What a load does; local coordinates are in principal frames.
+#[derive(Clone, Debug)]
+pub enum LoadKind {
+    /// Force at a point.
+    Force {
+        /// The body.
+        body: usize,
+        /// The point.
+        local: Vector3<f64>,
+        /// The force, in the world or in the principal frame.
+        force: VectorCurve,
+        /// Its frame.
+        frame: LoadFrame,
+    },
+    /// Moment.
+    Moment {
+        /// The body.
+        body: usize,
+        /// The moment, in the world or in the principal frame.
+        moment: VectorCurve,
+        /// Its frame.
+        frame: LoadFrame,
+    },
+    /// Between two points, along the line that joins them; x is the length.
+    Spring {
+        /// The two bodies.
+        bodies: [BodyRef; 2],
+        /// The two points.
+        locals: [Vector3<f64>; 2],
+        /// Its law.
+        element: Element,
+    },
+    /// About the axis of a joint; x is the angle.
+    Torsion {
+        /// The joint.
+        joint: usize,
+        /// Its law.
+        element: Element,
+    },
+    /// Along the axis of a joint; x is the displacement.
+    Slider {
+        /// The joint.
+        joint: usize,
+        /// Its law.
+        element: Element,
+    },
+}
+
+impl ModelLoad {
+    /// Checks a load.
+    pub(super) fn new(load: &Load, reader: &Reader) -> Result<Self, ModelError> {
+        let kind = match load {
+            Load::Force { body, point, force, frame, .. } => {
+                let body = reader.moving_body("body", body)?;
+                let point = reader.vector("point", *point)?;
+                LoadKind::Force {
+                    body,
+                    local: reader.local_point(BodyRef::Moving(body), &point),
+                    force: framed(reader, body, *frame, reader.vector_curve("force", force)?),
+                    frame: *frame,
+                }
+            }
+            Load::Moment { body, moment, frame, .. } => {
+                let body = reader.moving_body("body", body)?;
+                LoadKind::Moment {
+                    body,
+                    moment: framed(reader, body, *frame, reader.vector_curve("moment", moment)?),
+                    frame: *frame,
+                }
+            }
+            Load::Spring {
+                body_i, point_i, body_j, point_j, stiffness, free_length, damping, force, ..
+            } => {
+                let bodies = [reader.body("body_i", body_i)?, reader.body("body_j", body_j)?];
+                if bodies[0] == bodies[1] {
+                    return Err(reader.wrong("body_j", "it acts between a body and itself"));
+                }
+                let points = [reader.vector("point_i", *point_i)?, reader.vector("point_j", *point_j)?];
+                let locals = [0, 1].map(|side| reader.local_point(bodies[side], &points[side]));
+                let ends = [0, 1].map(|side| reader.point_to_world(bodies[side], &locals[side]));
+                let free = free_length.unwrap_or_else(|| (ends[1] - ends[0]).norm());
+                let free = reader.number("free_length", free, 0.0, 1e9)?;
+                // A spring pulls its ends together; an element pushes along growing length.
+                let drive = force.as_ref().map(|f| reader.curve("force", f)).transpose()?.map(negated);
+                let element = element(reader, *stiffness, free, *damping, drive, None)?;
+                LoadKind::Spring { bodies, locals, element }
+            }
+            Load::Torsion { joint, stiffness, free_angle, damping, torque, friction, .. } => {
+                let drive = torque.as_ref().map(|t| reader.curve("torque", t)).transpose()?;
+                LoadKind::Torsion {
+                    joint: reader.joint(joint, &[JointKind::Revolute, JointKind::Cylindrical])?,
+                    element: element(reader, *stiffness, *free_angle, *damping, drive, *friction)?,
+                }
+            }
+            Load::Slider { joint, stiffness, free_length, damping, force, friction, .. } => {
+                let drive = force.as_ref().map(|f| reader.curve("force", f)).transpose()?;
+                LoadKind::Slider {
+                    joint: reader.joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical])?,
+                    element: element(reader, *stiffness, *free_length, *damping, drive, *friction)?,
+                }
+            }
+        };
+        Ok(Self { name: load.name().to_owned(), kind })
+    }
+}
+
+/// A vector curve of the author's frame in the frame in which the load is evaluated.
+fn framed(reader: &Reader, body: usize, frame: LoadFrame, curve: VectorCurve) -> VectorCurve {
+    match frame {
+        LoadFrame::World => curve,
+        LoadFrame::Body => curve.rotated(&reader.bodies[body].principal_axes.transpose()),
+    }
+}
+
+fn negated(curve: Curve) -> Curve {
+    curve.scaled(-1.0)
+}
+
+fn element(
+    reader: &Reader,
+    stiffness: f64,
+    free: f64,
+    damping: f64,
+    drive: Option<Curve>,
+    friction: Option<Friction>,
+) -> Result<Element, ModelError> {
+    reader.number("stiffness", stiffness, 0.0, GREATEST)?;
+    reader.number("free", free, -1e9, 1e9)?;
+    reader.number("damping", damping, 0.0, GREATEST)?;
+    if let Some(friction) = friction {
+        reader.number("friction/viscous", friction.viscous, 0.0, GREATEST)?;
+        reader.number("friction/coulomb", friction.coulomb, 0.0, GREATEST)?;
+        reader.number("friction/smoothing", friction.smoothing, 1e-9, 1e9)?;
+    }
+    Ok(Element { stiffness, free, damping, drive, friction })
+}

@@ -1,0 +1,209 @@
+//! Resolving names, points and vectors of the elements of a scene.
+
+use super::{BodyRef, ModelBody, ModelError, ModelJoint, finite};
+use crate::model::motion::{Curve, VectorCurve};
+use crate::scene::{GROUND, JointKind, Motion, Triple, VectorMotion};
+use nalgebra::Vector3;
+use std::collections::HashMap;
+use triad_scene::text::nearest_name;
+
+/// Most coefficients of a polynomial and most points of a table.
+const MAX_COEFFICIENTS: usize = 32;
+const MAX_POINTS: usize = 10_000;
+
+/// What is known while the elements of one list are read.
+pub(super) struct Reader<'a> {
+    /// Which list: `joints`, `drivers`, `loads` or `events`.
+    pub list: &'static str,
+    /// Place in that list.
+    pub index: usize,
+    /// Name of the element.
+    pub name: &'a str,
+    /// Names of bodies.
+    pub names: &'a HashMap<String, usize>,
+    /// The bodies.
+    pub bodies: &'a [ModelBody],
+    /// The joints, for drivers and loads that act in one.
+    pub joints: &'a [ModelJoint],
+}
+
+impl Reader<'_> {
+    /// JSON pointer of a key of the element.
+    pub fn at(&self, key: &str) -> String {
+        format!("/{}/{}/{key}", self.list, self.index)
+    }
+
+    /// An error about a key of the element.
+    pub fn wrong(&self, key: &str, reason: impl Into<String>) -> ModelError {
+        ModelError::Geometry {
+            element: format!("{} \"{}\"", self.list.trim_end_matches('s'), self.name),
+            pointer: self.at(key),
+            reason: reason.into(),
+        }
+    }
+
+    /// A body by its name.
+    pub fn body(&self, key: &str, name: &str) -> Result<BodyRef, ModelError> {
+        if name == GROUND {
+            return Ok(BodyRef::Ground);
+        }
+        self.names.get(name).map(|&body| BodyRef::Moving(body)).ok_or_else(|| ModelError::UnknownBody {
+            element: format!("{} \"{}\"", self.list.trim_end_matches('s'), self.name),
+            pointer: self.at(key),
+            name: name.to_owned(),
+            nearest: nearest_name(name, self.bodies.iter().map(|b| b.name.as_str())),
+        })
+    }
+
+    /// A moving body by its name.
+    pub fn moving_body(&self, key: &str, name: &str) -> Result<usize, ModelError> {
+        match self.body(key, name)? {
+            BodyRef::Moving(body) => Ok(body),
+            BodyRef::Ground => Err(self.wrong(key, "it acts on the ground, which cannot move")),
+        }
+    }
+
+    /// A joint by its name, of one of the given kinds.
+    pub fn joint(&self, name: &str, kinds: &[JointKind]) -> Result<usize, ModelError> {
+        let key = if self.list == "events" { "of/joint" } else { "joint" };
+        let Some(index) = self.joints.iter().position(|j| j.name == name) else {
+            let nearest = nearest_name(name, self.joints.iter().map(|j| j.name.as_str()));
+            let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
+            return Err(self.wrong(key, format!("there is no joint \"{name}\"{guess}")));
+        };
+        if kinds.contains(&self.joints[index].kind) {
+            Ok(index)
+        } else {
+            Err(self.wrong(key, format!("joint \"{name}\" is not of a kind that it can act in ({kinds:?})")))
+        }
+    }
+
+    /// Finite numbers as a vector.
+    pub fn vector(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
+        finite(&value, &self.at(key))?;
+        Ok(Vector3::from(value))
+    }
+
+    /// A direction, made a unit vector.
+    pub fn unit(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
+        self.vector(key, value)?
+            .try_normalize(1e-12)
+            .ok_or_else(|| self.wrong(key, "the vector has no length"))
+    }
+
+    /// A finite number in a range.
+    pub fn number(&self, key: &str, value: f64, low: f64, high: f64) -> Result<f64, ModelError> {
+        if value >= low && value <= high {
+            Ok(value)
+        } else {
+            Err(ModelError::OutOfRange { pointer: self.at(key), value, low, high })
+        }
+    }
+
+    /// A point of the author's frame in the principal frame of a body.
+    pub fn local_point(&self, body: BodyRef, point: &Vector3<f64>) -> Vector3<f64> {
+        match body {
+            BodyRef::Ground => *point,
+            BodyRef::Moving(body) => self.bodies[body].point_to_principal(point),
+        }
+    }
+
+    /// A vector of the author's frame in the principal frame of a body.
+    pub fn local_vector(&self, body: BodyRef, vector: &Vector3<f64>) -> Vector3<f64> {
+        match body {
+            BodyRef::Ground => *vector,
+            BodyRef::Moving(body) => self.bodies[body].vector_to_principal(vector),
+        }
+    }
+
+    /// A point of the world at the start in the principal frame of a body.
+    pub fn point_from_world(&self, body: BodyRef, world: &Vector3<f64>) -> Vector3<f64> {
+        match body {
+            BodyRef::Ground => *world,
+            BodyRef::Moving(body) => {
+                let body = &self.bodies[body];
+                body.directors.tr_mul(&(world - body.position))
+            }
+        }
+    }
+
+    /// A vector of the world at the start in the principal frame of a body.
+    pub fn vector_from_world(&self, body: BodyRef, world: &Vector3<f64>) -> Vector3<f64> {
+        match body {
+            BodyRef::Ground => *world,
+            BodyRef::Moving(body) => self.bodies[body].directors.tr_mul(world),
+        }
+    }
+
+    /// World position at the start of a point in the principal frame.
+    pub fn point_to_world(&self, body: BodyRef, local: &Vector3<f64>) -> Vector3<f64> {
+        match body {
+            BodyRef::Ground => *local,
+            BodyRef::Moving(body) => {
+                let body = &self.bodies[body];
+                body.position + body.directors * local
+            }
+        }
+    }
+
+    /// World components at the start of a vector in the principal frame.
+    pub fn vector_to_world(&self, body: BodyRef, local: &Vector3<f64>) -> Vector3<f64> {
+        match body {
+            BodyRef::Ground => *local,
+            BodyRef::Moving(body) => self.bodies[body].directors * local,
+        }
+    }
+
+    /// A checked motion.
+    pub fn curve(&self, key: &str, motion: &Motion) -> Result<Curve, ModelError> {
+        let numbers: Vec<f64> = match motion {
+            Motion::Constant { value } => vec![*value],
+            Motion::Ramp { start, rate } => vec![*start, *rate],
+            Motion::Polynomial { coefficients } => {
+                if coefficients.is_empty() || coefficients.len() > MAX_COEFFICIENTS {
+                    let reason = format!("a polynomial needs 1 to {MAX_COEFFICIENTS} coefficients");
+                    return Err(self.wrong(key, reason));
+                }
+                coefficients.clone()
+            }
+            &Motion::Harmonic { mean, amplitude, frequency, phase } => {
+                vec![mean, amplitude, frequency, phase]
+            }
+            &Motion::SmoothStep { from, to, start, end } => {
+                if end - start < 1e-9 {
+                    return Err(self.wrong(key, "a smooth step must end after it starts"));
+                }
+                vec![from, to, start, end]
+            }
+            Motion::Table { times, values } => {
+                let increasing = times.windows(2).all(|w| w[1] - w[0] > 1e-12);
+                if times.len() != values.len() || !(2..=MAX_POINTS).contains(&times.len()) || !increasing {
+                    let reason =
+                        format!("a table needs 2 to {MAX_POINTS} increasing times and as many values");
+                    return Err(self.wrong(key, reason));
+                }
+                times.iter().chain(values).copied().collect()
+            }
+        };
+        finite(&numbers, &self.at(key))?;
+        Ok(Curve::new(motion))
+    }
+
+    /// A checked vector motion.
+    pub fn vector_curve(&self, key: &str, motion: &VectorMotion) -> Result<VectorCurve, ModelError> {
+        match motion {
+            VectorMotion::Fixed { vector } => finite(vector, &self.at(key))?,
+            VectorMotion::Components { x, y, z } => {
+                for (component, motion) in [("x", x), ("y", y), ("z", z)] {
+                    self.curve(&format!("{key}/{component}"), motion)?;
+                }
+            }
+            VectorMotion::Turning { start, axis, angle } => {
+                self.vector(&format!("{key}/start"), *start)?;
+                self.unit(&format!("{key}/axis"), *axis)?;
+                self.curve(&format!("{key}/angle"), angle)?;
+            }
+        }
+        Ok(VectorCurve::new(motion))
+    }
+}

@@ -1,0 +1,42 @@
+//! An angle of a joint at one state — eq. (5.2).
+
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+
+/// An angle at one state.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AngleState {
+    /// θ, rad.
+    pub value: f64,
+    /// θ̇, rad/s.
+    pub rate: f64,
+    /// ∂θ/∂(a₁, a₂, b).
+    pub gradient: [Vector3<f64>; 3],
+    /// θ̈ without the part of second derivatives of the vectors.
+    pub curvature: f64,
+    /// θ at the last accepted step.
+    pub reference: f64,
+}
+
+impl AngleState {
+    /// Takes over positions of (a₁, a₂, b).
+    pub fn set_position(&mut self, [a1, a2, b]: [Vector3<f64>; 3]) {
+        let (x, y) = (a1.dot(&b), a2.dot(&b));
+        let principal = y.atan2(x);
+        self.value = principal + TAU * ((self.reference - principal) / TAU).round();
+        let square = (x * x + y * y).max(f64::MIN_POSITIVE);
+        self.gradient = [b * (-y / square), b * (x / square), (a2 * x - a1 * y) / square];
+    }
+
+    /// Takes over velocities of (a₁, a₂, b), whose positions have been taken over.
+    pub fn set_velocity(&mut self, at: [Vector3<f64>; 3], rate: [Vector3<f64>; 3]) {
+        let [a1, a2, b] = at;
+        let [a1r, a2r, br] = rate;
+        let (x, y) = (a1.dot(&b), a2.dot(&b));
+        let (xr, yr) = (a1r.dot(&b) + a1.dot(&br), a2r.dot(&b) + a2.dot(&br));
+        let square = (x * x + y * y).max(f64::MIN_POSITIVE);
+        self.rate = (x * yr - y * xr) / square;
+        self.curvature =
+            2.0 * ((x * a2r.dot(&br) - y * a1r.dot(&br)) / square - (x * xr + y * yr) / square * self.rate);
+    }
+}

@@ -1,0 +1,214 @@
+//! Applied forces in natural coordinates — THEORY section 6.
+//!
+//! A force f at a point adds Cᵀ f; a moment τ adds ½ τ × e_k to each director, so that its power is τ · ω whatever
+//! its direction — eq. (6.8).
+
+use super::{Stage, State};
+use crate::model::BodyRef;
+use crate::scene::LoadFrame;
+use crate::system::System;
+use crate::system::feature::FeatureId;
+use crate::system::load::Load;
+use crate::system::natural::Lift;
+use nalgebra::Vector3;
+
+/// Generalized applied forces of all bodies.
+#[derive(Clone, Debug, Default)]
+pub struct AppliedForces {
+    /// G of each body.
+    pub bodies: Vec<Lift>,
+}
+
+impl AppliedForces {
+    /// Room for the bodies of a system, without forces.
+    pub fn none(system: &System) -> Self {
+        Self { bodies: vec![Lift::default(); system.bodies.len()] }
+    }
+
+    /// Weights and loads at a state.
+    pub fn new(system: &System, state: &State) -> Self {
+        let mut forces = Self::none(system);
+        forces.evaluate(system, state);
+        forces
+    }
+
+    /// Replaces the forces by weights and loads at a state.
+    pub fn evaluate(&mut self, system: &System, state: &State) {
+        state.require(Stage::Velocities);
+        for (force, body) in self.bodies.iter_mut().zip(&system.bodies) {
+            *force = Lift { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] };
+        }
+        for load in &system.loads {
+            load.apply(system, state, self);
+        }
+    }
+
+    /// Cᵀ f for the point or vector of a feature.
+    fn add_at_feature(&mut self, system: &System, feature: FeatureId, force: &Vector3<f64>) {
+        let feature = &system.features[feature];
+        if let BodyRef::Moving(body) = feature.body {
+            let lift = &mut self.bodies[body];
+            if feature.point {
+                lift.r += force;
+            }
+            for k in 0..3 {
+                lift.e[k] += force * feature.local[k];
+            }
+        }
+    }
+
+    /// Cᵀ f for a force at a point of a body.
+    fn add_force(&mut self, body: usize, local: &Vector3<f64>, force: &Vector3<f64>) {
+        let lift = &mut self.bodies[body];
+        lift.r += force;
+        for k in 0..3 {
+            lift.e[k] += force * local[k];
+        }
+    }
+
+    /// ½ τ × e_k on each director of a body.
+    fn add_moment(&mut self, body: usize, moment: &Vector3<f64>, q: &Lift) {
+        for k in 0..3 {
+            self.bodies[body].e[k] += moment.cross(&q.e[k]) * 0.5;
+        }
+    }
+}
+
+impl Load {
+    /// Adds its generalized force to those of the bodies.
+    pub fn apply(&self, system: &System, at: &State, forces: &mut AppliedForces) {
+        let t = at.time;
+        match self {
+            Self::Force { body, local, force, frame } => {
+                let force = in_world(at, *body, *frame, force.at(t)[0]);
+                forces.add_force(*body, local, &force);
+            }
+            Self::Moment { body, moment, frame } => {
+                let moment = in_world(at, *body, *frame, moment.at(t)[0]);
+                forces.add_moment(*body, &moment, &at.bodies[*body].q);
+            }
+            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+                if let Some((x, rate)) = self.coordinate(at) {
+                    self.push(system, at, element.value(x, rate, t), forces);
+                }
+            }
+        }
+    }
+
+    /// The length, angle or displacement that it acts along, and its rate. A spring of no length has no direction to
+    /// pull in.
+    fn coordinate(&self, at: &State) -> Option<(f64, f64)> {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => None,
+            Self::Spring { from, to, .. } => {
+                let between = at.feature_value(*to) - at.feature_value(*from);
+                let rate = at.feature_rate(*to) - at.feature_rate(*from);
+                let direction = between.try_normalize(f64::MIN_POSITIVE)?;
+                Some((between.norm(), direction.dot(&rate)))
+            }
+            Self::Torsion { angle, .. } => Some((at.angles[*angle].value, at.angles[*angle].rate)),
+            Self::Slider { axis, between, .. } => {
+                let s = at.feature_value(*axis);
+                let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
+                Some((s.dot(&d), s.dot(&rate) + at.feature_rate(*axis).dot(&d)))
+            }
+        }
+    }
+
+    /// Adds the generalized force of a force or moment `value` along its coordinate: the gradient of the coordinate
+    /// times that.
+    fn push(&self, system: &System, at: &State, value: f64, forces: &mut AppliedForces) {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => {}
+            Self::Spring { from, to, .. } => {
+                let between = at.feature_value(*to) - at.feature_value(*from);
+                let Some(direction) = between.try_normalize(f64::MIN_POSITIVE) else { return };
+                forces.add_at_feature(system, *to, &(direction * value));
+                forces.add_at_feature(system, *from, &(direction * -value));
+            }
+            Self::Torsion { axis, bodies, .. } => {
+                let moment = at.feature_value(*axis) * value;
+                for (body, sign) in [(bodies[0], -1.0), (bodies[1], 1.0)] {
+                    if let BodyRef::Moving(index) = body {
+                        forces.add_moment(index, &(moment * sign), &at.bodies[index].q);
+                    }
+                }
+            }
+            Self::Slider { axis, between, .. } => {
+                let s = at.feature_value(*axis);
+                let d = between.of(|f| at.feature_value(f));
+                forces.add_at_feature(system, between.plus, &(s * value));
+                if let Some(minus) = between.minus {
+                    forces.add_at_feature(system, minus, &(s * -value));
+                }
+                forces.add_at_feature(system, *axis, &(d * value));
+            }
+        }
+    }
+
+    /// Adds the generalized force of a unit force or moment along its coordinate, and returns its stiffness −∂f/∂x and
+    /// its damping −∂f/∂ẋ; `None` for a load without a law.
+    pub fn linearized(&self, system: &System, at: &State, forces: &mut AppliedForces) -> Option<(f64, f64)> {
+        let (Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. }) =
+            self
+        else {
+            return None;
+        };
+        let (_, rate) = self.coordinate(at)?;
+        self.push(system, at, 1.0, forces);
+        Some((element.stiffness, element.slope(rate)))
+    }
+
+    /// Power of all that is not its spring, W.
+    pub fn power(&self, at: &State) -> f64 {
+        let t = at.time;
+        match self {
+            Self::Force { body, local, force, frame } => {
+                let q_dot = &at.bodies[*body].q_dot;
+                in_world(at, *body, *frame, force.at(t)[0]).dot(&(q_dot.r + q_dot.arm(local)))
+            }
+            Self::Moment { body, moment, frame } => {
+                let state = &at.bodies[*body];
+                let moment = in_world(at, *body, *frame, moment.at(t)[0]);
+                (0..3).map(|k| 0.5 * moment.cross(&state.q.e[k]).dot(&state.q_dot.e[k])).sum()
+            }
+            Self::Spring { from, to, element } => {
+                let between = at.feature_value(*to) - at.feature_value(*from);
+                let rate = at.feature_rate(*to) - at.feature_rate(*from);
+                let speed = between.try_normalize(f64::MIN_POSITIVE).map_or(0.0, |d| d.dot(&rate));
+                element.without_spring(speed, t) * speed
+            }
+            Self::Torsion { angle, element, .. } => {
+                let speed = at.angles[*angle].rate;
+                element.without_spring(speed, t) * speed
+            }
+            Self::Slider { axis, between, element } => {
+                let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
+                let speed = at.feature_value(*axis).dot(&rate) + at.feature_rate(*axis).dot(&d);
+                element.without_spring(speed, t) * speed
+            }
+        }
+    }
+
+    /// Potential energy of its spring, J.
+    pub fn potential(&self, at: &State) -> f64 {
+        let (element, value) = match self {
+            Self::Force { .. } | Self::Moment { .. } => return 0.0,
+            Self::Spring { from, to, element } => {
+                (element, (at.feature_value(*to) - at.feature_value(*from)).norm())
+            }
+            Self::Torsion { angle, element, .. } => (element, at.angles[*angle].value),
+            Self::Slider { axis, between, element } => {
+                (element, at.feature_value(*axis).dot(&between.of(|f| at.feature_value(f))))
+            }
+        };
+        0.5 * element.stiffness * (value - element.free).powi(2)
+    }
+}
+
+fn in_world(at: &State, body: usize, frame: LoadFrame, vector: Vector3<f64>) -> Vector3<f64> {
+    match frame {
+        LoadFrame::World => vector,
+        LoadFrame::Body => at.bodies[body].q.arm(&vector),
+    }
+}

@@ -1,0 +1,325 @@
+//! The assembled system: everything that never changes during a run.
+
+pub mod natural;
+
+pub mod sharing;
+
+pub mod feature;
+
+pub mod angle;
+
+pub mod row;
+
+pub mod row_builder;
+
+pub mod joint;
+
+pub mod driver;
+
+pub mod load;
+
+pub mod event;
+
+pub mod body;
+
+pub mod islands;
+
+pub mod planar;
+
+use crate::model::motion::VectorCurve;
+use crate::model::{BodyRef, Model, ModelBody};
+use crate::system::angle::Angle;
+use crate::system::body::Body;
+use crate::system::event::EventFunction;
+use crate::system::feature::{Feature, TargetCurve};
+use crate::system::load::Load;
+use crate::system::natural::Lift;
+use crate::system::row::Form;
+use crate::system::row_builder::{LabelledForm, Writer, WrittenGroup};
+use nalgebra::Vector3;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The rows of one joint or driver.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Name of the joint or driver.
+    pub name: String,
+    /// Whether it is a driver.
+    pub driver: bool,
+    /// Bodies i and j.
+    pub bodies: [BodyRef; 2],
+    /// The point on each body, in its principal frame, about which the reaction is stated.
+    pub points: [Vector3<f64>; 2],
+    /// Its row forms.
+    pub forms: Range<usize>,
+    /// Its equations as written, within all equations of joints.
+    pub equations: Range<usize>,
+    /// Its rows in the solver.
+    pub solver: Range<usize>,
+    /// Its incidences: one for each moving body that it touches.
+    pub incidences: Range<usize>,
+}
+
+/// A joint's rows meeting a body: an m × 6 block of the twist Jacobian.
+#[derive(Clone, Copy, Debug)]
+pub struct Incidence {
+    /// The joint.
+    pub group: usize,
+    /// The body.
+    pub body: usize,
+    /// Offset of the block (rows are contiguous).
+    pub offset: usize,
+    /// Number of rows m.
+    pub rows: usize,
+}
+
+/// A row form with its place among the rows.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The statement.
+    pub form: Form,
+    /// Its name within its joint.
+    pub label: &'static str,
+    /// Whether shared coordinates satisfy it by themselves: then it is not written, and the solver keeps it only for
+    /// its multiplier.
+    pub implied: bool,
+    /// First equation, within all equations of joints.
+    pub equation: usize,
+    /// First solver row.
+    pub solver: usize,
+    /// First solver row within its joint.
+    pub local: usize,
+    /// For each feature of the form in the order of [`Form::features`], the incidence of its body.
+    pub incidence: [usize; 6],
+}
+
+/// Marks a feature of the ground, which meets no moving body.
+pub const NO_INCIDENCE: usize = usize::MAX;
+
+/// The assembled system.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The model it was assembled from.
+    pub model: Model,
+    /// The moving bodies.
+    pub bodies: Vec<Body>,
+    /// All features: first those fixed in moving bodies, then those that move as prescribed, then those fixed in
+    /// the ground.
+    pub features: Vec<Feature>,
+    /// How many features are fixed in moving bodies.
+    pub moving: usize,
+    /// How many features are not fixed in the ground.
+    pub changing: usize,
+    /// Curves of the features that move as prescribed.
+    pub curves: Vec<VectorCurve>,
+    /// Prescribed numbers.
+    pub targets: Vec<TargetCurve>,
+    /// Angles of joints.
+    pub angles: Vec<Angle>,
+    /// The joint of each angle.
+    pub angle_joints: Vec<String>,
+    /// Loads besides gravity.
+    pub loads: Vec<Load>,
+    /// Numbers whose passing of a value is an event.
+    pub event_functions: Arc<[EventFunction]>,
+    /// The rows.
+    pub rows: Vec<Row>,
+    /// The joints.
+    pub groups: Vec<Group>,
+    /// Where joints meet bodies.
+    pub incidences: Vec<Incidence>,
+    /// For each body, the incidences that touch it.
+    pub incidences_of_body: Vec<Vec<usize>>,
+    /// Number of generalized coordinates.
+    pub coordinates: usize,
+    /// Number of rigid-body rows.
+    pub rigid_rows: usize,
+    /// Number of joint equations as written.
+    pub equations: usize,
+    /// Number of joint rows in the solver.
+    pub solver_rows: usize,
+    /// Numbers in all incidence blocks.
+    pub block_numbers: usize,
+    /// A length of the mechanism, m: the largest local coordinate of a joint's point, or 1.
+    pub length: f64,
+}
+
+impl System {
+    /// Assembles a model.
+    pub fn new(model: Model) -> Self {
+        let mut writer = Writer::default();
+        for joint in &model.joints {
+            joint::write(&model, joint, &mut writer);
+        }
+        for driver in &model.drivers {
+            driver::write(&model, driver, &mut writer);
+        }
+        let mut loads: Vec<Load> = model.loads.iter().map(|l| Load::new(&model, l, &mut writer)).collect();
+        let event_functions =
+            model.events.iter().map(|event| EventFunction::new(&model, event, &mut writer)).collect();
+        let place = writer.sort_features();
+        for load in &mut loads {
+            load.rename(&place);
+        }
+        let Writer { features, curves, targets, angles, angle_joints, groups, .. } = writer;
+        let mut system = Self {
+            bodies: Vec::with_capacity(model.bodies.len()),
+            moving: features.iter().filter(|f| !f.is_fixed() && f.curve.is_none()).count(),
+            changing: features.iter().filter(|f| !f.is_fixed()).count(),
+            features,
+            curves,
+            targets,
+            angles,
+            angle_joints,
+            loads,
+            event_functions,
+            rows: Vec::new(),
+            groups: Vec::with_capacity(groups.len()),
+            incidences: Vec::new(),
+            incidences_of_body: vec![Vec::new(); model.bodies.len()],
+            coordinates: 0,
+            rigid_rows: 0,
+            equations: 0,
+            solver_rows: 0,
+            block_numbers: 0,
+            length: 1.0,
+            model,
+        };
+        system.length = system.characteristic_length();
+        system.add_bodies();
+        for group in groups {
+            system.add_group(group);
+        }
+        system
+    }
+
+    fn characteristic_length(&self) -> f64 {
+        let largest = self
+            .features
+            .iter()
+            .filter(|f| f.point && f.body != BodyRef::Ground)
+            .map(|f| f.local.norm())
+            .fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    /// Largest distance of a point of each body's joints and loads from its centre of mass, m.
+    fn arms(&self) -> Vec<f64> {
+        let mut arms = vec![0.0f64; self.model.bodies.len()];
+        for feature in self.features.iter().filter(|f| f.point) {
+            if let BodyRef::Moving(body) = feature.body {
+                arms[body] = arms[body].max(feature.local.norm());
+            }
+        }
+        arms
+    }
+
+    fn add_bodies(&mut self) {
+        let layouts = sharing::layouts(&self.model);
+        let arms = self.arms();
+        for (index, body) in self.model.bodies.iter().enumerate() {
+            let j = body.principal;
+            let half = 0.5 * j.sum();
+            let ibar = j.map(|i| (half - i).max(0.0));
+            // A moment far below m l², l the arm of the body's own joints, is as good as none for the factorization. A
+            // free body needs help only where a moment is missing.
+            let scale = body.mass * arms[index] * arms[index];
+            let lacks = j.min() < 1e-7 * scale || (j.min() == 0.0 && scale == 0.0);
+            let scale = if scale == 0.0 { j.max().max(body.mass * self.length * self.length) } else { scale };
+            let regularizing_inertia = if lacks { 1e-4 * scale } else { 0.0 };
+            self.bodies.push(Body {
+                mass: body.mass,
+                principal: j,
+                ibar,
+                regularizing_inertia,
+                coordinates: body.coordinates,
+                layout: layouts[index],
+                planar_pose: None,
+                pivot: None,
+            });
+            self.coordinates += layouts[index].size();
+            self.rigid_rows += layouts[index].rigid_rows().count();
+        }
+    }
+
+    fn add_group(&mut self, written: WrittenGroup) {
+        let WrittenGroup { name, forms, bodies: pair, points, driver } = written;
+        let index = self.groups.len();
+        let size: usize = forms.iter().map(|row| row.form.independent()).sum();
+        let first = self.incidences.len();
+        let mut bodies: Vec<usize> = forms
+            .iter()
+            .flat_map(|row| row.form.features(&self.angles))
+            .filter_map(|f| match self.features[f].body {
+                BodyRef::Ground => None,
+                BodyRef::Moving(body) => Some(body),
+            })
+            .collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        for body in bodies {
+            self.incidences_of_body[body].push(self.incidences.len());
+            self.incidences.push(Incidence { group: index, body, offset: self.block_numbers, rows: size });
+            self.block_numbers += 6 * size;
+        }
+        let (first_form, first_equation) = (self.rows.len(), self.equations);
+        let mut local = 0;
+        for LabelledForm { label, form, implied } in forms {
+            let mut incidence = [NO_INCIDENCE; 6];
+            for (k, f) in form.features(&self.angles).into_iter().enumerate() {
+                if let BodyRef::Moving(body) = self.features[f].body {
+                    let found = (first..self.incidences.len()).find(|&i| self.incidences[i].body == body);
+                    incidence[k] = found.unwrap_or(NO_INCIDENCE);
+                }
+            }
+            self.rows.push(Row {
+                form,
+                label,
+                implied,
+                equation: self.equations,
+                solver: self.solver_rows + local,
+                local,
+                incidence,
+            });
+            self.equations += if implied { 0 } else { form.equations() };
+            local += form.independent();
+        }
+        self.groups.push(Group {
+            name,
+            driver,
+            bodies: pair,
+            points,
+            forms: first_form..self.rows.len(),
+            equations: first_equation..self.equations,
+            solver: self.solver_rows..self.solver_rows + size,
+            incidences: first..self.incidences.len(),
+        });
+        self.solver_rows += size;
+    }
+
+    /// Whether nothing but weight and springs acts: then the energy stays what it is.
+    pub fn is_conservative(&self) -> bool {
+        !self.groups.iter().any(|group| group.driver) && self.loads.iter().all(Load::is_conservative)
+    }
+
+    /// Whether any body has no inertia about some axis.
+    pub fn regularizes_inertia(&self) -> bool {
+        self.bodies.iter().any(|b| b.regularizing_inertia > 0.0)
+    }
+
+    /// Writes the start of the model as (q, q̇), each of [`System::coordinates`] numbers.
+    pub fn start(&self, q: &mut [f64], q_dot: &mut [f64]) {
+        self.start_of(&self.model.bodies, q, q_dot);
+    }
+
+    /// Writes (q, q̇) of the system's bodies where others of the same coordinates start.
+    pub fn start_of(&self, bodies: &[ModelBody], q: &mut [f64], q_dot: &mut [f64]) {
+        for (body, model) in self.bodies.iter().zip(bodies) {
+            let e = [0, 1, 2].map(|k| model.directors.column(k).into_owned());
+            body.layout.store(&Lift { r: model.position, e }, q);
+            let e_dot = e.map(|e| model.angular_velocity.cross(&e));
+            body.layout.store(&Lift { r: model.velocity, e: e_dot }, q_dot);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! A body as the equations of motion see it, in space and in a plane.
+
+use crate::scene::Coordinates;
+use crate::system::natural::{Layout, Lift};
+use nalgebra::{Matrix3, Vector3};
+
+/// A body as the equations of motion see it.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Mass m, kg.
+    pub mass: f64,
+    /// Principal moments of inertia, kg m².
+    pub principal: Vector3<f64>,
+    /// Ī of u, v, w: the diagonal of the constant mass matrix is (m, Ī_u, Ī_v, Ī_w) — eq. (6.2).
+    pub ibar: Vector3<f64>,
+    /// Inertia added to each principal moment in the factorization alone, for a body that has none about some
+    /// axis; refinement takes its effect out again — THEORY section 7.
+    pub regularizing_inertia: f64,
+    /// Which coordinates describe it.
+    pub coordinates: Coordinates,
+    /// How its lifted coordinates follow from q.
+    pub layout: Layout,
+    /// How it stands in the plane, in a system that has been reduced to one.
+    pub planar_pose: Option<PlanarPose>,
+    /// The point by which it hangs on the ground, in a system that has been reduced to a plane: that joint's rows are
+    /// eliminated with the rigid-body rows — eq. (7.10).
+    pub pivot: Option<GroundPivot>,
+}
+
+/// A point of a body that a joint holds at a point of the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundPivot {
+    /// The point of the body, in its own frame.
+    pub local: Vector3<f64>,
+    /// The point of the ground.
+    pub ground: Vector3<f64>,
+}
+
+impl Body {
+    /// What a force at the centre of mass moves it by: nothing if it hangs on the ground, where the moment about the pivot
+    /// tells all.
+    pub fn free_inverse_mass(&self) -> f64 {
+        if self.pivot.is_some() { 0.0 } else { 1.0 / self.mass }
+    }
+}
+
+/// How a body stands in its plane: its directors where z = (1, 0), and its height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarPose {
+    /// Directions in the plane and its normal, as columns.
+    pub frame: Matrix3<f64>,
+    /// Directors u, v, w as columns: along z, across z, along the normal.
+    pub directors: Matrix3<f64>,
+    /// Height of the centre of mass above the plane through the origin, m.
+    pub height: f64,
+}
+
+impl Default for PlanarPose {
+    fn default() -> Self {
+        Self { frame: Matrix3::identity(), directors: Matrix3::identity(), height: 0.0 }
+    }
+}
+
+impl PlanarPose {
+    /// (r, z) of a position or velocity in space.
+    pub fn lower(&self, lift: &Lift) -> ([f64; 2], [f64; 2]) {
+        let r = self.frame.tr_mul(&lift.r);
+        let mut z = [0.0; 2];
+        for (e, d) in lift.e.iter().zip(self.directors.column_iter()) {
+            let e = self.frame.tr_mul(e);
+            // e = z d as complex numbers; the squares of the three |d| make two.
+            z[0] += 0.5 * (d[0] * e[0] + d[1] * e[1]);
+            z[1] += 0.5 * (d[0] * e[1] - d[1] * e[0]);
+        }
+        ([r[0], r[1]], z)
+    }
+
+    /// Position, or velocity or acceleration if `rate`, in space of (r, z).
+    pub fn raise(&self, r: [f64; 2], z: [f64; 2], rate: bool) -> Lift {
+        let constant = |x: f64| if rate { 0.0 } else { x };
+        let e = [0, 1, 2].map(|k| {
+            let d = self.directors.column(k);
+            let (x, y) = (z[0] * d[0] - z[1] * d[1], z[0] * d[1] + z[1] * d[0]);
+            self.frame * Vector3::new(x, y, constant(d[2]))
+        });
+        Lift { r: self.frame * Vector3::new(r[0], r[1], constant(self.height)), e }
+    }
+}

@@ -1,0 +1,290 @@
+//! A model in parts that nothing connects, without the bodies that cannot move — THEORY section 7.
+//!
+//! Bodies that no joint, driver or load connects move each on its own: their series take steps of their own. A body
+//! that rigid connections tie to the ground is ground.
+
+use crate::model::{BodyRef, DriverKind, LoadKind, Model, ModelJoint};
+use crate::scene::JointKind;
+use crate::system::System;
+use crate::system::natural::Lift;
+use nalgebra::Vector3;
+
+/// A part as a system of its own, which speaks of the coordinates of the whole.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The system.
+    pub system: System,
+    /// Its bodies, as places in the whole.
+    pub bodies: Vec<usize>,
+}
+
+/// What a model is made of.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// The parts; none where the whole is one part.
+    pub parts: Vec<Part>,
+    /// Bodies that cannot move.
+    pub fixed: usize,
+}
+
+/// Where a body of the whole has gone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fate {
+    /// It is ground, at its place.
+    Ground(Lift),
+    /// Body `index` of part `part`.
+    Moves { part: usize, index: usize },
+}
+
+/// Takes a system apart at positions q: into islands, and without fixed bodies, as far as asked for.
+pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Parts {
+    let model = &system.model;
+    let held = if fixed { held(model) } else { vec![false; model.bodies.len()] };
+    let mut label: Vec<usize> = (0..model.bodies.len()).collect();
+    if islands {
+        for [i, j] in links(model) {
+            if let (BodyRef::Moving(i), BodyRef::Moving(j)) = (i, j)
+                && !held[i]
+                && !held[j]
+            {
+                join(&mut label, i, j);
+            }
+        }
+    } else {
+        label.fill(0);
+    }
+    let (mut fates, mut bodies, mut part_of) =
+        (Vec::new(), Vec::<Vec<usize>>::new(), vec![None; label.len()]);
+    for body in 0..label.len() {
+        if held[body] {
+            fates.push(Fate::Ground(system.bodies[body].layout.position(q)));
+            continue;
+        }
+        let part = *part_of[root(&mut label, body)].get_or_insert_with(|| {
+            bodies.push(Vec::new());
+            bodies.len() - 1
+        });
+        fates.push(Fate::Moves { part, index: bodies[part].len() });
+        bodies[part].push(body);
+    }
+    let fixed = held.iter().filter(|held| **held).count();
+    if bodies.len() < 2 && fixed == 0 {
+        return Parts { parts: Vec::new(), fixed };
+    }
+    let mut models: Vec<Model> = bodies.iter().map(|list| without_rows(model, list)).collect();
+    distribute(model, &fates, &mut models);
+    let parts = models.into_iter().zip(bodies).map(|(model, bodies)| {
+        let mut part = System::new(model);
+        part.coordinates = system.coordinates;
+        for (own, &body) in part.bodies.iter_mut().zip(&bodies) {
+            own.layout = system.bodies[body].layout;
+        }
+        Part { system: part, bodies }
+    });
+    Parts { parts: parts.collect(), fixed }
+}
+
+/// Bodies that rigid connections tie to the ground. Scenes with gears, whose joints must stay, keep all bodies, and a
+/// driven body is never taken for fixed.
+fn held(model: &Model) -> Vec<bool> {
+    let mut held = vec![false; model.bodies.len()];
+    if model.joints.iter().any(|joint| joint.gear.is_some()) {
+        return held;
+    }
+    let mut driven = held.clone();
+    for driver in &model.drivers {
+        for body in driver_bodies(model, &driver.kind) {
+            if let BodyRef::Moving(body) = body {
+                driven[body] = true;
+            }
+        }
+    }
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for joint in model.joints.iter().filter(|joint| joint.kind == JointKind::Fixed) {
+            let is_held = |held: &[bool], body: BodyRef| match body {
+                BodyRef::Ground => true,
+                BodyRef::Moving(body) => held[body],
+            };
+            let [i, j] = joint.bodies;
+            for (one, other) in [(i, j), (j, i)] {
+                if let BodyRef::Moving(body) = other
+                    && is_held(&held, one)
+                    && !held[body]
+                    && !driven[body]
+                {
+                    held[body] = true;
+                    changed = true;
+                }
+            }
+        }
+    }
+    held
+}
+
+fn driver_bodies(model: &Model, kind: &DriverKind) -> [BodyRef; 2] {
+    match kind {
+        DriverKind::Point { body, .. }
+        | DriverKind::Vector { body, .. }
+        | DriverKind::CosineToWorld { body, .. } => [BodyRef::Ground, BodyRef::Moving(*body)],
+        DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => model.joints[*joint].bodies,
+        DriverKind::Cosine { bodies, .. } => *bodies,
+    }
+}
+
+fn load_bodies(model: &Model, kind: &LoadKind) -> [BodyRef; 2] {
+    match kind {
+        LoadKind::Force { body, .. } | LoadKind::Moment { body, .. } => {
+            [BodyRef::Ground, BodyRef::Moving(*body)]
+        }
+        LoadKind::Spring { bodies, .. } => *bodies,
+        LoadKind::Torsion { joint, .. } | LoadKind::Slider { joint, .. } => model.joints[*joint].bodies,
+    }
+}
+
+/// Pairs of bodies that something connects.
+fn links(model: &Model) -> impl Iterator<Item = [BodyRef; 2]> + '_ {
+    let geared = model.joints.iter().filter_map(|joint| joint.gear).flat_map(move |([a, b], _)| {
+        let moving = |joint: usize| model.joints[joint].bodies;
+        let ends: Vec<BodyRef> =
+            moving(a).into_iter().chain(moving(b)).filter(|b| *b != BodyRef::Ground).collect();
+        ends.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>()
+    });
+    let joints = model.joints.iter().map(|joint| joint.bodies);
+    let drivers = model.drivers.iter().map(move |driver| driver_bodies(model, &driver.kind));
+    let loads = model.loads.iter().map(move |load| load_bodies(model, &load.kind));
+    joints.chain(geared).chain(drivers).chain(loads)
+}
+
+/// Whether joints or drivers close loops: rows of a tree never depend on each other. Drivers along a joint and gears close
+/// none.
+pub fn has_loops(model: &Model) -> bool {
+    let ground = model.bodies.len();
+    let mut label: Vec<usize> = (0..=ground).collect();
+    let place = |body: BodyRef| match body {
+        BodyRef::Ground => ground,
+        BodyRef::Moving(body) => body,
+    };
+    let joints =
+        model.joints.iter().filter(|joint| joint.gear.is_none()).map(|joint| joint.bodies.map(place));
+    let drivers = model.drivers.iter().filter_map(|driver| match driver.kind {
+        DriverKind::Point { body, .. } | DriverKind::Vector { body, .. } => Some([body, ground]),
+        _ => None,
+    });
+    joints.chain(drivers).any(|[i, j]| {
+        let joined = root(&mut label, i) == root(&mut label, j);
+        join(&mut label, i, j);
+        joined
+    })
+}
+
+fn root(label: &mut [usize], mut body: usize) -> usize {
+    while label[body] != body {
+        label[body] = label[label[body]];
+        body = label[body];
+    }
+    body
+}
+
+fn join(label: &mut [usize], i: usize, j: usize) {
+    let (i, j) = (root(label, i), root(label, j));
+    label[i.max(j)] = i.min(j);
+}
+
+fn without_rows(model: &Model, bodies: &[usize]) -> Model {
+    Model {
+        name: model.name.clone(),
+        gravity: model.gravity,
+        bodies: bodies.iter().map(|&body| model.bodies[body].clone()).collect(),
+        joints: Vec::new(),
+        drivers: Vec::new(),
+        loads: Vec::new(),
+        events: Vec::new(),
+        settings: model.settings.clone(),
+        notes: Vec::new(),
+    }
+}
+
+impl Fate {
+    /// The body as it is called in its part, and that part.
+    fn of(fates: &[Self], body: BodyRef) -> (BodyRef, Option<usize>) {
+        match body {
+            BodyRef::Ground => (BodyRef::Ground, None),
+            BodyRef::Moving(body) => match fates[body] {
+                Self::Ground(_) => (BodyRef::Ground, None),
+                Self::Moves { part, index } => (BodyRef::Moving(index), Some(part)),
+            },
+        }
+    }
+
+    /// The part that two bodies belong to, if it is not the ground, and what they are called there.
+    fn pair(fates: &[Self], bodies: [BodyRef; 2]) -> Option<(usize, [BodyRef; 2])> {
+        let [(i, part_i), (j, part_j)] = bodies.map(|body| Self::of(fates, body));
+        Some((part_i.or(part_j)?, [i, j]))
+    }
+
+    /// A point or vector of a body in the frame in which its part speaks of it.
+    fn turned(fates: &[Self], body: BodyRef, local: &Vector3<f64>, point: bool) -> Vector3<f64> {
+        match body {
+            BodyRef::Moving(body) => match &fates[body] {
+                Self::Ground(place) if point => place.r + place.arm(local),
+                Self::Ground(place) => place.arm(local),
+                Self::Moves { .. } => *local,
+            },
+            BodyRef::Ground => *local,
+        }
+    }
+}
+
+/// Gives each joint, driver and load to the part that it belongs to. Those of the ground alone say nothing.
+fn distribute(model: &Model, fates: &[Fate], parts: &mut [Model]) {
+    let mut places = vec![usize::MAX; model.joints.len()];
+    for (index, joint) in model.joints.iter().enumerate() {
+        let Some((part, bodies)) = Fate::pair(fates, joint.bodies) else { continue };
+        places[index] = parts[part].joints.len();
+        let mut own = ModelJoint { bodies, ..joint.clone() };
+        for side in 0..2 {
+            let turned =
+                |local: &Vector3<f64>, point: bool| Fate::turned(fates, joint.bodies[side], local, point);
+            own.points[side] = turned(&joint.points[side], true);
+            own.axes[side] = turned(&joint.axes[side], false);
+            own.cross[side] = joint.cross[side].map(|across| turned(&across, false));
+        }
+        own.gear = joint.gear.map(|(pair, ratio)| (pair.map(|joint| places[joint]), ratio));
+        parts[part].joints.push(own);
+    }
+    for driver in &model.drivers {
+        let Some((part, pair)) = Fate::pair(fates, driver_bodies(model, &driver.kind)) else { continue };
+        let mut own = driver.clone();
+        match &mut own.kind {
+            DriverKind::Point { body, .. }
+            | DriverKind::Vector { body, .. }
+            | DriverKind::CosineToWorld { body, .. } => rename(body, pair[1]),
+            DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => *joint = places[*joint],
+            DriverKind::Cosine { bodies, .. } => *bodies = pair,
+        }
+        parts[part].drivers.push(own);
+    }
+    for load in &model.loads {
+        let Some((part, pair)) = Fate::pair(fates, load_bodies(model, &load.kind)) else { continue };
+        let mut own = load.clone();
+        match &mut own.kind {
+            LoadKind::Force { body, .. } | LoadKind::Moment { body, .. } => rename(body, pair[1]),
+            LoadKind::Spring { bodies, locals, .. } => {
+                for (side, local) in locals.iter_mut().enumerate() {
+                    *local = Fate::turned(fates, bodies[side], local, true);
+                }
+                *bodies = pair;
+            }
+            LoadKind::Torsion { joint, .. } | LoadKind::Slider { joint, .. } => *joint = places[*joint],
+        }
+        parts[part].loads.push(own);
+    }
+}
+
+fn rename(body: &mut usize, name: BodyRef) {
+    if let BodyRef::Moving(index) = name {
+        *body = index;
+    }
+}

@@ -1,0 +1,136 @@
+//! Joints as lists of rows — THEORY section 5. A joint has no object at run time: it only writes rows.
+
+use crate::model::{Model, ModelJoint};
+use crate::scene::{AxisRows, JointKind};
+use crate::system::feature::{Difference, FeatureId, Target};
+use crate::system::row::Form;
+use crate::system::row_builder::{LabelledForm, Writer, WrittenGroup};
+
+/// Labels of perpendicularity rows (CAR) and of rows that keep a point on a line.
+const CAR: [&str; 3] = ["CAR1", "CAR2", "CAR3"];
+const LINE: [&str; 2] = ["LINE1", "LINE2"];
+
+/// Writes the rows of a joint.
+pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
+    let forms = match joint.kind {
+        JointKind::Spherical => vec![common_point(joint, writer)],
+        JointKind::Revolute => {
+            let mut forms = vec![common_point(joint, writer)];
+            match joint.rows {
+                AxisRows::Cv => {
+                    let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
+                    forms.push(LabelledForm::new("CV", Form::CommonVector { a, b }));
+                }
+                AxisRows::Shared => {
+                    let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
+                    let form = Form::CommonVector { a, b };
+                    forms.push(LabelledForm { label: "CV (shared)", form, implied: true });
+                }
+                AxisRows::TwoCar => forms.extend(common_axis(joint, writer)),
+            }
+            forms
+        }
+        JointKind::Universal => {
+            let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
+            vec![common_point(joint, writer), LabelledForm::new("CAR", perpendicular(a, b))]
+        }
+        JointKind::Cylindrical => on_line(joint, writer).chain(common_axis(joint, writer)).collect(),
+        JointKind::Prismatic => {
+            let forms = on_line(joint, writer).chain(common_axis(joint, writer));
+            let mut forms: Vec<LabelledForm> = forms.collect();
+            forms.push(no_turn(joint, writer));
+            forms
+        }
+        JointKind::Planar => {
+            let mut forms = vec![in_plane(joint, writer)];
+            forms.extend(common_axis(joint, writer));
+            forms
+        }
+        JointKind::Screw => {
+            let mut forms: Vec<LabelledForm> =
+                on_line(joint, writer).chain(common_axis(joint, writer)).collect();
+            forms.push(LabelledForm::new("SCREW", thread(joint, writer)));
+            forms
+        }
+        JointKind::Fixed => {
+            let mut forms = vec![common_point(joint, writer)];
+            forms.extend(common_axis(joint, writer));
+            forms.push(no_turn(joint, writer));
+            forms
+        }
+        JointKind::Rod => vec![LabelledForm::new("DIST", distance(joint, writer))],
+        JointKind::PointOnLine => on_line(joint, writer).collect(),
+        JointKind::PointInPlane => vec![in_plane(joint, writer)],
+        JointKind::Gear => match joint.gear {
+            Some(([first, second], ratio)) => {
+                let first = writer.angle(&model.joints[first]);
+                let second = writer.angle(&model.joints[second]);
+                let angles = [Some((first, -ratio)), Some((second, 1.0))];
+                let form = Form::Relation { angles, slide: None, constant: 0.0 };
+                vec![LabelledForm::new("GEAR", form)]
+            }
+            None => Vec::new(),
+        },
+    };
+    let (name, bodies, points) = (joint.name.clone(), joint.bodies, joint.points);
+    writer.groups.push(WrittenGroup { name, forms, bodies, points, driver: false });
+}
+
+/// P_i = P_j (CP).
+fn common_point(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
+    let [a, b] = [0, 1].map(|side| writer.point(joint.bodies[side], joint.points[side]));
+    LabelledForm::new("CP", Form::Coincidence { a, b })
+}
+
+/// The axis of body j is perpendicular to two vectors of body i (2 CAR).
+fn common_axis(joint: &ModelJoint, writer: &mut Writer) -> Vec<LabelledForm> {
+    let [i, j] = joint.bodies;
+    let s = writer.vector(j, joint.axes[1]);
+    let across = joint.cross[0].map(|t| writer.vector(i, t));
+    CAR.into_iter().zip(across).map(|(label, t)| LabelledForm::new(label, perpendicular(t, s))).collect()
+}
+
+/// Vectors across the axis that coincide at the start stay perpendicular in pairs (CAR).
+fn no_turn(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
+    let [i, j] = joint.bodies;
+    let (a, b) = (writer.vector(i, joint.cross[0][0]), writer.vector(j, joint.cross[1][1]));
+    LabelledForm::new(CAR[2], perpendicular(a, b))
+}
+
+/// P_j lies on the line through P_i along the axis of body i.
+fn on_line(joint: &ModelJoint, writer: &mut Writer) -> impl Iterator<Item = LabelledForm> + use<> {
+    let [i, j] = joint.bodies;
+    let between =
+        Difference { plus: writer.point(j, joint.points[1]), minus: Some(writer.point(i, joint.points[0])) };
+    let across = joint.cross[0].map(|t| writer.vector(i, t));
+    LINE.into_iter().zip(across).map(move |(label, t)| {
+        let form = Form::Product { a: Difference::one(t), b: between, target: Target::Constant(0.0) };
+        LabelledForm::new(label, form)
+    })
+}
+
+/// P_j lies in the plane through P_i normal to the axis of body i.
+fn in_plane(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
+    let (a, b) = writer.slide(joint);
+    LabelledForm::new("PLANE", Form::Product { a, b, target: Target::Constant(0.0) })
+}
+
+/// |P_j − P_i|² = L².
+fn distance(joint: &ModelJoint, writer: &mut Writer) -> Form {
+    let [i, j] = joint.bodies;
+    let between =
+        Difference { plus: writer.point(j, joint.points[1]), minus: Some(writer.point(i, joint.points[0])) };
+    Form::Product { a: between, b: between, target: Target::Constant(joint.length * joint.length) }
+}
+
+/// Displacement − pitch · angle = 0.
+fn thread(joint: &ModelJoint, writer: &mut Writer) -> Form {
+    let angle = writer.angle(joint);
+    let (a, b) = writer.slide(joint);
+    Form::Relation { angles: [Some((angle, -joint.pitch)), None], slide: Some((a, b, 1.0)), constant: 0.0 }
+}
+
+/// s₁ · s₂ = 0 (CAR of 90°).
+fn perpendicular(a: FeatureId, b: FeatureId) -> Form {
+    Form::Product { a: Difference::one(a), b: Difference::one(b), target: Target::Constant(0.0) }
+}

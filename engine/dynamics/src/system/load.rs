@@ -1,0 +1,155 @@
+//! Loads, their geometry written in features — THEORY section 6.
+
+use crate::model::motion::VectorCurve;
+use crate::model::{BodyRef, Element, LoadKind, Model, ModelLoad};
+use crate::scene::LoadFrame;
+use crate::system::feature::{Difference, FeatureId};
+use crate::system::row_builder::Writer;
+use nalgebra::Vector3;
+
+/// A load, its geometry as features.
+#[derive(Clone, Debug)]
+pub enum Load {
+    /// Force at a point of a body.
+    Force {
+        /// The body.
+        body: usize,
+        /// The point.
+        local: Vector3<f64>,
+        /// The force.
+        force: VectorCurve,
+        /// Its frame.
+        frame: LoadFrame,
+    },
+    /// Moment on a body.
+    Moment {
+        /// The body.
+        body: usize,
+        /// The moment.
+        moment: VectorCurve,
+        /// Its frame.
+        frame: LoadFrame,
+    },
+    /// Along the line between two points.
+    Spring {
+        /// Point on body i.
+        from: FeatureId,
+        /// Point on body j.
+        to: FeatureId,
+        /// Law of the length.
+        element: Element,
+    },
+    /// About the axis of a joint.
+    Torsion {
+        /// The angle.
+        angle: usize,
+        /// Its axis.
+        axis: FeatureId,
+        /// Bodies i and j.
+        bodies: [BodyRef; 2],
+        /// Law of the angle.
+        element: Element,
+    },
+    /// Along the axis of a joint.
+    Slider {
+        /// The axis, on body i.
+        axis: FeatureId,
+        /// P_j − P_i.
+        between: Difference,
+        /// Law of the displacement.
+        element: Element,
+    },
+}
+
+impl Load {
+    /// Writes the features of a load.
+    pub fn new(model: &Model, load: &ModelLoad, writer: &mut Writer) -> Self {
+        match &load.kind {
+            LoadKind::Force { body, local, force, frame } => {
+                Self::Force { body: *body, local: *local, force: force.clone(), frame: *frame }
+            }
+            LoadKind::Moment { body, moment, frame } => {
+                Self::Moment { body: *body, moment: moment.clone(), frame: *frame }
+            }
+            LoadKind::Spring { bodies, locals, element } => {
+                let [from, to] = [0, 1].map(|side| writer.point(bodies[side], locals[side]));
+                Self::Spring { from, to, element: element.clone() }
+            }
+            LoadKind::Torsion { joint, element } => {
+                let joint = &model.joints[*joint];
+                let angle = writer.angle(joint);
+                let axis = writer.angles[angle].axis;
+                Self::Torsion { angle, axis, bodies: joint.bodies, element: element.clone() }
+            }
+            LoadKind::Slider { joint, element } => {
+                let (axis, between) = writer.slide(&model.joints[*joint]);
+                Self::Slider { axis: axis.plus, between, element: element.clone() }
+            }
+        }
+    }
+
+    /// Renames features.
+    pub fn rename(&mut self, place: &[FeatureId]) {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => {}
+            Self::Torsion { axis, .. } => *axis = place[*axis],
+            Self::Spring { from, to, .. } => {
+                *from = place[*from];
+                *to = place[*to];
+            }
+            Self::Slider { axis, between, .. } => {
+                *axis = place[*axis];
+                between.plus = place[between.plus];
+                between.minus = between.minus.map(|f| place[f]);
+            }
+        }
+    }
+
+    /// The greatest damping −∂f/∂ẋ that its law has at any speed.
+    pub fn steepest_damping(&self) -> f64 {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => 0.0,
+            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+                element.slope(0.0)
+            }
+        }
+    }
+
+    /// Whether it is a spring alone.
+    pub fn is_conservative(&self) -> bool {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => false,
+            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+                element.damping == 0.0 && element.drive.is_none() && element.friction.is_none()
+            }
+        }
+    }
+}
+
+impl Element {
+    /// Force or moment in the direction of growing x.
+    pub(crate) fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
+        self.without_spring(rate, t) - self.stiffness * (x - self.free)
+    }
+
+    /// −∂f/∂ẋ.
+    pub(crate) fn slope(&self, rate: f64) -> f64 {
+        let friction = self.friction.map_or(0.0, |friction| {
+            let tanh = (rate / friction.smoothing).tanh();
+            friction.viscous + friction.coulomb / friction.smoothing * (1.0 - tanh * tanh)
+        });
+        self.damping + friction
+    }
+
+    /// Force or moment without that of the spring.
+    pub(crate) fn without_spring(&self, rate: f64, t: f64) -> f64 {
+        let mut value = -self.damping * rate;
+        if let Some(drive) = &self.drive {
+            value += drive.at(t)[0];
+        }
+        if let Some(friction) = self.friction {
+            value -= friction.viscous * rate + friction.coulomb * (rate / friction.smoothing).tanh();
+        }
+        value
+    }
+}

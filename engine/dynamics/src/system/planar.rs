@@ -1,0 +1,328 @@
+//! Motion in a plane: how it is recognised, and the system with the rows of the plane alone — THEORY section 7, eq. (7.9).
+//!
+//! If every body hangs on the ground by joints that keep a common direction n and the heights along it (hinges about
+//! n, slides across n, planar joints, rigid connections), the joints themselves keep the motion in planes across n,
+//! whatever acts. By d'Alembert's principle the motion then follows from the virtual displacements in the plane: three
+//! components of a body's twist, and the part of each row in the plane. What the other rows carry is a matter of
+//! reactions, which are found in space when somebody asks for them.
+
+use crate::model::motion::{Curve, VectorCurve};
+use crate::model::{BodyRef, ModelJoint};
+use crate::scene::{JointKind, LoadFrame};
+use crate::system::body::{Body, GroundPivot, PlanarPose};
+use crate::system::feature::{Difference, Target};
+use crate::system::load::Load;
+use crate::system::natural::Lift;
+use crate::system::row::Form;
+use crate::system::{Row, System};
+use nalgebra::{Matrix3, Vector3};
+use triad_linalg::orthonormal_basis;
+
+/// Directions are the same, and components are nothing, within this.
+const ALIKE: f64 = 1e-11;
+/// A body whose moment of inertia is below this part of m l² is given some, as much as [`REGULARIZATION`] m l².
+const LACKING: f64 = 1e-7;
+/// Two refinements give it back; with less the inverses of blocks would be too far from exact.
+const REGULARIZATION: f64 = 1e-5;
+
+/// Directions in the plane and its normal, as columns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// The columns.
+    pub frame: Matrix3<f64>,
+}
+
+/// Why a motion is not known to stay in a plane.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Spatial {
+    /// There is nothing that a plane could be read off.
+    #[error("no hinge or planar joint tells a plane")]
+    NoNormal,
+    /// A body that is not held in the plane by joints.
+    #[error("the joints do not hold {body} in a plane")]
+    Loose {
+        /// The body.
+        body: String,
+    },
+    /// A joint or driver whose rows are neither of the plane nor of its normal.
+    #[error("the rows of {joint} are neither of the plane nor of its normal")]
+    Mixed {
+        /// The joint or driver.
+        joint: String,
+    },
+}
+
+/// The plane in which a system moves from the consistent positions q on.
+pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
+    let places: Vec<Lift> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
+    let axis = |joint: &ModelJoint| {
+        let (side, place) = match joint.bodies {
+            [BodyRef::Moving(body), _] => (0, &places[body]),
+            [_, BodyRef::Moving(body)] => (1, &places[body]),
+            _ => return joint.axes[0],
+        };
+        place.arm(&joint.axes[side])
+    };
+    let tells = |joint: &&ModelJoint| matches!(joint.kind, JointKind::Revolute | JointKind::Planar);
+    let normal = system.model.joints.iter().find(tells).map(axis).ok_or(Spatial::NoNormal)?;
+    let plane = Plane { frame: frame(&normal.normalize()) };
+    let normal = plane.frame.column(2).into_owned();
+    let holds = |joint: &ModelJoint| match joint.kind {
+        JointKind::Revolute | JointKind::Planar => axis(joint).cross(&normal).amax() < ALIKE,
+        JointKind::Prismatic => axis(joint).dot(&normal).abs() < ALIKE,
+        JointKind::Fixed => true,
+        _ => false,
+    };
+    if let Some(body) = loose_body(system, holds) {
+        return Err(Spatial::Loose { body: system.model.bodies[body].name.clone() });
+    }
+    Ok(plane)
+}
+
+/// A frame whose third column is a direction; that of the world where it fits.
+fn frame(normal: &Vector3<f64>) -> Matrix3<f64> {
+    let k = normal.iamax();
+    if (normal[k].abs() - 1.0).abs() < ALIKE * ALIKE || normal[k].abs() > 1.0 {
+        let [i, j] = [(k + 1) % 3, (k + 2) % 3];
+        return Matrix3::from_columns(&[i, j, k].map(|axis| Vector3::ith(axis, 1.0)));
+    }
+    let [a, b] = orthonormal_basis(normal);
+    Matrix3::from_columns(&[a, b, *normal])
+}
+
+/// A body that no chain of such joints connects with the ground.
+fn loose_body(system: &System, holds: impl Fn(&ModelJoint) -> bool) -> Option<usize> {
+    // Node 0 is the ground.
+    let node = |body: BodyRef| match body {
+        BodyRef::Ground => 0,
+        BodyRef::Moving(body) => body + 1,
+    };
+    let mut links = vec![Vec::new(); system.bodies.len() + 1];
+    for joint in system.model.joints.iter().filter(|joint| holds(joint)) {
+        let [i, j] = joint.bodies.map(node);
+        links[i].push(j);
+        links[j].push(i);
+    }
+    let mut held = vec![false; links.len()];
+    let mut next = vec![0];
+    while let Some(node) = next.pop() {
+        if !std::mem::replace(&mut held[node], true) {
+            next.extend(&links[node]);
+        }
+    }
+    held.iter().position(|held| !held).map(|node| node - 1)
+}
+
+impl Plane {
+    /// The system with the coordinates of the plane and the rows that matter there, at positions q.
+    pub fn reduce(&self, system: &System, q: &[f64]) -> Result<System, Spatial> {
+        let mut flat = system.clone();
+        let turned = self.frame.transpose();
+        flat.model.gravity = turned * system.model.gravity;
+        for body in &mut flat.bodies {
+            let place = body.layout.position(q);
+            let directors = turned * Matrix3::from_columns(&place.e);
+            let height = (turned * place.r)[2];
+            body.planar_pose = Some(PlanarPose { frame: self.frame, directors, height });
+        }
+        turn_features(&mut flat, &turned);
+        turn_loads(&mut flat, &turned);
+        keep_rows(&mut flat)?;
+        set_inertia(&mut flat);
+        Ok(flat)
+    }
+}
+
+fn set_inertia(flat: &mut System) {
+    let mut arms = vec![0.0f64; flat.bodies.len()];
+    for feature in flat.features.iter().filter(|f| f.point) {
+        if let BodyRef::Moving(body) = feature.body {
+            arms[body] = arms[body].max(feature.local.xy().norm());
+        }
+    }
+    for (body, arm) in flat.bodies.iter_mut().zip(arms) {
+        let normal = directors(body).row(2).transpose();
+        let inertia = body.principal.dot(&normal.component_mul(&normal));
+        body.ibar = Vector3::new(inertia, 0.0, 0.0);
+        let scale = body.mass * arm * arm;
+        let about_pivot = body.pivot.map_or(0.0, |pivot| body.mass * pivot.local.xy().norm_squared());
+        let lacks = inertia + about_pivot < LACKING * scale || inertia + about_pivot == 0.0;
+        let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
+        body.regularizing_inertia = if lacks { REGULARIZATION * scale } else { 0.0 };
+    }
+}
+
+/// Leaves of each joint the rows of the plane, and numbers them anew.
+fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
+    let rows = std::mem::take(&mut flat.rows);
+    let mut groups = std::mem::take(&mut flat.groups);
+    (flat.solver_rows, flat.block_numbers) = (0, 0);
+    for group in &mut groups {
+        let first = flat.rows.len();
+        let mut size = 0;
+        for mut row in kept(flat, &rows[group.forms.clone()], &group.name)? {
+            if set_pivot(flat, &row.form) {
+                continue;
+            }
+            row.solver = flat.solver_rows + size;
+            row.local = size;
+            size += independent(&row.form);
+            flat.rows.push(row);
+        }
+        group.forms = first..flat.rows.len();
+        group.solver = flat.solver_rows..flat.solver_rows + size;
+        flat.solver_rows += size;
+        for incidence in &mut flat.incidences[group.incidences.clone()] {
+            (incidence.rows, incidence.offset) = (size, flat.block_numbers);
+            flat.block_numbers += 6 * size;
+        }
+    }
+    flat.groups = groups;
+    Ok(())
+}
+
+/// Hangs a body on the ground by a point that is held there: one point each, and fixed ones only.
+fn set_pivot(flat: &mut System, form: &Form) -> bool {
+    let &Form::Coincidence { a, b } = form else { return false };
+    let [a, b] = [a, b].map(|f| flat.features[f]);
+    let (body, own, ground) = match (a.body, b.body) {
+        (BodyRef::Moving(body), BodyRef::Ground) => (body, a, b),
+        (BodyRef::Ground, BodyRef::Moving(body)) => (body, b, a),
+        _ => return false,
+    };
+    let free = flat.bodies[body].pivot.is_none() && own.curve.is_none() && ground.curve.is_none();
+    if free {
+        flat.bodies[body].pivot = Some(GroundPivot { local: own.local, ground: ground.local });
+    }
+    free
+}
+
+/// Features along the director of their body, or in the frame of the plane.
+fn turn_features(flat: &mut System, turned: &Matrix3<f64>) {
+    let System { features, curves, bodies, .. } = flat;
+    for feature in features {
+        let turn = match feature.body {
+            BodyRef::Ground => *turned,
+            BodyRef::Moving(body) => directors(&bodies[body]),
+        };
+        feature.local = turn * feature.local;
+        if let Some(curve) = feature.curve {
+            curves[curve] = curves[curve].clone().rotated(&turn);
+        }
+    }
+}
+
+fn turn_loads(flat: &mut System, turned: &Matrix3<f64>) {
+    let System { loads, bodies, .. } = flat;
+    for load in loads {
+        let (body, curve, frame) = match load {
+            Load::Force { body, local, force, frame } => {
+                *local = directors(&bodies[*body]) * *local;
+                (*body, force, *frame)
+            }
+            Load::Moment { body, moment, frame } => (*body, moment, *frame),
+            Load::Spring { .. } | Load::Torsion { .. } | Load::Slider { .. } => continue,
+        };
+        let turn = if frame == LoadFrame::Body { directors(&bodies[body]) } else { *turned };
+        *curve = curve.clone().rotated(&turn);
+    }
+}
+
+/// Rows of a form in the plane.
+fn independent(form: &Form) -> usize {
+    match form {
+        Form::Coincidence { .. } => 2,
+        other => other.independent(),
+    }
+}
+
+fn directors(body: &Body) -> Matrix3<f64> {
+    body.planar_pose.map_or_else(Matrix3::identity, |pose| pose.directors)
+}
+
+/// The rows of a joint that say something in the plane, each thing once.
+fn kept(flat: &System, rows: &[Row], joint: &str) -> Result<Vec<Row>, Spatial> {
+    let mut kept: Vec<Row> = Vec::with_capacity(rows.len());
+    for row in rows {
+        match row.form {
+            Form::Coincidence { a, b } if level(flat, a) && level(flat, b) => {}
+            Form::Relation { .. } => {}
+            Form::Coincidence { .. } => return Err(Spatial::Mixed { joint: joint.to_owned() }),
+            Form::CommonVector { a, b } => {
+                let along =
+                    |f: usize| flat.features[f].curve.is_none() && flat.features[f].local.xy().amax() < ALIKE;
+                if along(a) && along(b) {
+                    continue;
+                }
+                return Err(Spatial::Mixed { joint: joint.to_owned() });
+            }
+            Form::Product { a, b, .. } => {
+                if across(flat, a) || across(flat, b) {
+                    continue;
+                }
+                let same = kept.iter_mut().find(|other| repeats(flat, &other.form, &row.form));
+                if let Some(other) = same {
+                    // Of two rows with one meaning, that with the larger gradient.
+                    if weight(flat, &other.form) < weight(flat, &row.form) {
+                        *other = row.clone();
+                    }
+                    continue;
+                }
+            }
+        }
+        kept.push(row.clone());
+    }
+    Ok(kept)
+}
+
+/// Whether a prescribed feature keeps its component along the normal.
+fn level(flat: &System, feature: usize) -> bool {
+    let constant =
+        |curve: &Curve| matches!(curve, Curve::Polynomial(c) if c.iter().skip(1).all(|c| *c == 0.0));
+    let Some(curve) = flat.features[feature].curve else { return true };
+    match &flat.curves[curve] {
+        VectorCurve::Components(components) => constant(&components[2]),
+        VectorCurve::Rotated(turn, components) => {
+            components.iter().zip(turn.row(2).iter()).all(|(c, part)| part.abs() < ALIKE || constant(c))
+        }
+        VectorCurve::Turning { across, turned, .. } => across[2].abs().max(turned[2].abs()) < ALIKE,
+    }
+}
+
+/// Whether a factor is a vector along the normal.
+fn across(flat: &System, factor: Difference) -> bool {
+    let vector = &flat.features[factor.plus];
+    factor.minus.is_none() && !vector.point && vector.curve.is_none() && vector.local.xy().amax() < ALIKE
+}
+
+/// Whether two constant products of a joint hold the same angle, or a point on the same line.
+fn repeats(flat: &System, one: &Form, other: &Form) -> bool {
+    let (&Form::Product { a, b, target }, &Form::Product { a: c, b: d, target: t }) = (one, other) else {
+        return false;
+    };
+    let constant = [target, t].iter().all(|t| matches!(t, Target::Constant(_)));
+    let vector = |x: Difference| {
+        let feature = &flat.features[x.plus];
+        (x.minus.is_none() && !feature.point && feature.curve.is_none()).then_some(feature)
+    };
+    let (Some(first), Some(second)) = (vector(a), vector(c)) else { return false };
+    if !constant || first.body != second.body {
+        return false;
+    }
+    match (vector(b), vector(d)) {
+        (Some(b), Some(d)) => b.body == d.body,
+        // t₁ · Δ = 0 and t₂ · Δ = 0 are the same if t₁ and t₂ are parallel in the plane.
+        (None, None) => b == d && target == t && first.local.xy().perp(&second.local.xy()).abs() < ALIKE,
+        _ => false,
+    }
+}
+
+/// Size of a row's gradient in the plane.
+fn weight(flat: &System, form: &Form) -> f64 {
+    let Form::Product { a, b, .. } = *form else { return 0.0 };
+    let size = |x: Difference| {
+        let feature = &flat.features[x.plus];
+        if feature.point { 1.0 } else { feature.local.xy().norm() }
+    };
+    size(a) * size(b)
+}

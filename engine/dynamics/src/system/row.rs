@@ -1,0 +1,108 @@
+//! Constraint rows — THEORY section 4.
+//!
+//! Every constraint of every joint is one of four forms; three are polynomials of degree at most two in the lifted
+//! coordinates of the bodies that they touch, the fourth relates joint angles. A form is a statement about *features*: points C^P Q and vectors C^s Q
+//! with constant local coordinates, or points and vectors of the ground. Φ, Φ_q, ν and γ all follow from that one
+//! statement, so they cannot disagree.
+
+use crate::system::angle::Angle;
+use crate::system::feature::{Difference, FeatureId, Target};
+
+/// One form of constraint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// a − b = 0 for two points: three independent equations (CP, TP) — eq. (4.3).
+    Coincidence {
+        /// Point on body i.
+        a: FeatureId,
+        /// Point on body j.
+        b: FeatureId,
+    },
+    /// a − b = 0 for two unit vectors: three equations of which two are independent (CV, OV) — eq. (4.4).
+    CommonVector {
+        /// Vector on body i.
+        a: FeatureId,
+        /// Vector on body j.
+        b: FeatureId,
+    },
+    /// a · b − c = 0: one equation (CAR, AR, line and plane rows, distance) — eq. (4.5).
+    Product {
+        /// First factor.
+        a: Difference,
+        /// Second factor.
+        b: Difference,
+        /// The number c.
+        target: Target,
+    },
+    /// Σ cᵢ θᵢ + d (a · b) − c = 0 between joint angles and a displacement: one equation (gear, screw). The only form
+    /// that is not a polynomial — eq. (4.7).
+    Relation {
+        /// Up to two angles with their factors.
+        angles: [Option<(usize, f64)>; 2],
+        /// A displacement with its factor.
+        slide: Option<(Difference, Difference, f64)>,
+        /// The constant c.
+        constant: f64,
+    },
+}
+
+impl Form {
+    /// Number of equations as they are written.
+    pub fn equations(&self) -> usize {
+        match self {
+            Self::Coincidence { .. } | Self::CommonVector { .. } => 3,
+            Self::Product { .. } | Self::Relation { .. } => 1,
+        }
+    }
+
+    /// Number of equations that the solver keeps: those of a common vector across it.
+    pub fn independent(&self) -> usize {
+        match self {
+            Self::Coincidence { .. } => 3,
+            Self::CommonVector { .. } => 2,
+            Self::Product { .. } | Self::Relation { .. } => 1,
+        }
+    }
+
+    /// The features that the form speaks of, in the order in which their gradients are written.
+    pub fn features(&self, angles: &[Angle]) -> Vec<FeatureId> {
+        let of = |d: Difference| [Some(d.plus), d.minus].into_iter().flatten();
+        match *self {
+            Self::Coincidence { a, b } | Self::CommonVector { a, b } => vec![a, b],
+            Self::Product { a, b, .. } => of(a).chain(of(b)).collect(),
+            Self::Relation { angles: terms, slide, .. } => {
+                let turning = terms.into_iter().flatten().flat_map(|(k, _)| angles[k].features());
+                let sliding = slide.into_iter().flat_map(|(a, b, _)| of(a).chain(of(b)));
+                turning.chain(sliding).collect()
+            }
+        }
+    }
+
+    /// Renames features.
+    pub fn rename(&mut self, place: &[FeatureId]) {
+        match self {
+            Self::Coincidence { a, b } | Self::CommonVector { a, b } => {
+                *a = place[*a];
+                *b = place[*b];
+            }
+            Self::Product { a, b, .. } => {
+                a.rename(place);
+                b.rename(place);
+            }
+            Self::Relation { slide, .. } => {
+                if let Some((a, b, _)) = slide {
+                    a.rename(place);
+                    b.rename(place);
+                }
+            }
+        }
+    }
+}
+
+/// Names of the equations of a labelled form.
+pub fn equation_labels(label: &str, equations: usize) -> Vec<String> {
+    if equations == 1 {
+        return vec![label.to_owned()];
+    }
+    ["x", "y", "z"].iter().take(equations).map(|axis| format!("{label}.{axis}")).collect()
+}

@@ -1,0 +1,105 @@
+//! `check`: what a scene amounts to, before it is run.
+
+use crate::error::EngineError;
+use crate::run::Simulation;
+use crate::scene::Scene;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::ops::Range;
+use triad_dynamics::constraints::rank::Rank;
+use triad_dynamics::model::Model;
+use triad_dynamics::system::System;
+
+/// Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct CheckReport {
+    /// Name of the scene.
+    pub name: String,
+    /// Moving bodies.
+    pub bodies: usize,
+    /// Generalized coordinates.
+    pub coordinates: usize,
+    /// Constraint rows, those of rigid bodies included.
+    pub rows: usize,
+    /// Rank of those rows near the start.
+    pub rank: usize,
+    /// Degrees of freedom: coordinates less rank.
+    pub degrees_of_freedom: usize,
+    /// Rows that depend on others, joint by joint.
+    pub redundant: Vec<RedundantRows>,
+    /// What was found or corrected.
+    pub notes: Vec<String>,
+}
+
+/// Dependent rows of one joint.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct RedundantRows {
+    /// The joint.
+    pub joint: String,
+    /// Labels of its dependent rows.
+    pub rows: Vec<String>,
+}
+
+/// Equations of one row form of which some depend on others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DependentSet {
+    /// The joint or driver, as an index.
+    pub group: usize,
+    /// The row form, as an index.
+    pub row: usize,
+    /// Its equations among all rows, those of rigid bodies first.
+    pub equations: Range<usize>,
+    /// How many of them are too many.
+    pub dependent: usize,
+}
+
+/// The equations that say again what others say.
+pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
+    let mut sets = Vec::new();
+    for (group, joint) in system.groups.iter().enumerate() {
+        for index in joint.forms.clone().filter(|&index| !system.rows[index].implied) {
+            let row = &system.rows[index];
+            let dropped = (row.solver..row.solver + row.form.independent())
+                .filter(|solver| rank.dependent.contains(solver))
+                .count();
+            // Three equations of a common vector hold two directions: one of them always depends on the others.
+            let dependent = dropped + row.form.equations() - row.form.independent();
+            if dependent > 0 {
+                let first = system.rigid_rows + row.equation;
+                let equations = first..first + row.form.equations();
+                sets.push(DependentSet { group, row: index, equations, dependent });
+            }
+        }
+    }
+    sets
+}
+
+/// Checks, assembles and counts.
+pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
+    let simulation = Simulation::from_model(Model::new(scene)?)?;
+    let system = simulation.system();
+    let rank = simulation.rank();
+    let mut redundant: Vec<RedundantRows> = Vec::new();
+    for set in dependent_sets(system, rank) {
+        let label = system.rows[set.row].label;
+        let words =
+            if set.dependent == 1 { label.to_owned() } else { format!("{} of {label}", set.dependent) };
+        let joint = &system.groups[set.group].name;
+        match redundant.last_mut().filter(|last| last.joint == *joint) {
+            Some(last) => last.rows.push(words),
+            None => redundant.push(RedundantRows { joint: joint.clone(), rows: vec![words] }),
+        }
+    }
+    let rows = system.rigid_rows + system.equations;
+    let degrees_of_freedom = 6 * system.bodies.len() - rank.rank;
+    Ok(CheckReport {
+        name: scene.name.clone(),
+        bodies: system.bodies.len(),
+        coordinates: system.coordinates,
+        rows,
+        rank: system.coordinates - degrees_of_freedom,
+        degrees_of_freedom,
+        redundant,
+        notes: simulation.notes().to_vec(),
+    })
+}

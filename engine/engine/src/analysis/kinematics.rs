@@ -1,0 +1,141 @@
+//! Kinematic analysis of driven mechanisms, and the forces that drive them.
+//!
+//! With a driver for each degree of freedom, positions follow from Φ(q, t) = 0 by Newton-Raphson, velocities from
+//! Φ_q q̇ = ν and accelerations from Φ_q q̈ = γ; rows that repeat others are met in the sense of least squares. The
+//! multipliers of the equations of motion are then those of inverse dynamics: what joints and drivers have to exert.
+
+use super::{AnalysisError, Stage};
+use crate::reactions::report::{Convention, ReactionReport, report};
+use crate::scene::Scene;
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Serialize;
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::dynamics::elimination::Accelerations;
+use triad_dynamics::state::BodyFrame;
+
+/// Violation, relative to the mechanism's length, above which a position counts as not reached.
+const OPEN: f64 = 1e-9;
+/// Most positions of one analysis.
+const MOST: usize = 100_000;
+
+/// A driven mechanism at one moment.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct KinematicState {
+    /// Time, s.
+    pub time: f64,
+    /// Positions and velocities of the bodies.
+    pub bodies: Vec<BodyFrame>,
+    /// Accelerations of their centres of mass, m/s².
+    pub accelerations: Vec<[f64; 3]>,
+    /// Angular accelerations, rad/s².
+    pub angular_accelerations: Vec<[f64; 3]>,
+    /// What joints and drivers have to exert.
+    pub reactions: ReactionReport,
+}
+
+/// A driven motion.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Kinematics {
+    /// The positions, in the order of time.
+    pub states: Vec<KinematicState>,
+    /// Newton-Raphson steps in all.
+    pub iterations: usize,
+}
+
+/// Follows the drivers of a scene over its duration, every so many seconds as its settings say.
+pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, AnalysisError> {
+    let mut stage = Stage::new(scene)?;
+    let freedoms = stage.tangent().ncols();
+    if freedoms > 0 {
+        return Err(AnalysisError::Free { freedoms });
+    }
+    let settings = &scene.simulation;
+    let mut states = Vec::new();
+    let mut iterations = 0;
+    let mut last = 0.0;
+    let mut acceleration = vec![0.0; stage.q.len()];
+    while states.len() < MOST {
+        let time = (states.len() as f64 * settings.every).min(settings.duration);
+        // The next position is near the one that the last accelerations lead to.
+        let h = time - last;
+        for ((q, v), a) in stage.q.iter_mut().zip(&stage.q_dot).zip(&acceleration) {
+            *q += h * (v + 0.5 * h * a);
+        }
+        stage.time = time;
+        iterations += positions(&mut stage)?;
+        velocities(&mut stage);
+        let found = stage.accelerate();
+        found.write(&mut acceleration);
+        let reactions = report(&found.multipliers, convention);
+        let (linear, angular) = accelerations(&found);
+        states.push(KinematicState {
+            time,
+            bodies: stage.frames(),
+            accelerations: linear,
+            angular_accelerations: angular,
+            reactions: reactions.map_err(crate::EngineError::from)?,
+        });
+        if time >= settings.duration {
+            break;
+        }
+        last = time;
+    }
+    Ok(Kinematics { states, iterations })
+}
+
+/// Newton-Raphson to Φ(q, t) = 0. Returns the number of steps.
+fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
+    let time = stage.time;
+    let Mechanism { system, state, elimination, .. } = &mut stage.mechanism;
+    state.set_time(system, time);
+    state.set_positions(system, &stage.q);
+    let mut steps = 0;
+    let mut smallest = f64::INFINITY;
+    while steps < 60 {
+        elimination.linearize(system, state);
+        let step = elimination.correct_positions(system, state, &mut stage.q);
+        state.set_positions(system, &stage.q);
+        steps += 1;
+        let settled = step <= 1e-9 * system.length && step >= 0.5 * smallest;
+        if step <= 1e-14 * system.length || settled || step.is_nan() {
+            break;
+        }
+        smallest = step.min(smallest);
+    }
+    let open = state.position_violation(system);
+    // A comparison that is false for NaN as well.
+    let closed = open <= OPEN * system.length.max(1.0);
+    if !closed {
+        let open = triad_dynamics::constraints::violation::opening(system, state);
+        let (index, violation) = open.groups.first().copied().unwrap_or((0, open.relative));
+        let origin = system.groups.get(index).map_or_else(String::new, |group| group.name.clone());
+        return Err(AnalysisError::Unreachable { time, origin, violation });
+    }
+    state.commit_revolutions();
+    Ok(steps)
+}
+
+fn velocities(stage: &mut Stage) {
+    let Mechanism { system, state, elimination, .. } = &mut stage.mechanism;
+    elimination.linearize(system, state);
+    state.set_velocities(system, &stage.q_dot);
+    for _ in 0..4 {
+        elimination.correct_velocities(system, state, &mut stage.q_dot);
+        state.set_velocities(system, &stage.q_dot);
+    }
+}
+
+/// Accelerations of the centres of mass and angular accelerations.
+fn accelerations(found: &Accelerations) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    let (mut linear, mut angular) = (Vec::new(), Vec::new());
+    for (index, state) in found.multipliers.state.bodies().iter().enumerate() {
+        let second = found.of_body(index);
+        // α = ½ Σ e_k × ë_k, as Σ ė_k × ė_k = 0 — eq. (6.4).
+        let alpha: Vector3<f64> =
+            (0..3).map(|k| state.q.e[k].cross(&second.e[k])).sum::<Vector3<f64>>() * 0.5;
+        linear.push(second.r.into());
+        angular.push(alpha.into());
+    }
+    (linear, angular)
+}

@@ -1,0 +1,242 @@
+//! What can go wrong between a text and a finished run.
+
+mod last_good;
+
+pub use last_good::{Cause, LastGood};
+
+use crate::catalogue::CatalogueError;
+use crate::integrate::Stop;
+use crate::reactions::uniqueness::UniquenessError;
+use crate::scene::SceneError;
+use triad_dynamics::constraints::ConstraintError;
+use triad_dynamics::model::ModelError;
+
+/// Any failure of the engine: what, where, and what to try.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EngineError {
+    /// The text is not a scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// There is no built-in scene of that name.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
+    /// The scene cannot be.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Which reactions are unique cannot be told.
+    #[error(transparent)]
+    Uniqueness(#[from] UniquenessError),
+    /// The constraints cannot be satisfied.
+    #[error("{error}{}", last.as_ref().map(ToString::to_string).unwrap_or_default())]
+    Constraint {
+        /// Which, and how far they are from it.
+        error: ConstraintError,
+        /// What the last good state tells, where there is one.
+        last: Option<LastGood>,
+    },
+    /// The step control found no step that meets the tolerance.
+    #[error("the integration stops at t = {time:.6} s: no step above {step:.1e} s meets the tolerance{last}")]
+    StepTooSmall {
+        /// Time, s.
+        time: f64,
+        /// The step that was refused, s.
+        step: f64,
+        /// What the last good state tells.
+        last: LastGood,
+    },
+    /// The accelerations are no longer finite.
+    #[error("the run diverges at t = {time:.6} s: accelerations are no longer finite numbers{last}")]
+    Diverged {
+        /// Time, s.
+        time: f64,
+        /// What the last good state tells.
+        last: LastGood,
+    },
+    /// The equations of an implicit step cannot be solved.
+    #[error(
+        "the integration stops at t = {time:.6} s: the equations of a step of {step:.1e} s cannot be solved{last}"
+    )]
+    NoConvergence {
+        /// Time, s.
+        time: f64,
+        /// The step that was tried, s.
+        step: f64,
+        /// What the last good state tells.
+        last: LastGood,
+    },
+    /// Steps have become so small that the run would never end.
+    #[error(
+        "the run stalls at t = {time:.6} s: its steps have shrunk to {step:.1e} s, and more than 1e9 of them are left{last}"
+    )]
+    Stalled {
+        /// Time, s.
+        time: f64,
+        /// Their size, s.
+        step: f64,
+        /// What the last good state tells.
+        last: LastGood,
+    },
+    /// There are no independent coordinates to integrate.
+    #[error(
+        "at t = {time:.6} s no independent coordinates can be chosen: nothing is free to move, or a singular position leaves open what is{last}"
+    )]
+    Undetermined {
+        /// Time, s.
+        time: f64,
+        /// What the last good state tells.
+        last: LastGood,
+    },
+    /// The run has used up the steps that it was given.
+    #[error("the run stops at t = {time:.6} s: its {steps} steps are used up{last}")]
+    StepLimit {
+        /// Time, s.
+        time: f64,
+        /// How many steps it was given.
+        steps: u64,
+        /// What the last state tells.
+        last: LastGood,
+    },
+    /// A time outside the run was asked for.
+    #[error("t = {time} s is outside the run, which goes from {from} s to {to} s")]
+    TimeOutside {
+        /// The time asked for, s.
+        time: f64,
+        /// First time that can be reached, s.
+        from: f64,
+        /// Last time, s.
+        to: f64,
+    },
+}
+
+impl From<ConstraintError> for EngineError {
+    fn from(error: ConstraintError) -> Self {
+        if let ConstraintError::NotFinite { time } = error {
+            return Self::Diverged { time, last: LastGood::default() };
+        }
+        let last = error.is_during_motion().then(LastGood::default);
+        Self::Constraint { error, last }
+    }
+}
+
+impl EngineError {
+    /// A stop of an integrator, told with the last good state.
+    pub fn stopped(stop: Stop, last: LastGood) -> Self {
+        match stop {
+            Stop::StepTooSmall { time, step } => Self::StepTooSmall { time, step, last },
+            Stop::NotFinite { time } => Self::Diverged { time, last },
+            Stop::NoConvergence { time, step } => Self::NoConvergence { time, step, last },
+            Stop::Undetermined { time } => Self::Undetermined { time, last },
+            Stop::Stalled { time, step } => Self::Stalled { time, step, last },
+        }
+    }
+
+    /// The same error, told with the last good state.
+    #[must_use]
+    pub fn after(mut self, good: LastGood) -> Self {
+        match &mut self {
+            Self::Diverged { last, .. } | Self::Constraint { last: Some(last), .. } => *last = good,
+            _ => {}
+        }
+        self
+    }
+
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Scene(SceneError::TooLong { .. }) => "scene-too-long",
+            Self::Scene(SceneError::Syntax { .. }) => "scene-syntax",
+            Self::Scene(SceneError::TooMany { .. }) => "scene-too-large",
+            Self::Scene(SceneError::NoNumber { .. }) => "no-such-number",
+            Self::Scene(SceneError::UnknownParameter { .. }) => "unknown-parameter",
+            Self::Scene(SceneError::OutsideParameter { .. }) => "outside-parameter",
+            Self::Catalogue(error) => error.code(),
+            Self::Model(error) => error.code(),
+            Self::Uniqueness(error) => error.code(),
+            Self::Constraint { error, .. } => error.code(),
+            Self::StepTooSmall { .. } => "step-too-small",
+            Self::Diverged { .. } => "diverged",
+            Self::NoConvergence { .. } => "no-convergence",
+            Self::Stalled { .. } => "stalled",
+            Self::Undetermined { .. } => "undetermined-motion",
+            Self::StepLimit { .. } => "step-limit",
+            Self::TimeOutside { .. } => "time-outside-run",
+        }
+    }
+
+    /// Where in the scene, as a JSON pointer, if it is at one place.
+    pub fn pointer(&self) -> Option<String> {
+        match self {
+            Self::Scene(SceneError::Syntax { pointer, .. } | SceneError::NoNumber { pointer, .. }) => {
+                Some(pointer.clone())
+            }
+            Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
+            Self::Model(error) => Some(error.pointer()),
+            Self::Constraint { error, .. } => error.pointer().map(str::to_owned),
+            _ => None,
+        }
+    }
+
+    /// Why no way leads on from the last good state, if it can be told.
+    pub fn cause(&self) -> Option<&Cause> {
+        match self {
+            Self::StepTooSmall { last, .. }
+            | Self::Diverged { last, .. }
+            | Self::NoConvergence { last, .. }
+            | Self::Stalled { last, .. }
+            | Self::Undetermined { last, .. }
+            | Self::Constraint { last: Some(last), .. }
+            | Self::StepLimit { last, .. } => last.cause.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// What to try.
+    pub fn hint(&self) -> String {
+        if let Some(cause) = self.cause().filter(|_| !matches!(self, Self::Undetermined { .. })) {
+            return cause.hint().to_owned();
+        }
+        match self {
+            Self::Scene(SceneError::TooLong { .. } | SceneError::TooMany { .. }) => {
+                "Split the mechanism, or leave out what does not move.".to_owned()
+            }
+            Self::Scene(SceneError::Syntax { .. }) => {
+                "Compare the place with the JSON Schema of a scene (`triad schema`).".to_owned()
+            }
+            Self::Scene(SceneError::NoNumber { .. }) => {
+                "Name a place that holds a number, by keys and places in lists from 0, like /bodies/0/mass.".to_owned()
+            }
+            Self::Scene(SceneError::UnknownParameter { known, .. }) if known.is_empty() => {
+                "This scene offers no parameters; change a number by its JSON pointer instead.".to_owned()
+            }
+            Self::Scene(SceneError::UnknownParameter { known, .. }) => {
+                format!("Its parameters are {}.", known.join(", "))
+            }
+            Self::Scene(SceneError::OutsideParameter { low, high, .. }) => {
+                format!("Choose a value from {low} to {high}, or change the number by its JSON pointer.")
+            }
+            Self::Catalogue(error) => error.hint(),
+            Self::Model(error) => error.hint(),
+            Self::Uniqueness(error) => error.hint(),
+            Self::Constraint { error, .. } => error.hint().to_owned(),
+            Self::StepTooSmall { .. } | Self::Stalled { .. } | Self::Diverged { .. } => {
+                "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
+                 joint that locks or a body that is far too light."
+                    .to_owned()
+            }
+            Self::NoConvergence { .. } => {
+                "Tighten the tolerance, which shortens the steps; through singular positions use taylor or dop853 with \
+                 projection."
+                    .to_owned()
+            }
+            Self::Undetermined { .. } => {
+                "Use projection as the stabilization, with taylor or dop853; a mechanism whose drivers prescribe all of \
+                 its motion has nothing to integrate: see `triad kinematics`."
+                    .to_owned()
+            }
+            Self::StepLimit { .. } => {
+                "Allow more steps, loosen the tolerance, or look for a stiff spring or a fast driver.".to_owned()
+            }
+            Self::TimeOutside { .. } => "Ask for a time within the run, or reset it first.".to_owned(),
+        }
+    }
+}

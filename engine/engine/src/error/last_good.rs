@@ -1,0 +1,92 @@
+//! What the last good state of a run that stopped tells about the reason.
+
+use std::fmt;
+use triad_dynamics::constraints::quoted;
+
+/// What the last good state of a run tells about its end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LastGood {
+    /// Accepted steps until then.
+    pub steps: u64,
+    /// Why no way leads on, if it can be told.
+    pub cause: Option<Box<Cause>>,
+}
+
+/// Why no way leads on from a state.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cause {
+    /// A driver asks for positions that the joints do not allow.
+    OutOfReach {
+        /// The driver, or all that there are if it cannot be told which.
+        drivers: Vec<String>,
+        /// When it does, s.
+        time: f64,
+        /// Joints and drivers that stay open there, the worst first.
+        open: Vec<String>,
+    },
+    /// The rows of a joint or driver come to depend on others: a singular position.
+    Losing {
+        /// The joint or driver.
+        joint: String,
+        /// The product of its relative pivots beside that at the start.
+        hold: f64,
+    },
+    /// The rows of a joint or driver nearly depend on others since the start.
+    Weak {
+        /// The joint or driver.
+        joint: String,
+        /// The product of its relative pivots.
+        hold: f64,
+    },
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OutOfReach { drivers, time, open } => write!(
+                f,
+                "driver {} asks for more than the joints allow: at t = {time:.6} s no position nearby closes {}",
+                quoted(drivers),
+                if open.is_empty() { "all of them".to_owned() } else { quoted(open) }
+            ),
+            Self::Losing { joint, hold } => {
+                write!(f, "\"{joint}\" is about to lose its hold, of which {hold:.0e} is left")
+            }
+            Self::Weak { joint, hold } => {
+                write!(
+                    f,
+                    "\"{joint}\" hardly holds since the start, where others leave it {hold:.0e} of a firm hold"
+                )
+            }
+        }
+    }
+}
+
+impl Cause {
+    /// What to try.
+    pub(super) fn hint(&self) -> &'static str {
+        match self {
+            Self::OutOfReach { .. } => {
+                "Look at the last good state: let the driver ask for less, change lengths, or end the run before."
+            }
+            Self::Losing { .. } => {
+                "Look at the last good state: the mechanism comes to a singular position. Use taylor or dop853 with \
+                 projection, change lengths, or end the run before."
+            }
+            Self::Weak { .. } => {
+                "Move the points or axes of that joint away from the singular position that it starts in, or leave it out \
+                 if others hold the same."
+            }
+        }
+    }
+}
+
+impl fmt::Display for LastGood {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, " (after {} step{}", self.steps, if self.steps == 1 { "" } else { "s" })?;
+        if let Some(cause) = &self.cause {
+            write!(f, "; {cause}")?;
+        }
+        f.write_str(")")
+    }
+}

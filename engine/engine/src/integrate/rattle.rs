@@ -1,0 +1,342 @@
+//! RATTLE, composed symmetrically to order 6: symplectic, symmetric in time, with the constraints of position and
+//! velocity satisfied at the end of each step — eq. (10.7)
+//! (Hairer, Lubich, Wanner, Geometric Numerical Integration, sections V.3, VII.1.4).
+//!
+//! It works in the lifted coordinates of all bodies, where the mass matrix is constant. Steps have one size: energy
+//! then oscillates within bounds and does not drift, however long the run.
+
+#![allow(clippy::excessive_precision, reason = "the numbers stand as they were published")]
+
+use super::{DOP853, Explicit, Stepper, Steps, Stop, resolution};
+use nalgebra::Vector3;
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::state::{Residual, State};
+use triad_dynamics::system::natural::Lift;
+
+/// Substeps of the composition by Kahan and Li (1997), in parts of a step; the first five, the others mirror them.
+const PARTS: [f64; 5] = [
+    0.392_161_444_007_314_14,
+    0.332_599_136_789_359_44,
+    -0.706_246_172_557_639_4,
+    0.082_213_596_293_550_8,
+    0.798_543_990_934_829_9,
+];
+/// Substeps of a step.
+const SUBSTEPS: usize = 9;
+/// Most iterations for the end of a substep.
+const ITERATIONS: usize = 100;
+/// Changes below the first part of the mechanism's length that do not shrink any more, or below the second that hardly do,
+/// are rounding.
+const SETTLED: f64 = 1e-9;
+const ROUNDING: f64 = 1e-15;
+/// Steps of the trial run from which the step size is found, and how much smaller it is made.
+const TRIAL_STEPS: usize = 100;
+/// A step of this part of the longest one: the trial comes to a halt, and says no more about the motion until then.
+const HALTING: f64 = 1e-4;
+const PART_OF_TRIAL: f64 = 0.5;
+
+/// The integrator and its last step.
+#[derive(Clone, Debug)]
+pub struct Rattle {
+    t: f64,
+    h: f64,
+    y: Vec<f64>,
+    position: Vec<Lift>,
+    velocity: Vec<Lift>,
+    /// Both at the start of the step.
+    kept: (Vec<Lift>, Vec<Lift>),
+    t_old: f64,
+    h_old: f64,
+    y_old: Vec<f64>,
+    /// Rates at both ends of the last step, for dense output.
+    rates: [Vec<f64>; 2],
+    dense_ready: bool,
+    /// Where the constraints are evaluated while the factor stays at the start of a substep.
+    other: State,
+    there: Vec<Lift>,
+    /// Q₁ − Q₀ − h Q̇₀ of the substep.
+    change: Vec<Lift>,
+    half: Vec<Lift>,
+    forces: Vec<Lift>,
+    pushed: Vec<Lift>,
+    residuals: Vec<Residual>,
+    /// Whether loads act: their forces may depend on the velocity.
+    loaded: bool,
+    /// Steps so far.
+    pub steps: Steps,
+}
+
+impl Rattle {
+    /// Order of the composition.
+    pub const ORDER: u32 = 6;
+
+    /// Starts at the consistent state y with steps of size h; if none is given, of a size that a trial run with the
+    /// given tolerance finds.
+    pub fn new(mechanism: &mut Mechanism, t: f64, y: &[f64], h: Option<f64>) -> Self {
+        let settings = &mechanism.system.model.settings;
+        let (tolerance, end) = (settings.tolerance, settings.duration);
+        let left = (end - t).max(f64::MIN_POSITIVE);
+        let h = h.unwrap_or_else(|| PART_OF_TRIAL * trial_step(mechanism, t, y, tolerance, end));
+        // Steps of one size that end at the end.
+        let h = left / (left / h).ceil().max(1.0);
+        let system = &mechanism.system;
+        let bodies = system.bodies.len();
+        let zero = vec![Lift::default(); bodies];
+        let (q, q_dot) = y.split_at(system.coordinates);
+        let position: Vec<Lift> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
+        let velocity =
+            system.bodies.iter().zip(&position).map(|(b, q)| b.layout.velocity(q, q_dot)).collect();
+        let rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
+        let mut rattle = Self {
+            t,
+            h,
+            y: y.to_vec(),
+            position,
+            velocity,
+            kept: (zero.clone(), zero.clone()),
+            t_old: t,
+            h_old: 0.0,
+            y_old: y.to_vec(),
+            rates,
+            dense_ready: false,
+            other: mechanism.state.clone(),
+            there: zero.clone(),
+            change: zero.clone(),
+            half: zero.clone(),
+            forces: zero.clone(),
+            pushed: zero,
+            residuals: vec![Residual::zeros(); system.rows.len()],
+            loaded: !system.loads.is_empty(),
+            steps: Steps::default(),
+        };
+        rattle.come_back(mechanism);
+        rattle
+    }
+
+    /// Puts the state at the end of the last step in place, with its factor.
+    fn come_back(&mut self, mechanism: &mut Mechanism) {
+        let Mechanism { system, state, elimination, .. } = mechanism;
+        state.set_time(system, self.t);
+        state.set_natural_positions(system, &self.position);
+        state.set_natural_velocities(system, &self.velocity);
+        elimination.linearize(system, state);
+        self.other.copy_revolutions(state);
+    }
+
+    /// One step of RATTLE of size h from time t. False if its equations cannot be solved.
+    fn substep(&mut self, mechanism: &mut Mechanism, t: f64, h: f64) -> bool {
+        let Mechanism { system, state: here, elimination, .. } = mechanism;
+        elimination.set_forces(system, here);
+        for (index, q) in self.position.iter().enumerate() {
+            self.there[index] = combined(q, h, &self.velocity[index]);
+            self.change[index] = Lift::default();
+            self.pushed[index] = elimination.bodies()[index].force;
+            self.forces[index] = scaled(0.5 * h * h, &self.pushed[index]);
+        }
+        self.other.set_time(system, t + h);
+        let (mut last, mut converged) = (f64::INFINITY, false);
+        for iteration in 0..ITERATIONS {
+            self.other.set_natural_positions(system, &self.there);
+            self.other.residuals(system, false, &mut self.residuals);
+            elimination.increment(system, here, &self.forces, &self.other, false, &self.residuals);
+            let mut step = 0.0f64;
+            for (index, there) in self.there.iter_mut().enumerate() {
+                let change = elimination.solution(here, index);
+                step = step.max(largest(&change));
+                *there = combined(there, 1.0, &change);
+                self.change[index] = combined(&self.change[index], 1.0, &change);
+                self.forces[index] = Lift::default();
+            }
+            if !step.is_finite() {
+                return false;
+            }
+            // To the last bit: what is left over would add up in a long run.
+            let rounding = (step >= last && step < SETTLED * system.length)
+                || (step > 0.5 * last && step < ROUNDING * system.length);
+            if step == 0.0 || (iteration > 0 && rounding) {
+                converged = true;
+                break;
+            }
+            if iteration > 8 && step > last {
+                return false;
+            }
+            last = step;
+            if self.loaded {
+                // The force at the start of the substep, with the velocity in its middle.
+                for (half, (v, change)) in self.half.iter_mut().zip(self.velocity.iter().zip(&self.change)) {
+                    *half = combined(v, 1.0 / h, change);
+                }
+                here.set_natural_velocities(system, &self.half);
+                elimination.set_forces(system, here);
+                for (index, old) in self.pushed.iter_mut().enumerate() {
+                    let new = elimination.bodies()[index].force;
+                    self.forces[index] = scaled(0.5 * h * h, &combined(&new, -1.0, old));
+                    *old = new;
+                }
+            }
+        }
+        converged && self.finish(mechanism, t + h, h)
+    }
+
+    /// The second half of a substep: forces of its end, and velocities onto the constraints there.
+    fn finish(&mut self, mechanism: &mut Mechanism, t: f64, h: f64) -> bool {
+        let Mechanism { system, state: here, elimination, .. } = mechanism;
+        // Not the difference of the positions, which would lose digits.
+        for (half, (v, change)) in self.half.iter_mut().zip(self.velocity.iter().zip(&self.change)) {
+            *half = combined(v, 1.0 / h, change);
+        }
+        self.position.copy_from_slice(&self.there);
+        here.set_time(system, t);
+        here.set_natural_positions(system, &self.position);
+        here.set_natural_velocities(system, &self.half);
+        here.commit_revolutions();
+        elimination.linearize(system, here);
+        elimination.set_forces(system, here);
+        here.residuals(system, true, &mut self.residuals);
+        for (force, solve) in self.forces.iter_mut().zip(elimination.bodies()) {
+            *force = scaled(0.5 * h, &solve.force);
+        }
+        self.other.set_natural_positions(system, &self.position);
+        self.other.set_natural_velocities(system, &self.half);
+        self.other.copy_revolutions(here);
+        elimination.increment(system, here, &self.forces, &self.other, true, &self.residuals);
+        let mut finite = true;
+        for (index, velocity) in self.velocity.iter_mut().enumerate() {
+            *velocity = combined(&self.half[index], 1.0, &elimination.solution(here, index));
+            finite &= largest(velocity).is_finite();
+        }
+        here.set_natural_velocities(system, &self.velocity);
+        elimination.counters.evaluations += 1;
+        finite
+    }
+
+    fn store(&mut self, mechanism: &Mechanism) {
+        let n = mechanism.system.coordinates;
+        let (q, q_dot) = self.y.split_at_mut(n);
+        for (index, body) in mechanism.system.bodies.iter().enumerate() {
+            body.layout.store(&self.position[index], q);
+            body.layout.store(&self.velocity[index], q_dot);
+        }
+    }
+}
+
+impl Stepper for Rattle {
+    fn time(&self) -> f64 {
+        self.t
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.y
+    }
+
+    fn last_step(&self) -> f64 {
+        self.h_old
+    }
+
+    fn steps(&self) -> Steps {
+        self.steps
+    }
+
+    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
+        let left = end - self.t;
+        let h = if left <= self.h * (1.0 + 1e-6) { left } else { self.h };
+        if h <= resolution(self.t, end) && left > h {
+            return Err(Stop::StepTooSmall { time: self.t, step: h });
+        }
+        self.kept.0.copy_from_slice(&self.position);
+        self.kept.1.copy_from_slice(&self.velocity);
+        // Outputs between steps have moved the mechanism.
+        self.come_back(mechanism);
+        let mut t = self.t;
+        for part in 0..SUBSTEPS {
+            let part = PARTS[part.min(SUBSTEPS - 1 - part)];
+            if !self.substep(mechanism, t, part * h) {
+                self.position.copy_from_slice(&self.kept.0);
+                self.velocity.copy_from_slice(&self.kept.1);
+                return Err(Stop::NoConvergence { time: self.t, step: h });
+            }
+            t += part * h;
+        }
+        self.t_old = self.t;
+        self.h_old = h;
+        self.y_old.copy_from_slice(&self.y);
+        self.t = if h == left { end } else { self.t + h };
+        self.store(mechanism);
+        self.dense_ready = false;
+        self.steps.accepted += 1;
+        Ok(())
+    }
+
+    fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        if t >= self.t || self.h_old == 0.0 {
+            y.copy_from_slice(&self.y);
+            return;
+        }
+        if !self.dense_ready {
+            mechanism.rate(self.t_old, &self.y_old, &mut self.rates[0]);
+            mechanism.rate(self.t, &self.y, &mut self.rates[1]);
+            self.dense_ready = true;
+        }
+        let n = y.len() / 2;
+        let s = ((t - self.t_old) / self.h_old).clamp(0.0, 1.0);
+        for i in 0..n {
+            let start = [self.y_old[i], self.y_old[n + i], self.rates[0][n + i]];
+            let end = [self.y[i], self.y[n + i], self.rates[1][n + i]];
+            (y[i], y[n + i]) = super::quintic(start, end, self.h_old, s);
+        }
+    }
+
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+}
+
+/// Smallest step of a trial run from the start.
+fn trial_step(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end: f64) -> f64 {
+    let mut trial = mechanism.clone();
+    let mut explicit = Explicit::new(&DOP853, &mut trial, t, y, tolerance);
+    let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);
+    for step in 0..TRIAL_STEPS {
+        if explicit.time() >= end || explicit.step(&mut trial, end).is_err() {
+            break;
+        }
+        // The first step is a guess, the last one is cut.
+        if step > 0 && explicit.time() < end {
+            largest = largest.max(explicit.last_step());
+            if explicit.last_step() < HALTING * largest {
+                break;
+            }
+            smallest = smallest.min(explicit.last_step());
+        }
+    }
+    if smallest.is_finite() { smallest } else { (end - t) / 20.0 }
+}
+
+/// a + factor b.
+fn combined(a: &Lift, factor: f64, b: &Lift) -> Lift {
+    Lift { r: a.r + b.r * factor, e: [0, 1, 2].map(|k| a.e[k] + b.e[k] * factor) }
+}
+
+fn scaled(factor: f64, a: &Lift) -> Lift {
+    Lift { r: a.r * factor, e: a.e.map(|e| e * factor) }
+}
+
+/// Largest component; NaN is larger than any.
+fn largest(a: &Lift) -> f64 {
+    let amax = |v: &Vector3<f64>| if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
+    let all = [amax(&a.r), amax(&a.e[0]), amax(&a.e[1]), amax(&a.e[2])];
+    all.into_iter().fold(0.0, |a: f64, b| if a > b || a.is_nan() { a } else { b })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_make_a_whole_step() {
+        let sum: f64 = (0..SUBSTEPS).map(|k| PARTS[k.min(SUBSTEPS - 1 - k)]).sum();
+        assert!((sum - 1.0).abs() < 1e-15);
+        let cubes: f64 = (0..SUBSTEPS).map(|k| PARTS[k.min(SUBSTEPS - 1 - k)].powi(3)).sum();
+        assert!(cubes.abs() < 1e-15);
+    }
+}

@@ -1,0 +1,53 @@
+//! Whether a scene is stiff: whether an explicit method would take its steps from stability instead of accuracy.
+
+use triad_dynamics::constraints::mechanism::Mechanism;
+
+/// Decay rate of a load times the length of the run above which an implicit method pays: measured (docs/PERFORMANCE.md), the
+/// series take three quarters of its time at 6.5e4, and their steps grow with this number.
+const MANY_DECAYS: f64 = 1e5;
+/// The tolerance for which that holds. At a tighter one the implicit method needs more steps, by the fourth root, between
+/// its order of five and that of its stages, three; the series do not.
+const AT_TOLERANCE: f64 = 1e-6;
+/// The same for oscillations, which an implicit method may leave out only if they are not excited.
+const MANY_OSCILLATIONS: f64 = 3e5;
+/// An oscillation is excited if its amplitude is above this multiple of the tolerance, in lengths of the mechanism.
+const EXCITED: f64 = 1e3;
+/// Freedoms above which the dense linear algebra of the implicit method costs more than small steps.
+pub const MOST_FREEDOMS: usize = 300;
+
+/// Why a scene is stiff at the state (t, y), or nothing.
+pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String> {
+    let settings = &mechanism.system.model.settings;
+    let (duration, tolerance) = (settings.duration, settings.tolerance);
+    let freedoms = (6 * mechanism.system.bodies.len()).saturating_sub(mechanism.system.solver_rows);
+    if mechanism.system.loads.is_empty() || freedoms > MOST_FREEDOMS {
+        return None;
+    }
+    let length = mechanism.system.length;
+    let dearer = (AT_TOLERANCE / tolerance).powf(0.25).max(1.0);
+    let mut rate = vec![0.0; y.len()];
+    crate::integrate::Plant::rate(mechanism, t, y, &mut rate);
+    let n = mechanism.system.coordinates;
+    let Mechanism { system, state, elimination, .. } = mechanism;
+    for load in 0..system.loads.len() {
+        let name = &system.model.loads[load].name;
+        let Some((stiffness, _)) = elimination.set_unit_load(system, state, load) else { continue };
+        // Rates of the load's coordinate along the motion and of its rate along the accelerations.
+        let along = |velocity: &[f64]| -> f64 {
+            let bodies = system.bodies.iter().zip(state.bodies()).zip(elimination.bodies());
+            bodies.map(|((body, at), solve)| solve.force.dot(&body.layout.velocity(&at.q, velocity))).sum()
+        };
+        let (speed, acceleration) = (along(&y[n..]).abs(), along(&rate[n..]).abs());
+        let mobility = elimination.mobility(system, state, load).unwrap_or(0.0).max(0.0);
+        let decay = system.loads[load].steepest_damping() * mobility;
+        if decay * duration > MANY_DECAYS * dearer {
+            return Some(format!("load \"{name}\" makes motions decay within {:.0e} s", 1.0 / decay));
+        }
+        let omega = (stiffness * mobility).sqrt();
+        let amplitude = (acceleration / (omega * omega)).max(speed / omega);
+        if omega * duration > MANY_OSCILLATIONS * dearer && amplitude <= EXCITED * tolerance * length {
+            return Some(format!("spring \"{name}\" could oscillate at {omega:.0e} rad/s, but does not"));
+        }
+    }
+    None
+}

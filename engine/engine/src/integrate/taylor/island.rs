@@ -1,0 +1,212 @@
+//! A part of a scene that nothing connects with the rest, and its series.
+
+use super::{MAX_ORDER, Stop};
+use crate::run::singularity::Stepped;
+use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
+use triad_dynamics::dynamics::series::{IslandSeries, LEAST_TOLERANCE_REDUNDANT, Plan};
+use triad_dynamics::state::State;
+use triad_dynamics::system::System;
+use triad_dynamics::system::islands::{self, Part};
+use triad_dynamics::system::planar;
+
+/// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
+const CROWDED: f64 = 0.1;
+/// A step below this part of what is left is the last if the constraints cannot be satisfied at its end, or could be only
+/// after it had been halved so often: from there on steps lead nowhere, and spoil the state.
+const HOPELESS: f64 = 1e-9;
+const HALVED: u64 = 3;
+/// Most knots that are counted.
+const MOST_KNOTS: usize = 100_000;
+
+/// A part and its last step.
+#[derive(Clone, Debug)]
+pub struct Island {
+    /// Its bodies, if it is not the whole.
+    part: Option<Box<System>>,
+    tolerance: f64,
+    order: usize,
+    length: f64,
+    bodies: usize,
+    rows: usize,
+    /// Whether its joints close loops.
+    loops: bool,
+    series: IslandSeries,
+    /// End of the last step.
+    t: f64,
+    /// The last step: its start, size and the terms that it used.
+    t_old: f64,
+    h_old: f64,
+    order_old: usize,
+    steps: u64,
+}
+
+impl Island {
+    /// Starts a part of a system, or the whole, at (t, y).
+    pub fn new(
+        whole: &System,
+        part: Option<Part>,
+        redundant: bool,
+        turns: &[f64],
+        t: f64,
+        y: &[f64],
+        tolerance: f64,
+    ) -> Self {
+        let part = part.map(|part| Box::new(part.system));
+        let system = part.as_deref().unwrap_or(whole);
+        let skip = whole.model.settings.skip;
+        let q = &y[..whole.coordinates];
+        let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
+        let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
+        let order = order_for(tolerance, flat.is_some());
+        let rows = flat.as_ref().unwrap_or(system).solver_rows;
+        let loops = islands::has_loops(&system.model);
+        let mut series = match &flat {
+            None => IslandSeries::in_space(system, order, redundant, turns),
+            Some(flat) => IslandSeries::in_plane(flat, order, redundant, turns),
+        };
+        series.keep_constants(skip.constants);
+        series.place(system, t, y);
+        let redundant = (flat.is_some() || redundant) && series.find_dependent(system.length);
+        if loops {
+            series.allow_looks();
+        }
+        series.linearize();
+        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
+        let (length, bodies) = (system.length, system.bodies.len());
+        Self {
+            loops,
+            part,
+            tolerance,
+            order,
+            length,
+            bodies,
+            rows,
+            series,
+            t,
+            t_old: t,
+            h_old: 0.0,
+            order_old: order,
+            steps: 0,
+        }
+    }
+
+    /// End of the last step.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// Bodies.
+    pub fn bodies(&self) -> usize {
+        self.bodies
+    }
+
+    /// Rows of the solver.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Steps so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Whether it is solved in a plane.
+    pub fn is_planar(&self) -> bool {
+        self.series.is_planar()
+    }
+
+    /// Its last step, if it may hide a singular position.
+    pub fn stepped(&self, whole: &System, part: usize) -> Option<Stepped<'_>> {
+        let system = self.part.as_deref().unwrap_or(whole);
+        let (holds, pace) = (self.series.holds(), self.series.pace(system));
+        self.loops.then_some(Stepped { part, start: self.t_old, end: self.t, holds: Some(holds), pace })
+    }
+
+    /// How firmly each joint holds at time t within its last step.
+    pub fn holds_inside(&mut self, t: f64) -> &[f64] {
+        let tau = (t - self.t_old).clamp(0.0, self.h_old);
+        self.series.holds_inside(self.t_old, tau, self.order_old)
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        self.series.counters()
+    }
+
+    /// Entries of the matrix that were not written again.
+    pub fn constants_kept(&self) -> u64 {
+        self.series.constants_kept()
+    }
+
+    /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
+    /// itself that the constraints hold, and how often it was shortened.
+    pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), Stop> {
+        let plan =
+            Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, look_only: false };
+        let system = self.part.as_deref().unwrap_or(whole);
+        let taken = self.series.step(plan);
+        if taken.finite {
+            self.series.store(system, y);
+        }
+        if !taken.finite || taken.h.is_nan() {
+            return Err(Stop::NotFinite { time: self.t });
+        }
+        if (taken.far || taken.rejected >= HALVED) && taken.h < HOPELESS * (end - self.t) {
+            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
+        }
+        if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
+        {
+            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
+        }
+        self.t_old = self.t;
+        self.h_old = taken.h;
+        self.order_old = taken.order;
+        self.t = taken.time;
+        self.steps += 1;
+        Ok((taken.proven, taken.rejected))
+    }
+
+    /// Whether knots of prescribed functions follow so closely until `end` that steps, which end at each of them, would be
+    /// far shorter than the series allow.
+    pub fn crowded(&mut self, end: f64) -> bool {
+        let (t, order, tolerance) = (self.t, self.order, self.tolerance);
+        let knots = self.series.knots_before(end, MOST_KNOTS);
+        knots > 0 && (end - t) / (knots as f64) < CROWDED * self.series.natural_step(order, tolerance)
+    }
+
+    /// Multipliers of the solver rows at a state within the last step, with A there. The series of the whole in space have
+    /// them; those of a part or of the plane do not.
+    pub fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
+        let tau = state.time() - self.t_old;
+        let inside = self.h_old > 0.0 && (0.0..=self.h_old).contains(&tau);
+        if self.part.is_some() || self.is_planar() || !inside {
+            return None;
+        }
+        self.series.multipliers(system, tau, self.order_old, jacobian)
+    }
+
+    /// Work of drivers and of loads without potential from the start of its last step to time t, J.
+    pub fn work_to(&self, t: f64) -> f64 {
+        self.series.work((t - self.t_old).clamp(0.0, self.h_old))
+    }
+
+    /// Writes its own coordinates at time t within its last step.
+    pub fn interpolate(&self, whole: &System, t: f64, y: &mut [f64]) {
+        let system = self.part.as_deref().unwrap_or(whole);
+        if t >= self.t || self.h_old == 0.0 {
+            self.series.store(system, y);
+            return;
+        }
+        let tau = (t - self.t_old).clamp(0.0, self.h_old);
+        self.series.interpolate(system, tau, self.order_old, y);
+    }
+}
+
+/// Order for a tolerance: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13. In a plane a further order costs little against what
+/// each step costs anyway.
+fn order_for(tolerance: f64, planar: bool) -> usize {
+    let powers = std::iter::successors(Some(tolerance), |t| Some(10.0 * t));
+    let digits = powers.take(MAX_ORDER).take_while(|&t| t < 0.3).count();
+    let least = if planar { 9 } else { 5 };
+    (least + digits).clamp(6, MAX_ORDER)
+}

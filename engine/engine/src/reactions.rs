@@ -1,0 +1,90 @@
+//! Reactions of joints from their multipliers — THEORY section 9.
+//!
+//! With M q̈ + Φ_qᵀ λ = g, the force that constraints exert is −Φ_qᵀ λ. Pushed through the rigid motion of a body it is
+//! a force and a moment, whatever rows the joint is made of. Multipliers of rigid-body rows are internal to the
+//! coordinates and never shown as reactions.
+
+pub mod matrices;
+pub mod uniqueness;
+
+pub mod report;
+mod rigid;
+
+pub use rigid::{RigidMultipliers, rigid_multipliers};
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use triad_dynamics::dynamics::elimination::Multipliers;
+use triad_dynamics::model::BodyRef;
+use triad_dynamics::system::row::equation_labels;
+
+/// One multiplier with the label of its equation.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Multiplier {
+    /// Label of the equation within its joint.
+    pub label: String,
+    /// λ, in N for a row in metres, in N m for a row of unit vectors.
+    pub value: f64,
+}
+
+/// Multipliers of a joint and the reaction that they make.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointMultipliers {
+    /// The joint.
+    pub joint: String,
+    /// Its multipliers.
+    pub rows: Vec<Multiplier>,
+    /// The body that the reaction acts on: body j, or body i if j is the ground.
+    pub on: String,
+    /// The body that exerts it.
+    pub by: String,
+    /// Force on that body, N.
+    pub force: [f64; 3],
+    /// Moment on that body about the joint's point, N m.
+    pub moment: [f64; 3],
+    /// The joint's point, m.
+    pub about: [f64; 3],
+    /// Frame of the components.
+    pub expressed_in: &'static str,
+}
+
+/// Multipliers and reactions of all joints.
+pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
+    let system = at.system;
+    let name = |body: BodyRef| match body {
+        BodyRef::Ground => crate::scene::GROUND.to_owned(),
+        BodyRef::Moving(body) => system.model.bodies[body].name.clone(),
+    };
+    let mut joints = Vec::with_capacity(system.groups.len());
+    for group in &system.groups {
+        let rows = group
+            .forms
+            .clone()
+            .flat_map(|index| {
+                let row = &system.rows[index];
+                let labels = equation_labels(row.label, row.form.equations());
+                labels.into_iter().zip(at.of_row(index))
+            })
+            .map(|(label, value)| Multiplier { label, value })
+            .collect();
+        let side = usize::from(group.bodies[1] != BodyRef::Ground);
+        let BodyRef::Moving(body) = group.bodies[side] else { continue };
+        let Some(incidence) = group.incidences.clone().find(|&i| system.incidences[i].body == body) else {
+            continue;
+        };
+        let [force, about_center] = at.wrench_on(incidence);
+        let q = &at.state.bodies()[body].q;
+        let arm = q.arm(&group.points[side]);
+        joints.push(JointMultipliers {
+            joint: group.name.clone(),
+            rows,
+            on: name(group.bodies[side]),
+            by: name(group.bodies[1 - side]),
+            force: force.into(),
+            moment: (about_center - arm.cross(&force)).into(),
+            about: (q.r + arm).into(),
+            expressed_in: "world",
+        });
+    }
+    joints
+}

@@ -1,0 +1,292 @@
+//! The matrices of the equations of motion as pictures: the augmented one of eq. (6.6) and S of eq. (7.6), with the
+//! places that a factorization fills.
+//!
+//! Not used by the solver; written for those who want to see what it works with.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use triad_dynamics::dynamics::elimination::Elimination;
+use triad_dynamics::equations::augmented::for_mass_entries;
+use triad_dynamics::equations::jacobian::Jacobian;
+use triad_dynamics::equations::{column_names, row_names};
+use triad_dynamics::state::State;
+use triad_dynamics::system::System;
+
+/// What stands at a place of a symmetric matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "MatrixPart")]
+pub enum Part {
+    /// A number of M or S.
+    Own,
+    /// A number of Φ_q that never changes.
+    Constant,
+    /// A number of Φ_q that changes with q.
+    Changing,
+    /// Zero in the matrix, but not in its factor.
+    Fill,
+}
+
+/// A number of a symmetric matrix on or below the diagonal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Place {
+    /// Row.
+    pub row: usize,
+    /// Column, at most the row.
+    pub column: usize,
+    /// Value at this state; zero for fill.
+    pub value: f64,
+    /// What it is.
+    pub part: Part,
+}
+
+/// A symmetric matrix whose rows, and columns alike, have names.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Symmetric {
+    /// Names of the rows, which are those of the columns too.
+    pub names: Vec<String>,
+    /// Numbers on and below the diagonal, by row and column.
+    pub places: Vec<Place>,
+}
+
+impl Symmetric {
+    /// How many places a factorization fills on or below the diagonal.
+    pub fn fill(&self) -> usize {
+        self.places.iter().filter(|place| place.part == Part::Fill).count()
+    }
+}
+
+/// The augmented matrix [M Φ_qᵀ; Φ_q 0] with the fill of eliminating coordinates first: Φ_q M⁻¹ Φ_qᵀ stands where the
+/// zeros are.
+pub fn augmented(system: &System, at: &State) -> Symmetric {
+    let n = system.coordinates;
+    let mut names = column_names(system);
+    names.extend(row_names(system).into_iter().map(|name| format!("λ {name}")));
+    let mut mass = BTreeMap::<(usize, usize), f64>::new();
+    for_mass_entries(system, at, |row, column, value| {
+        if column <= row {
+            *mass.entry((row, column)).or_default() += value;
+        }
+    });
+    let mut places: BTreeMap<(usize, usize), (f64, Part)> =
+        mass.into_iter().map(|(at, value)| (at, (value, Part::Own))).collect();
+    let jacobian = Jacobian::new(system, at);
+    for entry in &jacobian.entries {
+        let part = if entry.constant { Part::Constant } else { Part::Changing };
+        places.insert((n + entry.row, entry.column), (entry.value, part));
+    }
+    // Rows of Φ_q that act on the same body meet once its coordinates are eliminated.
+    let body_of = columns_by_body(system);
+    let mut acting = vec![BTreeSet::new(); system.bodies.len()];
+    for entry in &jacobian.entries {
+        acting[body_of[entry.column]].insert(entry.row);
+    }
+    for rows in acting {
+        for &i in &rows {
+            for &j in rows.range(..=i) {
+                places.entry((n + i, n + j)).or_insert((0.0, Part::Fill));
+            }
+        }
+    }
+    Symmetric { names, places: listed(places) }
+}
+
+/// For each coordinate, the body whose block of M it belongs to: bodies that share a director share its columns, and
+/// the first of them counts.
+fn columns_by_body(system: &System) -> Vec<usize> {
+    let mut body_of = vec![usize::MAX; system.coordinates];
+    for (index, body) in system.bodies.iter().enumerate() {
+        let directors = body.layout.directors.iter().filter_map(|director| director.column());
+        for first in std::iter::once(body.layout.first).chain(directors.map(|(column, _)| column)) {
+            for column in first..first + 3 {
+                if body_of[column] == usize::MAX {
+                    body_of[column] = index;
+                }
+            }
+        }
+    }
+    body_of
+}
+
+/// S = A D⁻¹ Aᵀ in the order in which the solver eliminates joints, with the fill of its factor.
+pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric {
+    at.linearize(system, state);
+    let order = at.elimination_order();
+    let mut first = vec![0; system.groups.len()];
+    let mut names = Vec::with_capacity(system.solver_rows);
+    for &group in &order {
+        first[group] = names.len();
+        names.extend(solver_names(system, group));
+    }
+    let mut values = BTreeMap::<(usize, usize), f64>::new();
+    let mut joined: BTreeSet<(usize, usize)> = BTreeSet::new();
+    for incidences in &system.incidences_of_body {
+        for &p in incidences {
+            for &q in incidences {
+                let [gp, gq] = [p, q].map(|k| system.incidences[k].group);
+                if first[gp] < first[gq] {
+                    continue;
+                }
+                joined.insert((gp, gq));
+                for (i, a) in at.jacobian().rows_on(system, p).chunks_exact(6).enumerate() {
+                    for (j, b) in at.weighted_rows_on(system, q).chunks_exact(6).enumerate() {
+                        let (row, column) = (first[gp] + i, first[gq] + j);
+                        if column <= row {
+                            *values.entry((row, column)).or_default() +=
+                                a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let mut places: BTreeMap<(usize, usize), (f64, Part)> =
+        values.into_iter().map(|(at, value)| (at, (value, Part::Own))).collect();
+    for (i, j) in filled(&order, &joined) {
+        for row in first[i]..first[i] + system.groups[i].solver.len() {
+            for column in first[j]..first[j] + system.groups[j].solver.len() {
+                places.entry((row, column)).or_insert((0.0, Part::Fill));
+            }
+        }
+    }
+    Symmetric { names, places: listed(places) }
+}
+
+/// Names of a joint's rows in the solver: two for a common vector, one for each equation of the other forms.
+fn solver_names(system: &System, group: usize) -> Vec<String> {
+    let group = &system.groups[group];
+    let rows = system.rows[group.forms.clone()].iter();
+    rows.flat_map(|row| {
+        let count = row.form.independent();
+        (1..=count).map(move |k| match count {
+            1 => format!("{}: {}", group.name, row.label),
+            _ => format!("{}: {}.{k}", group.name, row.label),
+        })
+    })
+    .collect()
+}
+
+/// Pairs of joints, the later one first, that meet while joints are eliminated in that order although S has nothing
+/// there.
+fn filled(order: &[usize], joined: &BTreeSet<(usize, usize)>) -> Vec<(usize, usize)> {
+    let mut rank = vec![0; order.len()];
+    for (place, &joint) in order.iter().enumerate() {
+        rank[joint] = place;
+    }
+    let mut later = vec![BTreeSet::new(); order.len()];
+    for &(i, j) in joined {
+        if i != j {
+            later[rank[j]].insert(rank[i]);
+        }
+    }
+    let mut fill = Vec::new();
+    for place in 0..order.len() {
+        let meeting: Vec<usize> = later[place].iter().copied().collect();
+        for (k, &i) in meeting.iter().enumerate() {
+            for &j in &meeting[k + 1..] {
+                if later[i].insert(j) {
+                    fill.push((order[j], order[i]));
+                }
+            }
+        }
+    }
+    fill
+}
+
+fn listed(places: BTreeMap<(usize, usize), (f64, Part)>) -> Vec<Place> {
+    places.into_iter().map(|((row, column), (value, part))| Place { row, column, value, part }).collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that cannot go on says so
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use nalgebra::DMatrix;
+    use triad_dynamics::constraints::mechanism::Mechanism;
+    use triad_dynamics::equations::augmented::Literal;
+    use triad_dynamics::model::Model;
+
+    fn mechanism(name: &str) -> Mechanism {
+        let system = System::new(Model::new(&catalogue::scene(name).unwrap()).unwrap());
+        let mut mechanism = Mechanism::new(system);
+        let n = mechanism.system.coordinates;
+        let mut y = vec![0.0; 2 * n];
+        let (q, q_dot) = y.split_at_mut(n);
+        mechanism.system.start(q, q_dot);
+        mechanism.set_state(0.0, &y);
+        mechanism
+    }
+
+    fn dense(matrix: &Symmetric) -> DMatrix<f64> {
+        let mut dense = DMatrix::zeros(matrix.names.len(), matrix.names.len());
+        for place in &matrix.places {
+            assert!(place.column <= place.row);
+            dense[(place.row, place.column)] = place.value;
+            dense[(place.column, place.row)] = place.value;
+        }
+        dense
+    }
+
+    /// Where a dense factorization without reordering leaves anything.
+    fn touched(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut left = matrix.clone();
+        for k in 0..left.nrows() {
+            for i in k + 1..left.nrows() {
+                let factor = left[(i, k)] / left[(k, k)];
+                for j in k + 1..left.ncols() {
+                    left[(i, j)] -= factor * left[(k, j)];
+                }
+            }
+        }
+        left
+    }
+
+    #[test]
+    fn the_augmented_matrix_is_that_of_the_literal_equations() {
+        let mechanism = mechanism("n-four-bar:3");
+        let matrix = dense(&augmented(&mechanism.system, &mechanism.state));
+        let literal = Literal::new(&mechanism.system, &mechanism.state);
+        let n = mechanism.system.coordinates;
+        let rows = literal.jacobian.nrows();
+        assert_eq!(matrix.view((0, 0), (n, n)), literal.mass);
+        assert_eq!(matrix.view((n, 0), (rows, n)), literal.jacobian);
+        assert!(matrix.view((n, n), (rows, rows)).iter().all(|x| *x == 0.0), "fill is no number");
+    }
+
+    #[test]
+    fn a_factorization_leaves_nothing_outside_of_the_pattern_with_its_fill() {
+        for name in ["n-four-bar:4", "spatial-slider-crank", "spatial-double-pendulum"] {
+            let mut mechanism = mechanism(name);
+            let matrix = schur(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
+            assert_eq!(matrix.names.len(), mechanism.system.solver_rows, "{name}");
+            let mut with_fill = DMatrix::<f64>::zeros(matrix.names.len(), matrix.names.len());
+            for place in &matrix.places {
+                with_fill[(place.row, place.column)] = 1.0;
+            }
+            let mut full = dense(&matrix);
+            for k in 0..full.nrows() {
+                full[(k, k)] *= 1.0 + 1e-3;
+            }
+            let left = touched(&full);
+            for i in 0..left.nrows() {
+                for j in 0..=i {
+                    assert!(
+                        with_fill[(i, j)] == 1.0 || left[(i, j)] == 0.0,
+                        "{name} {i} {j}: {}",
+                        left[(i, j)]
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_ring_of_joints_has_fill_and_a_chain_has_none() {
+        let joined = |pairs: &[(usize, usize)]| pairs.iter().copied().collect::<BTreeSet<_>>();
+        assert_eq!(filled(&[0, 1, 2, 3], &joined(&[(1, 0), (2, 1), (3, 2)])), []);
+        assert_eq!(filled(&[0, 1, 2, 3], &joined(&[(1, 0), (2, 1), (3, 2), (3, 0)])), [(3, 1)]);
+        assert_eq!(filled(&[0, 2, 1, 3], &joined(&[(1, 0), (1, 2), (3, 2), (3, 0)])), [(3, 1)]);
+    }
+}

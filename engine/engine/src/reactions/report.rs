@@ -1,0 +1,258 @@
+//! Reactions as they are told: on which body, about which point, in which frame, and which numbers are unique.
+
+use crate::reactions::uniqueness::{NullSpace, RANK_TOLERANCE, Redundancy, TOLERANCE, UniquenessError};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use triad_dynamics::dynamics::elimination::Multipliers;
+use triad_dynamics::model::{BodyRef, DriverKind, ModelJoint};
+use triad_dynamics::state::State;
+use triad_dynamics::system::{Group, System};
+use triad_linalg::orthonormal_basis;
+
+/// Which of the two bodies of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Body i.
+    I,
+    /// Body j.
+    #[default]
+    J,
+}
+
+/// The point about which moments are taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum About {
+    /// The joint's point on the body that the reaction acts on.
+    #[default]
+    JointPoint,
+    /// The centre of mass of that body (for the ground: the world's origin).
+    CenterOfMass,
+    /// A point of the world, m.
+    WorldPoint([f64; 3]),
+}
+
+/// The frame of the components.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ExpressedIn {
+    /// The world.
+    #[default]
+    World,
+    /// The joint: x along its axis, y and z across it, fixed in body i.
+    Joint,
+    /// The frame of the body that the reaction acts on.
+    Body,
+}
+
+/// How reactions are wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Convention {
+    /// On which body.
+    pub on: Side,
+    /// About which point.
+    pub about: About,
+    /// In which frame.
+    pub expressed_in: ExpressedIn,
+}
+
+/// One component of a force or moment.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ReactionComponent")]
+pub struct Component {
+    /// Value, N or N m; where it is not unique, that of the smallest multipliers that give the same motion.
+    pub value: f64,
+    /// Whether the equations of motion determine it.
+    pub unique: bool,
+}
+
+/// The reaction of a joint or driver.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Reaction {
+    /// The joint or driver.
+    pub joint: String,
+    /// Whether it is a driver.
+    pub driver: bool,
+    /// The body that the reaction acts on.
+    pub on: String,
+    /// The body that exerts it.
+    pub by: String,
+    /// The point about which the moment is taken, in words.
+    pub about: String,
+    /// That point in the world, m.
+    pub about_at: [f64; 3],
+    /// The frame of the components, in words.
+    pub expressed_in: String,
+    /// Its axes in the world.
+    pub axes: [[f64; 3]; 3],
+    /// Force, N.
+    pub force: [Component; 3],
+    /// Moment, N m.
+    pub moment: [Component; 3],
+}
+
+/// Every reaction at one moment.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ReactionReport {
+    /// Time, s.
+    pub time: f64,
+    /// The reactions, joints before drivers.
+    pub reactions: Vec<Reaction>,
+    /// Sets of joints that share redundant rows at this position.
+    pub redundancies: Vec<Redundancy>,
+    /// A row of unit length of which less than this is across the others depends on them.
+    pub rank_tolerance: f64,
+    /// A component that changes by less than this part of its own size is unique.
+    pub tolerance: f64,
+}
+
+/// All reactions of multipliers.
+pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport, UniquenessError> {
+    let system = at.system;
+    let null = NullSpace::new(system, at.jacobian)?;
+    let multipliers = null.smallest(at.solver_rows());
+    let tell = |group| reaction(at, group, convention, &null, &multipliers);
+    let reactions = system.groups.iter().map(tell).collect();
+    Ok(ReactionReport {
+        time: at.state.time(),
+        reactions,
+        redundancies: null.redundancies(system, at.state),
+        rank_tolerance: RANK_TOLERANCE,
+        tolerance: TOLERANCE,
+    })
+}
+
+fn reaction(
+    at: &Multipliers,
+    group: &Group,
+    convention: Convention,
+    null: &NullSpace,
+    multipliers: &[f64],
+) -> Reaction {
+    let (system, state) = (at.system, at.state);
+    let side = usize::from(convention.on == Side::J);
+    let body = group.bodies[side];
+    let (about, point) = about(system, state, group, side, convention.about);
+    let (expressed_in, axes) = frame(system, state, group, body, convention.expressed_in);
+    let map = wrench_map(at, group, body, &point);
+    let lambda = DVector::from_column_slice(&multipliers[group.solver.clone()]);
+    let component = |row: usize| {
+        let turned = axes.column(row % 3).transpose() * map.rows(row / 3 * 3, 3);
+        let weights: Vec<f64> = turned.iter().copied().collect();
+        Component { value: (turned * &lambda)[0], unique: null.is_unique(group.solver.start, &weights) }
+    };
+    Reaction {
+        joint: group.name.clone(),
+        driver: group.driver,
+        on: body_name(system, body),
+        by: body_name(system, group.bodies[1 - side]),
+        about,
+        about_at: point.into(),
+        expressed_in,
+        axes: [0, 1, 2].map(|k| axes.column(k).into_owned().into()),
+        force: [0, 1, 2].map(component),
+        moment: [3, 4, 5].map(component),
+    }
+}
+
+fn body_name(system: &System, body: BodyRef) -> String {
+    match body {
+        BodyRef::Ground => crate::scene::GROUND.to_owned(),
+        BodyRef::Moving(body) => system.model.bodies[body].name.clone(),
+    }
+}
+
+fn about(system: &System, at: &State, group: &Group, side: usize, about: About) -> (String, Vector3<f64>) {
+    let body = group.bodies[side];
+    let name = body_name(system, body);
+    match (about, body) {
+        (About::WorldPoint(point), _) => ("the stated point".to_owned(), point.into()),
+        (About::CenterOfMass, BodyRef::Ground) => ("the world's origin".to_owned(), Vector3::zeros()),
+        (About::CenterOfMass, BodyRef::Moving(index)) => {
+            (format!("the centre of mass of \"{name}\""), at.bodies()[index].q.r)
+        }
+        (About::JointPoint, BodyRef::Ground) => {
+            (format!("the point of \"{}\" on \"{name}\"", group.name), group.points[side])
+        }
+        (About::JointPoint, BodyRef::Moving(index)) => {
+            let q = &at.bodies()[index].q;
+            (format!("the point of \"{}\" on \"{name}\"", group.name), q.r + q.arm(&group.points[side]))
+        }
+    }
+}
+
+/// The frame in words and its axes as columns.
+fn frame(
+    system: &System,
+    at: &State,
+    group: &Group,
+    body: BodyRef,
+    expressed_in: ExpressedIn,
+) -> (String, Matrix3<f64>) {
+    let world = || ("world".to_owned(), Matrix3::identity());
+    match (expressed_in, body) {
+        (ExpressedIn::World, _) | (ExpressedIn::Body, BodyRef::Ground) => world(),
+        (ExpressedIn::Body, BodyRef::Moving(index)) => {
+            let directors = Matrix3::from_columns(&at.bodies()[index].q.e);
+            let axes = directors * system.model.bodies[index].principal_axes.transpose();
+            (format!("frame of \"{}\"", body_name(system, body)), axes)
+        }
+        (ExpressedIn::Joint, _) => match joint_of(system, group) {
+            Some(joint) if joint.axes[0] != Vector3::zeros() => {
+                let turn = |local: &Vector3<f64>| match joint.bodies[0] {
+                    BodyRef::Ground => *local,
+                    BodyRef::Moving(index) => at.bodies()[index].q.arm(local),
+                };
+                let x = turn(&joint.axes[0]).normalize();
+                let y = turn(&joint.cross[0][0]);
+                let y = (y - x * x.dot(&y)).try_normalize(1e-9).unwrap_or_else(|| orthonormal_basis(&x)[0]);
+                let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
+                (format!("joint \"{}\", x along its axis", joint.name), axes)
+            }
+            _ => world(),
+        },
+    }
+}
+
+/// The joint that a group of rows belongs to, or that its driver moves.
+fn joint_of<'a>(system: &'a System, group: &Group) -> Option<&'a ModelJoint> {
+    let model = &system.model;
+    if !group.driver {
+        return model.joints.iter().find(|joint| joint.name == group.name);
+    }
+    let driver = model.drivers.iter().find(|driver| driver.name == group.name)?;
+    match driver.kind {
+        DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => model.joints.get(joint),
+        _ => None,
+    }
+}
+
+/// The 6 × m map from a group's solver multipliers to force and moment about `point` on one of its bodies.
+///
+/// On a moving body it is −A_bᵀ, moved from the centre of mass to the point. On the ground it is the opposite of all
+/// that the group does to moving bodies, since a joint has no mass.
+fn wrench_map(at: &Multipliers, group: &Group, body: BodyRef, point: &Vector3<f64>) -> DMatrix<f64> {
+    let system = at.system;
+    let mut map = DMatrix::zeros(6, group.solver.len());
+    for index in group.incidences.clone() {
+        let incidence = &system.incidences[index];
+        let sign = match body {
+            BodyRef::Ground => 1.0,
+            BodyRef::Moving(own) if own == incidence.body => -1.0,
+            BodyRef::Moving(_) => continue,
+        };
+        let arm = at.state.bodies()[incidence.body].q.r - point;
+        for (k, row) in at.jacobian.rows_on(system, index).chunks_exact(6).enumerate() {
+            let force = Vector3::new(row[0], row[1], row[2]) * sign;
+            let moment = Vector3::new(row[3], row[4], row[5]) * sign + arm.cross(&force);
+            for c in 0..3 {
+                map[(c, k)] += force[c];
+                map[(3 + c, k)] += moment[c];
+            }
+        }
+    }
+    map
+}

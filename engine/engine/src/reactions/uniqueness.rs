@@ -1,0 +1,201 @@
+//! Which reactions the equations of motion determine — THEORY section 9.
+//!
+//! Multipliers that differ by a vector n with Aᵀ n = 0 give the same motion. A reaction W λ is unique if W n = 0 for all
+//! such n, whatever the loads. The rows of A are those of the joints after the rigid-body rows have been eliminated;
+//! null vectors of the whole Φ_qᵀ that are not among them trade the multiplier of a common vector along that vector
+//! against rigid-body multipliers, and no reaction feels them.
+
+mod remedy;
+
+pub use remedy::Remedy;
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use schemars::JsonSchema;
+use serde::Serialize;
+use triad_dynamics::dynamics::elimination::TwistJacobian;
+use triad_dynamics::state::State;
+use triad_dynamics::system::System;
+use triad_linalg::left_null_space;
+
+/// Most rows that are analysed: the work grows with their cube.
+pub const MAX_ROWS: usize = 600;
+/// A row, scaled to unit length, of which less than this is across the others depends on them.
+pub const RANK_TOLERANCE: f64 = 1e-9;
+/// A component that a unit null vector changes by less than this part of its own size is unique.
+pub const TOLERANCE: f64 = 1e-7;
+
+/// Why uniqueness is not told.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum UniquenessError {
+    /// Too many rows.
+    #[error(
+        "which reactions are unique is found for at most {MAX_ROWS} rows of joints; the scene has {rows}"
+    )]
+    TooLarge {
+        /// Rows of the scene.
+        rows: usize,
+    },
+    /// The state is not finite.
+    #[error("the rows of the joints hold numbers that are not finite")]
+    NotFinite,
+}
+
+impl UniquenessError {
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::TooLarge { .. } => "uniqueness-too-large",
+            Self::NotFinite => "uniqueness-not-finite",
+        }
+    }
+
+    /// What to try.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::TooLarge { .. } => "Look at a part of the mechanism as a scene of its own.".to_owned(),
+            Self::NotFinite => "Reset the run and stop it before the state diverges.".to_owned(),
+        }
+    }
+}
+
+/// A set of joints and drivers whose rows repeat each other.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Redundancy {
+    /// How many rows are too many.
+    pub rows: usize,
+    /// The joints and drivers that share them; none of them alone is to blame.
+    pub joints: Vec<String>,
+    /// Changes that together remove the redundancy and keep the mobility, if the usual ones do.
+    pub remedies: Vec<Remedy>,
+}
+
+/// All multipliers that do nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NullSpace {
+    /// A basis as columns, one row for each solver row; orthonormal in scaled rows.
+    pub basis: DMatrix<f64>,
+    /// The same for rows scaled to unit length.
+    scaled: DMatrix<f64>,
+    /// Length of each solver row, rotations measured along the mechanism's length.
+    lengths: Vec<f64>,
+}
+
+impl NullSpace {
+    /// Of the rows A at a position.
+    pub fn new(system: &System, jacobian: &TwistJacobian) -> Result<Self, UniquenessError> {
+        let rows = system.solver_rows;
+        if rows > MAX_ROWS {
+            return Err(UniquenessError::TooLarge { rows });
+        }
+        let mut a = DMatrix::zeros(rows, 6 * system.bodies.len());
+        for (index, incidence) in system.incidences.iter().enumerate() {
+            let first = system.groups[incidence.group].solver.start;
+            for (k, row) in jacobian.rows_on(system, index).chunks_exact(6).enumerate() {
+                for c in 0..6 {
+                    let scale = if c < 3 { 1.0 } else { 1.0 / system.length };
+                    a[(first + k, 6 * incidence.body + c)] = row[c] * scale;
+                }
+            }
+        }
+        let lengths: Vec<f64> = a.row_iter().map(|row| row.norm()).collect();
+        for (mut row, length) in a.row_iter_mut().zip(&lengths) {
+            if *length > 0.0 {
+                row /= *length;
+            }
+        }
+        if a.iter().any(|x| !x.is_finite()) {
+            return Err(UniquenessError::NotFinite);
+        }
+        let scaled = left_null_space(&a, RANK_TOLERANCE);
+        let mut basis = scaled.clone();
+        for (mut row, length) in basis.row_iter_mut().zip(&lengths) {
+            if *length > 0.0 {
+                row /= *length;
+            }
+        }
+        Ok(Self { basis, scaled, lengths })
+    }
+
+    /// Number of rows that are too many.
+    pub fn dimension(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// The multipliers that give the same motion and are smallest: forces as they are, moments divided by the
+    /// mechanism's length.
+    pub fn smallest(&self, multipliers: &[f64]) -> Vec<f64> {
+        let scaled = DVector::from_iterator(
+            multipliers.len(),
+            multipliers.iter().zip(&self.lengths).map(|(lambda, length)| lambda * length),
+        );
+        let idle = &self.basis * self.scaled.tr_mul(&scaled);
+        multipliers.iter().zip(idle.iter()).map(|(lambda, idle)| lambda - idle).collect()
+    }
+
+    /// Whether a quantity Σ wₖ λₖ of a group of solver rows is unique.
+    pub fn is_unique(&self, first: usize, weights: &[f64]) -> bool {
+        let size: f64 =
+            weights.iter().zip(&self.lengths[first..]).map(|(w, l)| (w / l.max(1e-300)).powi(2)).sum();
+        self.basis.column_iter().all(|column| {
+            let change: f64 =
+                weights.iter().zip(column.rows(first, weights.len()).iter()).map(|(w, n)| w * n).sum();
+            change.abs() <= TOLERANCE * size.sqrt()
+        })
+    }
+
+    /// The sets of joints that share redundant rows, with what would remove them.
+    pub fn redundancies(&self, system: &System, at: &State) -> Vec<Redundancy> {
+        let mut sets: Vec<Vec<usize>> = Vec::new();
+        let projector = &self.scaled * self.scaled.transpose();
+        let coupled = |i: usize, j: usize| {
+            let (p, q) = (&system.groups[i].solver, &system.groups[j].solver);
+            projector.view((p.start, q.start), (p.len(), q.len())).iter().any(|x| x.abs() > TOLERANCE)
+        };
+        let mut seen = vec![false; system.groups.len()];
+        for start in 0..system.groups.len() {
+            if seen[start] || !coupled(start, start) {
+                continue;
+            }
+            let mut set = vec![start];
+            seen[start] = true;
+            let mut next = 0;
+            while next < set.len() {
+                for other in 0..system.groups.len() {
+                    if !seen[other] && coupled(set[next], other) {
+                        seen[other] = true;
+                        set.push(other);
+                    }
+                }
+                next += 1;
+            }
+            set.sort_unstable();
+            sets.push(set);
+        }
+        sets.into_iter()
+            .map(|set| {
+                let rows: Vec<usize> = set.iter().flat_map(|&g| system.groups[g].solver.clone()).collect();
+                let trace: f64 = rows.iter().map(|&row| projector[(row, row)]).sum();
+                Redundancy {
+                    rows: (0..=rows.len())
+                        .min_by(|a, b| distance(*a, trace).total_cmp(&distance(*b, trace)))
+                        .unwrap_or(0),
+                    joints: set.iter().map(|&g| system.groups[g].name.clone()).collect(),
+                    remedies: remedy::find(system, at, &set, &self.within(&rows)),
+                }
+            })
+            .collect()
+    }
+
+    /// A basis of the null vectors that live on the given rows alone, all rows kept.
+    fn within(&self, rows: &[usize]) -> DMatrix<f64> {
+        // Of the scaled basis, restricted to these rows, all directions have length one or zero.
+        let part = self.scaled.select_rows(rows);
+        let eigen = SymmetricEigen::new(part.tr_mul(&part));
+        let own: Vec<usize> = (0..part.ncols()).filter(|&k| eigen.eigenvalues[k] > 0.5).collect();
+        &self.basis * eigen.eigenvectors.select_columns(&own)
+    }
+}
+
+fn distance(count: usize, to: f64) -> f64 {
+    (count as f64 - to).abs()
+}

@@ -1,0 +1,82 @@
+//! Why a run cannot go on from its last good state, as far as the mechanism itself can tell.
+
+use super::Simulation;
+use crate::error::Cause;
+use triad_dynamics::constraints::ConstraintError;
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::state::{self, State};
+use triad_dynamics::system::islands;
+
+/// How far ahead a position is looked for: so many radians of the body that turns fastest.
+const AHEAD: [f64; 2] = [0.1, 0.01];
+/// A joint is told if so much is left of its hold at the start, or if it holds no more than this at the start.
+const LOSING: f64 = 1e-4;
+const WEAK: f64 = 1e-7;
+
+impl Simulation {
+    /// Why no way leads on from the shown state, if it can be told.
+    pub(super) fn cause(&self) -> Option<Cause> {
+        self.out_of_reach().or_else(|| self.hardly_held())
+    }
+
+    /// Whether drivers ask for positions that the joints do not allow: then none is found a little ahead.
+    fn out_of_reach(&self) -> Option<Cause> {
+        let system = &self.mechanism.system;
+        let drivers: Vec<String> =
+            system.groups.iter().filter(|group| group.driver).map(|group| group.name.clone()).collect();
+        if drivers.is_empty() {
+            return None;
+        }
+        // Where nothing moves yet, the run's own time must do.
+        let pace = state::fastest(system, &self.shown).max(self.duration().recip());
+        let mut found = None;
+        for ahead in AHEAD {
+            let h = ahead / pace;
+            let time = self.time + h;
+            if h.is_nan() || time > self.duration() {
+                continue;
+            }
+            let mut y = self.shown.clone();
+            let (q, q_dot) = y.split_at_mut(system.coordinates);
+            q.iter_mut().zip(q_dot).for_each(|(q, v)| *q += h * *v);
+            let open = match self.mechanism.clone().assemble_at(time, &mut y) {
+                Err(ConstraintError::Assembly { joint, with, .. }) => [vec![joint], with].concat(),
+                Err(ConstraintError::MotionImpossible { driver, with, .. }) => [vec![driver], with].concat(),
+                _ => return None,
+            };
+            found = Some((time, open));
+        }
+        let (time, mut open) = found?;
+        open.retain(|name| !name.is_empty());
+        let driver = drivers.iter().find(|driver| open.contains(driver)).cloned();
+        Some(Cause::OutOfReach { drivers: driver.map_or(drivers, |driver| vec![driver]), time, open })
+    }
+
+    /// The joint whose rows are nearest to depending on others. Those of a tree never are, whatever their pivots say.
+    fn hardly_held(&self) -> Option<Cause> {
+        if !islands::has_loops(self.model()) {
+            return None;
+        }
+        let start = self.holds_at(0.0, &self.start);
+        let here = self.holds_at(self.time, &self.shown);
+        let groups = &self.mechanism.system.groups;
+        let named = |index: usize| groups[index].name.clone();
+        let least = |holds: &[f64]| {
+            holds.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 1.0))
+        };
+        let left: Vec<f64> = here.iter().zip(&start).map(|(here, start)| here / start).collect();
+        let (lost, weak) = (least(&left), least(&start));
+        if weak.1 < WEAK {
+            return Some(Cause::Weak { joint: named(weak.0), hold: weak.1.max(0.0) });
+        }
+        (lost.1 < LOSING).then(|| Cause::Losing { joint: named(lost.0), hold: lost.1.max(0.0) })
+    }
+
+    fn holds_at(&self, time: f64, y: &[f64]) -> Vec<f64> {
+        let Mechanism { system, elimination, .. } = &self.mechanism;
+        let (q, q_dot) = y.split_at(system.coordinates);
+        let mut solver = elimination.clone();
+        solver.keep_holds();
+        solver.holds_at(system, &State::at(system, time, q, q_dot)).to_vec()
+    }
+}

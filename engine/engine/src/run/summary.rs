@@ -1,0 +1,122 @@
+//! What a run has cost and how far it can be trusted.
+
+use super::Simulation;
+use crate::integrate::Strength;
+use crate::run::singularity::Passage;
+use crate::scene::{IntegratorKind, Stabilization};
+use serde::Serialize;
+use triad_dynamics::constraints::violation;
+use triad_dynamics::system::System;
+
+/// The part of the energy at the start that counts as kinetic where nothing moves.
+const STANDING: f64 = 1e-3;
+
+/// What a run has cost and how far it can be trusted.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Time, s.
+    pub time: f64,
+    /// Kinetic plus potential energy, J.
+    pub energy: f64,
+    /// Work of drivers and of loads without potential since the start, J.
+    pub work: f64,
+    /// Energy less that of the start and the work since, J: zero but for errors.
+    pub energy_drift: f64,
+    /// Largest |Φ|.
+    pub position_violation: f64,
+    /// Largest |Φ̇|.
+    pub velocity_violation: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Size of the last step, s.
+    pub step_size: f64,
+    /// Evaluations of the accelerations.
+    pub evaluations: u64,
+    /// Factorizations.
+    pub factorizations: u64,
+    /// Back-solves.
+    pub solves: u64,
+    /// Projections onto the constraints.
+    pub projections: u64,
+    /// The integrator at work.
+    pub integrator: IntegratorKind,
+    /// Why it is this one.
+    pub reason: String,
+    /// Singular positions passed, where the mobility jumps for a moment.
+    pub passages: Vec<Passage>,
+    /// What speaks against the result, in words, with what to use instead.
+    pub doubts: Vec<String>,
+    /// Whether the end of the run is reached.
+    pub finished: bool,
+}
+
+/// Part of the lightest mass that is lost in the rounding of penalties.
+fn swallowed(system: &System) -> f64 {
+    let Stabilization::Penalty { alpha, omega, mu } = system.model.settings.stabilization else { return 0.0 };
+    let lightest = system.bodies.iter().fold(f64::INFINITY, |least, body| least.min(body.mass));
+    (Strength { alpha, omega, mu }.least_tolerance() / lightest).min(1.0)
+}
+
+impl Simulation {
+    /// How far the shown state is from its constraints, each row relative to its size.
+    pub fn opening(&self) -> violation::Opening {
+        violation::opening(self.system(), &self.current)
+    }
+
+    /// Cost and trust at the shown state.
+    pub fn summary(&mut self) -> Summary {
+        let work = self.work + self.work_of_last_step(self.time);
+        let (system, current) = (&self.mechanism.system, &self.current);
+        let energy = current.energy(system);
+        let position_violation = current.position_violation(system);
+        let velocity_violation = current.velocity_violation(system);
+        let energy_drift = energy - self.start_energy - work;
+        let (counters, projections) = self.integrator.work(&self.mechanism);
+        let steps = self.integrator.steps();
+        let passages = self.watch.passages(system);
+        let doubts = self.doubts(&passages, energy_drift);
+        Summary {
+            time: self.time,
+            energy,
+            work,
+            energy_drift,
+            position_violation,
+            velocity_violation,
+            steps: steps.accepted,
+            rejected: steps.rejected,
+            step_size: self.integrator.last_step(),
+            evaluations: counters.evaluations,
+            factorizations: counters.factorizations,
+            solves: counters.solves,
+            projections,
+            integrator: self.kind,
+            reason: self.reason.clone(),
+            passages,
+            doubts,
+            finished: self.finished(),
+        }
+    }
+
+    /// What speaks against the shown state.
+    fn doubts(&self, passages: &[Passage], drift: f64) -> Vec<String> {
+        // A Taylor series meets its tolerance or stops, and does not look at each step.
+        if self.kind == IntegratorKind::Taylor {
+            return Vec::new();
+        }
+        let (system, current) = (&self.mechanism.system, &self.current);
+        let kinetic = self.kinetic.max(current.kinetic_energy(system));
+        let signs = violation::Signs {
+            passed: passages.first().map(|passage| passage.time),
+            drift: if drift == 0.0 {
+                0.0
+            } else {
+                drift.abs() / kinetic.max(STANDING * self.start_energy.abs())
+            },
+            open: violation::relative(system, current),
+            swallowed: swallowed(system),
+        };
+        violation::doubts(&system.model.settings, &signs)
+    }
+}

@@ -1,0 +1,262 @@
+//! Equilibrium, modes, kinematics, inverse dynamics and assembly against closed forms.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+use nalgebra::{Matrix2, Vector3};
+use triad_engine::analysis::{About, AnalysisError, assemble, equilibrium, kinematics, modes};
+use triad_engine::catalogue;
+use triad_engine::reactions::report::{Convention, ExpressedIn};
+use triad_engine::scene::{Coordinates, Driver, Motion, Scene};
+
+fn near(a: f64, b: f64, tolerance: f64, what: &str) {
+    assert!((a - b).abs() <= tolerance * b.abs().max(1.0), "{what}: {a} instead of {b}");
+}
+
+#[test]
+fn a_pendulum_comes_to_rest_below_its_pin() {
+    for coordinates in [Coordinates::Full, Coordinates::Reduced] {
+        let mut scene = catalogue::scene("simple-pendulum").unwrap();
+        scene.coordinates = coordinates;
+        let found = equilibrium(&scene).unwrap();
+        let [x, y, z] = found.bodies[0].position;
+        assert!(x.abs() < 1e-9 && (y + 1.0).abs() < 1e-9 && z.abs() < 1e-9, "{x} {y} {z}");
+        assert_eq!(found.stable, Some(true));
+        // m g / L of a point on a circle; the turn of 1 rad for each metre counts as much as the metre.
+        near(found.least_stiffness, 9.81 / 2.0, 1e-6, "stiffness");
+        near(found.reactions.reactions[0].force[1].value, 9.81, 1e-9, "pull of the pin");
+        let found = modes(&scene, About::Equilibrium).unwrap();
+        assert_eq!((found.freedoms, found.modes.len()), (1, 1));
+        near(found.modes[0].frequency, 9.81f64.sqrt() / std::f64::consts::TAU, 1e-8, "frequency");
+        assert_eq!(found.modes[0].kind, "oscillates");
+        assert!((found.modes[0].shape[0].translation[0].abs() - 1.0).abs() < 1e-9);
+    }
+}
+
+/// A free body has no equilibrium, and is told so.
+#[test]
+fn a_falling_body_has_no_equilibrium() {
+    let error = equilibrium(&catalogue::scene("free-fall").unwrap()).unwrap_err();
+    assert!(matches!(&error, AnalysisError::NoEquilibrium { body, .. } if body == "body"), "{error}");
+}
+
+/// The generalized eigenvalues of two rods hanging from each other, found by hand; each swings in two planes, and each
+/// cylinder can spin freely about its own axis.
+#[test]
+fn a_double_pendulum_swings_in_its_two_modes() {
+    let scene = catalogue::scene("spatial-double-pendulum").unwrap();
+    let found = modes(&scene, About::Equilibrium).unwrap();
+    let (m, l, i, g) = (1.0, 1.0, 0.083_958_333_333_333_33, 9.81);
+    let mass =
+        Matrix2::new(i + m * l * l / 4.0 + m * l * l, m * l * l / 2.0, m * l * l / 2.0, i + m * l * l / 4.0);
+    let stiffness = Matrix2::new(g * (m * l / 2.0 + m * l), 0.0, 0.0, g * m * l / 2.0);
+    let a = mass.try_inverse().unwrap() * stiffness;
+    let (half, det): (f64, f64) = (a.trace() / 2.0, a.determinant());
+    let squares = [half - (half * half - det).sqrt(), half + (half * half - det).sqrt()];
+    let frequencies: Vec<f64> = found.modes.iter().map(|m| m.frequency).collect();
+    let expected = [0.0, 0.0, squares[0], squares[0], squares[1], squares[1]];
+    for (f, square) in frequencies.iter().zip(expected) {
+        near(*f, square.sqrt() / std::f64::consts::TAU, 1e-7, "frequency");
+    }
+    assert_eq!(found.modes[0].kind, "drifts");
+}
+
+/// Upright, the N-four-bar leaves its position at √κ; the equilibrium there is found and called unstable.
+#[test]
+fn the_upright_four_bar_falls_at_its_known_rate() {
+    let scene = catalogue::scene("n-four-bar:2").unwrap();
+    let found = modes(&scene, About::Start).unwrap();
+    assert_eq!((found.freedoms, found.modes[0].kind), (1, "grows"));
+    near(found.modes[0].growth, 11.445f64.sqrt(), 1e-7, "rate");
+    assert_eq!(found.notes.len(), 1);
+    assert_eq!(equilibrium(&scene).unwrap().stable, Some(false));
+}
+
+/// Bricard's loop comes to rest where a run with the same start keeps still.
+#[test]
+fn the_bricard_loop_rests_in_its_equilibrium() {
+    let found = equilibrium(&catalogue::scene("bricard").unwrap()).unwrap();
+    assert_eq!(found.stable, Some(true));
+    let mut scene = catalogue::scene("bricard").unwrap();
+    scene.simulation.duration = 1.25;
+    let mut run = triad_engine::run::Simulation::new(&scene).unwrap();
+    let lowest =
+        |bodies: &[triad_engine::state::BodyFrame]| -> f64 { bodies.iter().map(|b| b.position[1]).sum() };
+    let rest = lowest(&found.bodies);
+    for k in 0..=50 {
+        run.advance_to(f64::from(k) * 0.025).unwrap();
+        assert!(lowest(&run.frame().bodies) > rest - 1e-9, "a run gets lower than the equilibrium");
+    }
+    let mut scale: f64 = 0.0;
+    for reaction in &found.reactions.reactions {
+        scale = scale.max(reaction.force.iter().fold(0.0, |a, c| a.max(c.value.abs())));
+    }
+    assert!(found.residual < 1e-8 * scale, "{}", found.residual);
+}
+
+/// I θ̈ + c θ̇ + (k + m g l) θ = 0.
+#[test]
+fn a_damped_pendulum_has_its_known_eigenvalue() {
+    let text = |damping: f64| {
+        format!(
+            r#"{{"name": "damped", "gravity": [0, -9.81, 0],
+             "bodies": [{{"name": "bar", "mass": 2, "inertia": {{"principal": [0.1, 0.2, 0.2]}}, "position": [0.1, -0.7, 0]}}],
+             "joints": [{{"name": "pin", "type": "revolute", "body_i": "ground", "body_j": "bar", "point_i": [0, 0, 0], "point_j": [0, 0.75, 0], "axis": [0, 0, 1]}}],
+             "loads": [{{"type": "torsion", "name": "damper", "joint": "pin", "damping": {damping}}}]}}"#
+        )
+    };
+    let (inertia, weight) = (0.2 + 2.0 * 0.75 * 0.75, 2.0 * 9.81 * 0.75);
+    let natural = f64::sqrt(weight / inertia);
+    for damping in [0.9, 30.0] {
+        let found = modes(&Scene::from_json(&text(damping)).unwrap(), About::Equilibrium).unwrap();
+        let half = damping / (2.0 * inertia);
+        if half < natural {
+            let [mode] = found.modes.as_slice() else { panic!("{:?}", found.modes) };
+            assert_eq!(mode.kind, "oscillates");
+            near(mode.growth, -half, 1e-7, "decay");
+            near(
+                mode.frequency * std::f64::consts::TAU,
+                (natural * natural - half * half).sqrt(),
+                1e-7,
+                "turning",
+            );
+            near(mode.damping_ratio, half / natural, 1e-7, "ratio");
+        } else {
+            let mut rates: Vec<f64> = found.modes.iter().map(|m| m.growth).collect();
+            rates.sort_by(f64::total_cmp);
+            let root = (half * half - natural * natural).sqrt();
+            near(rates[0], -half - root, 1e-7, "fast decay");
+            near(rates[1], -half + root, 1e-7, "slow decay");
+        }
+    }
+}
+
+fn driven(scene: &str, joint: &str, motion: Motion) -> Scene {
+    let mut scene = catalogue::scene(scene).unwrap();
+    scene.drivers.push(Driver::Angle { name: "motor".to_owned(), joint: joint.to_owned(), motion });
+    scene
+}
+
+/// The crank driven through several turns: the block's place, velocity and acceleration are geometry, and the motor's
+/// power is the change of energy.
+#[test]
+fn the_driven_slider_crank_is_geometry_and_its_motor_pays_for_the_energy() {
+    let mut scene = driven("spatial-slider-crank", "A", Motion::Ramp { start: 0.0, rate: 6.0 });
+    scene.simulation.duration = 2.0;
+    scene.simulation.every = 0.005;
+    let convention = Convention { expressed_in: ExpressedIn::Joint, ..Convention::default() };
+    let found = kinematics(&scene, convention).unwrap();
+    assert_eq!(found.states.len(), 401);
+    let slide = |t: f64| {
+        let (y, z) = (0.1 - 0.08 * (6.0 * t).sin(), 0.12 + 0.08 * (6.0 * t).cos());
+        (0.09 - y * y - z * z).sqrt()
+    };
+    let energy = |state: &triad_engine::analysis::KinematicState| -> f64 {
+        let system = triad_engine::model::Model::new(&scene).unwrap();
+        state
+            .bodies
+            .iter()
+            .zip(&system.bodies)
+            .map(|(at, body)| {
+                let omega = Vector3::from(at.angular_velocity);
+                let spin: f64 = [at.u, at.v, at.w]
+                    .iter()
+                    .zip(body.principal.iter())
+                    .map(|(e, i)| i * Vector3::from(*e).dot(&omega).powi(2))
+                    .sum();
+                0.5 * (body.mass * Vector3::from(at.velocity).norm_squared() + spin)
+                    + 9.81 * body.mass * at.position[2]
+            })
+            .sum()
+    };
+    for k in 2..found.states.len() - 2 {
+        let state = &found.states[k];
+        let h = 1e-4;
+        let (ahead, here, behind) = (slide(state.time + h), slide(state.time), slide(state.time - h));
+        near(state.bodies[2].position[0], here, 1e-12, "place");
+        near(state.bodies[2].velocity[0], (ahead - behind) / (2.0 * h), 1e-6, "velocity");
+        near(state.accelerations[2][0], (ahead - 2.0 * here + behind) / (h * h), 1e-5, "acceleration");
+        // Fourth-order difference of the energy.
+        let e = |offset: usize| energy(&found.states[k + offset - 2]);
+        let power = (8.0 * (e(3) - e(1)) - (e(4) - e(0))) / (12.0 * scene.simulation.every);
+        let motor = state.reactions.reactions.iter().find(|r| r.joint == "motor").unwrap();
+        assert!(motor.driver && motor.moment[0].unique);
+        assert!(
+            (motor.moment[0].value * 6.0 - power).abs() < 2e-4,
+            "{} {power}",
+            motor.moment[0].value * 6.0
+        );
+    }
+}
+
+/// Redundant rows do not stop the search, singular positions included (the links lie level at a quarter turn).
+#[test]
+fn a_driven_mechanism_with_redundant_rows_is_followed() {
+    let mut scene = driven("n-four-bar:1", "A0", Motion::Ramp { start: 0.0, rate: -2.0 });
+    scene.simulation.duration = 0.75;
+    let found = kinematics(&scene, Convention::default()).unwrap();
+    for state in &found.states {
+        let angle = 2.0 * state.time;
+        near(state.bodies[0].position[0], 0.5 * angle.sin(), 1e-10, "x");
+        near(state.bodies[2].position[1], angle.cos(), 1e-10, "y");
+    }
+}
+
+#[test]
+fn what_is_free_or_out_of_reach_is_told() {
+    let free = kinematics(&catalogue::scene("n-four-bar:1").unwrap(), Convention::default()).unwrap_err();
+    assert!(matches!(free, AnalysisError::Free { freedoms: 1 }), "{free}");
+    // The block cannot go farther than rod and crank are long.
+    let mut scene = catalogue::scene("spatial-slider-crank").unwrap();
+    scene.drivers.push(Driver::Slide {
+        name: "pull".to_owned(),
+        joint: "D".to_owned(),
+        motion: Motion::Ramp { start: 0.2, rate: 0.1 },
+    });
+    scene.simulation.duration = 2.0;
+    let far = kinematics(&scene, Convention::default()).unwrap_err();
+    let AnalysisError::Unreachable { time, .. } = far else { panic!("{far}") };
+    // s = √(0.09 − (|OA| − 0.08)²) at its farthest, |OA| = √(0.1² + 0.12²).
+    let farthest = (0.09 - (0.0244f64.sqrt() - 0.08).powi(2)).sqrt();
+    assert!((time - (farthest - 0.2) / 0.1).abs() < 0.02, "{time}");
+}
+
+/// A four-bar whose links are roughly placed: the kept link stays, all joints close.
+#[test]
+fn a_rough_start_is_assembled_around_what_is_kept() {
+    let text = r#"{"name": "rough",
+      "bodies": [
+        {"name": "crank", "mass": 1, "inertia": {"principal": [0.01, 0.1, 0.1]}, "center_of_mass": [0.5, 0, 0],
+         "orientation": {"axis": [0, 0, 1], "angle": 1.2}, "angular_velocity": [0, 0, 3]},
+        {"name": "coupler", "mass": 2, "inertia": {"principal": [0.01, 0.2, 0.2]}, "position": [0.6, 1.4, 0.2]},
+        {"name": "rocker", "mass": 1.5, "inertia": {"principal": [0.01, 0.2, 0.2]}, "position": [2.2, 0.3, -0.1],
+         "orientation": {"axis": [0, 0.1, 1], "angle": 1.0}}],
+      "joints": [
+        {"name": "A", "type": "revolute", "body_i": "ground", "body_j": "crank", "point_i": [0, 0, 0], "point_j": [0, 0, 0], "axis_i": [0, 0, 1], "axis_j": [0, 0, 1]},
+        {"name": "B", "type": "revolute", "body_i": "crank", "body_j": "coupler", "point_i": [1, 0, 0], "point_j": [0, 0, 0], "axis_i": [0, 0, 1], "axis_j": [0, 0, 1]},
+        {"name": "C", "type": "revolute", "body_i": "coupler", "body_j": "rocker", "point_i": [2, 0, 0], "point_j": [1.5, 0, 0], "axis_i": [0, 0, 1], "axis_j": [0, 0, 1]},
+        {"name": "D", "type": "revolute", "body_i": "rocker", "body_j": "ground", "point_i": [0, 0, 0], "point_j": [2, 0, 0], "axis_i": [0, 0, 1], "axis_j": [0, 0, 1]}]}"#;
+    let scene = Scene::from_json(text).unwrap();
+    let found = assemble(&scene, &["crank".to_owned()]).unwrap();
+    assert!(found.opening > 0.1 && found.left < 1e-12, "{found:?}");
+    let [crank, coupler, rocker] = found.bodies.as_slice() else { panic!("three bodies") };
+    assert!(crank.moved < 1e-9 && crank.turned < 1e-9, "{crank:?}");
+    assert!(coupler.moved > 0.05 && rocker.turned > 0.05);
+    let tip = Vector3::new(1.2f64.cos(), 1.2f64.sin(), 0.0);
+    assert!((Vector3::from(coupler.position) - tip).norm() < 1e-9);
+    assert!((Vector3::from(rocker.position) - Vector3::new(2.0, 0.0, 0.0)).norm() < 1e-9);
+    // The kept link keeps its velocity too; the others follow.
+    near(crank.angular_velocity[2], 3.0, 1e-6, "spin");
+    let speed = Vector3::new(0.0, 0.0, 3.0).cross(&tip);
+    assert!((Vector3::from(coupler.velocity) - speed).norm() < 2e-6);
+    let error = assemble(&scene, &["crank".to_owned(), "rocker".to_owned()]).unwrap_err();
+    assert_eq!(error.code(), "cannot-pin");
+}
+
+#[test]
+fn a_mechanism_that_its_drivers_hold_rests_where_it_is_and_has_no_modes() {
+    let scene = driven("spatial-slider-crank", "A", Motion::Ramp { start: 0.0, rate: 0.0 });
+    let rest = equilibrium(&scene).unwrap();
+    assert_eq!((rest.iterations, rest.stable), (0, Some(true)));
+    let held = modes(&scene, About::Equilibrium).unwrap();
+    assert_eq!((held.freedoms, held.modes.len()), (0, 0));
+    assert!(held.notes.iter().any(|note| note.contains("nothing can vibrate")), "{:?}", held.notes);
+}

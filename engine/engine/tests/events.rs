@@ -1,0 +1,115 @@
+//! Events against moments known in closed form, with each integrator.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use serde_json::{Value, json};
+use triad_engine::catalogue;
+use triad_engine::run::Simulation;
+use triad_engine::scene::Scene;
+
+fn with_events(mut scene: Value, integrator: &str, events: &Value) -> Simulation {
+    scene["events"] = events.clone();
+    scene["simulation"]["integrator"] = integrator.into();
+    scene["simulation"]["tolerance"] = json!(1e-12);
+    Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap()
+}
+
+fn built_in(name: &str) -> Value {
+    serde_json::to_value(catalogue::scene(name).unwrap()).unwrap()
+}
+
+const ALL: [&str; 3] = ["taylor", "dop853", "dopri5"];
+
+/// A01 starts at rest in the horizontal: it is lowest after a quarter of the period 4 K(1/2)/√g, and every half after.
+#[test]
+fn a_pendulum_passes_its_lowest_point_on_time() {
+    let period = 2.367_841_947_576_237_4;
+    let low = json!([
+        { "name": "lowest", "of": { "type": "coordinate", "body": "bob", "direction": [1, 0, 0] }, "value": 0 },
+        { "name": "rightwards", "of": { "type": "coordinate", "body": "bob", "direction": [2, 0, 0] }, "value": 0, "passing": "upwards" },
+        { "name": "never", "of": { "type": "coordinate", "body": "bob", "direction": [0, 1, 0] }, "value": 0.1 },
+    ]);
+    for integrator in ALL {
+        let mut run = with_events(built_in("simple-pendulum"), integrator, &low);
+        run.advance_to(4.0 * period).unwrap();
+        let times = |name: &str| -> Vec<f64> {
+            run.events().iter().filter(|e| e.name == name).map(|e| e.time).collect()
+        };
+        assert_eq!(times("lowest").len(), 8, "{integrator}");
+        for (k, time) in times("lowest").into_iter().enumerate() {
+            let exact = (0.25 + 0.5 * k as f64) * period;
+            assert!((time - exact).abs() < 2e-10, "{integrator}: {time} against {exact}");
+        }
+        assert_eq!(times("rightwards").len(), 4);
+        assert!(times("never").is_empty());
+        assert!(run.events().windows(2).all(|pair| pair[0].time <= pair[1].time));
+    }
+}
+
+/// A driven wheel: θ = 1.3 t², so that it has turned n times at √(2πn/1.3), and a point of it touches a line twice a turn.
+#[test]
+fn angles_through_turns_distances_and_the_end_of_a_run() {
+    let scene = json!({
+        "name": "wheel", "simulation": { "duration": 9 },
+        "bodies": [{ "name": "wheel", "mass": 2.0, "inertia": { "principal": [0.3, 0.5, 0.7] } }],
+        "joints": [{ "name": "axle", "type": "revolute", "body_i": "ground", "body_j": "wheel", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+        "drivers": [{ "type": "angle", "name": "motor", "joint": "axle",
+            "motion": { "kind": "polynomial", "coefficients": [0, 0, 1.3] } }],
+    });
+    let tau = std::f64::consts::TAU;
+    let at = |angle: f64| (angle / 1.3).sqrt();
+    let events = json!([
+        { "name": "five turns", "of": { "type": "angle", "joint": "axle" }, "value": 5.0 * tau },
+        { "name": "near", "of": { "type": "distance", "body_i": "wheel", "point_i": [1, 0, 0], "body_j": "ground",
+            "point_j": [0, 2, 0] }, "value": 1.000_001 },
+        { "name": "end", "of": { "type": "angle", "joint": "axle" }, "value": 7.25 * tau, "stop": true },
+    ]);
+    for integrator in ["taylor", "dop853"] {
+        let mut run = with_events(scene.clone(), integrator, &events);
+        run.advance_to(9.0).unwrap();
+        let named = |name: &str| run.events().iter().filter(|e| e.name == name).collect::<Vec<_>>();
+        assert!((named("five turns")[0].time - at(5.0 * tau)).abs() < 1e-11, "{integrator}");
+        assert!((named("five turns")[0].rate - 2.6 * at(5.0 * tau)).abs() < 1e-9, "{integrator}");
+        // The distance falls below the value for a moment only, once a turn, and just before the end.
+        assert_eq!(named("near").len(), 15, "{integrator}");
+        assert!(run.finished() && (run.time() - at(7.25 * tau)).abs() < 1e-11, "{integrator}");
+        let u = run.frame().bodies[0].u;
+        assert!((u[1] - 1.0).abs() < 1e-9, "{integrator}: shown is the moment itself");
+        run.reset();
+        assert!(run.events().is_empty() && !run.finished());
+        run.advance_to(9.0).unwrap();
+        assert!(run.finished());
+    }
+}
+
+#[test]
+fn a_slide_passes_its_place() {
+    // s = 0.4 sin 3t passes 0.2 upwards at π/18 and downwards at 5π/18.
+    let scene = json!({
+        "name": "rail", "simulation": { "duration": 1 },
+        "bodies": [{ "name": "block", "mass": 2.0, "inertia": { "principal": [0.3, 0.5, 0.7] } }],
+        "joints": [{ "name": "rail", "type": "prismatic", "body_i": "ground", "body_j": "block", "point": [0, 0, 0], "axis": [1, 0, 0] }],
+        "drivers": [{ "type": "slide", "name": "d", "joint": "rail", "motion": { "kind": "harmonic", "amplitude": 0.4, "frequency": 3 } }],
+    });
+    let events = json!([{ "name": "there", "of": { "type": "slide", "joint": "rail" }, "value": 0.2 },
+        { "name": "start", "of": { "type": "slide", "joint": "rail" }, "value": 0 }]);
+    for integrator in ALL {
+        let mut run = with_events(scene.clone(), integrator, &events);
+        run.advance_to(1.0).unwrap();
+        let times: Vec<f64> = run.events().iter().map(|e| e.time).collect();
+        let exact = [1.0, 5.0].map(|k| k * std::f64::consts::PI / 18.0);
+        assert_eq!(times.len(), 2, "{integrator}: a number that starts on the value has not passed it");
+        assert!(
+            times.iter().zip(exact).all(|(t, exact)| (t - exact).abs() < 1e-10),
+            "{integrator}: {times:?}"
+        );
+    }
+}
+
+#[test]
+fn an_event_without_its_joint_is_refused() {
+    let mut scene = built_in("simple-pendulum");
+    scene["events"] = json!([{ "name": "x", "of": { "type": "angle", "joint": "nowhere" }, "value": 0 }]);
+    let error = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap_err().to_string();
+    assert!(error.contains("nowhere"), "{error}");
+}

@@ -1,0 +1,339 @@
+//! Reactions against references and equilibrium, and what is told of their uniqueness.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+mod common;
+
+use common::{random_scene, start, table};
+use nalgebra::Vector3;
+use triad_engine::analysis::check::check;
+use triad_engine::catalogue;
+use triad_engine::equations::augmented::Literal;
+use triad_engine::model::BodyRef;
+use triad_engine::reactions::report::{
+    About, Component, Convention, ExpressedIn, Reaction, ReactionReport, Side,
+};
+use triad_engine::run::Simulation;
+use triad_engine::scene::{AxisRows, Joint, JointKind, Orientation, Scene};
+use triad_engine::state::State;
+use triad_linalg::left_null_space;
+
+fn on(side: Side, about: About) -> Convention {
+    Convention { on: side, about, ..Convention::default() }
+}
+
+fn of<'a>(report: &'a ReactionReport, joint: &str) -> &'a Reaction {
+    report.reactions.iter().find(|r| r.joint == joint).unwrap()
+}
+
+fn values(components: [Component; 3]) -> Vector3<f64> {
+    Vector3::from(components.map(|c| c.value))
+}
+
+/// The double four-bar at an angle from upright, turning as the reference does.
+fn four_bar_at(phi: f64) -> Scene {
+    let kappa = 11.445;
+    let rate = (1.0 + 2.0 * kappa * (1.0 - phi.cos())).sqrt();
+    let mut scene = catalogue::scene("n-four-bar:2").unwrap();
+    let (along, turn) = ([phi.sin(), phi.cos(), 0.0], [phi.cos() * rate, -phi.sin() * rate, 0.0]);
+    let plus = |a: [f64; 3], b: [f64; 3], f: f64| [0, 1, 2].map(|k| a[k] + f * b[k]);
+    for i in 0..3 {
+        let body = &mut scene.bodies[i];
+        body.position = plus([i as f64, 0.0, 0.0], along, 0.5);
+        body.velocity = plus([0.0; 3], turn, 0.5);
+        body.angular_velocity = [0.0, 0.0, -rate];
+        body.orientation = Some(Orientation::directors(along, [-along[1], along[0], 0.0]));
+    }
+    for i in 0..2 {
+        let body = &mut scene.bodies[3 + i];
+        body.position = plus([i as f64 + 0.5, 0.0, 0.0], along, 1.0);
+        body.velocity = turn;
+    }
+    for joint in scene.joints.iter_mut().filter(|joint| joint.name.starts_with('B')) {
+        let foot = [joint.point.unwrap()[0], 0.0, 0.0];
+        joint.point = Some(plus(foot, along, 1.0));
+    }
+    scene
+}
+
+#[test]
+fn the_pins_of_the_double_four_bar_match_their_reference() {
+    let (names, rows) = table(include_str!("data/four-bar-reactions.csv"));
+    // The reference's column, our joint, and the side of the link that its name tells first.
+    let pins = [
+        ("A0_F", "A0", Side::J),
+        ("A1_F", "A1", Side::J),
+        ("A2_F", "A2", Side::J),
+        ("B0_V0_H1_F", "B0", Side::I),
+        ("B1_V1_H1_F", "B1", Side::J),
+        ("B1_V1_H2_F", "B1-right", Side::I),
+        ("B2_V2_H2_F", "B2", Side::J),
+    ];
+    let (mut compared, mut largest) = (0, 0.0f64);
+    for row in rows.iter().filter(|row| row[1].cos().abs() > 0.2) {
+        let simulation = Simulation::new(&four_bar_at(row[1])).unwrap();
+        let reports =
+            [Side::I, Side::J].map(|side| simulation.reactions(on(side, About::JointPoint)).unwrap());
+        let scale = row[2..16].iter().fold(1.0f64, |a, x| a.max(x.abs()));
+        for (column, joint, side) in pins {
+            let found = of(&reports[usize::from(side == Side::J)], joint);
+            for k in 0..2 {
+                let name = format!("{column}{}[N]", ["x", "y"][k]);
+                let expected = row[names.iter().position(|n| *n == name).unwrap()];
+                largest = largest.max((found.force[k].value - expected).abs() / scale);
+                compared += 1;
+            }
+            // Every loop repeats the force out of its plane and the two moments across the axes.
+            assert_eq!(found.force.map(|c| c.unique), [true, true, false], "{joint} at {}", row[0]);
+            assert_eq!(found.moment.map(|c| c.unique), [false, false, true], "{joint} at {}", row[0]);
+        }
+        assert_eq!(reports[0].redundancies.iter().map(|r| r.rows).sum::<usize>(), 6);
+    }
+    println!("{compared} components, largest deviation {largest:.1e}");
+    assert!(compared > 1000 && largest < 1e-7, "{compared}: {largest:e}");
+}
+
+#[test]
+fn the_seventeen_reactions_of_the_slider_crank_match_their_reference() {
+    let mut scene = catalogue::scene("spatial-slider-crank").unwrap();
+    scene.simulation.tolerance = 1e-11;
+    let mut simulation = Simulation::new(&scene).unwrap();
+    let (names, rows) = table(include_str!("data/slider-crank.csv"));
+    let column = |row: &[f64], name: &str| row[names.iter().position(|n| *n == name).unwrap()];
+    let mut largest = 0.0f64;
+    for row in &rows {
+        simulation.advance_to(row[0]).unwrap();
+        let on_i = simulation.reactions(on(Side::I, About::JointPoint)).unwrap();
+        let on_j = simulation.reactions(on(Side::J, About::JointPoint)).unwrap();
+        let at_block = simulation.reactions(on(Side::J, About::CenterOfMass)).unwrap();
+        assert!(on_i.redundancies.is_empty());
+        assert!(on_i.reactions.iter().all(|r| r.force.iter().chain(&r.moment).all(|c| c.unique)));
+        let (a, b, c, d) = (of(&on_j, "A"), of(&on_i, "B"), of(&on_i, "C"), of(&at_block, "D"));
+        let arm = Vector3::from(["e_x", "e_y", "e_z"].map(|n| column(row, n)));
+        let across = Vector3::x().cross(&arm).normalize();
+        let found = [
+            values(a.force).as_slice(),
+            &values(a.moment).as_slice()[1..],
+            values(b.force).as_slice(),
+            values(c.force).as_slice(),
+            &[values(c.moment).dot(&across)],
+            &values(d.force).as_slice()[1..],
+            values(d.moment).as_slice(),
+        ]
+        .concat();
+        let expected = [
+            "FAx[N]",
+            "FAy[N]",
+            "FAz[N]",
+            "MAy[Nm]",
+            "MAz[Nm]",
+            "FBx[N]",
+            "FBy[N]",
+            "FBz[N]",
+            "FCx[N]",
+            "FCy[N]",
+            "FCz[N]",
+            "mu_universal[Nm]",
+            "FDy[N]",
+            "FDz[N]",
+            "MDx[Nm]",
+            "MDy[Nm]",
+            "MDz[Nm]",
+        ];
+        assert_eq!(found.len(), expected.len());
+        let scale = expected.iter().fold(0.0f64, |a, n| a.max(column(row, n).abs()));
+        for (value, name) in found.iter().zip(expected) {
+            let deviation = (value - column(row, name)).abs() / scale;
+            largest = largest.max(deviation);
+            assert!(deviation < 1e-7, "{name} at {}: {value} {}", row[0], column(row, name));
+        }
+    }
+    println!("17 components at {} times, largest deviation {largest:.1e}", rows.len());
+}
+
+/// Newton and Euler for every body of random scenes, with reactions on both sides, in every frame.
+#[test]
+fn every_body_is_in_equilibrium_with_its_reactions() {
+    for (seed, bodies) in (0..6).zip([2, 4, 5].into_iter().cycle()) {
+        let scene = random_scene(seed, bodies, |body| if body % 2 == 0 { "full" } else { "reduced" });
+        let simulation = Simulation::new(&scene).unwrap();
+        let acceleration = simulation.accelerations();
+        let frame = simulation.frame();
+        let mut force = vec![Vector3::zeros(); bodies];
+        let mut moment = vec![Vector3::zeros(); bodies];
+        for expressed_in in [ExpressedIn::World, ExpressedIn::Joint, ExpressedIn::Body] {
+            for side in [Side::I, Side::J] {
+                let convention = Convention { on: side, about: About::CenterOfMass, expressed_in };
+                for reaction in simulation.reactions(convention).unwrap().reactions {
+                    let Some(body) = scene.bodies.iter().position(|b| b.name == reaction.on) else {
+                        continue;
+                    };
+                    let turn = |v: [Component; 3]| {
+                        (0..3).map(|k| Vector3::from(reaction.axes[k]) * v[k].value).sum::<Vector3<f64>>()
+                    };
+                    force[body] += turn(reaction.force) / 3.0;
+                    moment[body] += turn(reaction.moment) / 3.0;
+                }
+            }
+        }
+        let system = simulation.system();
+        for (index, body) in system.bodies.iter().enumerate() {
+            let second =
+                |k: usize| Vector3::from_column_slice(&acceleration[body.layout.first + 3 * k..][..3]);
+            let e = [frame.bodies[index].u, frame.bodies[index].v, frame.bodies[index].w].map(Vector3::from);
+            let omega = Vector3::from(frame.bodies[index].angular_velocity);
+            let turned = |k: usize| second(k + 1) - omega.cross(&omega.cross(&e[k]));
+            let (a, b) = (turned(0), turned(1));
+            let c = a.cross(&e[1]) + e[0].cross(&b);
+            let alpha = (e[0].cross(&a) + e[1].cross(&b) + e[2].cross(&c)) * 0.5;
+            let inertia = |x: Vector3<f64>| {
+                (0..3).map(|k| e[k] * (body.principal[k] * e[k].dot(&x))).sum::<Vector3<f64>>()
+            };
+            let newton = second(0) * body.mass - force[index] - system.model.gravity * body.mass;
+            let euler = inertia(alpha) + omega.cross(&inertia(omega)) - moment[index];
+            assert!(newton.amax() < 1e-9 && euler.amax() < 1e-9, "seed {seed}: {newton} {euler}");
+        }
+    }
+}
+
+/// The two sides of a joint are opposite about one point, the ground's side included.
+#[test]
+fn action_is_opposite_to_reaction() {
+    for name in ["bricard", "spatial-slider-crank", "spatial-double-pendulum"] {
+        let mut simulation = Simulation::new(&catalogue::scene(name).unwrap()).unwrap();
+        simulation.advance_to(0.3).unwrap();
+        let about = About::WorldPoint([0.3, -0.2, 0.7]);
+        let [i, j] = [Side::I, Side::J].map(|side| simulation.reactions(on(side, about)).unwrap());
+        for (a, b) in i.reactions.iter().zip(&j.reactions) {
+            assert_eq!((&a.on, &a.by), (&b.by, &b.on));
+            assert!((values(a.force) + values(b.force)).amax() < 1e-10);
+            assert!((values(a.moment) + values(b.moment)).amax() < 1e-10);
+            assert!(values(a.force).norm() > 1e-6, "{name}: {} carries nothing", a.joint);
+        }
+    }
+}
+
+/// A door of 20 kg on two hinges of one axis, 1.2 m apart, opening slowly.
+fn door() -> Scene {
+    Scene::from_json(
+        r#"{"name": "door", "bodies": [{"name": "leaf", "mass": 20, "inertia": {"principal": [5, 1.2, 6]},
+            "position": [0.4, 0, 1], "angular_velocity": [0, 0, 0.5], "velocity": [0, 0.2, 0]}],
+           "joints": [
+            {"name": "upper", "type": "revolute", "body_i": "ground", "body_j": "leaf", "point": [0, 0, 1.6], "axis": [0, 0, 1]},
+            {"name": "lower", "type": "revolute", "body_i": "ground", "body_j": "leaf", "point": [0, 0, 0.4], "axis": [0, 0, 1]}]}"#,
+    )
+    .unwrap()
+}
+
+#[test]
+fn a_door_on_two_hinges_has_a_resultant_but_no_split() {
+    let simulation = Simulation::new(&door()).unwrap();
+    let report = simulation.reactions(on(Side::J, About::WorldPoint([0.0, 0.0, 1.0]))).unwrap();
+    assert_eq!(report.redundancies.len(), 1);
+    assert_eq!((report.redundancies[0].rows, report.redundancies[0].joints.len()), (5, 2));
+    for hinge in &report.reactions {
+        assert!(hinge.force.iter().all(|c| !c.unique));
+        assert_eq!(hinge.moment.map(|c| c.unique), [false, false, true]);
+    }
+    // The leaf's centre of mass circles at 0.4 m: its resultant is known.
+    let total = |of: fn(&Reaction) -> [Component; 3]| {
+        report.reactions.iter().map(|r| values(of(r))).sum::<Vector3<f64>>()
+    };
+    let (force, moment) = (total(|r| r.force), total(|r| r.moment));
+    assert!((force - Vector3::new(-20.0 * 0.25 * 0.4, 0.0, 20.0 * 9.81)).amax() < 1e-9, "{force}");
+    assert!((moment - Vector3::new(0.0, 0.4 * 20.0 * -9.81, 0.0)).amax() < 1e-9, "{moment}");
+    // Symmetric hinges share the weight equally in the answer of least norm.
+    let [upper, lower] = [0, 1].map(|k| report.reactions[k].force[2].value);
+    assert!((upper - lower).abs() < 1e-9 && (upper - 98.1).abs() < 1e-9, "{upper} {lower}");
+    apply_remedies(&door());
+}
+
+/// Changes the joints as told; then nothing is redundant, everything is unique, and no freedom is gained.
+fn apply_remedies(scene: &Scene) {
+    let simulation = Simulation::new(scene).unwrap();
+    let report = simulation.reactions(Convention::default()).unwrap();
+    let mut changed = scene.clone();
+    for remedy in report.redundancies.iter().flat_map(|r| &r.remedies) {
+        let joint = changed.joints.iter_mut().find(|j| j.name == remedy.joint).unwrap();
+        let bare = Joint::new(&joint.name, remedy.becomes, &joint.body_i, &joint.body_j);
+        let axis = joint.axis.filter(|_| remedy.becomes != JointKind::Spherical);
+        *joint = Joint { point: joint.point, axis, ..bare };
+        println!(
+            "{}: {} becomes {:?}, giving up {}",
+            scene.name, remedy.joint, remedy.becomes, remedy.gives_up
+        );
+    }
+    assert_ne!(&changed, scene);
+    let simulation = Simulation::new(&changed).unwrap();
+    let after = simulation.reactions(Convention::default()).unwrap();
+    assert!(after.redundancies.is_empty(), "{:?}", after.redundancies);
+    assert!(after.reactions.iter().all(|r| r.force.iter().chain(&r.moment).all(|c| c.unique)));
+    assert_eq!(check(scene).unwrap().degrees_of_freedom, check(&changed).unwrap().degrees_of_freedom);
+}
+
+#[test]
+fn the_bricard_loop_shares_one_row_among_all_joints() {
+    let scene = catalogue::scene("bricard").unwrap();
+    let mut simulation = Simulation::new(&scene).unwrap();
+    for time in [0.0, 0.7, 1.9] {
+        simulation.advance_to(time).unwrap();
+        let report = simulation.reactions(Convention::default()).unwrap();
+        assert_eq!(report.redundancies.len(), 1);
+        assert_eq!((report.redundancies[0].rows, report.redundancies[0].joints.len()), (1, 6));
+        assert_eq!(report.redundancies[0].remedies.len(), 1);
+    }
+    apply_remedies(&scene);
+    apply_remedies(&catalogue::scene("n-four-bar:1").unwrap());
+}
+
+/// The null space of the solver's rows tells the same as that of all rows of Φ_q, rigid-body rows included.
+#[test]
+fn all_rows_and_the_solver_rows_mark_the_same() {
+    for (mut scene, common_vectors) in [
+        (door(), 2),
+        (catalogue::scene("bricard").unwrap(), 6),
+        (catalogue::scene("n-four-bar:1").unwrap(), 4),
+    ] {
+        for joint in &mut scene.joints {
+            joint.rows = Some(AxisRows::Cv);
+        }
+        let simulation = Simulation::new(&scene).unwrap();
+        let report = simulation.reactions(on(Side::J, About::WorldPoint([0.0; 3]))).unwrap();
+        let (system, ..) = start(&scene);
+        let at = State::at(&system, 0.0, simulation.q(), simulation.q_dot());
+        let jacobian = Literal::new(&system, &at).jacobian;
+        let null = left_null_space(&jacobian, 1e-9);
+        assert!(jacobian.tr_mul(&null).amax() < 1e-13);
+        let redundant: usize = report.redundancies.iter().map(|r| r.rows).sum();
+        assert_eq!(null.ncols(), redundant + common_vectors, "{}", scene.name);
+        for (group, reaction) in system.groups.iter().zip(&report.reactions) {
+            let BodyRef::Moving(body) = group.bodies[1] else { continue };
+            let (first, state) = (system.bodies[body].layout.first, &at.bodies()[body]);
+            let mut changes = [0.0f64; 6];
+            for k in 0..null.ncols() {
+                let part = |at: usize| -> f64 {
+                    group
+                        .equations
+                        .clone()
+                        .map(|e| system.rigid_rows + e)
+                        .map(|e| null[(e, k)] * jacobian[(e, first + at)])
+                        .sum()
+                };
+                let p = |at: usize| Vector3::new(part(at), part(at + 1), part(at + 2));
+                let moment = (0..3).map(|d| state.q.e[d].cross(&p(3 + 3 * d))).sum::<Vector3<f64>>()
+                    + state.q.r.cross(&p(0));
+                for c in 0..3 {
+                    changes[c] = changes[c].max(p(0)[c].abs());
+                    changes[3 + c] = changes[3 + c].max(moment[c].abs());
+                }
+            }
+            let marks: Vec<bool> = reaction.force.iter().chain(&reaction.moment).map(|c| c.unique).collect();
+            assert_eq!(
+                marks,
+                changes.map(|c| c < 1e-8),
+                "{} of {}: {changes:?} {reaction:?}",
+                reaction.joint,
+                scene.name
+            );
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The Taylor integrator against closed forms and against the elimination that it shares nothing with but the rows.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use triad_engine::catalogue;
+use triad_engine::dynamics::series::IslandSeries;
+use triad_engine::run::Simulation;
+use triad_engine::scene::{Coordinates, IntegratorKind, Load, LoadFrame, Motion, Scene, VectorMotion};
+
+fn scene(name: &str, tolerance: f64) -> Scene {
+    let mut scene = catalogue::scene(name).unwrap();
+    scene.simulation.tolerance = tolerance;
+    scene.simulation.integrator = IntegratorKind::Taylor;
+    scene
+}
+
+/// Largest difference of all positions and directors between two runs at 20 times.
+fn difference(a: &Scene, b: &Scene) -> f64 {
+    let (mut first, mut second) = (Simulation::new(a).unwrap(), Simulation::new(b).unwrap());
+    let mut largest: f64 = 0.0;
+    for k in 1..=20 {
+        let t = f64::from(k) / 20.0 * a.simulation.duration.min(2.0);
+        first.advance_to(t).unwrap();
+        second.advance_to(t).unwrap();
+        for (x, y) in first.frame().bodies.iter().zip(&second.frame().bodies) {
+            for (x, y) in [(x.position, y.position), (x.u, y.u), (x.v, y.v), (x.w, y.w)] {
+                for c in 0..3 {
+                    largest = largest.max((x[c] - y[c]).abs());
+                }
+            }
+        }
+    }
+    largest
+}
+
+/// The period of A01 is 4 K(1/2)/√g: after four periods the bob is back where it started, at rest.
+#[test]
+fn the_error_of_a_pendulum_follows_the_tolerance() {
+    let period = 2.367_841_947_576_237_4;
+    for (tolerance, bound) in [(1e-5, 1e-4), (1e-7, 1e-6), (1e-9, 1e-8), (1e-11, 1e-10), (1e-13, 1e-12)] {
+        let mut pendulum = Simulation::new(&scene("simple-pendulum", tolerance)).unwrap();
+        pendulum.advance_to(4.0 * period).unwrap();
+        let bob = pendulum.frame().bodies[0];
+        let error = (bob.position[0] + 1.0).abs().max(bob.position[1].abs());
+        assert!(error < bound, "{tolerance:e}: {error:e}");
+        // Between steps the polynomial is as consistent as it is accurate; the end of a step is projected.
+        pendulum.step().unwrap();
+        let summary = pendulum.summary();
+        assert!(summary.position_violation < 1e-14 && summary.velocity_violation < 1e-13);
+    }
+}
+
+/// B0 of A02 at 10 s in closed form (Jacobi elliptic functions), after ten passages through singular positions.
+#[test]
+fn four_bars_pass_their_singular_positions() {
+    let ends = [
+        ("n-four-bar:1", [0.478_385_057_760_970_57, 0.878_150_178_791_209_3]),
+        ("n-four-bar:2", [0.328_458_111_540_815_4, 0.944_518_538_178_601]),
+        ("n-four-bar:40", [0.180_512_226_686_728_4, 0.983_572_740_582_311_6]),
+    ];
+    for (name, [x, y]) in ends {
+        for (tolerance, bound) in [(1e-5, 2e-3), (1e-7, 2e-5), (1e-9, 5e-7), (1e-11, 5e-8), (1e-13, 5e-8)] {
+            if name == "n-four-bar:40" && tolerance != 1e-9 {
+                continue;
+            }
+            let mut mechanism = Simulation::new(&scene(name, tolerance)).unwrap();
+            mechanism.advance_to(10.0).unwrap();
+            let middle = mechanism.frame().bodies[0].position;
+            let error = (2.0 * middle[0] - x).abs().max((2.0 * middle[1] - y).abs());
+            assert!(error < bound, "{name} at {tolerance:e}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn it_agrees_with_dop853_in_full_reduced_and_mixed_coordinates() {
+    for name in ["spatial-double-pendulum", "spatial-chain:5", "n-four-bar:3", "free-body", "simple-pendulum"]
+    {
+        let series = scene(name, 1e-11);
+        let mut runge_kutta = series.clone();
+        runge_kutta.simulation.integrator = IntegratorKind::Dop853;
+        assert!(difference(&series, &runge_kutta) < 1e-8, "{name}");
+        let mut reduced = series.clone();
+        reduced.coordinates = Coordinates::Reduced;
+        assert!(difference(&series, &reduced) < 1e-9, "{name} reduced");
+        reduced.bodies[0].coordinates = Some(Coordinates::Full);
+        assert!(difference(&series, &reduced) < 1e-9, "{name} mixed");
+    }
+}
+
+/// Between steps the polynomials are as good as at their ends.
+#[test]
+fn dense_output_is_as_accurate_as_the_steps() {
+    let coarse = scene("spatial-chain:3", 1e-8);
+    assert!(difference(&coarse, &scene("spatial-chain:3", 1e-12)) < 2e-7);
+}
+
+#[test]
+fn automatic_choice_says_why() {
+    let mut scene = scene("spatial-double-pendulum", 1e-9);
+    scene.simulation.integrator = IntegratorKind::Auto;
+    let summary = Simulation::new(&scene).unwrap().summary();
+    assert_eq!(summary.integrator, IntegratorKind::Taylor);
+    assert!(!summary.reason.is_empty());
+    scene.simulation.stabilization =
+        triad_engine::scene::Stabilization::Baumgarte { alpha: 10.0, beta: 10.0 };
+    let summary = Simulation::new(&scene).unwrap().summary();
+    assert_eq!(summary.integrator, IntegratorKind::Dop853);
+    assert!(summary.reason.contains("baumgarte"));
+}
+
+/// A step ends at each knot of a table: where they crowd, the series are no longer the best.
+#[test]
+fn automatic_choice_sees_crowded_knots() {
+    let chosen = |knots: u32| {
+        let mut scene = scene("free-body", 1e-9);
+        scene.simulation.integrator = IntegratorKind::Auto;
+        scene.simulation.duration = 4.0;
+        let times: Vec<f64> = (0..=knots).map(|k| 4.0 * f64::from(k) / f64::from(knots)).collect();
+        let values = times.iter().map(|t| (9.0 * t).sin()).collect();
+        let zero = Motion::Constant { value: 0.0 };
+        let moment =
+            VectorMotion::Components { x: Motion::Table { times, values }, y: zero.clone(), z: zero };
+        let (name, body) = ("m".to_owned(), scene.bodies[0].name.clone());
+        scene.loads.push(Load::Moment { name, body, moment, frame: LoadFrame::World });
+        let summary = Simulation::new(&scene).unwrap().summary();
+        assert!(summary.reason.contains("knots") == (summary.integrator == IntegratorKind::Dop853));
+        summary.integrator
+    };
+    assert_eq!(chosen(20), IntegratorKind::Taylor);
+    assert_eq!(chosen(5000), IntegratorKind::Dop853);
+}
+
+/// Order 0 of the series is an evaluation: equal to the elimination body by body, which is written independently.
+#[test]
+fn order_zero_is_an_evaluation_of_the_accelerations() {
+    for name in ["spatial-double-pendulum", "spatial-chain:7", "free-body", "n-four-bar:1"] {
+        let mut simulation = Simulation::new(&scene(name, 1e-9)).unwrap();
+        simulation.step().unwrap();
+        let expected = simulation.accelerations();
+        let y = [simulation.q(), simulation.q_dot()].concat();
+        let redundant = !simulation.rank().dependent.is_empty();
+        let mut series = IslandSeries::in_space(simulation.system(), 2, redundant, &[]);
+        series.place(simulation.system(), simulation.time(), &y);
+        series.evaluate();
+        let mut found = vec![0.0; expected.len()];
+        series.store_accelerations(simulation.system(), &mut found);
+        for (a, b) in expected.iter().zip(&found) {
+            assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "{name}: {a} and {b}");
+        }
+    }
+}

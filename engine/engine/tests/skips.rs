@@ -1,0 +1,184 @@
+//! What is left out changes no result, and counters show that it was left out.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use triad_engine::catalogue;
+use triad_engine::run::{LeftOut, Simulation};
+use triad_engine::scene::{Ground, IntegratorKind, Joint, Orientation, Scene, Skip};
+
+fn scene(name: &str) -> Scene {
+    let mut scene = catalogue::scene(name).unwrap();
+    scene.simulation.tolerance = 1e-11;
+    scene.simulation.integrator = IntegratorKind::Taylor;
+    scene.simulation.duration = 1.0;
+    scene
+}
+
+/// Runs to the end; all positions and directors at ten times, and what was left out.
+fn run(scene: &Scene) -> (Vec<f64>, Vec<LeftOut>) {
+    let mut simulation = Simulation::new(scene).unwrap();
+    let mut numbers = Vec::new();
+    for k in 1..=10 {
+        simulation.advance_to(f64::from(k) / 10.0 * scene.simulation.duration).unwrap();
+        for body in simulation.frame().bodies {
+            for vector in [body.position, body.u, body.v, body.w, body.velocity] {
+                numbers.extend(vector);
+            }
+        }
+    }
+    let summary = simulation.summary();
+    assert!(summary.position_violation < 1e-12, "{}: {:e}", scene.name, summary.position_violation);
+    (numbers, simulation.left_out())
+}
+
+fn saved(left: &[LeftOut], word: &str) -> u64 {
+    left.iter().find(|l| l.word == word).unwrap().saved
+}
+
+/// Runs with and without leaving out `word`: equal motion, and the counter of the word.
+fn compare(scene: &Scene, word: &str, bound: f64) -> (u64, u64) {
+    let (with, left) = run(scene);
+    let mut all = scene.clone();
+    *all.simulation.skip.word_mut(word).unwrap() = false;
+    let (without, kept) = run(&all);
+    let largest = with.iter().zip(&without).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+    assert!(largest < bound, "{} without {word}: {largest:e}", scene.name);
+    assert!(!kept.iter().find(|l| l.word == word).unwrap().on);
+    (saved(&left, word), saved(&kept, word))
+}
+
+/// The same scene with its world turned, so that its plane is no coordinate plane.
+fn turned(mut scene: Scene) -> Scene {
+    let (c, s) = (0.6, 0.8);
+    let turn = |v: [f64; 3]| {
+        let v = [v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]];
+        [c * v[0] + s * v[2], v[1], c * v[2] - s * v[0]]
+    };
+    scene.gravity = turn(scene.gravity);
+    for body in &mut scene.bodies {
+        body.position = turn(body.position);
+        body.velocity = turn(body.velocity);
+        body.angular_velocity = turn(body.angular_velocity);
+        if let Some(Orientation::Directors { u, v, .. }) = &mut body.orientation {
+            (*u, *v) = (turn(*u), turn(*v));
+        }
+    }
+    for joint in &mut scene.joints {
+        joint.point = joint.point.map(turn);
+        joint.axis = joint.axis.map(turn);
+    }
+    scene
+}
+
+#[test]
+fn planar_scenes_move_as_in_space() {
+    for name in ["simple-pendulum", "n-four-bar:1", "n-four-bar:2", "n-four-bar:5"] {
+        let bodies = scene(name).bodies.len() as u64;
+        assert_eq!(compare(&scene(name), "planar", 1e-8), (bodies, 0), "{name}");
+    }
+    assert_eq!(compare(&turned(scene("n-four-bar:2")), "planar", 1e-8), (5, 0));
+    for name in ["spatial-double-pendulum", "spatial-chain:3", "bricard"] {
+        let (_, left) = run(&scene(name));
+        assert_eq!(saved(&left, "planar"), 0, "{name}");
+    }
+}
+
+/// A driven slider-crank whose parts lie in different heights, with a swinging bob, a spring and a force with a part out
+/// of the plane.
+#[test]
+fn loads_and_drivers_act_in_the_plane_as_in_space() {
+    let text = r#"{
+      "name": "slider", "gravity": [0, -9.81, 0],
+      "bodies": [
+        {"name": "crank", "mass": 1, "position": [0.25, 0, 0.1], "inertia": {"principal": [0.01, 0.02, 0.025]}},
+        {"name": "rod", "mass": 1, "position": [1, 0, 0.2], "inertia": {"principal": [0.01, 0.09, 0.09]}},
+        {"name": "block", "mass": 2, "position": [1.5, 0, 0.3], "inertia": {"principal": [0.1, 0.1, 0.1]}},
+        {"name": "bob", "mass": 0.3, "position": [1.5, -0.4, 0], "inertia": {"principal": [0.001, 0.001, 0.001]}}
+      ],
+      "joints": [
+        {"name": "a", "type": "revolute", "body_i": "ground", "body_j": "crank", "point": [0, 0, 0], "axis": [0, 0, 1]},
+        {"name": "b", "type": "revolute", "body_i": "crank", "body_j": "rod", "point": [0.5, 0, 0], "axis": [0, 0, 1]},
+        {"name": "c", "type": "revolute", "body_i": "rod", "body_j": "block", "point": [1.5, 0, 0], "axis": [0, 0, 1]},
+        {"name": "d", "type": "prismatic", "body_i": "ground", "body_j": "block", "point": [1.5, 0, 0], "axis": [1, 0, 0]},
+        {"name": "e", "type": "revolute", "body_i": "block", "body_j": "bob", "point": [1.5, 0, 0], "axis": [0, 0, 1]}
+      ],
+      "drivers": [
+        {"name": "turn", "type": "angle", "joint": "a", "motion": {"kind": "harmonic", "mean": 0.0, "amplitude": 0.8, "frequency": 2.0, "phase": 0.0}}
+      ],
+      "loads": [
+        {"name": "push", "type": "force", "body": "bob", "point": [1.5, -0.5, 0], "force": {"kind": "fixed", "vector": [0.4, 0.1, 0.2]}, "frame": "body"},
+        {"name": "coil", "type": "spring", "body_i": "ground", "body_j": "bob", "point_i": [2, 0.5, 0], "point_j": [1.5, -0.4, 0], "stiffness": 5, "damping": 0.2}
+      ]
+    }"#;
+    let mut slider = Scene::from_json(text).unwrap_or_else(|error| panic!("{error}"));
+    slider.simulation = scene("simple-pendulum").simulation;
+    let (saved, _) = compare(&slider, "planar", 1e-8);
+    assert_eq!(saved, 4);
+}
+
+/// Two pendulums of different lengths, and a chain, with nothing between them.
+fn three_islands() -> Scene {
+    let mut scene = scene("n-four-bar:1");
+    for (k, length) in [(0, 0.3), (1, 2.0)] {
+        let other = self::scene("simple-pendulum");
+        let (mut bob, mut pin) = (other.bodies[0].clone(), other.joints[0].clone());
+        let name = format!("bob-{k}");
+        bob.position = [5.0 - length, 0.0, 0.0];
+        bob.name.clone_from(&name);
+        bob.shape.clear();
+        pin.name = format!("pin-{k}");
+        pin.body_j = name;
+        pin.point = Some([5.0, 0.0, 0.0]);
+        scene.bodies.insert(k, bob);
+        scene.joints.push(pin);
+    }
+    scene
+}
+
+#[test]
+fn islands_take_steps_of_their_own() {
+    let (saved, none) = compare(&three_islands(), "islands", 1e-8);
+    assert!(saved > 20, "{saved}");
+    assert_eq!(none, 0);
+    let (_, left) = run(&three_islands());
+    assert!(left.iter().any(|l| l.word == "islands" && l.what.starts_with("3 parts")));
+}
+
+#[test]
+fn bodies_tied_to_the_ground_are_ground() {
+    let mut scene = scene("n-four-bar:1");
+    let mut base = scene.bodies[0].clone();
+    base.name = "base".to_owned();
+    base.velocity = [0.0; 3];
+    base.angular_velocity = [0.0; 3];
+    base.position = [0.1, -0.2, 0.3];
+    scene.bodies.insert(0, base);
+    let mut weld = Joint::fixed("weld", Ground, "base");
+    weld.point = Some([0.0, -0.2, 0.0]);
+    scene.joints.push(weld);
+    scene.joints[0].body_i = "base".to_owned();
+    assert_eq!(compare(&scene, "fixed", 1e-8), (1, 0));
+}
+
+#[test]
+fn constants_checks_reports_and_outputs_change_nothing() {
+    for name in ["spatial-chain:5", "n-four-bar:2", "spatial-slider-crank"] {
+        for word in ["constants", "checks", "reports"] {
+            let (saved, none) = compare(&scene(name), word, 1e-13);
+            assert!(saved > 0 && none == 0, "{name}: {word} saved {saved}, and {none} when switched off");
+        }
+        let (saved, none) = compare(&scene(name), "outputs", 1e-8);
+        assert!(saved >= 9 && none == 0, "{name}: {saved} and {none}");
+    }
+}
+
+#[test]
+fn nothing_left_out_is_the_same_motion() {
+    let mut all = three_islands();
+    let (with, _) = run(&all);
+    all.simulation.skip = Skip::nothing();
+    let (without, left) = run(&all);
+    let largest = with.iter().zip(&without).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+    assert!(largest < 1e-8, "{largest:e}");
+    assert!(left.iter().all(|l| l.saved == 0), "{left:?}");
+}

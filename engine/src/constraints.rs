@@ -1,5 +1,0 @@
-//! Keeping the constraints, and what can be wrong with them.
-
-mod error;
-
-pub use error::{ConstraintError, quoted};
