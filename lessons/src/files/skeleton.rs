@@ -45,7 +45,7 @@ mod tests {
     fn a_new_lesson_says_what_is_to_be_filled_and_passes_when_it_is() {
         let open = problems(|text| text);
         assert!(!open.is_empty() && open.iter().all(|p| p.contains("TODO")), "{open:#?}");
-        let filled = problems(|text| text.replace("TODO", "ParsedNumber by the author, with care."));
+        let filled = problems(|text| text.replace("TODO", "Written by the author, with care."));
         assert!(filled.is_empty(), "{filled:#?}");
     }
 }

@@ -98,7 +98,7 @@ fn a_matrix_is_judged_as_a_whole_and_its_form_is_checked() {
         (rows(&[&["1", "0"], &["0", "1"]]), "3 rows of 2"),
         (rows(&[&["1"], &["2"], &["0"]]), "2 entries"),
         (text("1 2 0"), "3 rows of 2"),
-        (rows(&[&["1", ""], &["0", "1"], &["0", "0"]]), "TypedValue 2 is empty"),
+        (rows(&[&["1", ""], &["0", "1"], &["0", "0"]]), "Entry 2 is empty"),
     ] {
         let verdict = judged("c", form, Some("m"));
         assert_eq!(verdict.verdict, Mark::Invalid);

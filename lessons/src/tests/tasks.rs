@@ -223,7 +223,7 @@ fn a_table_that_cannot_be_used_says_why() {
         (long.lines().take(300).collect::<Vec<_>>().join("\n"), |e| {
             matches!(e, InvalidTrajectory::Range { end: 10.0, .. })
         }),
-        (pendulum(0.0, 1.0, 0.52), |e| matches!(e, InvalidTrajectory::Gap { most: 0.5, .. })),
+        (pendulum(0.0, 1.0, 10.0 / 19.0), |e| matches!(e, InvalidTrajectory::Gap { most: 0.5, .. })),
         (long.replace("0.02;", "0;"), |e| matches!(e, InvalidTrajectory::Times { .. })),
         (
             long.replace("0.02;", "soon;"),
