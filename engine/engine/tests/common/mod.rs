@@ -15,7 +15,8 @@ pub fn random_scene(seed: u64, bodies: usize, coordinates: impl Fn(usize) -> &'s
     let mut list = Vec::new();
     let mut joints = Vec::new();
     for index in 0..bodies {
-        let moments: Vec<f64> = (0..3).map(|_| 1.2 + 0.5 * random.between(-1.0, 1.0)).collect();
+        // No moment of inertia is larger than the two others together.
+        let moments: Vec<f64> = (0..3).map(|_| 1.2 + 0.4 * random.between(-1.0, 1.0)).collect();
         list.push(serde_json::json!({
             "name": format!("b{index}"),
             "mass": 1.5 + random.between(-1.0, 1.0),
