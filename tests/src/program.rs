@@ -42,7 +42,8 @@ fn newest(path: &Path) -> Option<SystemTime> {
 
 fn build(profile: &Path) {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(root()).args(["build", "--package", "triad", "--bin", "triad", "--target-dir"]);
+    // Without `--package`, so that the crates have the same features as in `cargo run` and `cargo test --workspace`.
+    cargo.current_dir(root()).args(["build", "--bin", "triad", "--target-dir"]);
     cargo.arg(profile.parent().unwrap());
     if !cfg!(debug_assertions) {
         cargo.arg("--release");

@@ -1,9 +1,11 @@
 //! Shapes, axes and the Jacobian's picture: everything that is logged once.
 
-use rerun::{
-    Arrows3D, Boxes3D, Capsules3D, Color, EntityPath, EntityPathPart, FillMode, Image, LineStrips3D,
-    Points3D, Quaternion, RecordingStream, RecordingStreamResult, SeriesLines, Transform3D, ViewCoordinates,
+use re_sdk_types::archetypes::{
+    Arrows3D, Boxes3D, Capsules3D, Image, LineStrips3D, Points3D, SeriesLines, Transform3D, ViewCoordinates,
 };
+use re_sdk_types::components::{Color, FillMode};
+use re_sdk_types::datatypes::Quaternion;
+use rerun::{EntityPath, EntityPathPart, RecordingStream, RecordingStreamResult};
 use triad_engine::scene::Shape;
 
 use super::arrows::Kind;

@@ -4,10 +4,11 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::time::Duration;
 
+use re_sdk_types::archetypes::{Arrows3D, LineStrips3D, Scalars, Transform3D};
+use rerun::log::TimeColumn;
 use rerun::sink::BinaryStreamStorage;
 use rerun::{
-    Arrows3D, EntityPath, LineStrips3D, RecordingStream, RecordingStreamBuilder, RecordingStreamError,
-    RecordingStreamResult, Scalars, TimeColumn, Transform3D,
+    EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
 };
 
 use super::arrows::{Arrows, Glyphs, Piece};
