@@ -76,14 +76,13 @@ fn graded(
     let answers = BTreeMap::from([("program".to_owned(), Answer { file, ..Answer::default() })]);
     let verdict = grade(lesson, &Submission { answers, ..Submission::default() }).unwrap();
     let question = verdict.questions.into_iter().find(|q| q.id == "program").unwrap();
-    println!("{}: {}", language.word(), question.message_html);
+    println!("{}: {}", language, question.message_html);
     (question.verdict, question.earned)
 }
 
 fn tried(language: Language, program: &str, arguments: &[&str], solution: &str) {
     let lesson = lesson();
-    let folder =
-        std::env::temp_dir().join(format!("triad-starter-{}-{}", language.word(), std::process::id()));
+    let folder = std::env::temp_dir().join(format!("triad-starter-{}-{}", language, std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let starter = lesson.starter("program", language).unwrap();
     let run = |text: &str| graded(&lesson, language, text, Command::new(program).args(arguments), &folder);

@@ -22,6 +22,7 @@ mod trial;
 pub use trial::Trial;
 
 use serde::Serialize;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use triad_scene::{IntegratorKind, Scene, Stabilization};
 
@@ -39,6 +40,18 @@ pub enum Verdict {
     Warned,
     /// It ran and its result is wrong, or it was refused for a reason that is not the true one.
     Wrong,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Survived => "survived",
+            Self::Degraded => "degraded",
+            Self::Refused => "refused",
+            Self::Warned => "warned",
+            Self::Wrong => "wrong",
+        })
+    }
 }
 
 /// How scenes are run.

@@ -1,9 +1,11 @@
 //! Bodies as their author writes them.
 
+use crate::text::{UnknownWord, choice};
 use crate::{Orientation, Triple, is_default};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::str::FromStr;
 
 /// Which generalized coordinates describe a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -27,6 +29,19 @@ impl fmt::Display for Coordinates {
             Self::Reduced => "reduced",
             Self::Shared => "shared",
         })
+    }
+}
+
+impl FromStr for Coordinates {
+    type Err = UnknownWord;
+
+    /// ```
+    /// use triad_scene::Coordinates;
+    ///
+    /// assert_eq!("reduced".parse(), Ok(Coordinates::Reduced));
+    /// ```
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        choice(word, [Self::Full, Self::Reduced, Self::Shared].into_iter())
     }
 }
 

@@ -1,8 +1,11 @@
 //! Joints as their author writes them.
 
+use crate::text::{UnknownWord, choice};
 use crate::{BodyHandle, JointHandle, Triple};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
 
 /// What a joint is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +36,61 @@ pub enum JointKind {
     PointInPlane,
     /// The angle of one revolute joint is `ratio` times that of another.
     Gear,
+}
+
+impl JointKind {
+    /// All of them.
+    pub const ALL: [Self; 12] = [
+        Self::Spherical,
+        Self::Revolute,
+        Self::Universal,
+        Self::Cylindrical,
+        Self::Prismatic,
+        Self::Planar,
+        Self::Screw,
+        Self::Fixed,
+        Self::Rod,
+        Self::PointOnLine,
+        Self::PointInPlane,
+        Self::Gear,
+    ];
+}
+
+impl fmt::Display for JointKind {
+    /// As a scene writes it.
+    ///
+    /// ```
+    /// use triad_scene::JointKind;
+    ///
+    /// for kind in JointKind::ALL {
+    ///     assert_eq!(serde_json::to_value(kind).unwrap(), kind.to_string());
+    ///     assert_eq!(kind.to_string().parse(), Ok(kind));
+    /// }
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Spherical => "spherical",
+            Self::Revolute => "revolute",
+            Self::Universal => "universal",
+            Self::Cylindrical => "cylindrical",
+            Self::Prismatic => "prismatic",
+            Self::Planar => "planar",
+            Self::Screw => "screw",
+            Self::Fixed => "fixed",
+            Self::Rod => "rod",
+            Self::PointOnLine => "point-on-line",
+            Self::PointInPlane => "point-in-plane",
+            Self::Gear => "gear",
+        })
+    }
+}
+
+impl FromStr for JointKind {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        choice(word, Self::ALL.into_iter())
+    }
 }
 
 /// How the axis of a revolute joint is written.

@@ -13,6 +13,8 @@
 //! # Ok::<(), triad_scene::SceneError>(())
 //! ```
 
+pub mod text;
+
 mod body;
 pub mod catalogue;
 mod driver;
@@ -25,7 +27,6 @@ mod motion;
 mod orientation;
 mod parameter;
 mod settings;
-pub mod text;
 
 pub use body::{Body, Coordinates, Inertia, Shape};
 pub use driver::Driver;
@@ -37,7 +38,8 @@ pub use load::{Friction, Load, LoadFrame};
 pub use motion::{Motion, VectorMotion};
 pub use orientation::{Orientation, WrittenOrientation};
 pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places, WrittenScene};
-pub use settings::{IntegratorKind, Settings, Skip, Stabilization, UnknownWord};
+pub use settings::{IntegratorKind, Settings, Skip, Stabilization};
+pub use text::UnknownWord;
 
 use error::{plain_error, syntax_error};
 use schemars::JsonSchema;

@@ -1,5 +1,6 @@
 //! How to run a scene.
 
+use crate::text::{UnknownWord, choice};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -107,14 +108,9 @@ impl FromStr for IntegratorKind {
     type Err = UnknownWord;
 
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        [Self::Auto].into_iter().chain(Self::ALL).find(|kind| kind.as_str() == word).ok_or(UnknownWord)
+        choice(word, [Self::Auto].into_iter().chain(Self::ALL))
     }
 }
-
-/// The text is none of the words of a scene for this choice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("it is none of the words for this choice")]
-pub struct UnknownWord;
 
 /// What keeps the constraints satisfied during a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -206,7 +202,7 @@ impl FromStr for Stabilization {
     /// assert_eq!("baumgarte".parse(), Ok(Stabilization::Baumgarte { alpha: 10.0, beta: 10.0 }));
     /// ```
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        Self::ALL.into_iter().find(|method| method.to_string() == word).ok_or(UnknownWord)
+        choice(word, Self::ALL.into_iter())
     }
 }
 

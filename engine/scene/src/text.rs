@@ -1,4 +1,22 @@
-//! Names that were meant.
+//! Words of a scene, and names that were meant.
+
+use std::fmt;
+
+/// The text is none of the words of a scene for this choice, which are listed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no such word here; there are {0}")]
+pub struct UnknownWord(pub String);
+
+/// The choice that a scene writes as `word`.
+pub(crate) fn choice<T: fmt::Display>(
+    word: &str,
+    choices: impl Iterator<Item = T> + Clone,
+) -> Result<T, UnknownWord> {
+    choices.clone().find(|choice| choice.to_string() == word).ok_or_else(|| {
+        let words: Vec<String> = choices.map(|choice| choice.to_string()).collect();
+        UnknownWord(words.join(", "))
+    })
+}
 
 /// The candidate that differs from `name` in the fewest letters, if it is near.
 pub fn nearest_name<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {

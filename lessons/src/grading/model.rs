@@ -74,10 +74,7 @@ fn compare(task: &ModelTask, scene: &Scene, report: &CheckReport) -> Result<Vec<
         add(Demand::NoRedundancy { joints }, met);
     }
     for (kind, least) in &demands.joints {
-        let of_kind = |j: &&triad_engine::scene::Joint| {
-            serde_json::to_value(j.kind).is_ok_and(|word| word.as_str() == Some(kind.as_str()))
-        };
-        let found = scene.joints.iter().filter(of_kind).count();
+        let found = scene.joints.iter().filter(|joint| joint.kind.to_string() == *kind).count();
         add(Demand::Joint { kind: kind.clone(), found }, found >= *least);
     }
     results.extend(watched(task, scene)?);

@@ -1,5 +1,8 @@
 //! Starter kits of implement questions: programs that read the states and write the answer, without the equations.
 
+use std::fmt;
+use std::str::FromStr;
+
 use super::instances::task;
 use crate::exercise::Implement;
 use crate::files::EquationPart;
@@ -19,25 +22,6 @@ pub enum Language {
 impl Language {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Python, Self::Octave, Self::Julia];
-
-    /// The language of a word such as `python` or `matlab`.
-    pub fn from_word(word: &str) -> Option<Self> {
-        match word {
-            "python" => Some(Self::Python),
-            "octave" | "matlab" => Some(Self::Octave),
-            "julia" => Some(Self::Julia),
-            _ => None,
-        }
-    }
-
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Python => "python",
-            Self::Octave => "octave",
-            Self::Julia => "julia",
-        }
-    }
 
     /// Name of the starter's file.
     pub fn file(self) -> &'static str {
@@ -84,6 +68,34 @@ impl Language {
         };
         let lines = task.asks.iter().map(|part| entry(*part));
         std::iter::once(head.to_owned()).chain(lines).collect::<Vec<_>>().join("\n")
+    }
+}
+
+impl fmt::Display for Language {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Python => "python",
+            Self::Octave => "octave",
+            Self::Julia => "julia",
+        })
+    }
+}
+
+/// There is no starter in this language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("there are starters in python, octave (the same as matlab) and julia")]
+pub struct UnknownLanguage;
+
+impl FromStr for Language {
+    type Err = UnknownLanguage;
+
+    fn from_str(word: &str) -> Result<Self, UnknownLanguage> {
+        match word {
+            "python" => Ok(Self::Python),
+            "octave" | "matlab" => Ok(Self::Octave),
+            "julia" => Ok(Self::Julia),
+            _ => Err(UnknownLanguage),
+        }
     }
 }
 

@@ -1,21 +1,15 @@
 //! Words of the command line that choose an integrator or a treatment of the constraints.
 
-use triad_engine::scene::{IntegratorKind, Stabilization};
+use triad_engine::scene::{IntegratorKind, Stabilization, UnknownWord};
 
 /// The integrator of that name.
 pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
-    word.parse().map_err(|_| {
-        let words: Vec<String> = IntegratorKind::ALL.iter().map(ToString::to_string).collect();
-        format!("no such integrator; there are auto, {}", words.join(", "))
-    })
+    word.parse().map_err(|UnknownWord(words)| format!("no such integrator; there are {words}"))
 }
 
 /// The treatment of that name, with its usual strength.
 pub(super) fn treatment(word: &str) -> Result<Stabilization, String> {
-    word.parse().map_err(|_| {
-        "no such treatment; there are projection, baumgarte, partitioning, penalty, augmented-lagrangian"
-            .to_owned()
-    })
+    word.parse().map_err(|UnknownWord(words)| format!("no such treatment; there are {words}"))
 }
 
 /// The words of `simulation.skip`, and one for all of them.

@@ -16,13 +16,13 @@ use serde::{Deserialize, Serialize};
 use triad_lessons::CourseError;
 use triad_lessons::InstancesView;
 use triad_lessons::lesson::{Lesson, LessonSummary, LessonView};
-use triad_lessons::tasks::starter::Language;
+use triad_lessons::tasks::starter::{Language, UnknownLanguage};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{Asked, At};
+use crate::api::extract::{PathParameters, QueryParameters};
 use crate::app::App;
 use crate::blocking;
 use crate::problem::{Problem, suggest};
@@ -71,7 +71,7 @@ pub(crate) fn unknown(course: &triad_lessons::Course, name: &str) -> Problem {
 struct LessonList(Vec<LessonSummary>);
 
 /// The lessons, in the order of the course.
-#[utoipa::path(get, path = "/lessons", tag = "lessons", responses(
+#[utoipa::path(get, path = "/lessons", operation_id = "list_lessons", tag = "lessons", responses(
     (status = 200, description = "Slug, number, title, summary, minutes and objectives of each", body = ref(of::<LessonList>()))))]
 async fn list(State(app): State<App>) -> Answer<LessonList> {
     Answer(LessonList(app.course.lessons().iter().map(Lesson::summary).collect()))
@@ -100,13 +100,13 @@ pub(in crate::api) fn variant(app: &App, name: &str, seed: Option<&str>) -> Resu
 }
 
 /// A lesson: its text, its scenario and its exercise, without the answers.
-#[utoipa::path(get, path = "/lessons/{slug}", tag = "lessons", params(("slug" = String, Path), Whose), responses(
+#[utoipa::path(get, path = "/lessons/{slug}", operation_id = "get_lesson", tag = "lessons", params(("slug" = String, Path), Whose), responses(
     (status = 200, description = "The lesson", body = ref(of::<LessonView>())),
     (status = 404, description = "No such lesson", body = ref(PROBLEM))))]
 async fn show(
     State(app): State<App>,
-    At(slug): At<String>,
-    Asked(whose): Asked<Whose>,
+    PathParameters(slug): PathParameters<String>,
+    QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<LessonView>, Problem> {
     blocking(move || Ok(Answer(variant(&app, &slug, whose.seed())?.public_view()))).await
 }
@@ -119,14 +119,14 @@ struct Hint {
 }
 
 /// A hint to a question; the first is number 1.
-#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/hints/{k}", tag = "lessons",
+#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/hints/{k}", operation_id = "get_hint", tag = "lessons",
     params(("slug" = String, Path), ("id" = String, Path), ("k" = usize, Path), Whose), responses(
     (status = 200, description = "The hint", body = ref(of::<Hint>())),
     (status = 404, description = "No such lesson, question or hint", body = ref(PROBLEM))))]
 async fn hint(
     State(app): State<App>,
-    At((slug, id, k)): At<(String, String, usize)>,
-    Asked(whose): Asked<Whose>,
+    PathParameters((slug, id, k)): PathParameters<(String, String, usize)>,
+    QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<Hint>, Problem> {
     let lesson = blocking(move || variant(&app, &slug, whose.seed())).await?;
     let question = lesson.question(&id).ok_or_else(|| unknown_question(&lesson, &id))?;
@@ -142,14 +142,14 @@ async fn hint(
 }
 
 /// The states at which a student's own program evaluates the equations.
-#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/states", tag = "lessons",
+#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/states", operation_id = "get_question_states", tag = "lessons",
     params(("slug" = String, Path), ("id" = String, Path), Whose), responses(
     (status = 200, description = "The mechanism in numbers, names of rows and columns, and the states", body = ref(of::<InstancesView>())),
     (status = 404, description = "No such lesson, or no such question of kind implement", body = ref(PROBLEM))))]
 async fn states(
     State(app): State<App>,
-    At((slug, id)): At<(String, String)>,
-    Asked(whose): Asked<Whose>,
+    PathParameters((slug, id)): PathParameters<(String, String)>,
+    QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<InstancesView>, Problem> {
     let dealt = blocking(move || {
         let lesson = variant(&app, &slug, whose.seed())?;
@@ -165,14 +165,14 @@ pub(crate) fn deal(lesson: &Lesson, id: &str) -> Result<InstancesView, Problem> 
 }
 
 /// A program that reads the states and writes the answer, without the equations.
-#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/starters/{language}", tag = "lessons",
+#[utoipa::path(get, path = "/lessons/{slug}/questions/{id}/starters/{language}", operation_id = "get_starter", tag = "lessons",
     params(("slug" = String, Path), ("id" = String, Path), ("language" = String, Path,
     description = "python, octave (the same as matlab) or julia")), responses(
     (status = 200, description = "The program", body = String, content_type = "text/plain"),
     (status = 404, description = "No such lesson, question or language", body = ref(PROBLEM))))]
 async fn starter(
     State(app): State<App>,
-    At((slug, id, language)): At<(String, String, String)>,
+    PathParameters((slug, id, language)): PathParameters<(String, String, String)>,
 ) -> Result<impl IntoResponse, Problem> {
     let lesson = find(&app, &slug)?;
     let (name, text) = starter_of(lesson, &id, &language)?;
@@ -192,12 +192,12 @@ pub(crate) fn starter_of(
     id: &str,
     language: &str,
 ) -> Result<(&'static str, String), Problem> {
-    let known = Language::from_word(language).ok_or_else(|| {
+    let known: Language = language.parse().map_err(|error: UnknownLanguage| {
         Problem::new(
             StatusCode::NOT_FOUND,
             "unknown-language",
             format!("there is no starter in {language}"),
-            "there are starters in python, octave (the same as matlab) and julia",
+            error.to_string(),
         )
     })?;
     let text = lesson.starter(id, known).ok_or_else(|| not_to_implement(lesson, id))?;

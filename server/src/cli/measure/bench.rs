@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use axum::http::StatusCode;
 use clap::Args;
-use serde::de::DeserializeOwned;
 use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
 use triad_lab::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
 
@@ -23,14 +22,14 @@ pub(in crate::cli) struct Bench {
     #[arg(long, value_name = "SCENES", value_delimiter = ',')]
     scenes: Vec<String>,
     /// Integrators, by the scene format's words.
-    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word::<IntegratorKind>)]
+    #[arg(long, value_name = "WORDS", value_delimiter = ',')]
     integrators: Vec<IntegratorKind>,
     /// A constraint treatment, as in a scene: a word, or `{"kind": "baumgarte", "alpha": 5, "beta": 5}`; may be
     /// given more than once.
     #[arg(long, value_name = "TREATMENT", value_parser = treatment)]
     treatment: Vec<Stabilization>,
     /// Kinds of bodies: full, reduced, shared.
-    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word::<Coordinates>)]
+    #[arg(long, value_name = "WORDS", value_delimiter = ',')]
     coordinates: Vec<Coordinates>,
     /// Tolerances.
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',')]
@@ -39,11 +38,6 @@ pub(in crate::cli) struct Bench {
     /// shows what is in its own folder at /bench.
     #[arg(long, default_value = crate::app::REPORTS, value_name = "DIR")]
     out: PathBuf,
-}
-
-/// Reads a word of the scene format.
-fn word<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    serde_json::from_value(text.into()).map_err(|error| error.to_string())
 }
 
 /// Reads a treatment: a word that needs no numbers, or JSON.

@@ -60,7 +60,7 @@ struct Report {
     quick: bool,
     /// First and last seed of the random mechanisms.
     seeds: Option<(u64, u64)>,
-    counts: BTreeMap<&'static str, usize>,
+    counts: BTreeMap<String, usize>,
     /// Cases that did not go as they have to.
     unexpected: Vec<String>,
     entries: Vec<Entry>,
@@ -112,7 +112,7 @@ pub(in crate::cli) fn stress(options: &Stress, json: bool) -> Result<Outcome, Pr
     if let Some(file) = &options.html {
         write(file, &page::render(&report))?;
     }
-    tell(&report, options, json);
+    print_report(&report, options, json);
     Ok(if report.unexpected.is_empty() { Outcome::Done } else { Outcome::No })
 }
 
@@ -139,7 +139,7 @@ fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
             let outcome = &entry.outcome;
             let error =
                 outcome.error.or(outcome.energy_drift).map_or_else(String::new, |e| format!("{e:.1e}"));
-            let verdict = word(outcome.verdict);
+            let verdict = outcome.verdict;
             print_line(&format!(
                 "{verdict:9} {:30} {:22} {error:>8} {:>7} steps  {}",
                 column.treatment, entry.case, outcome.steps, outcome.reason
@@ -176,10 +176,10 @@ fn seeds(options: &Stress) -> (u64, u64) {
     (options.from, options.from + options.seeds.unwrap_or(by_default))
 }
 
-/// Keeps an entry; one that went wrong is told at once, a random one as a small scene that can be kept.
+/// Keeps an entry; one that went wrong is printed at once, a random one as a small scene that can be kept.
 fn add(entries: &mut Vec<Entry>, entry: Entry, json: bool) {
     if !json && !entry.as_expected() {
-        eprintln!("{}: {}: {}", entry.case, word(entry.outcome.verdict), entry.outcome.reason);
+        eprintln!("{}: {}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
     }
     entries.push(entry);
 }
@@ -208,33 +208,22 @@ fn compare(cases: &[Case], json: bool) -> Vec<Column> {
     columns
 }
 
-fn counts(entries: &[Entry]) -> BTreeMap<&'static str, usize> {
+fn counts(entries: &[Entry]) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     for entry in entries {
-        *counts.entry(word(entry.outcome.verdict)).or_insert(0) += 1;
+        *counts.entry(entry.outcome.verdict.to_string()).or_insert(0) += 1;
     }
     counts
 }
 
-/// A verdict as it is shown.
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Survived => "survived",
-        Verdict::Degraded => "degraded",
-        Verdict::Refused => "refused",
-        Verdict::Warned => "warned",
-        Verdict::Wrong => "wrong",
-    }
-}
-
-fn tell(report: &Report, options: &Stress, json: bool) {
+fn print_report(report: &Report, options: &Stress, json: bool) {
     if json {
         print_json(report);
         return;
     }
     for entry in report.entries.iter().filter(|e| e.family != "random" || !e.as_expected()) {
         let error = entry.outcome.error.map_or_else(String::new, |e| format!("{e:.1e}"));
-        let verdict = word(entry.outcome.verdict);
+        let verdict = entry.outcome.verdict;
         print_line(&format!("{verdict:9} {:26} {error:>8}  {}", entry.case, entry.outcome.reason));
     }
     let counts: Vec<String> = report.counts.iter().map(|(word, count)| format!("{count} {word}")).collect();

@@ -107,12 +107,9 @@ fn print_reactions(report: &ReactionReport) {
             redundancy.joints.join(", ")
         ));
         for remedy in &redundancy.remedies {
-            let kind = serde_json::to_value(remedy.becomes).unwrap_or_default();
             print_line(&format!(
                 "    remedy: make \"{}\" a {} joint, which gives up {}",
-                remedy.joint,
-                kind.as_str().unwrap_or("weaker"),
-                remedy.gives_up
+                remedy.joint, remedy.becomes, remedy.gives_up
             ));
         }
     }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use triad_lab::stress::{Entry, Verdict};
 
-use super::{Report, word};
+use super::Report;
 
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2rem auto;max-width:75rem;padding:0 1rem;\
 color:#1b1f24;background:#fff}h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}\
@@ -59,7 +59,7 @@ fn shown(entry: &Entry) -> bool {
 fn row(page: &mut String, entry: &Entry) {
     let outcome = &entry.outcome;
     let number = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{x:.1e}"));
-    let verdict = word(outcome.verdict);
+    let verdict = outcome.verdict;
     let _ = write!(
         page,
         "<tr><td><b>{}</b><br>{}<td class={verdict}>{verdict}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}\
@@ -99,7 +99,7 @@ fn plot(entries: &[Entry]) -> String {
     for (i, entry) in list.iter().enumerate() {
         let y = 36 + 20 * i;
         let error = entry.outcome.error.or(entry.outcome.energy_drift).unwrap_or(0.0);
-        let verdict = word(entry.outcome.verdict);
+        let verdict = entry.outcome.verdict;
         let _ = write!(
             svg,
             "<text x=210 y={y} text-anchor=end>{}</text><circle class={verdict} fill=currentColor cx={:.1} cy={} r=5>\
@@ -123,7 +123,7 @@ fn comparison(page: &mut String, report: &Report) {
         let _ = write!(page, "<tr><td>{}", escaped(&entry.case));
         for column in &report.comparison {
             let Some(entry) = column.entries.get(index) else { continue };
-            let verdict = word(entry.outcome.verdict);
+            let verdict = entry.outcome.verdict;
             let error = entry.outcome.error.map_or_else(String::new, |e| format!("<br>{e:.0e}"));
             let reason = escaped(&entry.outcome.reason);
             let _ = write!(page, "<td class={verdict} title=\"{reason}\">{verdict}{error}");

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use triad_lab::stress::Verdict;
 
-use super::{Column, word};
+use super::Column;
 
 const LEFT: usize = 190;
 const TOP: usize = 170;
@@ -77,7 +77,7 @@ pub(super) fn svg(columns: &[Column]) -> String {
     let verdicts = [Verdict::Survived, Verdict::Degraded, Verdict::Refused, Verdict::Warned, Verdict::Wrong];
     let words = verdicts.map(|verdict| {
         let (_, mark) = look(verdict);
-        format!("{mark} {}", word(verdict))
+        format!("{mark} {}", verdict)
     });
     let _ = writeln!(
         out,
