@@ -2,15 +2,17 @@
 
 use std::fmt::Write as _;
 
+use triad_plot::{Axis, DASHES, Frame, Style};
+
 use crate::rendering::html::escape;
 
-const WIDTH: f64 = 460.0;
-const HEIGHT: f64 = 300.0;
-const LEFT: f64 = 58.0;
-const RIGHT: f64 = 12.0;
-const TOP: f64 = 12.0;
-const BOTTOM: f64 = 44.0;
+/// Width and height; left, right, top and bottom margin.
+const SIZE: (f64, f64) = (460.0, 300.0);
+const MARGINS: [f64; 4] = [58.0, 12.0, 12.0, 44.0];
+/// Colours that are seen on light and on dark paper.
 const COLOURS: [&str; 4] = ["#1c7ed6", "#2b8a3e", "#d9480f", "#9c36b5"];
+/// Errors that are drawn: below is rounding, above nothing is left of the motion.
+const ERRORS: (f64, f64) = (1e-15, 1e3);
 
 /// A run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,137 +43,111 @@ impl Picture {
     }
 
     pub(super) fn svg(&self) -> String {
-        let frame = Frame::around(self);
-        let words = match &self.own {
+        let frame = self.frame();
+        let mut svg = format!(
+            "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" class=\"work-precision\" font-size=\"11\">",
+            SIZE.0,
+            SIZE.1,
+            escape(&self.summary())
+        );
+        frame.axes(&mut svg);
+        axis_titles(&mut svg);
+        self.draw_goal(&frame, &mut svg);
+        for (index, (name, points)) in self.curves.iter().enumerate() {
+            let style = Style {
+                colour: COLOURS[index % COLOURS.len()],
+                dashes: DASHES[index / COLOURS.len() % DASHES.len()],
+                width: 1.6,
+            };
+            let points: Vec<(f64, f64)> = points.iter().map(Point::drawn).collect();
+            frame.curve(&mut svg, &style, &points, 2.2);
+            if let Some((x, y)) = points.first().map(|point| frame.place(*point)) {
+                let (x, y, colour) = ((x + 6.0).min(SIZE.0 - 60.0), y - 4.0, style.colour);
+                let name = escape(name);
+                let _ = write!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"{colour}\">{name}</text>");
+            }
+        }
+        if let Some((_, point)) = &self.own {
+            draw_own(frame.place(point.drawn()), &mut svg);
+        }
+        svg.push_str("</svg>");
+        svg
+    }
+
+    /// The picture in words.
+    fn summary(&self) -> String {
+        match &self.own {
             Some((name, p)) => format!(
                 "Work and precision: your run with {name} took {} evaluations and has an error of {:.1e}; allowed are {} \
                  evaluations and an error of {:.1e}.",
                 p.work, p.error, self.budget, self.error
             ),
             None => "Work and precision: your run did not come to its end.".to_owned(),
-        };
-        let mut svg = format!(
-            "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{}\" class=\"work-precision\">",
-            escape(&words)
-        );
-        frame.axes(&mut svg);
-        let (x, y) = (frame.x(self.budget as f64), frame.y(self.error));
-        let (width, height) = (x - LEFT, HEIGHT - BOTTOM - y);
+        }
+    }
+
+    /// Decades that hold every point, and the goal with some space about it.
+    fn frame(&self) -> Frame {
+        let (budget, error) = (self.budget as f64, self.error);
+        let goal = [(budget / 3.0, error / 30.0), (budget * 2.0, error * 30.0)];
+        let points = self.curves.iter().flat_map(|(_, p)| p).chain(self.own.iter().map(|(_, p)| p));
+        let all: Vec<(f64, f64)> = goal.map(drawable).into_iter().chain(points.map(Point::drawn)).collect();
+        let label = |exponent: f64| format!("10<tspan dy=\"-4\" font-size=\"8\">{exponent}</tspan>");
+        Frame {
+            size: SIZE,
+            margins: MARGINS,
+            x: Axis::around(all.iter().map(|(work, _)| *work), label),
+            y: Axis::around(all.iter().map(|(_, error)| *error), label),
+            grid: "#88888855",
+        }
+    }
+
+    /// The corner of runs that are cheap and exact enough.
+    fn draw_goal(&self, frame: &Frame, svg: &mut String) {
+        let ((x, y), [left, _, _, bottom]) = (frame.place((self.budget as f64, self.error)), MARGINS);
+        let foot = SIZE.1 - bottom;
         let _ = write!(
             svg,
-            "<rect x=\"{LEFT}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"#2b8a3e\" \
-             fill-opacity=\"0.14\"/><text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" fill=\"#2b8a3e\">asked for</text>",
-            LEFT + 6.0,
-            HEIGHT - BOTTOM - 7.0
+            "<rect x=\"{left}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#2b8a3e\" \
+             fill-opacity=\"0.14\"/><text x=\"{:.1}\" y=\"{:.1}\" fill=\"#2b8a3e\">asked for</text>",
+            x - left,
+            foot - y,
+            left + 6.0,
+            foot - 7.0
         );
-        for ((name, points), colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
-            let at = |p: &Point| (frame.x(p.work as f64), frame.y(p.error));
-            let line: Vec<String> = points.iter().map(at).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
-            let _ = write!(
-                svg,
-                "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\"/>",
-                line.join(" ")
-            );
-            for (x, y) in points.iter().map(at) {
-                let _ = write!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.2\" fill=\"{colour}\"/>");
-            }
-            if let Some((x, y)) = points.first().map(at) {
-                let _ = write!(
-                    svg,
-                    "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" fill=\"{colour}\">{}</text>",
-                    (x + 6.0).min(WIDTH - 60.0),
-                    y - 4.0,
-                    escape(name)
-                );
-            }
-        }
-        if let Some((_, p)) = &self.own {
-            let (x, y) = (frame.x(p.work as f64), frame.y(p.error));
-            let anchor = if x > WIDTH - 90.0 { ("end", x - 9.0) } else { ("start", x + 9.0) };
-            let _ = write!(
-                svg,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5.5\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"2\"/>\
-                 <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"{}\" fill=\"currentColor\">your run</text>",
-                anchor.1,
-                y + 4.0,
-                anchor.0
-            );
-        }
-        svg.push_str("</svg>");
-        svg
     }
 }
 
-/// Decades that the axes cover.
-struct Frame {
-    work: [f64; 2],
-    error: [f64; 2],
+impl Point {
+    fn drawn(&self) -> (f64, f64) {
+        drawable((self.work as f64, self.error))
+    }
 }
 
-impl Frame {
-    fn around(picture: &Picture) -> Self {
-        let points = picture.curves.iter().flat_map(|(_, p)| p).chain(picture.own.iter().map(|(_, p)| p));
-        let (mut work, mut error) = ([f64::INFINITY, 0.0f64], [f64::INFINITY, 0.0f64]);
-        let mut include = |w: f64, e: f64| {
-            let (w, e) = (w.max(1.0), e.clamp(1e-15, 1e3));
-            work = [work[0].min(w), work[1].max(w)];
-            error = [error[0].min(e), error[1].max(e)];
-        };
-        include(picture.budget as f64 / 3.0, picture.error / 30.0);
-        include(picture.budget as f64 * 2.0, picture.error * 30.0);
-        for p in points {
-            include(p.work as f64, p.error);
-        }
-        let decades = |[low, high]: [f64; 2]| [low.log10().floor(), high.log10().ceil()];
-        Self { work: decades(work), error: decades(error) }
-    }
+/// Work and error within what a logarithmic plot can show.
+fn drawable((work, error): (f64, f64)) -> (f64, f64) {
+    (work.max(1.0), error.clamp(ERRORS.0, ERRORS.1))
+}
 
-    fn x(&self, work: f64) -> f64 {
-        let part = (work.max(1.0).log10() - self.work[0]) / (self.work[1] - self.work[0]);
-        LEFT + part * (WIDTH - LEFT - RIGHT)
-    }
+/// The student's own run: a ring and its name, on the side where there is space.
+fn draw_own((x, y): (f64, f64), svg: &mut String) {
+    let (anchor, at) = if x > SIZE.0 - 90.0 { ("end", x - 9.0) } else { ("start", x + 9.0) };
+    let _ = write!(
+        svg,
+        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5.5\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"2\"/>\
+         <text x=\"{at:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"{anchor}\" fill=\"currentColor\">your run</text>",
+        y + 4.0
+    );
+}
 
-    fn y(&self, error: f64) -> f64 {
-        let part = (error.clamp(1e-15, 1e3).log10() - self.error[0]) / (self.error[1] - self.error[0]);
-        HEIGHT - BOTTOM - part * (HEIGHT - TOP - BOTTOM)
-    }
-
-    /// Lines and labels of the decades.
-    fn axes(&self, svg: &mut String) {
-        let mut decade = self.work[0];
-        while decade <= self.work[1] {
-            let x = self.x(10f64.powf(decade));
-            let _ = write!(
-                svg,
-                "<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"{TOP}\" y2=\"{:.1}\" stroke=\"currentColor\" stroke-opacity=\"0.2\"/>\
-                 <text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"middle\" fill=\"currentColor\">10<tspan dy=\"-4\" font-size=\"8\">{decade}</tspan></text>",
-                HEIGHT - BOTTOM,
-                HEIGHT - BOTTOM + 16.0
-            );
-            decade += 1.0;
-        }
-        let step = ((self.error[1] - self.error[0]) / 8.0).ceil().max(1.0);
-        let mut decade = self.error[0];
-        while decade <= self.error[1] {
-            let y = self.y(10f64.powf(decade));
-            let _ = write!(
-                svg,
-                "<line x1=\"{LEFT}\" x2=\"{:.1}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"currentColor\" stroke-opacity=\"0.2\"/>\
-                 <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"end\" fill=\"currentColor\">10<tspan dy=\"-4\" font-size=\"8\">{decade}</tspan></text>",
-                WIDTH - RIGHT,
-                LEFT - 6.0,
-                y + 4.0
-            );
-            decade += step;
-        }
-        let _ = write!(
-            svg,
-            "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"middle\" fill=\"currentColor\">evaluations</text>\
-             <text x=\"14\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"middle\" transform=\"rotate(-90 14 {:.1})\" fill=\"currentColor\">error</text>",
-            f64::midpoint(LEFT, WIDTH - RIGHT),
-            HEIGHT - 8.0,
-            f64::midpoint(TOP, HEIGHT - BOTTOM),
-            f64::midpoint(TOP, HEIGHT - BOTTOM)
-        );
-    }
+fn axis_titles(svg: &mut String) {
+    let ((width, height), [left, right, top, bottom]) = (SIZE, MARGINS);
+    let (x, y) = (f64::midpoint(left, width - right), f64::midpoint(top, height - bottom));
+    let _ = write!(
+        svg,
+        "<g font-size=\"12\" text-anchor=\"middle\" fill=\"currentColor\">\
+         <text x=\"{x:.1}\" y=\"{:.1}\">evaluations</text>\
+         <text x=\"14\" y=\"{y:.1}\" transform=\"rotate(-90 14 {y:.1})\">error</text></g>",
+        height - 8.0
+    );
 }

@@ -1,23 +1,23 @@
 //! Fig. 12 as a picture: run time over number of bodies, both axes logarithmic.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
+
+use triad_plot::{Axis, Frame, Style};
 
 use super::{Row, Seconds};
 
-/// One curve: name, colour, dashed or not, and (bodies, seconds).
+/// One curve: its name, its look, and (bodies, seconds).
 pub(super) struct Curve {
     name: String,
-    colour: &'static str,
-    dashed: bool,
+    style: Style,
     points: Vec<(f64, f64)>,
 }
 
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 460.0;
-const LEFT: f64 = 70.0;
-const RIGHT: f64 = 250.0;
-const TOP: f64 = 30.0;
-const BOTTOM: f64 = 50.0;
+/// Width and height; left, right, top and bottom margin.
+const SIZE: (f64, f64) = (720.0, 460.0);
+const MARGINS: [f64; 4] = [70.0, 250.0, 30.0, 50.0];
+/// Numbers of bodies that have a line, if there are as many.
+const BODIES: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
 
 /// The time of one kind of linear algebra.
 type Time = fn(&Seconds) -> f64;
@@ -32,7 +32,7 @@ pub(super) fn curves(rows: &[Row]) -> Vec<Curve> {
     let mut list = Vec::new();
     for (name, colour, of) in kinds {
         for dashed in [false, true] {
-            let body = if dashed { "reduced" } else { "full" };
+            let (body, dashes) = if dashed { ("reduced", "6 4") } else { ("full", "none") };
             let point = |row: &Row| {
                 let side = if dashed { &row.reduced } else { &row.full };
                 (row.bodies as f64, of(&side.seconds))
@@ -45,7 +45,8 @@ pub(super) fn curves(rows: &[Row]) -> Vec<Curve> {
                     _ => points.push(next),
                 }
             }
-            list.push(Curve { name: format!("{body}, {name}"), colour, dashed, points });
+            let style = Style { colour, dashes, width: 2.0 };
+            list.push(Curve { name: format!("{body}, {name}"), style, points });
         }
     }
     list
@@ -53,50 +54,39 @@ pub(super) fn curves(rows: &[Row]) -> Vec<Curve> {
 
 /// Draws the curves.
 pub(super) fn svg(curves: &[Curve]) -> String {
-    let points = || curves.iter().flat_map(|curve| curve.points.iter().copied());
-    let seconds = points().map(|(_, s)| s.log10());
-    let (low, high) = seconds.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), s| (l.min(s), h.max(s)));
-    let (low, high) = (low.floor(), high.ceil().max(low.floor() + 1.0));
-    let most = points().fold(2.0f64, |a, (n, _)| a.max(n)).log10();
-    let x = |bodies: f64| LEFT + (WIDTH - LEFT - RIGHT) * bodies.log10() / most;
-    let y = |log: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (log - low) / (high - low);
+    let points = || curves.iter().flat_map(|curve| curve.points.iter());
+    let most = points().fold(2.0f64, |most, (bodies, _)| most.max(*bodies));
+    let lines = BODIES.iter().filter(|bodies| **bodies <= 1.05 * most);
+    let frame = Frame {
+        size: SIZE,
+        margins: MARGINS,
+        x: Axis {
+            decades: (0.0, most.log10()),
+            reversed: false,
+            ticks: lines.map(|bodies| (*bodies, bodies.to_string())).collect(),
+        },
+        y: Axis::around(points().map(|(_, seconds)| *seconds), |exponent| {
+            format!("{} s", 10f64.powf(exponent))
+        }),
+        grid: "#ccc",
+    };
+    let ((width, height), [left, right, _, _]) = (SIZE, MARGINS);
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"sans-serif\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" \
          font-size=\"12\" role=\"img\">\n<title>Run time over number of bodies, full and reduced</title>\n\
-         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"white\"/>\n"
+         <rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n"
     );
-    let line = |out: &mut String, x1: f64, y1: f64, x2: f64, y2: f64| {
-        let _ = writeln!(
-            out,
-            "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#ccc\"/>"
-        );
-    };
-    let text = |out: &mut String, x: f64, y: f64, anchor: &str, words: &str| {
-        let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>");
-    };
-    for bodies in [1.0, 2.0, 5.0, 10.0, 20.0, 40.0] {
-        if bodies <= 1.05 * 10f64.powf(most) {
-            line(&mut out, x(bodies), TOP, x(bodies), HEIGHT - BOTTOM);
-            text(&mut out, x(bodies), HEIGHT - BOTTOM + 18.0, "middle", &format!("{bodies}"));
-        }
-    }
-    let mut decade = low;
-    while decade <= high {
-        line(&mut out, LEFT, y(decade), WIDTH - RIGHT, y(decade));
-        text(&mut out, LEFT - 8.0, y(decade) + 4.0, "end", &format!("{} s", 10f64.powf(decade)));
-        decade += 1.0;
-    }
-    text(&mut out, (LEFT + WIDTH - RIGHT) / 2.0, HEIGHT - 12.0, "middle", "moving bodies");
-    text(&mut out, LEFT, 18.0, "start", "run time");
-    for (place, curve) in curves.iter().enumerate() {
-        let dash = if curve.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
-        let path: Vec<String> =
-            curve.points.iter().map(|(n, s)| format!("{:.1},{:.1}", x(*n), y(s.log10()))).collect();
-        let stroke = format!("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{dash}", curve.colour);
-        let _ = writeln!(out, "<polyline points=\"{}\" {stroke}/>", path.join(" "));
-        let (left, level) = (WIDTH - RIGHT + 20.0, TOP + 12.0 + 22.0 * place as f64);
-        let _ = writeln!(out, "<polyline points=\"{left},{level} {},{level}\" {stroke}/>", left + 36.0);
-        text(&mut out, left + 44.0, level + 4.0, "start", &curve.name);
+    frame.axes(&mut out);
+    let _ = writeln!(
+        out,
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">moving bodies</text>\
+         <text x=\"{left:.1}\" y=\"18\">run time</text>",
+        0.5 * (left + width - right),
+        height - 12.0
+    );
+    for (entry, curve) in curves.iter().enumerate() {
+        frame.curve(&mut out, &curve.style, &curve.points, 0.0);
+        frame.legend(&mut out, &curve.style, entry, &curve.name);
     }
     out.push_str("</svg>\n");
     out
@@ -108,13 +98,12 @@ mod tests {
 
     #[test]
     fn every_point_lies_within_the_picture() {
-        let curve = |dashed| Curve {
+        let curve = |index| Curve {
             name: "full".to_owned(),
-            colour: "#000",
-            dashed,
+            style: Style::number(index),
             points: vec![(1.0, 0.003), (5.0, 0.2), (39.0, 900.0)],
         };
-        let picture = svg(&[curve(false), curve(true)]);
+        let picture = svg(&[curve(0), curve(1)]);
         let numbers = picture.match_indices("points=\"").flat_map(|(at, key)| {
             let rest = &picture[at + key.len()..];
             let list = rest.split('"').next().unwrap_or_default();
@@ -125,14 +114,12 @@ mod tests {
                 })
                 .collect::<Vec<_>>()
         });
+        let [left, right, top, bottom] = MARGINS;
         let mut count = 0;
         for (x, y) in numbers {
-            assert!(
-                (LEFT..=WIDTH).contains(&x) && (TOP - 1.0..=HEIGHT - BOTTOM + 1.0).contains(&y),
-                "{x} {y}"
-            );
+            assert!((left..=SIZE.0 - right).contains(&x) && (top..=SIZE.1 - bottom).contains(&y), "{x} {y}");
             count += 1;
         }
-        assert_eq!(count, 10);
+        assert_eq!(count, 6);
     }
 }
