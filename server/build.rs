@@ -60,8 +60,10 @@ fn build_page(web: &Path) -> Result<(), Box<dyn Error>> {
     let lock = newest(&web.join("package-lock.json"));
     let installed = newest(&web.join("node_modules/.package-lock.json"));
     if installed.is_none() || lock > installed {
-        // Vite and what the page loads; the tools of `npm run check` are three times as many files.
-        npm(web, &["ci", "--omit=dev", "--no-audit", "--no-fund"])?;
+        // Vite and what the page loads. Who has installed the tools of `npm run check`, three times as many files,
+        // keeps them.
+        let tools = web.join("node_modules/typescript").exists();
+        npm(web, &["ci", if tools { "--include=dev" } else { "--omit=dev" }, "--no-audit", "--no-fund"])?;
     }
     npm(web, &["run", "build"])
 }

@@ -11,7 +11,7 @@ use crate::session::Registry;
 use crate::store::Store;
 use crate::variants::Variants;
 
-/// Where commands write reports and the workbench looks for them, unless told otherwise.
+/// Where commands write reports and the workbench looks for them, unless the command line says otherwise.
 pub const REPORTS: &str = "reports";
 
 /// The server's state; cheap to clone.

@@ -7,11 +7,12 @@ pub mod problem;
 
 pub mod limits;
 
-pub mod grading;
 pub mod scenes;
 pub mod store;
 pub mod stream;
 pub mod variants;
+
+pub mod grading;
 
 pub mod session;
 
@@ -19,9 +20,10 @@ pub mod lecture;
 
 pub mod app;
 
-pub mod api;
 pub mod page;
 pub mod reports;
+
+pub mod api;
 
 pub mod cli;
 

@@ -1,7 +1,7 @@
 //! The one error that leaves this crate: `application/problem+json` over HTTP, the same words on a terminal.
 //!
 //! Every error enum of the workspace is turned into a [`Problem`] in exactly one place (its `From`
-//! implementation), so that a mistake is told with the same code, sentence and remedy in the page, over HTTP
+//! implementation), so that a mistake is reported with the same code, sentence and remedy in the page, over HTTP
 //! and on the command line.
 
 use std::fmt;

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 /// Lessons that are kept.
 const KEPT: usize = 256;
 /// Longest seed, in characters: that of a student's name.
-pub const LONGEST_SEED: usize = 100;
+pub const MAX_SEED_LENGTH: usize = 100;
 
 /// The lessons of students who were here last.
 #[derive(Debug, Default)]
@@ -59,11 +59,11 @@ impl Variants {
 /// A seed of reasonable length, without control characters.
 pub fn checked(seed: &str) -> Result<&str, Problem> {
     let seed = seed.trim();
-    if seed.chars().count() > LONGEST_SEED || seed.chars().any(char::is_control) {
+    if seed.chars().count() > MAX_SEED_LENGTH || seed.chars().any(char::is_control) {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "invalid-seed",
-            format!("the seed has more than {LONGEST_SEED} characters, or control characters"),
+            format!("the seed has more than {MAX_SEED_LENGTH} characters, or control characters"),
             "use the student's name",
         ));
     }

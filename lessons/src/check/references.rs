@@ -33,7 +33,7 @@ pub(super) fn reference_answer(lesson: &Lesson, question: &Question) -> Answer {
         QuestionBody::Implement(task) => {
             let instances = Instances::new(task, &seed(lesson, &question.id));
             let parts = instances.and_then(|instances| instances.all_answers(&task.asks));
-            // Why there are no instances is told by the check of the question itself.
+            // Why there are no instances is reported by the check of the question itself.
             parts.map(|parts| file(program_file(&parts, task.states))).unwrap_or_default()
         }
         QuestionBody::Trajectory(task) => reference_csv(task, 1000).map(file).unwrap_or_default(),

@@ -18,7 +18,7 @@ use crate::files::{
 pub struct Exercise {
     /// Share of the points that passes the lesson.
     pub pass_mark: f64,
-    /// When the right answers are told.
+    /// When the right answers are shown.
     pub opens: OpensFile,
     /// The questions in order.
     pub questions: Vec<Question>,

@@ -109,7 +109,7 @@ impl Lesson {
     }
 }
 
-/// The scenario as JSON. It is also read as a scene here, so that a fault is told with its own file and line and not by
+/// The scenario as JSON. It is also read as a scene here, so that a fault is reported with its own file and line and not by
 /// the first question.
 fn scene(reader: &Reader) -> Result<serde_json::Value, LessonError> {
     let text = reader.text("scene.json", "it holds the scenario; start from a built-in one")?;
@@ -126,7 +126,7 @@ fn scene(reader: &Reader) -> Result<serde_json::Value, LessonError> {
     Ok(scene)
 }
 
-/// The questions with their answers; an error is told with the line of its question.
+/// The questions with their answers; an error is reported with the line of its question.
 fn questions(
     reader: &Reader,
     sources: &QuestionSources,

@@ -1,4 +1,4 @@
-//! The right answers, told when the author says so.
+//! The right answers, shown when the author says so.
 
 use super::sent::Verdict;
 use crate::answers::tolerance::ValueShape;
@@ -15,8 +15,8 @@ pub fn open(lesson: &Lesson, verdict: &mut Verdict, attempts: usize) {
     if !verdict.gradable || !(opens.passed && verdict.passed || enough) {
         return;
     }
-    for told in &mut verdict.questions {
-        told.reference_html = lesson.question(&told.id).and_then(reference);
+    for question in &mut verdict.questions {
+        question.reference_html = lesson.question(&question.id).and_then(reference);
     }
 }
 

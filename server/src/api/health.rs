@@ -31,7 +31,7 @@ struct Health {
 }
 
 /// How the server is.
-#[utoipa::path(get, path = "/health", tag = "server", responses(
+#[utoipa::path(get, path = "/health", operation_id = "get_health", tag = "server", responses(
     (status = 200, description = "It is well", body = ref(of::<Health>()))))]
 async fn health(State(app): State<App>) -> Answer<Health> {
     Answer(Health {

@@ -57,7 +57,7 @@ impl Default for Serve {
     }
 }
 
-/// Serves until it is told to stop.
+/// Serves until it is stopped.
 pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
     let store = Store::open(&options.database)?;
     let limits = Limits {

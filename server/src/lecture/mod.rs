@@ -76,7 +76,7 @@ struct Presentation {
     touched: Instant,
 }
 
-/// What followers are told beside the run.
+/// What followers see beside the run.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(rename = "LectureState")]
 pub struct PublicState {
@@ -92,7 +92,7 @@ pub struct PublicState {
     pub question: Option<QuestionView>,
 }
 
-/// What only the presenter is told.
+/// What only the presenter sees.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PresenterState {
     /// How many follow now.
@@ -123,7 +123,7 @@ impl Lecture {
         lecture
     }
 
-    /// The presenter's key, told once to whoever opened the lecture.
+    /// The presenter's key, sent once to whoever opened the lecture.
     pub fn key(&self) -> &str {
         &self.key
     }
@@ -142,7 +142,7 @@ impl Lecture {
         ))
     }
 
-    /// What followers are told beside the run.
+    /// What followers see beside the run.
     pub fn public_state(&self) -> PublicState {
         let presentation = self.presentation();
         let state = self.session().map(|session| session.state());
@@ -155,7 +155,7 @@ impl Lecture {
         }
     }
 
-    /// What the presenter is told.
+    /// What the presenter sees.
     pub fn presenter_state(&self) -> PresenterState {
         PresenterState {
             followers: self.followers.load(Ordering::Relaxed),
@@ -242,11 +242,11 @@ impl Lecture {
         Ok(seat)
     }
 
-    /// What is told of the run at one moment: asked once of the session however many followers want it.
+    /// An answer about the run at one moment: the session computes it once, however many followers want it.
     pub async fn cached<T: Future<Output = Result<Value, Problem>>>(
         &self,
         what: &str,
-        tell: impl FnOnce(Arc<Session>) -> T,
+        ask: impl FnOnce(Arc<Session>) -> T,
     ) -> Result<Value, Problem> {
         let session = self.session().ok_or_else(nothing_shown)?;
         // Whoever asks meanwhile waits here, and finds the answer.
@@ -256,7 +256,7 @@ impl Lecture {
         if let Some((_, value)) = cached.get(what).filter(|(of, _)| *of == moment) {
             return Ok(value.clone());
         }
-        let value = tell(session).await?;
+        let value = ask(session).await?;
         if cached.len() >= MAX_CACHED_RESPONSES {
             cached.clear();
         }

@@ -26,7 +26,7 @@ pub struct NewQuestion {
     pub text: String,
     /// What can be answered, two to eight choices.
     pub choices: Vec<String>,
-    /// The choice that is right, as an index, if one is; told to nobody before the reveal.
+    /// The choice that is right, as an index, if one is; a secret before the reveal.
     #[serde(default)]
     pub right: Option<usize>,
 }
@@ -68,7 +68,7 @@ pub struct Tally {
     pub counts: Vec<usize>,
     /// The choice that is right.
     pub right: Option<usize>,
-    /// Whether everybody has been told.
+    /// Whether the answer is open to everybody.
     pub revealed: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What may be done to a live session's scene: its numbers changed, a body pulled by the hand.
+//! What may be done to a live session's scene: its numbers changed, a body dragged.
 
 use std::collections::BTreeMap;
 
@@ -138,18 +138,18 @@ pub struct Drag {
     /// The point, from the centre of mass along the body's principal axes, m.
     #[serde(default)]
     pub point: [f64; 3],
-    /// Where it is pulled to, in the world, m.
+    /// Where it is dragged to, in the world, m.
     pub to: [f64; 3],
     /// Stiffness, N/m; one that suits the body's mass if it is not given.
     #[serde(default)]
     pub stiffness: Option<f64>,
 }
 
-/// The spring of the hand brings a body alone to rest in about this time, s.
-const HAND_PERIOD: f64 = 0.6;
+/// Natural period of a body alone on the spring of a drag, s.
+const DRAG_PERIOD: f64 = 0.6;
 
 impl Drag {
-    /// The scene with the hand's spring in it.
+    /// The scene with the spring in it.
     pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Problem> {
         let wrong = |pointer: &str, detail: String, hint: String| {
             Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "cannot-pull", detail.clone(), hint)
@@ -161,7 +161,7 @@ impl Drag {
             return Err(wrong("/body", detail, crate::problem::suggest(&self.body, names)));
         };
         let total: f64 = model.bodies.iter().map(|body| body.mass).sum();
-        let rate = std::f64::consts::TAU / HAND_PERIOD;
+        let rate = std::f64::consts::TAU / DRAG_PERIOD;
         let stiffness = self.stiffness.unwrap_or(total * rate * rate);
         let plain =
             self.point.iter().chain(&self.to).chain([&stiffness]).all(|x| x.is_finite() && x.abs() < 1e9);
@@ -175,8 +175,8 @@ impl Drag {
         while scene.loads.iter().any(|load| load.name() == name) {
             name.push('\'');
         }
-        let mut pulled = scene.clone();
-        pulled.loads.push(Load::Spring {
+        let mut dragged = scene.clone();
+        dragged.loads.push(Load::Spring {
             name,
             body_i: triad_engine::scene::GROUND.to_owned(),
             point_i: self.to,
@@ -187,6 +187,6 @@ impl Drag {
             damping: 0.6 * (stiffness * total).sqrt(),
             force: None,
         });
-        Ok(pulled)
+        Ok(dragged)
     }
 }

@@ -1,4 +1,4 @@
-//! What a session's thread is told.
+//! The commands of a session's thread.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,11 +25,11 @@ pub(super) enum Command {
     Reset(Reply<Arc<SessionState>>),
     /// Change numbers of the scene.
     Change(SceneChange, Reply<Arc<SessionState>>),
-    /// Pull a body by the hand, or let it go.
+    /// Drag a body by a spring, or let it go.
     Drag(Option<Drag>, Reply<Arc<SessionState>>),
-    /// Tell the scene.
+    /// Give the scene.
     Scene(Reply<SessionScene>),
-    /// Show the run as it is, or as it was at a time, to somebody who tells what is wanted of it.
+    /// Show the run as it is, or as it was at a time, to a function that reads from it what is wanted.
     Look(Option<f64>, Teller),
     /// Draw forces in another way; take their scale from the recording.
     Draw(Option<Arrows>, bool, Reply<Arc<SessionState>>),
@@ -42,7 +42,7 @@ pub(super) enum Command {
 /// Where an answer goes; the caller may have left.
 pub(super) type Reply<T> = oneshot::Sender<Result<T, Problem>>;
 
-/// Told of the run at the time that was asked for.
+/// Reads from the run at the time that was asked for.
 pub(super) type Teller = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;
 
 /// Flags that reach a worker while it is busy.

@@ -1,11 +1,11 @@
-//! The states that a run has gone through, for whoever looks back: what is asked is told for the state of then.
+//! The states that a run has gone through, for whoever looks back: a question about the past is answered from the state of then.
 
 use axum::http::StatusCode;
 use triad_engine::run::{Simulation, Snapshot};
 
 use crate::problem::Problem;
 
-/// Changes in the middle of a run that are kept apart; of those before, nothing is told any more.
+/// Changes in the middle of a run that are kept apart; what came before is forgotten.
 const MAX_CHAPTERS: usize = 32;
 /// Two times that differ less are one, s.
 const SAME: f64 = 1e-9;
@@ -134,8 +134,8 @@ mod tests {
         run.advance_to(0.3).expect("runs");
         history.keep(&mut run);
         for (k, force) in then.iter().enumerate() {
-            let told = tension(history.at(0.1 * k as f64 + 0.05, &run).expect("is kept"));
-            assert!((told / force - 1.0).abs() < 1e-9, "{told} {force}");
+            let found = tension(history.at(0.1 * k as f64 + 0.05, &run).expect("is kept"));
+            assert!((found / force - 1.0).abs() < 1e-9, "{found} {force}");
         }
         let now = tension(&mut run);
         assert!((tension(history.at(5.0, &run).expect("is kept")) / now - 1.0).abs() < 1e-9);

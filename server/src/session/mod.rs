@@ -72,21 +72,8 @@ impl Session {
         history.keep(&mut simulation);
         let signals = Arc::new(Signals::default());
         let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
-        let extra = state::Extra {
-            id: id.clone(),
-            source: source.clone(),
-            title: title.clone(),
-            playing: false,
-            speed: 1.0,
-            frames: 1,
-            frames_encoded: 0,
-            watchers: 0,
-            drawing: Drawing::of(&recording),
-            changes: 0,
-            pull: None,
-            error: None,
-        };
-        let (sender, state) = watch::channel(Arc::new(SessionState::of(&mut simulation, &extra)));
+        let facts = state::SessionFacts::at_start(&id, &source, &title, Drawing::of(&recording));
+        let (sender, state) = watch::channel(Arc::new(SessionState::of(&mut simulation, &facts)));
         let worker = Worker {
             id,
             source,
@@ -94,7 +81,7 @@ impl Session {
             original,
             scene,
             changes: 0,
-            pull: None,
+            drag: None,
             simulation,
             recording,
             history,
@@ -156,9 +143,9 @@ impl Session {
         self.ask(|reply| Command::Change(change, reply)).await
     }
 
-    /// Pulls a body by the hand, or lets it go.
-    pub async fn pull(&self, pull: Option<Drag>) -> Result<Arc<SessionState>, Problem> {
-        self.ask(|reply| Command::Drag(pull, reply)).await
+    /// Drags a body by a spring, or lets it go.
+    pub async fn drag(&self, drag: Option<Drag>) -> Result<Arc<SessionState>, Problem> {
+        self.ask(|reply| Command::Drag(drag, reply)).await
     }
 
     /// The scene as it is now.

@@ -64,7 +64,7 @@ pub struct JointForce {
 /// How forces are drawn in the viewer, for the page to do alike.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Drawing {
-    /// Which, and how they are told.
+    /// Which, and by which convention.
     #[serde(flatten)]
     pub arrows: Arrows,
     /// Length of a force's arrow, m/N.
@@ -178,7 +178,7 @@ pub struct SessionState {
     pub drawing: Drawing,
     /// How often the scene was changed since the session began.
     pub changes: u64,
-    /// The hand's spring, while a body is pulled.
+    /// The spring by which a body is dragged, while it is.
     pub pull: Option<Drag>,
     /// What the engine found or corrected in the scene, and what speaks against the result so far.
     pub notes: Vec<String>,
@@ -195,9 +195,9 @@ pub struct SessionState {
     pub links: Links,
 }
 
-/// What the worker knows beside the simulation.
+/// What the worker knows about the session, beside the simulation.
 #[derive(Debug, Clone)]
-pub(super) struct Extra {
+pub(super) struct SessionFacts {
     pub id: String,
     pub source: SceneSource,
     pub title: String,
@@ -208,13 +208,33 @@ pub(super) struct Extra {
     pub watchers: usize,
     pub drawing: Drawing,
     pub changes: u64,
-    pub pull: Option<Drag>,
+    pub drag: Option<Drag>,
     pub error: Option<Problem>,
+}
+
+impl SessionFacts {
+    /// Those of a session that has recorded its first frame.
+    pub(super) fn at_start(id: &str, source: &SceneSource, title: &str, drawing: Drawing) -> Self {
+        Self {
+            id: id.to_owned(),
+            source: source.clone(),
+            title: title.to_owned(),
+            playing: false,
+            speed: 1.0,
+            frames: 1,
+            frames_encoded: 0,
+            watchers: 0,
+            drawing,
+            changes: 0,
+            drag: None,
+            error: None,
+        }
+    }
 }
 
 impl SessionState {
     /// The state of a simulation.
-    pub(super) fn of(simulation: &mut Simulation, extra: &Extra) -> Self {
+    pub(super) fn of(simulation: &mut Simulation, facts: &SessionFacts) -> Self {
         let summary = simulation.summary();
         let frame = simulation.frame();
         let accelerations = simulation.mass_accelerations();
@@ -233,13 +253,13 @@ impl SessionState {
                 mass: body.mass,
             });
         Self {
-            id: extra.id.clone(),
-            source: extra.source.clone(),
-            title: extra.title.clone(),
+            id: facts.id.clone(),
+            source: facts.source.clone(),
+            title: facts.title.clone(),
             time: simulation.time(),
             duration: simulation.duration(),
-            playing: extra.playing,
-            speed: extra.speed,
+            playing: facts.playing,
+            speed: facts.speed,
             finished: summary.finished,
             q: simulation.q().to_vec(),
             q_dot: simulation.q_dot().to_vec(),
@@ -252,18 +272,18 @@ impl SessionState {
             evaluations: summary.evaluations,
             factorizations: summary.factorizations,
             projections: summary.projections,
-            frames: extra.frames,
-            frames_encoded: extra.frames_encoded,
-            watchers: extra.watchers,
-            drawing: extra.drawing.clone(),
-            changes: extra.changes,
-            pull: extra.pull.clone(),
+            frames: facts.frames,
+            frames_encoded: facts.frames_encoded,
+            watchers: facts.watchers,
+            drawing: facts.drawing.clone(),
+            changes: facts.changes,
+            pull: facts.drag.clone(),
             notes: [simulation.notes(), &summary.doubts].concat(),
-            error: extra.error.as_ref().map(Problem::document),
+            error: facts.error.as_ref().map(Problem::document),
             bodies: bodies.collect(),
             forces,
             gravity: simulation.model().gravity.into(),
-            links: Links::new(&extra.id),
+            links: Links::new(&facts.id),
         }
     }
 }
@@ -272,14 +292,15 @@ fn forces(simulation: &mut Simulation) -> Vec<JointForce> {
     if simulation.system().groups.len() > MAX_FORCES {
         return Vec::new();
     }
-    let told = simulation.multipliers().into_iter();
-    told.map(|joint| JointForce {
-        joint: joint.joint,
-        on: joint.on,
-        by: joint.by,
-        at: joint.about,
-        force: joint.force,
-        moment: joint.moment,
-    })
-    .collect()
+    let multipliers = simulation.multipliers().into_iter();
+    multipliers
+        .map(|joint| JointForce {
+            joint: joint.joint,
+            on: joint.on,
+            by: joint.by,
+            at: joint.about,
+            force: joint.force,
+            moment: joint.moment,
+        })
+        .collect()
 }

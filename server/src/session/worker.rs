@@ -14,7 +14,7 @@ use super::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
 use super::command::{Command, Signals};
 use super::history::History;
 use super::recording::{Recording, TICK, describe};
-use super::state::{Drawing, Extra, SceneSource, SessionState};
+use super::state::{Drawing, SceneSource, SessionFacts, SessionState};
 use crate::problem::Problem;
 
 /// Integrator steps between two looks at the clock and at what callers want.
@@ -27,10 +27,10 @@ pub(super) struct Worker {
     pub title: String,
     /// The scene as its author wrote it.
     pub original: Scene,
-    /// The scene that runs, without the hand's spring.
+    /// The scene that runs, without the spring of a drag.
     pub scene: Scene,
     pub changes: u64,
-    pub pull: Option<Drag>,
+    pub drag: Option<Drag>,
     pub simulation: Simulation,
     pub recording: Recording,
     pub history: History,
@@ -96,20 +96,15 @@ impl Worker {
                 drop(reply.send(self.answer(Ok(()))));
             }
             Command::Reset(reply) => {
-                self.play = None;
-                self.error = None;
-                self.simulation.reset();
-                self.recording.restart();
-                self.history.clear();
-                let result = self.record();
+                let result = self.reset();
                 drop(reply.send(self.answer(result)));
             }
             Command::Change(change, reply) => {
                 let result = self.change(&change);
                 drop(reply.send(self.answer_to_change(result)));
             }
-            Command::Drag(pull, reply) => {
-                let result = self.pull(pull);
+            Command::Drag(drag, reply) => {
+                let result = self.drag(drag);
                 drop(reply.send(self.answer_to_change(result)));
             }
             Command::Scene(reply) => drop(reply.send(Ok(SessionScene::new(&self.scene, &self.original)))),
@@ -134,13 +129,23 @@ impl Worker {
         }
     }
 
+    /// Goes back to the start; a new recording begins.
+    fn reset(&mut self) -> Result<(), Problem> {
+        self.play = None;
+        self.error = None;
+        self.simulation.reset();
+        self.recording.restart();
+        self.history.clear();
+        self.record()
+    }
+
     /// Runs the scene with other numbers. If they are refused, the run goes on with the old ones.
     fn change(&mut self, change: &SceneChange) -> Result<(), Problem> {
         let (scene, then) = change.of(&self.scene)?;
         if then == AfterChange::Restart {
-            self.pull = None;
+            self.drag = None;
         }
-        let mut next = self.assembled(&scene, self.pull.as_ref())?;
+        let mut next = self.assembled(&scene, self.drag.as_ref())?;
         let description = describe(&scene, &mut next);
         match then {
             AfterChange::Restart => self.error = None,
@@ -171,19 +176,19 @@ impl Worker {
         Ok(())
     }
 
-    fn pull(&mut self, pull: Option<Drag>) -> Result<(), Problem> {
-        let mut next = self.assembled(&self.scene, pull.as_ref())?;
+    fn drag(&mut self, drag: Option<Drag>) -> Result<(), Problem> {
+        let mut next = self.assembled(&self.scene, drag.as_ref())?;
         self.transfer_state(&mut next)?;
         self.history.start_segment(std::mem::replace(&mut self.simulation, next));
-        self.pull = pull;
+        self.drag = drag;
         self.run_on();
         Ok(())
     }
 
-    fn assembled(&self, scene: &Scene, pull: Option<&Drag>) -> Result<Simulation, Problem> {
-        Ok(match pull {
+    fn assembled(&self, scene: &Scene, drag: Option<&Drag>) -> Result<Simulation, Problem> {
+        Ok(match drag {
             None => Simulation::new(&as_it_runs(scene))?,
-            Some(pull) => Simulation::new(&as_it_runs(&pull.added_to(scene, self.simulation.model())?))?,
+            Some(drag) => Simulation::new(&as_it_runs(&drag.added_to(scene, self.simulation.model())?))?,
         })
     }
 
@@ -346,7 +351,7 @@ impl Worker {
 
     fn publish(&mut self) {
         let (frames, frames_encoded) = self.recording.counts();
-        let extra = Extra {
+        let facts = SessionFacts {
             id: self.id.clone(),
             source: self.source.clone(),
             title: self.title.clone(),
@@ -357,9 +362,9 @@ impl Worker {
             watchers: self.recording.watchers(),
             drawing: Drawing::of(&self.recording),
             changes: self.changes,
-            pull: self.pull.clone(),
+            drag: self.drag.clone(),
             error: self.error.clone(),
         };
-        self.state.send_replace(Arc::new(SessionState::of(&mut self.simulation, &extra)));
+        self.state.send_replace(Arc::new(SessionState::of(&mut self.simulation, &facts)));
     }
 }

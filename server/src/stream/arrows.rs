@@ -5,36 +5,25 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use triad_engine::reactions::report::Side;
 
 use super::description::{JointVisual, SceneDescription};
 use super::sample::Sample;
 use super::scale::{NO_MOMENT, has_moment};
 use super::vector::{cross, minus, norm, plus, times};
 
-/// Which forces are drawn and how they are told.
+/// Which forces are drawn, and by which convention.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Arrows {
     /// On the first or on the second body of each joint.
-    pub on: On,
+    pub on: Side,
     /// About which point: there the force is drawn and the moment taken.
     pub about: MomentPoint,
     /// Which of them.
     pub drawn: DrawnForces,
     /// The joint that is marked, because somebody selected it or its rows.
     pub marked: Option<String>,
-}
-
-/// The body that is acted on.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-#[schemars(rename = "ArrowSide")]
-pub enum On {
-    /// Body i.
-    I,
-    /// Body j.
-    #[default]
-    J,
 }
 
 /// The point about which moments are taken.
@@ -158,15 +147,15 @@ impl Arrows {
 
     /// The sign of a joint's force, and the body that it acts on; nothing if it is not drawn.
     fn side_of(&self, visual: &JointVisual, description: &SceneDescription) -> Option<(f64, Option<usize>)> {
-        let told_on = (1.0, visual.on);
-        let other = (-1.0, visual.by);
+        let first = (1.0, visual.on);
+        let second = (-1.0, visual.by);
         match &self.drawn {
             DrawnForces::None => None,
             DrawnForces::Joint(name) if *name != visual.name => None,
-            DrawnForces::All | DrawnForces::Joint(_) => Some(if self.on == On::J { told_on } else { other }),
+            DrawnForces::All | DrawnForces::Joint(_) => Some(if self.on == Side::J { first } else { second }),
             DrawnForces::Body(name) => {
                 let body = description.bodies.iter().position(|body| body.name == *name)?;
-                [told_on, other].into_iter().find(|(_, on)| *on == Some(body))
+                [first, second].into_iter().find(|(_, on)| *on == Some(body))
             }
         }
     }
@@ -324,7 +313,7 @@ mod tests {
         assert!(on_j.circles[0].iter().all(|p| (norm(*p) - 0.2).abs() < 1e-12 && p[2] == 0.0));
         // It turns as the moment does: counter-clockwise about +z.
         assert!(cross(on_j.circles[0][0], on_j.circles[0][1])[2] > 0.0);
-        arrows.on = On::I;
+        arrows.on = Side::I;
         let on_i = arrows.of_joint(&description, 0, &sample);
         assert_eq!(on_i.pieces[0].vector, [0.0, -0.25, 0.0]);
         assert!(cross(on_i.circles[0][0], on_i.circles[0][1])[2] < 0.0);

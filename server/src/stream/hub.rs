@@ -1,6 +1,6 @@
 //! One recording, kept once, watched by many.
 //!
-//! A watcher holds no queue: only its place in the one history. One that is slow, or stands still, costs
+//! A watcher holds no queue: only its place in the recording. One that is slow, or stands still, costs
 //! nothing and harms nobody; it reads on from its place when it can.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,14 +12,14 @@ use tokio::sync::watch;
 /// The encoded recording of a session: complete RRD blocks, oldest first.
 #[derive(Debug)]
 pub struct Hub {
-    history: Mutex<History>,
-    /// Changes whenever the history does.
+    recording: Mutex<RecordedBlocks>,
+    /// Changes whenever the recording does.
     changed: watch::Sender<()>,
     watchers: AtomicUsize,
 }
 
 #[derive(Debug, Default)]
-struct History {
+struct RecordedBlocks {
     /// Counts the recordings: a reset starts another.
     epoch: u64,
     blocks: Vec<Bytes>,
@@ -28,25 +28,25 @@ struct History {
 
 impl Default for Hub {
     fn default() -> Self {
-        Self { history: Mutex::default(), changed: watch::Sender::new(()), watchers: AtomicUsize::new(0) }
+        Self { recording: Mutex::default(), changed: watch::Sender::new(()), watchers: AtomicUsize::new(0) }
     }
 }
 
 impl Hub {
     /// Adds a block for everybody, now and later.
     pub fn push(&self, block: Vec<u8>) {
-        let mut history = self.lock();
-        history.bytes += block.len();
-        history.blocks.push(block.into());
-        drop(history);
+        let mut recording = self.lock();
+        recording.bytes += block.len();
+        recording.blocks.push(block.into());
+        drop(recording);
         self.changed.send_replace(());
     }
 
-    /// Forgets the recording; watchers are told that another one begins.
+    /// Forgets the recording; watchers learn that another one begins.
     pub fn restart(&self) {
-        let mut history = self.lock();
-        *history = History { epoch: history.epoch + 1, ..History::default() };
-        drop(history);
+        let mut recording = self.lock();
+        *recording = RecordedBlocks { epoch: recording.epoch + 1, ..RecordedBlocks::default() };
+        drop(recording);
         self.changed.send_replace(());
     }
 
@@ -67,13 +67,13 @@ impl Hub {
         Watcher { changed: self.changed.subscribe(), hub: Arc::clone(self), epoch, next: 0 }
     }
 
-    fn lock(&self) -> MutexGuard<'_, History> {
+    fn lock(&self) -> MutexGuard<'_, RecordedBlocks> {
         // Every change is a single push or assignment, so a panic elsewhere leaves nothing half-done.
-        self.history.lock().unwrap_or_else(PoisonError::into_inner)
+        self.recording.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// What a watcher is handed.
+/// What a watcher receives.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Delivery {
     /// The next blocks, each complete in itself.
@@ -94,14 +94,14 @@ pub struct Watcher {
 impl Watcher {
     /// What there is now, if anything, without waiting.
     pub fn poll(&mut self) -> Option<Delivery> {
-        let history = self.hub.lock();
-        if history.epoch != self.epoch {
-            self.epoch = history.epoch;
+        let recording = self.hub.lock();
+        if recording.epoch != self.epoch {
+            self.epoch = recording.epoch;
             self.next = 0;
             return Some(Delivery::Restarted);
         }
-        let blocks: Vec<Bytes> = history.blocks[self.next..].to_vec();
-        self.next = history.blocks.len();
+        let blocks: Vec<Bytes> = recording.blocks[self.next..].to_vec();
+        self.next = recording.blocks.len();
         (!blocks.is_empty()).then_some(Delivery::Blocks(blocks))
     }
 
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_late_watcher_gets_the_history_and_a_slow_one_catches_up() {
+    fn a_late_watcher_gets_the_whole_recording_and_a_slow_one_catches_up() {
         let hub = Arc::new(Hub::default());
         let mut slow = hub.watch();
         hub.push(vec![1]);

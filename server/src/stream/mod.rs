@@ -19,7 +19,7 @@ mod layout;
 
 mod recorder;
 
-pub use arrows::{Arrows, DrawnForces, MomentPoint, On};
+pub use arrows::{Arrows, DrawnForces, MomentPoint};
 pub use description::{BodyVisual, JointVisual, Pattern, SceneDescription};
 pub use hub::{Delivery, Hub, Watcher};
 pub use layout::Camera;

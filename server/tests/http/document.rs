@@ -1,5 +1,7 @@
 //! The description of the interface, scenes and the page.
 
+use std::collections::BTreeSet;
+
 use axum::body::Body;
 use axum::http::{Request, header};
 use serde_json::json;
@@ -21,10 +23,13 @@ async fn the_description_is_the_one_that_was_reviewed() {
         reviewed == written,
         "server/openapi.json differs: set TRIAD_WRITE_GOLDEN=1, test again, read the change"
     );
+    let mut names = BTreeSet::new();
     for (path, item) in document["paths"].as_object().expect("paths") {
         for (method, operation) in item.as_object().expect("methods") {
             assert!(operation["tags"].is_array(), "{method} {path} has no tag");
             assert!(operation["summary"].is_string(), "{method} {path} has no summary");
+            let name = operation["operationId"].as_str().expect("a name");
+            assert!(names.insert(name.to_owned()), "{method} {path}: a second {name}");
         }
     }
 }

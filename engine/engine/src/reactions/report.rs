@@ -11,7 +11,7 @@ use triad_dynamics::system::{Group, System};
 use triad_linalg::orthonormal_basis;
 
 /// Which of the two bodies of a joint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
     /// Body i.

@@ -15,8 +15,8 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas};
-use crate::api::extract::At;
-use crate::api::sessions::stream::{Disconnected, Line, PING_INTERVAL, upgrade};
+use crate::api::extract::PathParameters;
+use crate::api::sessions::stream::{Disconnected, PING_INTERVAL, ViewerSocket, upgrade};
 use crate::app::App;
 use crate::lecture::{Follower, LectureMessage, LiveView};
 use crate::problem::Problem;
@@ -36,7 +36,7 @@ struct Wish {
 }
 
 /// Follow a lecture: a WebSocket of boards and states (text) and, if wanted, of RRD blocks (binary).
-#[utoipa::path(get, path = "/rooms/{code}/stream", tag = "rooms", params(("code" = String, Path),
+#[utoipa::path(get, path = "/rooms/{code}/stream", operation_id = "follow_lecture", tag = "rooms", params(("code" = String, Path),
     ("recording" = Option<bool>, Query, description = "Send the recording for the 3-D view too")), responses(
     (status = 101, description = "The socket is open"),
     (status = 404, description = "No such room", body = ref(PROBLEM)),
@@ -44,7 +44,7 @@ struct Wish {
     (status = 503, description = "The room is full", body = ref(PROBLEM))))]
 async fn follow(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     Query(wish): Query<Wish>,
     request: Request,
 ) -> Result<Response, Problem> {
@@ -55,11 +55,15 @@ async fn follow(
     let patience = app.limits.stalled_viewer;
     Ok(upgrade.on_upgrade(move |socket| async move {
         // However it ends, the follower is given back.
-        drop(follow_on(Line { socket, patience }, follower, wish.recording).await);
+        drop(follow_on(ViewerSocket { socket, patience }, follower, wish.recording).await);
     }))
 }
 
-async fn follow_on(mut line: Line, mut follower: Follower, recording: bool) -> Result<(), Disconnected> {
+async fn follow_on(
+    mut viewer: ViewerSocket,
+    mut follower: Follower,
+    recording: bool,
+) -> Result<(), Disconnected> {
     let mut watcher: Option<Watcher> = None;
     let mut ping = interval(PING_INTERVAL);
     ping.set_missed_tick_behavior(MissedTickBehavior::Delay);
@@ -68,7 +72,7 @@ async fn follow_on(mut line: Line, mut follower: Follower, recording: bool) -> R
     follower.state.mark_changed();
     loop {
         tokio::select! {
-            received = line.socket.recv() => match received {
+            received = viewer.socket.recv() => match received {
                 // Nothing that a follower says here changes anything.
                 Some(Ok(message)) if !matches!(message, Message::Close(_)) => {}
                 _ => return Ok(()),
@@ -77,11 +81,11 @@ async fn follow_on(mut line: Line, mut follower: Follower, recording: bool) -> R
                 let shown = changed.map(|()| follower.live.borrow_and_update().clone()).unwrap_or(LiveView::Closed);
                 watcher = match shown {
                     LiveView::Closed => {
-                        line.tell(&LectureMessage::Closed).await?;
-                        return line.send(Message::Close(None)).await;
+                        viewer.tell(&LectureMessage::Closed).await?;
+                        return viewer.send(Message::Close(None)).await;
                     }
                     LiveView::Session(session) if recording => {
-                        line.tell(&LectureMessage::Reset).await?;
+                        viewer.tell(&LectureMessage::Reset).await?;
                         Some(session.watch())
                     }
                     LiveView::Session(_) | LiveView::Empty => None,
@@ -90,22 +94,22 @@ async fn follow_on(mut line: Line, mut follower: Follower, recording: bool) -> R
             changed = follower.public.changed() => {
                 if changed.is_ok() {
                     let public = follower.public.borrow_and_update().clone();
-                    line.send(Message::Text(public)).await?;
+                    viewer.send(Message::Text(public)).await?;
                 }
             },
             changed = follower.state.changed() => {
                 let state = follower.state.borrow_and_update().clone();
                 if changed.is_ok() && !state.is_empty() {
-                    line.send(Message::Text(state)).await?;
+                    viewer.send(Message::Text(state)).await?;
                 }
             },
             delivery = next(&mut watcher) => match delivery {
-                Some(Delivery::Blocks(blocks)) => line.blocks(blocks).await?,
-                Some(Delivery::Restarted) => line.tell(&LectureMessage::Reset).await?,
+                Some(Delivery::Blocks(blocks)) => viewer.blocks(blocks).await?,
+                Some(Delivery::Restarted) => viewer.tell(&LectureMessage::Reset).await?,
                 // The session is gone; the presenter may show another.
                 None => watcher = None,
             },
-            _ = ping.tick() => line.send(Message::Ping(axum::body::Bytes::new())).await?,
+            _ = ping.tick() => viewer.send(Message::Ping(axum::body::Bytes::new())).await?,
         }
     }
 }

@@ -15,7 +15,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{Asked, At, Json};
+use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::sessions::matrices::{AtTime, JacobianView, SymmetricView, jacobian_of, symmetric_of};
 use crate::api::sessions::reactions::{
     MultipliersList, ReactionQuery, ReactionsView, multipliers_of, reactions_of,
@@ -62,14 +62,14 @@ struct NewLecture {
 struct OpenedLecture {
     /// What followers type to join.
     code: String,
-    /// Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is told only here.
+    /// Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is sent only here.
     key: String,
     /// Where followers go, below the server's address.
     page: String,
 }
 
 /// Open a lecture room for a session.
-#[utoipa::path(post, path = "/rooms", tag = "rooms", request_body(content = ref(of::<NewLecture>())), responses(
+#[utoipa::path(post, path = "/rooms", operation_id = "open_lecture", tag = "rooms", request_body(content = ref(of::<NewLecture>())), responses(
     (status = 201, description = "The room, and the presenter's key", body = ref(of::<OpenedLecture>())),
     (status = 404, description = "No such session", body = ref(PROBLEM)),
     (status = 503, description = "All rooms are in use", body = ref(PROBLEM))))]
@@ -84,20 +84,23 @@ async fn open(State(app): State<App>, Json(new): Json<NewLecture>) -> Result<imp
 }
 
 /// What is shown and asked in a room.
-#[utoipa::path(get, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 200, description = "What followers are told", body = ref(of::<PublicState>())),
+#[utoipa::path(get, path = "/rooms/{code}", operation_id = "get_lecture", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 200, description = "What followers see", body = ref(of::<PublicState>())),
     (status = 404, description = "No such room", body = ref(PROBLEM))))]
-async fn board(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<PublicState>, Problem> {
+async fn board(
+    State(app): State<App>,
+    PathParameters(code): PathParameters<String>,
+) -> Result<axum::Json<PublicState>, Problem> {
     Ok(axum::Json(app.lectures.get(&code)?.public_state()))
 }
 
 /// End a lecture. For the presenter.
-#[utoipa::path(delete, path = "/rooms/{code}", tag = "rooms", params(("code" = String, Path)), responses(
+#[utoipa::path(delete, path = "/rooms/{code}", operation_id = "close_lecture", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 204, description = "It is over"),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn close(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     let room = led(&app, &code, &headers)?;
@@ -116,13 +119,13 @@ struct NewLectureView {
 }
 
 /// Show something else. For the presenter.
-#[utoipa::path(put, path = "/rooms/{code}/view", tag = "rooms", params(("code" = String, Path)),
+#[utoipa::path(put, path = "/rooms/{code}/view", operation_id = "show_view", tag = "rooms", params(("code" = String, Path)),
     request_body(content = ref(of::<NewLectureView>())), responses(
-    (status = 204, description = "Followers are being told"),
+    (status = 204, description = "Followers are being sent it"),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn show(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
     Json(new): Json<NewLectureView>,
 ) -> Result<StatusCode, Problem> {
@@ -137,26 +140,26 @@ async fn show(
 }
 
 /// How many follow, and how the answers stand. For the presenter.
-#[utoipa::path(get, path = "/rooms/{code}/desk", tag = "rooms", params(("code" = String, Path)), responses(
+#[utoipa::path(get, path = "/rooms/{code}/desk", operation_id = "get_presenter_state", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 200, description = "Followers and answers", body = ref(of::<PresenterState>())),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn desk(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<axum::Json<PresenterState>, Problem> {
     Ok(axum::Json(led(&app, &code, &headers)?.presenter_state()))
 }
 
 /// Ask a question. For the presenter.
-#[utoipa::path(put, path = "/rooms/{code}/question", tag = "rooms", params(("code" = String, Path)),
+#[utoipa::path(put, path = "/rooms/{code}/question", operation_id = "ask_question", tag = "rooms", params(("code" = String, Path)),
     request_body(content = ref(of::<NewQuestion>())), responses(
     (status = 204, description = "It is asked"),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM)),
     (status = 422, description = "The question was refused", body = ref(PROBLEM))))]
 async fn ask(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
     Json(new): Json<NewQuestion>,
 ) -> Result<StatusCode, Problem> {
@@ -165,12 +168,12 @@ async fn ask(
 }
 
 /// Take the question away. For the presenter.
-#[utoipa::path(delete, path = "/rooms/{code}/question", tag = "rooms", params(("code" = String, Path)), responses(
+#[utoipa::path(delete, path = "/rooms/{code}/question", operation_id = "withdraw_question", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 204, description = "It is gone"),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn forget(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     led(&app, &code, &headers)?.forget_question();
@@ -178,12 +181,12 @@ async fn forget(
 }
 
 /// Tell everybody how the answers stand and which is right. For the presenter.
-#[utoipa::path(post, path = "/rooms/{code}/reveal", tag = "rooms", params(("code" = String, Path)), responses(
-    (status = 204, description = "Everybody is told"),
+#[utoipa::path(post, path = "/rooms/{code}/reveal", operation_id = "reveal_answer", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 204, description = "The answer is open to everybody"),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
 async fn reveal(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     led(&app, &code, &headers)?.reveal()?;
@@ -191,13 +194,13 @@ async fn reveal(
 }
 
 /// Answer the question.
-#[utoipa::path(post, path = "/rooms/{code}/answers", tag = "rooms", params(("code" = String, Path)),
+#[utoipa::path(post, path = "/rooms/{code}/answers", operation_id = "vote", tag = "rooms", params(("code" = String, Path)),
     request_body(content = ref(of::<Vote>())), responses(
     (status = 204, description = "It is counted"),
     (status = 409, description = "There is no such question any more", body = ref(PROBLEM))))]
 async fn answer(
     State(app): State<App>,
-    At(code): At<String>,
+    PathParameters(code): PathParameters<String>,
     Json(vote): Json<Vote>,
 ) -> Result<StatusCode, Problem> {
     app.lectures.get(&code)?.vote(&vote)?;
@@ -213,9 +216,12 @@ fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Lecture>, Probl
 }
 
 /// The scene that is shown, as it is now.
-#[utoipa::path(get, path = "/rooms/{code}/scene", tag = "rooms", params(("code" = String, Path)), responses(
+#[utoipa::path(get, path = "/rooms/{code}/scene", operation_id = "get_lecture_scene", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 200, description = "As /sessions/{id}/scene", body = ref(of::<SessionScene>()))))]
-async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Json<Value>, Problem> {
+async fn scene(
+    State(app): State<App>,
+    PathParameters(code): PathParameters<String>,
+) -> Result<axum::Json<Value>, Problem> {
     let answer = app
         .lectures
         .get(&code)?
@@ -225,12 +231,12 @@ async fn scene(State(app): State<App>, At(code): At<String>) -> Result<axum::Jso
 }
 
 /// The Jacobian of the session that is shown.
-#[utoipa::path(get, path = "/rooms/{code}/jacobian", tag = "rooms", params(("code" = String, Path),
+#[utoipa::path(get, path = "/rooms/{code}/jacobian", operation_id = "get_lecture_jacobian", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/jacobian", body = ref(of::<JacobianView>()))))]
 async fn jacobian(
     State(app): State<App>,
-    At(code): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(code): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("jacobian {:?}", when.at);
     let answer = app
@@ -242,23 +248,23 @@ async fn jacobian(
 }
 
 /// The augmented matrix of the session that is shown.
-#[utoipa::path(get, path = "/rooms/{code}/augmented", tag = "rooms", params(("code" = String, Path),
+#[utoipa::path(get, path = "/rooms/{code}/augmented", operation_id = "get_lecture_augmented_matrix", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/augmented", body = ref(of::<SymmetricView>()))))]
 async fn augmented(
     State(app): State<App>,
-    At(code): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(code): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     symmetric(&app, &code, "augmented", when, Simulation::augmented).await
 }
 
 /// The matrix that the solver factors, of the session that is shown.
-#[utoipa::path(get, path = "/rooms/{code}/schur", tag = "rooms", params(("code" = String, Path),
+#[utoipa::path(get, path = "/rooms/{code}/schur", operation_id = "get_lecture_schur_complement", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/schur", body = ref(of::<SymmetricView>()))))]
 async fn schur(
     State(app): State<App>,
-    At(code): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(code): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     symmetric(&app, &code, "schur", when, Simulation::schur).await
 }
@@ -279,13 +285,13 @@ async fn symmetric(
 }
 
 /// The multipliers of the session that is shown.
-#[utoipa::path(get, path = "/rooms/{code}/multipliers", tag = "rooms", params(("code" = String, Path),
+#[utoipa::path(get, path = "/rooms/{code}/multipliers", operation_id = "get_lecture_multipliers", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)),
     responses((status = 200, description = "As /sessions/{id}/multipliers", body = ref(of::<MultipliersList>()))))]
 async fn multipliers(
     State(app): State<App>,
-    At(code): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(code): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("multipliers {:?}", when.at);
     let room = app.lectures.get(&code)?;
@@ -295,14 +301,14 @@ async fn multipliers(
 }
 
 /// The reactions of the session that is shown.
-#[utoipa::path(get, path = "/rooms/{code}/reactions", tag = "rooms", params(("code" = String, Path),
+#[utoipa::path(get, path = "/rooms/{code}/reactions", operation_id = "get_lecture_reactions", tag = "rooms", params(("code" = String, Path),
     ("on" = Option<String>, Query), ("about" = Option<String>, Query), ("in" = Option<String>, Query),
     ("at" = Option<f64>, Query)),
     responses((status = 200, description = "As /sessions/{id}/reactions", body = ref(of::<ReactionsView>()))))]
 async fn reactions(
     State(app): State<App>,
-    At(code): At<String>,
-    Asked(wanted): Asked<ReactionQuery>,
+    PathParameters(code): PathParameters<String>,
+    QueryParameters(wanted): QueryParameters<ReactionQuery>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("reactions {wanted:?}");
     let room = app.lectures.get(&code)?;

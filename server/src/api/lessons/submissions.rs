@@ -19,7 +19,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{Asked, At, Json};
+use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
@@ -27,7 +27,7 @@ use crate::store::{Query, Submission};
 use crate::{blocking, grading};
 
 /// Longest name of a student, in characters.
-const LONGEST_NAME: usize = 100;
+const MAX_NAME_LENGTH: usize = 100;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<triad_lessons::Submission>();
@@ -54,7 +54,7 @@ struct GradedSubmission {
 /// that does not exist) the verdict says `gradable: false` and what to correct; nothing is kept, no attempt used.
 /// Where the author opens the right answers (to those who passed, or after so many attempts), each question has its
 /// `reference_html`.
-#[utoipa::path(post, path = "/lessons/{slug}/submissions", tag = "submissions", params(("slug" = String, Path)),
+#[utoipa::path(post, path = "/lessons/{slug}/submissions", operation_id = "submit_answers", tag = "submissions", params(("slug" = String, Path)),
     request_body(content = ref(of::<triad_lessons::Submission>()), example = json!({"student": "ada", "answers": {"tension": {"value": "29.4", "unit": "N"}}})),
     responses(
     (status = 201, description = "Graded and kept", body = ref(of::<GradedSubmission>())),
@@ -63,7 +63,7 @@ struct GradedSubmission {
     (status = 422, description = "Not a submission", body = ref(PROBLEM))))]
 async fn submit(
     State(app): State<App>,
-    At(slug): At<String>,
+    PathParameters(slug): PathParameters<String>,
     Json(body): Json<Value>,
 ) -> Result<impl IntoResponse, Problem> {
     blocking(move || {
@@ -111,8 +111,8 @@ fn student(name: Option<&str>) -> Result<String, Problem> {
     let name = name.unwrap_or_default().trim();
     let wrong = if name.is_empty() {
         "the submission does not say whose it is".to_owned()
-    } else if name.chars().count() > LONGEST_NAME {
-        format!("the student's name has more than {LONGEST_NAME} characters")
+    } else if name.chars().count() > MAX_NAME_LENGTH {
+        format!("the student's name has more than {MAX_NAME_LENGTH} characters")
     } else if name.chars().any(char::is_control) {
         "the student's name has control characters".to_owned()
     } else {
@@ -173,7 +173,7 @@ struct KeptAnswer {
     /// The file that was handed in.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<KeptFile>,
-    /// RunSettings of a run.
+    /// The settings of a run.
     #[serde(skip_serializing_if = "Option::is_none")]
     settings: Option<RunSettings>,
 }
@@ -190,11 +190,11 @@ struct KeptFile {
 struct SubmissionList(Vec<KeptSubmission>);
 
 /// Submissions with their verdicts, newest first.
-#[utoipa::path(get, path = "/submissions", tag = "submissions", params(Filter), responses(
+#[utoipa::path(get, path = "/submissions", operation_id = "list_submissions", tag = "submissions", params(Filter), responses(
     (status = 200, description = "The verdicts, and the answers they are about", body = ref(of::<SubmissionList>()))))]
 async fn list(
     State(app): State<App>,
-    Asked(filter): Asked<Filter>,
+    QueryParameters(filter): QueryParameters<Filter>,
 ) -> Result<Answer<SubmissionList>, Problem> {
     let limit = filter.limit.unwrap_or(100).min(app.limits.submissions);
     let query = Query { student: filter.student, lesson: filter.lesson, limit };

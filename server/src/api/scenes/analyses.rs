@@ -50,7 +50,7 @@ struct AnalysisRequest {
 }
 
 /// Consistent positions and velocities from a rough start.
-#[utoipa::path(post, path = "/analyses/assembly", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+#[utoipa::path(post, path = "/analyses/assembly", operation_id = "assemble_scene", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
     (status = 200, description = "Where each body came to lie, and how far it was moved", body = ref(of::<Assembly>())),
     (status = 422, description = "The scene cannot be assembled", body = ref(PROBLEM))))]
 async fn assembly(
@@ -61,7 +61,7 @@ async fn assembly(
 }
 
 /// Positions, velocities, accelerations and driving forces of a scene whose drivers leave it no freedom.
-#[utoipa::path(post, path = "/analyses/kinematics", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+#[utoipa::path(post, path = "/analyses/kinematics", operation_id = "analyse_kinematics", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
     (status = 200, description = "One state for each output time, with the reactions of joints and drivers",
         body = ref(of::<Kinematics>())),
     (status = 422, description = "The scene is free to move, or too long", body = ref(PROBLEM))))]
@@ -73,7 +73,7 @@ async fn kinematics(
 }
 
 /// A position of rest near the start, whether it is stable, and the reactions there.
-#[utoipa::path(post, path = "/analyses/equilibrium", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+#[utoipa::path(post, path = "/analyses/equilibrium", operation_id = "find_equilibrium", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
     (status = 200, description = "The position and its reactions", body = ref(of::<Equilibrium>())),
     (status = 422, description = "No position of rest was found", body = ref(PROBLEM))))]
 async fn equilibrium(
@@ -84,7 +84,7 @@ async fn equilibrium(
 }
 
 /// Small motions about a position: frequencies, damping and shapes.
-#[utoipa::path(post, path = "/analyses/modes", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
+#[utoipa::path(post, path = "/analyses/modes", operation_id = "find_modes", tag = "analyses", request_body(content = ref(of::<AnalysisRequest>())), responses(
     (status = 200, description = "The modes, slowest first", body = ref(of::<Modes>())),
     (status = 422, description = "The scene has no modes there", body = ref(PROBLEM))))]
 async fn modes(

@@ -43,7 +43,7 @@ struct ImportedRobot {
 }
 
 /// Read a URDF as a scene, and tell what could not be carried over.
-#[utoipa::path(post, path = "/import/urdf", tag = "scenes", request_body(content = ref(of::<UrdfImport>())), responses(
+#[utoipa::path(post, path = "/import/urdf", operation_id = "import_urdf", tag = "scenes", request_body(content = ref(of::<UrdfImport>())), responses(
     (status = 200, description = "The scene and what was left out", body = ref(of::<ImportedRobot>())),
     (status = 413, description = "The text is too long", body = ref(PROBLEM)),
     (status = 422, description = "It is no robot, with the line", body = ref(PROBLEM))))]

@@ -15,7 +15,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{At, Json};
+use crate::api::extract::{Json, PathParameters};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::{blocking, scenes, session};
@@ -46,7 +46,7 @@ struct SceneEntry {
 struct SceneList(Vec<SceneEntry>);
 
 /// The built-in scenes.
-#[utoipa::path(get, path = "/scenes", tag = "scenes", responses(
+#[utoipa::path(get, path = "/scenes", operation_id = "list_scenes", tag = "scenes", responses(
     (status = 200, description = "Names and summaries", body = ref(of::<SceneList>()))))]
 async fn list() -> Answer<SceneList> {
     let entries = catalogue::ENTRIES.iter();
@@ -54,16 +54,19 @@ async fn list() -> Answer<SceneList> {
 }
 
 /// A built-in scene, as its author would write it.
-#[utoipa::path(get, path = "/scenes/{name}", tag = "scenes",
+#[utoipa::path(get, path = "/scenes/{name}", operation_id = "get_scene", tag = "scenes",
     params(("name" = String, Path, example = "n-four-bar:2")), responses(
     (status = 200, description = "The scene", body = ref(of::<Scene>())),
     (status = 404, description = "No such scene", body = ref(PROBLEM))))]
-async fn show(State(app): State<App>, At(name): At<String>) -> Result<Answer<Scene>, Problem> {
+async fn show(
+    State(app): State<App>,
+    PathParameters(name): PathParameters<String>,
+) -> Result<Answer<Scene>, Problem> {
     blocking(move || scenes::builtin_within(&name, &app.limits)).await.map(Answer)
 }
 
 /// Check a scene: bodies, coordinates, rows, rank, degrees of freedom, redundant rows.
-#[utoipa::path(post, path = "/check", tag = "scenes", request_body(content = ref(of::<Scene>())), responses(
+#[utoipa::path(post, path = "/check", operation_id = "check_scene", tag = "scenes", request_body(content = ref(of::<Scene>())), responses(
     (status = 200, description = "What the scene amounts to", body = ref(of::<CheckReport>())),
     (status = 413, description = "The text is too long", body = ref(PROBLEM)),
     (status = 422, description = "The scene was refused", body = ref(PROBLEM))))]
@@ -81,7 +84,7 @@ async fn check(State(app): State<App>, Json(value): Json<Value>) -> Result<Answe
 struct SceneSchema(#[schemars(with = "serde_json::Map<String, Value>")] Value);
 
 /// The JSON Schema of a scene.
-#[utoipa::path(get, path = "/schema/scene", tag = "scenes", responses(
+#[utoipa::path(get, path = "/schema/scene", operation_id = "get_scene_schema", tag = "scenes", responses(
     (status = 200, description = "The schema", body = ref(of::<SceneSchema>()))))]
 async fn schema() -> Answer<SceneSchema> {
     Answer(SceneSchema(scene::schema()))

@@ -11,12 +11,12 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{Asked, At};
+use crate::api::extract::{PathParameters, QueryParameters};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::Session;
 
-/// Rows of the largest matrix that is told in full.
+/// Rows of the largest matrix that is sent in full.
 const MAX_ROWS: usize = 3_000;
 /// Its largest number of places.
 const MAX_PLACES: usize = 60_000;
@@ -64,14 +64,14 @@ struct RedundantSet {
 }
 
 /// The Jacobian.
-#[utoipa::path(get, path = "/sessions/{id}/jacobian", tag = "sessions", params(("id" = String, Path),
+#[utoipa::path(get, path = "/sessions/{id}/jacobian", operation_id = "get_jacobian", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<JacobianView>())),
     (status = 422, description = "The state of that time is not kept", body = ref(PROBLEM))))]
 async fn jacobian(
     State(app): State<App>,
-    At(id): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(id): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<JacobianView>, Problem> {
     Ok(axum::Json(jacobian_of(&*app.sessions.get(&id)?, when.at).await?))
 }
@@ -116,27 +116,27 @@ pub(in crate::api) struct SymmetricView {
 }
 
 /// The augmented matrix of the equations of motion, with the fill of eliminating coordinates first.
-#[utoipa::path(get, path = "/sessions/{id}/augmented", tag = "sessions", params(("id" = String, Path),
+#[utoipa::path(get, path = "/sessions/{id}/augmented", operation_id = "get_augmented_matrix", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
     (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
 async fn augmented(
     State(app): State<App>,
-    At(id): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(id): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<SymmetricView>, Problem> {
     Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::augmented).await?))
 }
 
 /// The matrix S that the solver factors, in its order of elimination, with the fill of its factor.
-#[utoipa::path(get, path = "/sessions/{id}/schur", tag = "sessions", params(("id" = String, Path),
+#[utoipa::path(get, path = "/sessions/{id}/schur", operation_id = "get_schur_complement", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
     (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
 async fn schur(
     State(app): State<App>,
-    At(id): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(id): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<SymmetricView>, Problem> {
     Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::schur).await?))
 }

@@ -17,7 +17,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{At, Json};
+use crate::api::extract::{Json, PathParameters};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{SceneChange, SceneSource, SessionState};
@@ -89,7 +89,7 @@ impl Overrides {
 }
 
 /// Start a live simulation.
-#[utoipa::path(post, path = "/sessions", tag = "sessions", request_body(content = ref(of::<NewSession>())), responses(
+#[utoipa::path(post, path = "/sessions", operation_id = "create_session", tag = "sessions", request_body(content = ref(of::<NewSession>())), responses(
     (status = 201, description = "The session, at its start", body = ref(of::<SessionState>()),
         headers(("location" = String, description = "Its address"))),
     (status = 422, description = "The scene was refused", body = ref(PROBLEM)),
@@ -147,18 +147,24 @@ fn choose(
 }
 
 /// A session's state.
-#[utoipa::path(get, path = "/sessions/{id}", tag = "sessions", params(("id" = String, Path)), responses(
+#[utoipa::path(get, path = "/sessions/{id}", operation_id = "get_session", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 200, description = "The state now", body = ref(of::<SessionState>())),
     (status = 404, description = "No such session", body = ref(PROBLEM))))]
-async fn show(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+async fn show(
+    State(app): State<App>,
+    PathParameters(id): PathParameters<String>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.state()))
 }
 
 /// Close a session.
-#[utoipa::path(delete, path = "/sessions/{id}", tag = "sessions", params(("id" = String, Path)), responses(
+#[utoipa::path(delete, path = "/sessions/{id}", operation_id = "delete_session", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 204, description = "It is closed"),
     (status = 404, description = "No such session", body = ref(PROBLEM))))]
-async fn delete(State(app): State<App>, At(id): At<String>) -> Result<StatusCode, Problem> {
+async fn delete(
+    State(app): State<App>,
+    PathParameters(id): PathParameters<String>,
+) -> Result<StatusCode, Problem> {
     app.sessions.remove(&id)?;
     Ok(StatusCode::NO_CONTENT)
 }
@@ -174,14 +180,14 @@ struct StepRequest {
 }
 
 /// Step a session; it is paused first.
-#[utoipa::path(post, path = "/sessions/{id}/step", tag = "sessions", params(("id" = String, Path)),
+#[utoipa::path(post, path = "/sessions/{id}/step", operation_id = "step_session", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<StepRequest>())), responses(
     (status = 200, description = "The state after it", body = ref(of::<SessionState>())),
     (status = 409, description = "The simulation has stopped", body = ref(PROBLEM)),
     (status = 422, description = "The engine could not go on; the last good state is kept", body = ref(PROBLEM))))]
 async fn step(
     State(app): State<App>,
-    At(id): At<String>,
+    PathParameters(id): PathParameters<String>,
     Json(step): Json<StepRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
@@ -231,13 +237,13 @@ struct PlayRequest {
 }
 
 /// Let time run.
-#[utoipa::path(post, path = "/sessions/{id}/play", tag = "sessions", params(("id" = String, Path)),
+#[utoipa::path(post, path = "/sessions/{id}/play", operation_id = "play_session", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<PlayRequest>())), responses(
     (status = 200, description = "The state at that moment", body = ref(of::<SessionState>())),
     (status = 409, description = "The simulation has stopped", body = ref(PROBLEM))))]
 async fn play(
     State(app): State<App>,
-    At(id): At<String>,
+    PathParameters(id): PathParameters<String>,
     Json(play): Json<PlayRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
@@ -249,15 +255,21 @@ async fn play(
 }
 
 /// Stop time.
-#[utoipa::path(post, path = "/sessions/{id}/pause", tag = "sessions", params(("id" = String, Path)), responses(
+#[utoipa::path(post, path = "/sessions/{id}/pause", operation_id = "pause_session", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 200, description = "The state at that moment", body = ref(of::<SessionState>()))))]
-async fn pause(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+async fn pause(
+    State(app): State<App>,
+    PathParameters(id): PathParameters<String>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.pause().await?))
 }
 
 /// Go back to the start; the recording begins anew.
-#[utoipa::path(post, path = "/sessions/{id}/reset", tag = "sessions", params(("id" = String, Path)), responses(
+#[utoipa::path(post, path = "/sessions/{id}/reset", operation_id = "reset_session", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 200, description = "The state at the start", body = ref(of::<SessionState>()))))]
-async fn reset(State(app): State<App>, At(id): At<String>) -> Result<axum::Json<Arc<SessionState>>, Problem> {
+async fn reset(
+    State(app): State<App>,
+    PathParameters(id): PathParameters<String>,
+) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.reset().await?))
 }

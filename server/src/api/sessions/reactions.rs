@@ -1,4 +1,4 @@
-//! Forces of a live session: multipliers, reactions told completely (on which body, about which point, in which frame,
+//! Forces of a live session: multipliers, reactions by every convention (on which body, about which point, in which frame,
 //! which of their components are unique), and how they are drawn.
 
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{Asked, At, Json};
+use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::sessions::matrices::AtTime;
 use crate::app::App;
 use crate::problem::Problem;
@@ -65,7 +65,7 @@ pub(in crate::api) struct ReactionsView {
 }
 
 /// The reactions at the session's time: force and moment of every joint and driver, and which components are unique.
-#[utoipa::path(get, path = "/sessions/{id}/reactions", tag = "sessions", params(("id" = String, Path),
+#[utoipa::path(get, path = "/sessions/{id}/reactions", operation_id = "get_reactions", tag = "sessions", params(("id" = String, Path),
     ("on" = Option<String>, Query, description = "On body `i` or on body `j` of each joint", example = "j"),
     ("about" = Option<String>, Query, example = "joint",
         description = "About the `joint`, the `center` of mass of that body, or a point of the world like `0,1,0`"),
@@ -77,8 +77,8 @@ pub(in crate::api) struct ReactionsView {
     (status = 422, description = "The scene has too many rows to tell which are unique", body = ref(PROBLEM))))]
 async fn reactions(
     State(app): State<App>,
-    At(id): At<String>,
-    Asked(wanted): Asked<ReactionQuery>,
+    PathParameters(id): PathParameters<String>,
+    QueryParameters(wanted): QueryParameters<ReactionQuery>,
 ) -> Result<axum::Json<ReactionsView>, Problem> {
     Ok(axum::Json(reactions_of(&*app.sessions.get(&id)?, wanted).await?))
 }
@@ -120,13 +120,13 @@ pub(in crate::api) struct MultipliersView {
 pub(in crate::api) struct MultipliersList(Vec<MultipliersView>);
 
 /// The multipliers and reactions, joint by joint.
-#[utoipa::path(get, path = "/sessions/{id}/multipliers", tag = "sessions", params(("id" = String, Path),
+#[utoipa::path(get, path = "/sessions/{id}/multipliers", operation_id = "get_multipliers", tag = "sessions", params(("id" = String, Path),
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "One entry a joint", body = ref(of::<MultipliersList>()))))]
 async fn multipliers(
     State(app): State<App>,
-    At(id): At<String>,
-    Asked(when): Asked<AtTime>,
+    PathParameters(id): PathParameters<String>,
+    QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<MultipliersList>, Problem> {
     Ok(axum::Json(multipliers_of(&*app.sessions.get(&id)?, when.at).await?))
 }
@@ -161,12 +161,12 @@ struct NewDrawing {
 }
 
 /// Draw forces in another way, in every picture of this session and at all times of its recording.
-#[utoipa::path(put, path = "/sessions/{id}/drawing", tag = "sessions", params(("id" = String, Path)),
+#[utoipa::path(put, path = "/sessions/{id}/drawing", operation_id = "set_drawing", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<NewDrawing>())), responses(
     (status = 200, description = "The state with the new drawing", body = ref(of::<SessionState>()))))]
 async fn draw(
     State(app): State<App>,
-    At(id): At<String>,
+    PathParameters(id): PathParameters<String>,
     Json(new): Json<NewDrawing>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.draw(new.arrows, new.fit).await?))
@@ -181,12 +181,12 @@ struct NewCamera {
 }
 
 /// Look at the mechanism from another side.
-#[utoipa::path(put, path = "/sessions/{id}/camera", tag = "sessions", params(("id" = String, Path)),
+#[utoipa::path(put, path = "/sessions/{id}/camera", operation_id = "set_camera", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<NewCamera>())), responses(
     (status = 200, description = "The state with the new camera", body = ref(of::<SessionState>()))))]
 async fn look_from(
     State(app): State<App>,
-    At(id): At<String>,
+    PathParameters(id): PathParameters<String>,
     Json(new): Json<NewCamera>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     Ok(axum::Json(app.sessions.get(&id)?.look_from(new.from).await?))

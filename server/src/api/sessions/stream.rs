@@ -20,7 +20,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas};
-use crate::api::extract::At;
+use crate::api::extract::PathParameters;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::SessionState;
@@ -36,7 +36,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     OpenApiRouter::new().routes(routes!(stream))
 }
 
-/// What a watcher is told in text.
+/// The text messages to a watcher.
 #[derive(Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 enum SessionMessage<'a> {
@@ -49,11 +49,15 @@ enum SessionMessage<'a> {
 }
 
 /// Watch a session: a WebSocket of RRD blocks (binary) and states (text).
-#[utoipa::path(get, path = "/sessions/{id}/stream", tag = "sessions", params(("id" = String, Path)), responses(
+#[utoipa::path(get, path = "/sessions/{id}/stream", operation_id = "stream_session", tag = "sessions", params(("id" = String, Path)), responses(
     (status = 101, description = "The socket is open"),
     (status = 404, description = "No such session", body = ref(PROBLEM)),
     (status = 426, description = "The request is not a WebSocket's", body = ref(PROBLEM))))]
-async fn stream(State(app): State<App>, At(id): At<String>, request: Request) -> Result<Response, Problem> {
+async fn stream(
+    State(app): State<App>,
+    PathParameters(id): PathParameters<String>,
+    request: Request,
+) -> Result<Response, Problem> {
     let session = app.sessions.get(&id)?;
     let upgrade = upgrade(&app, request).await?;
     let patience = app.limits.stalled_viewer;
@@ -62,7 +66,7 @@ async fn stream(State(app): State<App>, At(id): At<String>, request: Request) ->
         let states = session.states();
         // The session may be deleted while it is watched.
         drop(session);
-        Line { socket, patience }.serve(watcher, states).await;
+        ViewerSocket { socket, patience }.serve(watcher, states).await;
     }))
 }
 
@@ -81,16 +85,17 @@ pub(in crate::api) async fn upgrade(app: &App, request: Request) -> Result<WebSo
     Ok(upgrade.max_message_size(4096))
 }
 
-/// One open socket.
-pub(in crate::api) struct Line {
+/// The open socket of one viewer.
+pub(in crate::api) struct ViewerSocket {
     pub socket: WebSocket,
+    /// How long a message may wait for a viewer that takes nothing.
     pub patience: Duration,
 }
 
 /// The other side has gone, or takes nothing.
 pub(in crate::api) struct Disconnected;
 
-impl Line {
+impl ViewerSocket {
     async fn serve(mut self, mut watcher: Watcher, mut states: watch::Receiver<Arc<SessionState>>) {
         let mut state_timer = interval(STATE_INTERVAL);
         state_timer.set_missed_tick_behavior(MissedTickBehavior::Delay);

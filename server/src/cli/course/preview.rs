@@ -44,7 +44,7 @@ struct Shown {
 
 type Shared = Arc<RwLock<Shown>>;
 
-/// Serves the lesson until it is told to stop.
+/// Serves the lesson until it is stopped.
 pub(in crate::cli) fn preview(course: Option<&Path>, lesson: &str, port: u16) -> Result<Outcome, Problem> {
     let Some(folder) = course else {
         return Err(Problem::new(

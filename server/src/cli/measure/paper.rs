@@ -185,6 +185,16 @@ fn verdict(rows: &[Row]) -> String {
 }
 
 fn print(rows: &[Row], verdict: &str) {
+    print_counts(rows);
+    print_line("");
+    print_times(rows);
+    print_line("");
+    print_accuracy(rows);
+    print_line("");
+    print_line(verdict);
+}
+
+fn print_counts(rows: &[Row]) {
     print_line("Table 1: steps / failed / evaluations (= equal to the paper, ≠ not)");
     print_line(&format!(
         "{:<22}{:>7}  {:<22}{:<22}{:<22}{:<22}",
@@ -214,7 +224,9 @@ fn print(rows: &[Row], verdict: &str) {
         "Counts of the four-bar mechanisms hang on rounding at singular positions: another order of elimination, or \
          another choice of the redundant rows, moves them by up to three steps.",
     );
-    print_line("");
+}
+
+fn print_times(rows: &[Row]) {
     print_line("Fig. 12: seconds of a run, full / reduced (evaluations times the time of one)");
     print_line(&format!(
         "{:<22}{:>7}  {:<30}{:<30}{:<30}",
@@ -238,7 +250,9 @@ fn print(rows: &[Row], verdict: &str) {
             pair(|s| s.elimination)
         ));
     }
-    print_line("");
+}
+
+fn print_accuracy(rows: &[Row]) {
     print_line("Accuracy at these settings: intraclass correlation of full, reduced and reference");
     for row in rows {
         let (consistency, agreement) =
@@ -251,6 +265,4 @@ fn print(rows: &[Row], verdict: &str) {
             row.full.violation.max(row.reduced.violation)
         ));
     }
-    print_line("");
-    print_line(verdict);
 }

@@ -31,7 +31,7 @@ pub(in crate::cli) fn import(options: &Import, json: bool) -> Result<Outcome, Pr
     };
     let imported = urdf::import(&text, &side_car)?;
     let written = imported.scene.to_json();
-    // A robot that cannot be assembled is told now rather than at its first run.
+    // A robot that cannot be assembled is reported now rather than at its first run.
     let report = triad_engine::analysis::check::check(&imported.scene)?;
     if json {
         print_json(&json!({ "scene": imported.scene, "left_out": imported.left_out, "check": report }));
