@@ -137,13 +137,13 @@ export const api = {
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
-  analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", asked: { scene: unknown }) =>
-    call<T>("POST", `/analyses/${kind}`, asked),
+  analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", query: { scene: unknown }) =>
+    call<T>("POST", `/analyses/${kind}`, query),
   importUrdf: (urdf: string, side: unknown) =>
     call<ImportedRobot>("POST", "/import/urdf", side === undefined ? { urdf } : { urdf, with: side }),
   sceneSchema: () => call<unknown>("GET", "/schema/scene"),
 
-  // What is asked of a run is asked at its address: a session's own, or a lecture room's.
+  // A run answers at its address: a session's own, or a lecture room's.
   createSession: (source: SessionSource, change?: Numbers) =>
     call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
   state: (run: string) => call<SessionState>("GET", run),
@@ -152,10 +152,10 @@ export const api = {
   symmetric: (run: string, which: "augmented" | "schur", at?: number) =>
     call<SymmetricMatrix>("GET", `${run}/${which}${when(at)}`),
   multipliers: (run: string, at?: number) => call<JointMultipliers[]>("GET", `${run}/multipliers${when(at)}`),
-  reactions: (run: string, asked: { on: string; about: string; in: string }, at?: number) =>
+  reactions: (run: string, query: { on: string; about: string; in: string }, at?: number) =>
     call<Reactions>(
       "GET",
-      `${run}/reactions?${new URLSearchParams({ ...asked, ...(at === undefined ? {} : { at: String(at) }) })}`,
+      `${run}/reactions?${new URLSearchParams({ ...query, ...(at === undefined ? {} : { at: String(at) }) })}`,
     ),
   change: (run: string, numbers: Numbers, then?: AfterChange) =>
     call<SessionState>("POST", `${run}/parameters`, then ? { ...numbers, then } : numbers),

@@ -59,7 +59,7 @@ export interface Leaf {
   value: number;
 }
 
-/** What has no influence on the motion, or is told elsewhere. */
+/** What has no influence on the motion, or is shown elsewhere. */
 const LEFT_OUT = new Set(["parameters", "shape"]);
 
 /** All numbers of a scene, in its own order; elements of lists are called by their names. */

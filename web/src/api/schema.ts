@@ -34,9 +34,7 @@ export interface components {
             /** @description A number, a list of numbers, or a formula, as typed. */
             value?: components["schemas"]["TypedValue"] | null;
         };
-        /** @description The body that is acted on. */
-        ArrowSide: "i" | "j";
-        /** @description Which forces are drawn and how they are told. */
+        /** @description Which forces are drawn, and by which convention. */
         Arrows: {
             /**
              * @description About which point: there the force is drawn and the moment taken.
@@ -57,7 +55,7 @@ export interface components {
              * @description On the first or on the second body of each joint.
              * @default j
              */
-            on?: components["schemas"]["ArrowSide"];
+            on?: components["schemas"]["Side"];
         };
         /** @description What assembly did. */
         Assembly: {
@@ -289,7 +287,7 @@ export interface components {
              * @default null
              */
             stiffness?: number | null;
-            /** @description Where it is pulled to, in the world, m. */
+            /** @description Where it is dragged to, in the world, m. */
             to: [
                 number,
                 number,
@@ -334,7 +332,7 @@ export interface components {
              * @description On the first or on the second body of each joint.
              * @default j
              */
-            on: components["schemas"]["ArrowSide"];
+            on: components["schemas"]["Side"];
         };
         /** @description Which forces are drawn. */
         DrawnForces: "none" | "all" | {
@@ -694,7 +692,7 @@ export interface components {
              */
             t: number;
         };
-        /** @description The states that are dealt to a student, with everything that is needed to write the equations. */
+        /** @description The instances of a student, with everything that is needed to write the equations. */
         Instances: {
             /** @description What is to be returned for each state. */
             asks: components["schemas"]["EquationPart"][];
@@ -917,7 +915,7 @@ export interface components {
             choice?: string | null;
             /** @description The file that was handed in. */
             file?: components["schemas"]["KeptFile"] | null;
-            /** @description Settings of a run. */
+            /** @description The settings of a run. */
             settings?: components["schemas"]["RunSettings"] | null;
             /** @description The unit of the value, as typed. */
             unit?: string | null;
@@ -1021,7 +1019,7 @@ export interface components {
             /** @description What is asked. */
             text: string;
         };
-        /** @description What followers are told beside the run. */
+        /** @description What followers see beside the run. */
         LectureState: {
             /** @description What followers type to join. */
             code: string;
@@ -1467,7 +1465,7 @@ export interface components {
             choices: string[];
             /**
              * Format: uint
-             * @description The choice that is right, as an index, if one is; told to nobody before the reveal.
+             * @description The choice that is right, as an index, if one is; a secret before the reveal.
              * @default null
              */
             right?: number | null;
@@ -1501,7 +1499,7 @@ export interface components {
         OpenedLecture: {
             /** @description What followers type to join. */
             code: string;
-            /** @description Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is told only here. */
+            /** @description Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is sent only here. */
             key: string;
             /** @description Where followers go, below the server's address. */
             page: string;
@@ -1664,7 +1662,7 @@ export interface components {
              */
             speed?: number | null;
         };
-        /** @description What only the presenter is told. */
+        /** @description What only the presenter sees. */
         PresenterState: {
             /**
              * Format: uint
@@ -1854,7 +1852,7 @@ export interface components {
             possible: number;
             /** @description The right answer and its source, as safe HTML, where the author opens it. */
             reference_html?: string | null;
-            /** @description Name of the slip that was recognised; for statistics and for the checks of authors. */
+            /** @description The misconception that was recognised; for statistics and for the checks of authors. */
             slip?: string | null;
             /** @description Right, wrong, blank or invalid. */
             verdict: components["schemas"]["Mark"];
@@ -2092,7 +2090,7 @@ export interface components {
         } | {
             scene: string;
         };
-        /** @description What a watcher is told in text. */
+        /** @description The text messages to a watcher. */
         SessionMessage: components["schemas"]["SessionState"] | {
             /** @constant */
             type: "reset";
@@ -2223,7 +2221,7 @@ export interface components {
              * @description Projections onto the constraints.
              */
             projections: number;
-            /** @description The hand's spring, while a body is pulled. */
+            /** @description The spring by which a body is dragged, while it is. */
             pull: components["schemas"]["Drag"] | null;
             /** @description Generalized coordinates, in the order of the Jacobian's columns. */
             q: number[];
@@ -2355,6 +2353,8 @@ export interface components {
                 number
             ];
         };
+        /** @description Which of the two bodies of a joint. */
+        Side: "i" | "j";
         /**
          * @description What is left out because nothing depends on it. Every word is true unless it is switched off; then the run takes
          *     longer and gives the same motion. `triad run --explain` tells what each word saved.
@@ -2513,7 +2513,7 @@ export interface components {
              * @description The question's number.
              */
             number: number;
-            /** @description Whether everybody has been told. */
+            /** @description Whether the answer is open to everybody. */
             revealed: boolean;
             /**
              * Format: uint

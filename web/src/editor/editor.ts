@@ -17,7 +17,7 @@ export interface Editor {
   dispose: () => void;
 }
 
-/** `sound` is told of a text that the server has checked and can run. */
+/** `sound` is called with a text that the server has checked and can run. */
 export function sceneEditor(changed: (text: string) => void, sound: (text: string) => void): Editor {
   const area = h("textarea", {
     class: "code",

@@ -15,7 +15,7 @@ export function suggestions(area: HTMLTextAreaElement, written: () => void): HTM
     hidden: true,
   });
   let schema: unknown;
-  let asked = false;
+  let requested = false;
   let shown: Completion | undefined;
   let at = 0;
 
@@ -43,7 +43,7 @@ export function suggestions(area: HTMLTextAreaElement, written: () => void): HTM
   };
   const open = (): void => {
     if (!schema) {
-      if (!asked)
+      if (!requested)
         void api
           .sceneSchema()
           .then((found) => {
@@ -52,9 +52,9 @@ export function suggestions(area: HTMLTextAreaElement, written: () => void): HTM
           })
           .catch(() => {
             // Without the schema one types without help; the check says what is wrong all the same.
-            asked = false;
+            requested = false;
           });
-      asked = true;
+      requested = true;
       return;
     }
     const found =

@@ -22,7 +22,7 @@ const ASKED: Record<string, { label: string; accept: string; say: string }> = {
 };
 
 export function fileInput(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
-  const asked = ASKED[question.kind] ?? { label: "Your file", accept: "", say: "a file" };
+  const kind = ASKED[question.kind] ?? { label: "Your file", accept: "", say: "a file" };
   const { base } = place;
   const text = h("textarea", {
     id: `${base}-text`,
@@ -31,26 +31,26 @@ export function fileInput(question: Question, place: QuestionContext, draft: str
     spellcheck: "false",
     autocapitalize: "off",
     autocomplete: "off",
-    "aria-label": asked.label,
+    "aria-label": kind.label,
     "aria-describedby": `${place.described} ${base}-told`,
-    placeholder: `Paste ${asked.say} here, or choose a file`,
+    placeholder: `Paste ${kind.say} here, or choose a file`,
   });
   text.value = draft?.[0] ?? "";
   const pick = h("input", {
     type: "file",
     id: `${base}-file`,
-    accept: asked.accept,
-    "aria-label": `Choose a file: ${asked.label}`,
+    accept: kind.accept,
+    "aria-label": `Choose a file: ${kind.label}`,
   });
-  const told = h("p", { class: "file-told", id: `${base}-told`, role: "status" });
+  const status = h("p", { class: "file-told", id: `${base}-told`, role: "status" });
   const clear = h("button", { type: "button", class: "button quiet small" }, "Clear");
 
   const tell = (name?: string): void => {
     const bytes = new Blob([text.value]).size;
     const large = bytes > LARGEST;
     text.toggleAttribute("aria-invalid", large);
-    told.classList.toggle("is-bad", large);
-    told.textContent = !text.value.trim()
+    status.classList.toggle("is-bad", large);
+    status.textContent = !text.value.trim()
       ? ""
       : large
         ? `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`
@@ -60,8 +60,8 @@ export function fileInput(question: Question, place: QuestionContext, draft: str
   const take = async (file: File | undefined): Promise<void> => {
     if (!file) return;
     if (file.size > 4 * LARGEST) {
-      told.classList.add("is-bad");
-      told.textContent = `${file.name} has ${size(file.size)}: too large. At most ${size(LARGEST)} are read.`;
+      status.classList.add("is-bad");
+      status.textContent = `${file.name} has ${size(file.size)}: too large. At most ${size(LARGEST)} are read.`;
       return;
     }
     text.value = await file.text();
@@ -84,7 +84,7 @@ export function fileInput(question: Question, place: QuestionContext, draft: str
     ...before(question, place),
     h("div", { class: "file-pick" }, pick, clear),
     text,
-    told,
+    status,
   );
   root.addEventListener("dragover", (event) => event.preventDefault());
   root.addEventListener("drop", (event) => {

@@ -39,10 +39,10 @@ export function inspector(
       { key: "bodies", label: "Bodies", panel: panel("bodies") },
       { key: "plots", label: "Plots", panel: panel("plots") },
       { key: "analyses", label: "Analyses", panel: panel("analyses") },
-    ].filter((tab) => session.steers || !PRESENTER_ONLY.has(tab.key)),
+    ].filter((tab) => session.controls || !PRESENTER_ONLY.has(tab.key)),
     panelAsked ?? recall("tab:inspector"),
     (key) => {
-      if (session.steers) remember("tab:inspector", key);
+      if (session.controls) remember("tab:inspector", key);
       made[key]?.refresh();
       session.showPanel();
     },

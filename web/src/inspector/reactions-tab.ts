@@ -1,24 +1,18 @@
-// Reactions joint by joint, said completely: on which body, about which point, in which frame, unique or not;
-// the multipliers that they are made of; and one body cut free with every force on it.
+// The reactions of every joint, by the convention that is chosen; the joints that share redundant rows; one body cut
+// free.
 import { api } from "../api/client";
-import type {
-  JointMultipliers,
-  Reaction,
-  ReactionComponent,
-  Reactions,
-  SessionState,
-  Vec3,
-} from "../api/types";
+import type { JointMultipliers, Reactions, SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
-import { num, seconds } from "../core/format";
+import { seconds } from "../core/format";
 import { bind } from "../core/keys";
-import { type Drawn, freeBody, momentAbout } from "../mechanics/forces";
-import { norm } from "../mechanics/vec";
+import type { Drawn } from "../mechanics/forces";
 import type { ReactionConvention } from "../session/events";
 import { liveQuery } from "../session/live-query";
 import type { Session } from "../session/session";
 import { empty, problemNotice } from "../ui/notice";
 import type { Panel } from "../ui/panel";
+import { paintFreeBody } from "./free-body";
+import { card, type JointReaction } from "./reaction-card";
 
 interface Answer {
   multipliers: JointMultipliers[];
@@ -71,7 +65,7 @@ export function multipliersTab(session: Session): Panel {
     {
       type: "button",
       class: "button quiet small",
-      hidden: !session.steers,
+      hidden: !session.controls,
       title: "Takes the length of the arrows from the recording so far",
       onclick: () => session.fitScale(),
     },
@@ -171,11 +165,7 @@ const next = (drawn: Drawn): Drawn => ({
   what: drawn.what === "joint" ? "all" : drawn.what === "all" ? "none" : "joint",
 });
 
-interface Shown extends Reaction {
-  rows: { label: string; value: number }[];
-}
-
-function shownReactions(answer: Answer | undefined): Shown[] {
+function shownReactions(answer: Answer | undefined): JointReaction[] {
   return (answer?.reactions.reactions ?? []).map((entry) => ({
     ...entry,
     rows: answer?.multipliers.find((one) => one.joint === entry.joint)?.rows ?? [],
@@ -258,160 +248,4 @@ function paintShared(place: HTMLElement, known: Reactions | undefined): void {
       ),
     ),
   );
-}
-
-function paintFreeBody(place: HTMLElement, state: SessionState | undefined, drawn: Drawn): void {
-  place.hidden = drawn.what !== "body";
-  if (drawn.what !== "body" || !state) return;
-  const body = state.bodies.find((entry) => entry.name === drawn.body);
-  if (!body) return;
-  const { arrows, sum, inertia } = freeBody(state, drawn.body);
-  const largest = Math.max(1e-300, ...arrows.map((arrow) => norm(arrow.force)));
-  // Beside the largest force this is rounding.
-  const clean = (part: number): number => (Math.abs(part) < 1e-12 * largest ? 0 : part);
-  const line = (label: string, force: Vec3, moment: Vec3 | null, strong = false): HTMLElement =>
-    h(
-      "tr",
-      { class: strong ? "strong" : "" },
-      h("th", { scope: "row" }, label),
-      ...[...force, ...(moment ?? [])].map((part) => h("td", { class: "number" }, num(clean(part), 5))),
-      moment ? null : h("td", { colspan: "3" }),
-    );
-  place.replaceChildren(
-    h("h3", null, `${drawn.body}, cut free`),
-    h(
-      "div",
-      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Forces on ${drawn.body}` },
-      h(
-        "table",
-        { class: "data" },
-        h(
-          "caption",
-          null,
-          "Forces in newtons and moments about the centre of mass in newton metres, world frame",
-        ),
-        h(
-          "thead",
-          null,
-          h(
-            "tr",
-            null,
-            h("th", { scope: "col" }, "Force"),
-            ...["Fx", "Fy", "Fz", "Mx", "My", "Mz"].map((name) =>
-              h("th", { scope: "col", class: "number" }, name),
-            ),
-          ),
-        ),
-        h(
-          "tbody",
-          null,
-          ...arrows.map((arrow) =>
-            line(arrow.label, arrow.force, arrow.kind === "load" ? null : momentAbout(arrow, body.position)),
-          ),
-          line("sum", sum, null, true),
-          line("mass × acceleration", inertia, null, true),
-        ),
-      ),
-    ),
-  );
-}
-
-function card(entry: Shown, selected: boolean, toggle: () => void): HTMLElement {
-  const axes = entry.expressed_in.includes("world")
-    ? ["x", "y", "z"]
-    : entry.expressed_in.includes("joint")
-      ? ["1", "2", "3"]
-      : ["u", "v", "w"];
-  // A moment beside the force, with an arm of a metre: less is rounding.
-  const all = values([...entry.force, ...entry.moment]);
-  const row = (label: string, symbol: string, parts: ReactionComponent[], unit: string): HTMLElement =>
-    h(
-      "tr",
-      null,
-      h("th", { scope: "row" }, label),
-      ...parts.map((part, k) =>
-        h(
-          "td",
-          { class: part.unique ? "number" : "number is-shared", title: part.unique ? "" : "Not unique" },
-          h("span", { class: "component-name" }, `${symbol}${axes[k]} `),
-          part.unique ? "" : "≈ ",
-          num(tidy(part.value, all), 6),
-          part.unique ? null : h("span", { class: "visually-hidden" }, " not unique"),
-        ),
-      ),
-      h(
-        "td",
-        { class: "number strong" },
-        `${num(tidy(norm(parts.map((part) => part.value) as Vec3), all), 6)} `,
-        h("span", { class: "unit" }, unit),
-      ),
-    );
-
-  return h(
-    "article",
-    { class: selected ? "joint is-selected" : "joint" },
-    h(
-      "h3",
-      null,
-      h(
-        "button",
-        {
-          type: "button",
-          class: "joint-select",
-          "aria-pressed": String(selected),
-          title: "Draw its force, mark its rows in the Jacobian",
-          onclick: toggle,
-        },
-        entry.joint,
-      ),
-      entry.driver ? h("span", { class: "help" }, " driver") : null,
-    ),
-    h(
-      "p",
-      { class: "said" },
-      `On ${entry.on}, from ${entry.by}; moment about ${entry.about} at (${entry.about_at.map((part) => num(tidy(part, entry.about_at), 4)).join(", ")}) m; components in ${entry.expressed_in}.`,
-    ),
-    h(
-      "div",
-      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${entry.joint}` },
-      h(
-        "table",
-        { class: "data" },
-        h(
-          "thead",
-          { class: "visually-hidden" },
-          h(
-            "tr",
-            null,
-            h("th", { scope: "col" }, "Quantity"),
-            ...axes.map((axis) => h("th", { scope: "col" }, axis)),
-            h("th", { scope: "col" }, "Size"),
-          ),
-        ),
-        h("tbody", null, row("Force", "F", entry.force, "N"), row("Moment", "M", entry.moment, "N m")),
-      ),
-    ),
-    entry.rows.length > 0
-      ? h(
-          "ul",
-          { class: "lambdas", "aria-label": `Multipliers of ${entry.joint}` },
-          ...entry.rows.map((one) =>
-            h(
-              "li",
-              null,
-              h("span", null, one.label),
-              h("b", null, `λ = ${num(tidy(one.value, values(entry.rows)), 6)}`),
-            ),
-          ),
-        )
-      : null,
-  );
-}
-
-const values = (parts: { value: number }[]): number[] => parts.map((part) => part.value);
-
-/** Rounding beside the other components is nothing. */
-function tidy(value: number, beside: number[]): number {
-  const largest = Math.max(...beside.map(Math.abs));
-  return Math.abs(value) < 1e-14 * largest ? 0 : value;
 }

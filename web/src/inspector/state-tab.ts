@@ -38,7 +38,7 @@ export function stateTab(session: Session): Panel {
   const notes = h("ul", { class: "notes", "aria-label": "Notes of the engine about this scene" });
   let limit = FIRST_ROWS;
   let names: string[] | undefined;
-  let asked = "";
+  let requestedFor = "";
 
   more.addEventListener("click", () => {
     limit = Infinity;
@@ -48,8 +48,8 @@ export function stateTab(session: Session): Panel {
   const refresh = (): void => {
     const state = session.shown;
     if (!state) return;
-    if (asked !== state.id && names?.length !== state.q.length) {
-      asked = state.id;
+    if (requestedFor !== state.id && names?.length !== state.q.length) {
+      requestedFor = state.id;
       // Without names the coordinates are numbered.
       api
         .jacobian(state.links.self)

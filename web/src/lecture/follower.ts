@@ -7,7 +7,7 @@ import { applyView } from "../session/share";
 import { parseView } from "../session/shared-view";
 
 export class Follower extends Session {
-  override readonly steers = false;
+  override readonly controls = false;
   lecture: LectureState | undefined;
   /** Looks around alone: time, selection and panels are one's own until one comes back. */
   roaming = false;

@@ -7,6 +7,7 @@ import type { SharedView } from "../session/shared-view";
 import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
+import { type Question, questionDialog } from "./question-dialog";
 import { histogram } from "./voter";
 
 /** Between two messages to the room, ms. */
@@ -50,7 +51,7 @@ export function presenterPanel(session: Session, seen: () => SharedView): Presen
   let sent = "";
   let shown = "";
   let waiting = 0;
-  let asked: { text: string; choices: string[] } | undefined;
+  let question: Question | undefined;
   const trouble = h("div", { "aria-live": "polite" });
   const followers = h("span", { class: "desk-count", role: "status" }, "nobody follows yet");
   const result = h("div", { class: "desk-result" });
@@ -73,7 +74,7 @@ export function presenterPanel(session: Session, seen: () => SharedView): Presen
       onclick: () =>
         void attempt(async (it) => {
           await api.forgetQuestion(it.code, it.key);
-          asked = undefined;
+          question = undefined;
           showTally(null);
         }),
     },
@@ -182,82 +183,35 @@ export function presenterPanel(session: Session, seen: () => SharedView): Presen
     }, SEND_MS);
   };
 
-  const askDialog = (): void => {
-    const text = h("input", {
-      class: "field",
-      id: "ask-text",
-      maxlength: "400",
-      value: session.joint ? `Which sign has Fx of ${session.joint} at this moment?` : "What happens next?",
-    });
-    const choices = h(
-      "textarea",
-      { class: "field", id: "ask-choices", rows: "4" },
-      "positive\nnegative\nzero",
-    );
-    const right = h("input", {
-      class: "field compact",
-      id: "ask-right",
-      inputmode: "numeric",
-      placeholder: "none",
-    });
-    const wrong = h("div");
-    const form = h(
-      "form",
-      { class: "stack" },
-      h("label", { for: "ask-text" }, "Question"),
-      text,
-      h("label", { for: "ask-choices" }, "Choices, one a line"),
-      choices,
-      h("label", { for: "ask-right" }, "Number of the right choice, shown at the reveal"),
-      right,
-      wrong,
-      h("div", { class: "row" }, h("button", { class: "button primary" }, "Ask")),
-    );
-    const box = dialog("Ask everybody", form);
-    form.addEventListener("submit", (event) => {
-      event.preventDefault();
-      const question = {
-        text: text.value.trim(),
-        choices: choices.value
-          .split("\n")
-          .map((line) => line.trim())
-          .filter(Boolean),
-      };
-      const index = right.value.trim() === "" ? null : Number(right.value) - 1;
+  const askDialog = (): void =>
+    questionDialog(session.joint, async (asked, right) => {
       if (!room) return;
-      api
-        .ask(room.code, room.key, { ...question, right: index })
-        .then(() => {
-          asked = question;
-          box.close();
-          void look();
-        })
-        .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
+      await api.ask(room.code, room.key, { ...asked, right });
+      question = asked;
+      void look();
     });
-    text.select();
-  };
   const showTally = (tally: Tally | null): void => {
     revealButton.hidden = !tally || tally.revealed;
     forgetButton.hidden = !tally;
     result.replaceChildren(
       ...(tally
         ? [
-            h("p", { class: "desk-question" }, asked?.text ?? "The question that is asked"),
-            histogram(asked?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`), tally),
+            h("p", { class: "desk-question" }, question?.text ?? "The question that is asked"),
+            histogram(question?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`), tally),
           ]
         : []),
     );
   };
   const look = (): Promise<void> =>
     attempt(async (it) => {
-      const told = await api.presenterState(it.code, it.key);
+      const state = await api.presenterState(it.code, it.key);
       setText(
         followers,
-        told.followers === 0
+        state.followers === 0
           ? "nobody follows yet"
-          : `${told.followers} ${told.followers === 1 ? "follows" : "follow"}`,
+          : `${state.followers} ${state.followers === 1 ? "follows" : "follow"}`,
       );
-      showTally(told.tally);
+      showTally(state.tally);
     });
 
   const timer = window.setInterval(() => void look(), POLL_MS);

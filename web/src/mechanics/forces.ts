@@ -23,24 +23,24 @@ export function arrows(
   state: SessionState,
   drawn: Drawn,
   joint: string | null,
-  told: { on: "i" | "j"; about: "joint" | "center" },
+  convention: { on: "i" | "j"; about: "joint" | "center" },
 ): Arrow[] {
   if (drawn.what === "none") return [];
   if (drawn.what === "body") return freeBody(state, drawn.body).arrows;
-  const sign = told.on === "j" ? 1 : -1;
+  const sign = convention.on === "j" ? 1 : -1;
   return state.forces
     .filter((entry) => drawn.what === "all" || entry.joint === joint)
     .map((entry) => {
       const arrow = reaction(entry, sign);
       const body =
-        told.about === "center"
-          ? state.bodies.find((one) => one.name === (told.on === "j" ? entry.on : entry.by))
+        convention.about === "center"
+          ? state.bodies.find((one) => one.name === (convention.on === "j" ? entry.on : entry.by))
           : undefined;
       return body ? moved(arrow, body.position) : arrow;
     });
 }
 
-/** The same force and moment told about another point. */
+/** The same force and moment about another point. */
 function moved(arrow: Arrow, point: Vec3): Arrow {
   const moment = momentAbout(arrow, point);
   return {

@@ -15,8 +15,9 @@ export function steps(lesson: Lesson): HTMLElement[] {
       h("li", null),
       `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`,
     );
-    const asked = ASKED[step.kind];
-    if (asked) item.append(said(`said:${lesson.slug}:${at}`, asked, step.kind === "predict" ? again : null));
+    const prompt = ASKED[step.kind];
+    if (prompt)
+      item.append(said(`said:${lesson.slug}:${at}`, prompt, step.kind === "predict" ? again : null));
     if (step.kind === "check") item.append(again);
     return item;
   });

@@ -1,4 +1,4 @@
-// What happens in a session, and who is told; how forces are told.
+// Events of a session and their listeners; the convention for forces.
 import type { Drawn } from "../mechanics/forces";
 
 export interface ReactionConvention {
@@ -20,14 +20,14 @@ type Events = {
   opened: () => void;
   /** The scene's numbers are known, or were changed. */
   scene: () => void;
-  /** Forces are told or drawn in another way. */
+  /** Forces are stated or drawn in another way. */
   view: () => void;
   /** A lecture's presenter shows or asks something else. */
   lecture: () => void;
   problem: (error: unknown) => void;
 };
 
-/** Tells whoever listens. */
+/** Calls the listeners. */
 export class Emitter {
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
     shown: new Set(),

@@ -14,13 +14,13 @@ export function liveQuery<T>(
   ask: (run: string, at: number | undefined) => Promise<T>,
   show: (value: T, of: SessionState) => void,
   failed: (error: unknown) => void,
-  asked: () => string = () => "",
+  query: () => string = () => "",
 ): LiveQuery {
   let busy = false;
   let seen = "";
 
   const keyOf = (state: SessionState): string =>
-    `${state.id}@${state.time}@${state.changes}@${session.reviewing}${asked()}`;
+    `${state.id}@${state.time}@${state.changes}@${session.reviewing}${query()}`;
   const refresh = (): void => {
     const state = session.shown;
     if (!state || busy) return;

@@ -1,10 +1,10 @@
 // What the page's address asks to be shown, with a word where it cannot be read.
 
 import { banner } from "../ui/notice";
-import { asked, type SharedView } from "./shared-view";
+import { type SharedView, viewOfAddress } from "./shared-view";
 
 export async function requestedView(): Promise<SharedView | undefined> {
-  const seen = await asked();
+  const seen = await viewOfAddress();
   if (seen === undefined)
     banner("This link is damaged: the lesson or scene is shown from its start.", {
       label: "Fine",

@@ -11,7 +11,7 @@ import type { Drawn, ReactionConvention } from "./events";
 export class Session extends Clock {
   /** Name of the selected joint. */
   joint: string | null = null;
-  /** How reactions are told: on which body, about which point, in which frame. */
+  /** The convention for reactions: on which body, about which point, in which frame. */
   convention: ReactionConvention = { on: "j", about: "joint", in: "world" };
   /** Which forces are drawn. */
   drawn: Drawn = { what: "all" };
@@ -20,10 +20,10 @@ export class Session extends Clock {
   view: SessionScene | undefined;
   /** What differs from the author's scene. */
   numbers: Numbers;
-  /** Numbers were changed, or a body was pulled, in the middle of this run: from its start it would go otherwise. */
-  bent = false;
-  /** Whether this page steers the run; a follower of a lecture only watches. */
-  readonly steers: boolean = true;
+  /** Numbers were changed, or a body was dragged, in the middle of this run: from its start it would move differently. */
+  altered = false;
+  /** Whether this page controls the run; a follower of a lecture only watches. */
+  readonly controls: boolean = true;
   protected readonly connection: Connection;
   private before: Numbers[] = [];
   private seenChanges = "";
@@ -49,7 +49,7 @@ export class Session extends Clock {
     addEventListener("pagehide", this.drop);
   }
 
-  /** Where this run is asked, once there is one. */
+  /** The run's address, once there is one. */
   get address(): string | undefined {
     return this.latest?.links.self;
   }
@@ -94,13 +94,13 @@ export class Session extends Clock {
     const run = this.address;
     if (!view || !run) return false;
     let sent = none();
-    await this.alone(async () => {
+    await this.inTurn(async () => {
       sent = between(this.numbers, to, view);
       if (isNone(sent)) return;
       this.toNewest();
       this.take(await api.change(run, sent, then));
       this.numbers = tidy(to, view);
-      this.bent = (this.latest?.time ?? 0) > 0;
+      this.altered = (this.latest?.time ?? 0) > 0;
     });
     return !isNone(sent);
   }
@@ -109,15 +109,15 @@ export class Session extends Clock {
   async pull(pull: Drag | null): Promise<void> {
     const run = this.address;
     if (!run) return;
-    await this.alone(async () => {
+    await this.inTurn(async () => {
       this.toNewest();
       this.take(pull ? await api.pull(run, pull) : await api.release(run));
-      this.bent = true;
+      this.altered = true;
     });
   }
 
   /** Waits for its turn instead of being dropped, as a request by a key may be. */
-  private async alone(request: () => Promise<void>): Promise<void> {
+  private async inTurn(request: () => Promise<void>): Promise<void> {
     while (this.busy) await new Promise<void>((done) => this.waiters.push(done));
     this.busy = true;
     try {
@@ -260,7 +260,7 @@ export class Session extends Clock {
     this.camera = camera;
     this.emit("view");
     const run = this.address;
-    if (run && this.steers) void this.ask(() => api.lookFrom(run, camera));
+    if (run && this.controls) void this.ask(() => api.lookFrom(run, camera));
   }
 
   private arrows(): Pick<Drawing, "on" | "about" | "drawn" | "marked"> {
@@ -281,7 +281,7 @@ export class Session extends Clock {
     const run = this.address;
     const arrows = this.arrows();
     const wanted = JSON.stringify(arrows);
-    if (!run || !this.steers || (wanted === this.drawnAs && !fit)) return;
+    if (!run || !this.controls || (wanted === this.drawnAs && !fit)) return;
     if (this.redrawing !== "idle") {
       this.redrawing = "again";
       return;
@@ -327,7 +327,7 @@ export class Session extends Clock {
     if (before && (state.id !== before.id || state.title !== before.title || state.time < before.time)) {
       this.past.clear();
       this.toNewest();
-      this.bent = false;
+      this.altered = false;
     }
     this.latest = state;
     this.past.add(state);
@@ -379,6 +379,6 @@ export class Session extends Clock {
   protected drop = (): void => {
     this.connection.end();
     this.endReplay();
-    if (this.address && this.steers) api.dropSession(this.address);
+    if (this.address && this.controls) api.dropSession(this.address);
   };
 }

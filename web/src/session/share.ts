@@ -48,7 +48,7 @@ async function copy(shared: Shared): Promise<void> {
     await navigator.clipboard.writeText(link);
     announce("The link to this view is copied.");
     banner(
-      shared.session.bent
+      shared.session.altered
         ? "The link is copied. This run was changed on its way; the link runs it with these numbers from the start."
         : "The link to this view is copied: whoever opens it sees the same.",
       { label: "Fine", run: () => banner(null) },
@@ -90,15 +90,15 @@ export async function restore(session: Session, seen: SharedView): Promise<void>
 
 const CAMERAS: Camera[] = ["corner", "front", "side", "above"];
 
-/** Selects, tells and draws forces as somebody else does. */
+/** Selects a joint, states and draws forces as somebody else does. */
 export function applyView(session: Session, seen: SharedView): void {
   if (seen.told) {
     const [on, about, frame] = seen.told.split(".");
-    const told: Partial<ReactionConvention> = {};
-    if (on === "i" || on === "j") told.on = on;
-    if (about === "joint" || about === "center") told.about = about;
-    if (frame === "world" || frame === "joint" || frame === "body") told.in = frame;
-    session.setConvention(told);
+    const convention: Partial<ReactionConvention> = {};
+    if (on === "i" || on === "j") convention.on = on;
+    if (about === "joint" || about === "center") convention.about = about;
+    if (frame === "world" || frame === "joint" || frame === "body") convention.in = frame;
+    session.setConvention(convention);
   }
   const drawn = drawnOf(seen.drawn);
   if (drawn) session.draw(drawn);

@@ -59,7 +59,7 @@ export async function linkTo(path: string, seen: SharedView): Promise<string> {
 }
 
 /** What the page's own address asks to be shown: null if nothing, undefined if it cannot be read. */
-export async function asked(): Promise<SharedView | null | undefined> {
+export async function viewOfAddress(): Promise<SharedView | null | undefined> {
   const text = new URLSearchParams(location.search).get(NAME);
   return text === null ? null : unpack(text);
 }

@@ -7,8 +7,8 @@ import type { Session } from "../session/session";
 
 export function legend(session: Session): { root: HTMLElement; update: () => void } {
   const scale = h("span");
-  const told = h("b", { class: "stage-told" });
-  const root = h("p", { class: "stage-legend", hidden: true }, told, scale);
+  const selected = h("b", { class: "stage-told" });
+  const root = h("p", { class: "stage-legend", hidden: true }, selected, scale);
   const update = (): void => {
     const drawing = session.latest?.drawing;
     const state = session.shown;
@@ -29,7 +29,7 @@ export function legend(session: Session): { root: HTMLElement; update: () => voi
     const [arrow] =
       session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.convention);
     setText(
-      told,
+      selected,
       arrow
         ? `${arrow.label}: ${num(norm(arrow.force), 3)} N${arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : ""}`
         : "",

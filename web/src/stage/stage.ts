@@ -25,7 +25,7 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
   const drawing = sketch(scene, [forceLayer(session), pullLayer(session)], (joint) =>
     session.select(session.joint === joint ? null : joint),
   );
-  if (session.steers) dragging(session, drawing.root, drawing.grip, drawing.move);
+  if (session.controls) dragging(session, drawing.root, drawing.grip, drawing.move);
   const host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   const bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
   const said = h("span");
@@ -96,7 +96,7 @@ export function stage(session: Session, scene: Scene | undefined, picture?: "ske
   };
   const paint = (): void => {
     const on = viewer !== undefined && wanted;
-    sides.root.hidden = !on || !session.steers;
+    sides.root.hidden = !on || !session.controls;
     host.hidden = !on;
     drawing.root.toggleAttribute("inert", on);
     root.classList.toggle("has-viewer", on);

@@ -198,7 +198,7 @@ export function transport(
       ),
       h(
         "div",
-        { class: "transport-group joined", hidden: !session.steers },
+        { class: "transport-group joined", hidden: !session.controls },
         button("skip", "Step by time", "full stop", stepTime),
         stride,
       ),

@@ -39,12 +39,12 @@ export function mountWorkbench(
   const picture = stage(session, options.scene, options.seen?.picture);
   const details = inspector(session, options.seen?.panel);
   const shared = { session, panel: details.current, picture: picture.current, own: options.own };
-  const lecture = session.steers ? presenterPanel(session, () => viewOf(shared)) : undefined;
+  const lecture = session.controls ? presenterPanel(session, () => viewOf(shared)) : undefined;
   const more = h(
     "span",
     { class: "row tight" },
     lecture?.button ?? null,
-    session.steers ? shareButton(shared) : null,
+    session.controls ? shareButton(shared) : null,
     picture.toggle,
   );
   const controls = transport(session, options.scene?.simulation?.duration, more);

@@ -1,0 +1,52 @@
+// The dialog in which a presenter writes a question for everybody.
+import { h } from "../core/dom";
+import { dialog } from "../ui/dialog";
+import { problemNotice } from "../ui/notice";
+
+export interface Question {
+  text: string;
+  choices: string[];
+}
+
+/** `ask` sends the question with the index of its right choice; while it is refused, the dialog stays open. */
+export function questionDialog(
+  joint: string | null,
+  ask: (question: Question, right: number | null) => Promise<void>,
+): void {
+  const text = h("input", {
+    class: "field",
+    id: "ask-text",
+    maxlength: "400",
+    value: joint ? `Which sign has Fx of ${joint} at this moment?` : "What happens next?",
+  });
+  const choices = h("textarea", { class: "field", id: "ask-choices", rows: "4" }, "positive\nnegative\nzero");
+  const right = h("input", {
+    class: "field compact",
+    id: "ask-right",
+    inputmode: "numeric",
+    placeholder: "none",
+  });
+  const wrong = h("div");
+  const form = h(
+    "form",
+    { class: "stack" },
+    h("label", { for: "ask-text" }, "Question"),
+    text,
+    h("label", { for: "ask-choices" }, "Choices, one a line"),
+    choices,
+    h("label", { for: "ask-right" }, "Number of the right choice, shown at the reveal"),
+    right,
+    wrong,
+    h("div", { class: "row" }, h("button", { class: "button primary" }, "Ask")),
+  );
+  const box = dialog("Ask everybody", form);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const lines = choices.value.split("\n").map((line) => line.trim());
+    const index = right.value.trim() === "" ? null : Number(right.value) - 1;
+    ask({ text: text.value.trim(), choices: lines.filter(Boolean) }, index)
+      .then(() => box.close())
+      .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
+  });
+  text.select();
+}
