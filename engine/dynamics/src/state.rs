@@ -151,6 +151,7 @@ impl State {
         self.update_rates(system);
     }
 
+    /// Points C^P Q and vectors C^s Q of bodies — eq. (2.2).
     fn update_positions(&mut self, system: &System) {
         for (state, feature) in self.features[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {
@@ -179,6 +180,7 @@ impl State {
         self.stage = Stage::Positions;
     }
 
+    /// Their rates C Q̇, with the same constant C — eq. (2.4).
     fn update_rates(&mut self, system: &System) {
         for (state, feature) in self.features[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {

@@ -97,6 +97,12 @@ pub struct Row {
 /// Marks a feature of the ground, which meets no moving body.
 pub const NO_INCIDENCE: usize = usize::MAX;
 
+/// A principal moment of inertia below this part of m l², l the longest arm of the body's own joints, is as good as none
+/// for the factorization.
+const LACKING: f64 = 1e-7;
+/// δ over m l² of a body that lacks inertia — eq. (7.8).
+const REGULARIZING_INERTIA: f64 = 1e-4;
+
 /// The assembled system.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -222,12 +228,11 @@ impl System {
             let j = body.principal;
             let half = 0.5 * j.sum();
             let ibar = j.map(|i| (half - i).max(0.0));
-            // A moment far below m l², l the arm of the body's own joints, is as good as none for the factorization. A
-            // free body needs help only where a moment is missing.
+            // A free body needs help only where a moment is missing.
             let scale = body.mass * arms[index] * arms[index];
-            let lacks = j.min() < 1e-7 * scale || (j.min() == 0.0 && scale == 0.0);
+            let lacks = j.min() < LACKING * scale || (j.min() == 0.0 && scale == 0.0);
             let scale = if scale == 0.0 { j.max().max(body.mass * self.length * self.length) } else { scale };
-            let regularizing_inertia = if lacks { 1e-4 * scale } else { 0.0 };
+            let regularizing_inertia = if lacks { REGULARIZING_INERTIA * scale } else { 0.0 };
             self.bodies.push(Body {
                 mass: body.mass,
                 principal: j,

@@ -5,8 +5,9 @@ use triad_engine::EngineError;
 use triad_engine::run::Simulation;
 use triad_scene::{IntegratorKind, Scene, Stabilization};
 
-/// How much tighter the tolerance of the second solution is, and the least there is.
+/// Tolerance of the second solution over that of the first.
 const TIGHTER: f64 = 1e-3;
+/// The least tolerance of a second solution: rounding is near.
 const TIGHTEST: f64 = 1e-13;
 
 /// Largest difference of a body between the two solutions so far.
@@ -46,7 +47,7 @@ pub struct Verifier {
 
 impl Verifier {
     /// Starts the second solution of the scene that `first` runs: by dop853 if that is a Taylor series, by radau if
-    /// it is stiff, else by a series; a hundred times tighter, always with projection.
+    /// it is stiff, else by a series; a thousand times tighter, always with projection.
     pub fn new(scene: &Scene, first: &mut Simulation) -> Result<Self, EngineError> {
         let mut scene = scene.clone();
         let settings = &mut scene.simulation;

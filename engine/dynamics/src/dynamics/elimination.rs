@@ -156,7 +156,7 @@ impl Elimination {
         self.redundant
     }
 
-    /// Accelerations and multipliers at a state. α and β are those of Baumgarte's stabilization, or zero.
+    /// Accelerations and multipliers at a state. α and β are those of Baumgarte's stabilization, or zero — eq. (10.3).
     pub fn accelerate<'a>(
         &'a mut self,
         system: &'a System,
@@ -217,7 +217,7 @@ impl Elimination {
         largest
     }
 
-    /// Solves for ξ̇ and λ with the wrenches and γ' in place.
+    /// Solves for ξ̇ and λ with the wrenches and γ' in place, refined where S is regularized — eq. (7.7).
     fn solve(&mut self, system: &System) {
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
             state.twist = [state.wrench[0] / body.mass, state.inverse * state.wrench[1]];
@@ -274,7 +274,7 @@ impl Elimination {
         }
     }
 
-    /// One proximal step for bodies whose inertia is regularized: D_δ ξ_(k+1) = D_δ ξ_k + δ (ω̇_k − ω̇_(k−1)).
+    /// One proximal step for bodies whose inertia is regularized: D_δ ξ_(k+1) = D_δ ξ_k + δ (ω̇_k − ω̇_(k−1)) — eq. (7.8).
     fn remove_regularization(&mut self, system: &System) {
         if !self.regularizes_inertia {
             return;
@@ -288,7 +288,7 @@ impl Elimination {
         }
     }
 
-    /// Q̈ (or a correction of Q) of a body from the last solution, which belongs to this state.
+    /// Q̈ = Q̈ᵖ + N ξ̇ (or a correction of Q) of a body from the last solution, which belongs to this state — eq. (7.2).
     pub fn solution(&self, state: &State, body: usize) -> Lift {
         natural_acceleration(&self.bodies[body], &state.bodies()[body].q)
     }

@@ -287,7 +287,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         order
     }
 
-    /// Q_(n+2) and λ_n from all coefficients before them.
+    /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
     fn solve_order(&mut self, n: usize) {
         let kappa = ((n + 1) * (n + 2)) as f64;
@@ -424,7 +424,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 }
 
-/// Value and derivative of a polynomial at τ.
+/// Value and derivative of a polynomial Σ Q_k τᵏ — eq. (11.1).
 #[inline(always)]
 fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Lifted], tau: f64) -> [B::Lifted; 2] {
     let mut state = [B::zero(); 2];

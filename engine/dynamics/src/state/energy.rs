@@ -4,7 +4,7 @@ use super::{Stage, State};
 use crate::system::System;
 
 impl State {
-    /// Kinetic plus potential energy, springs included, J.
+    /// Kinetic plus potential energy, springs included, J — eq. (6.10).
     pub fn energy(&self, system: &System) -> f64 {
         let gravity = system.model.gravity;
         let springs: f64 = system.loads.iter().map(|load| load.potential(self)).sum();

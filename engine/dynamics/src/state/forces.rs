@@ -32,7 +32,7 @@ impl AppliedForces {
         forces
     }
 
-    /// Replaces the forces by weights and loads at a state.
+    /// Replaces the forces by weights and loads at a state — eq. (6.7).
     pub fn evaluate(&mut self, system: &System, state: &State) {
         state.require(Stage::Velocities);
         for (force, body) in self.bodies.iter_mut().zip(&system.bodies) {

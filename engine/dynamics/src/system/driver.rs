@@ -25,7 +25,7 @@ pub fn write(model: &Model, driver: &ModelDriver, writer: &mut Writer) {
             ([ground, body], [origin; 2], "OV", Form::CommonVector { a, b })
         }
         DriverKind::Angle { joint, motion } => {
-            // b stays perpendicular to a₂ of body i turned by θ*(t): regular at every angle.
+            // b stays perpendicular to a₂ of body i turned by θ*(t): regular at every angle — eq. (5.3).
             let joint = &model.joints[*joint];
             let [i, j] = joint.bodies;
             let turned = VectorCurve::turning(&joint.cross[0][1], &joint.axes[0], motion.clone());

@@ -64,7 +64,7 @@ pub enum Target {
     Driven(usize),
 }
 
-/// A prescribed number: a curve, or the cosine of one.
+/// A prescribed number: a curve, or the cosine of one, whose derivatives are the terms in θ* of eq. (4.8).
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetCurve {
     /// The curve.

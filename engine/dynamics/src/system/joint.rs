@@ -82,7 +82,7 @@ fn common_point(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
     LabelledForm::new("CP", Form::Coincidence { a, b })
 }
 
-/// The axis of body j is perpendicular to two vectors of body i (2 CAR).
+/// The axis of body j is perpendicular to two vectors of body i (2 CAR) — eq. (5.1).
 fn common_axis(joint: &ModelJoint, writer: &mut Writer) -> Vec<LabelledForm> {
     let [i, j] = joint.bodies;
     let s = writer.vector(j, joint.axes[1]);

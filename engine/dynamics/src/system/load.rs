@@ -127,7 +127,7 @@ impl Load {
 }
 
 impl Element {
-    /// Force or moment in the direction of growing x.
+    /// Force or moment in the direction of growing x — eq. (6.9).
     pub(crate) fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
         self.without_spring(rate, t) - self.stiffness * (x - self.free)
     }

@@ -77,7 +77,7 @@ pub struct Layout {
     pub directors: [Director; 3],
 }
 
-/// Directors (k, l) of the six rigid-body rows, in their order, and the labels of the rows.
+/// Directors (k, l) of the six rigid-body rows, in their order, and the labels of the rows — eq. (4.6).
 pub const RIGID_ROWS: [(usize, usize, &str); 6] =
     [(0, 0, "uu"), (1, 1, "vv"), (2, 2, "ww"), (0, 1, "uv"), (0, 2, "uw"), (1, 2, "vw")];
 
@@ -106,7 +106,7 @@ impl Layout {
         })
     }
 
-    /// Q of all generalized coordinates q.
+    /// Q of all generalized coordinates q; a reduced body has w = u × v — eq. (3.1).
     pub fn position(&self, q: &[f64]) -> Lift {
         let read = |d: Director| match d {
             Director::Own(column) => vector(q, column),

@@ -20,10 +20,10 @@ use triad_linalg::orthonormal_basis;
 
 /// Directions are the same, and components are nothing, within this.
 const ALIKE: f64 = 1e-11;
-/// A body whose moment of inertia is below this part of m l² is given some, as much as [`REGULARIZATION`] m l².
+/// A body whose moment of inertia is below this part of m l² is given some, as much as [`REGULARIZING_INERTIA`] m l².
 const LACKING: f64 = 1e-7;
 /// Two refinements give it back; with less the inverses of blocks would be too far from exact.
-const REGULARIZATION: f64 = 1e-5;
+const REGULARIZING_INERTIA: f64 = 1e-5;
 
 /// Directions in the plane and its normal, as columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,7 +148,7 @@ fn set_inertia(flat: &mut System) {
         let about_pivot = body.pivot.map_or(0.0, |pivot| body.mass * pivot.local.xy().norm_squared());
         let lacks = inertia + about_pivot < LACKING * scale || inertia + about_pivot == 0.0;
         let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
-        body.regularizing_inertia = if lacks { REGULARIZATION * scale } else { 0.0 };
+        body.regularizing_inertia = if lacks { REGULARIZING_INERTIA * scale } else { 0.0 };
     }
 }
 

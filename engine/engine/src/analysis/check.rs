@@ -91,6 +91,7 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
         }
     }
     let rows = system.rigid_rows + system.equations;
+    // f = n − n_RB − rank A, and n − n_RB is six for each body — eq. (8.1).
     let degrees_of_freedom = 6 * system.bodies.len() - rank.rank;
     Ok(CheckReport {
         name: scene.name.clone(),

@@ -1,4 +1,4 @@
-//! Independent coordinates of a mechanism near one position — eq. (10.5).
+//! Independent coordinates of a mechanism near one position — eq. (10.4).
 //!
 //! A chart names f functionals η = L (q − q₀) and a basis Z of the motions that the constraints allow at q₀, with
 //! L Z = I. The position with given η is where Φ(q, t) = 0 and L (q − q₀) = η; velocities and accelerations follow from

@@ -1,4 +1,4 @@
-//! Radau IIA of order 5: implicit Runge-Kutta for stiff springs, dampers and friction — eq. (10.6)
+//! Radau IIA of order 5: implicit Runge-Kutta for stiff springs, dampers and friction — eq. (10.5)
 //! (Hairer, Wanner, Solving Ordinary Differential Equations II, section IV.8).
 //!
 //! It integrates ẋ = f(t, x), x = (η, η̇), second-order equations in independent coordinates: the linear systems of

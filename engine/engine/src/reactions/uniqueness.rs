@@ -132,7 +132,7 @@ impl NullSpace {
         multipliers.iter().zip(idle.iter()).map(|(lambda, idle)| lambda - idle).collect()
     }
 
-    /// Whether a quantity Σ wₖ λₖ of a group of solver rows is unique.
+    /// Whether a quantity Σ wₖ λₖ of a group of solver rows is unique — eq. (9.2).
     pub fn is_unique(&self, first: usize, weights: &[f64]) -> bool {
         let size: f64 =
             weights.iter().zip(&self.lengths[first..]).map(|(w, l)| (w / l.max(1e-300)).powi(2)).sum();

@@ -11,7 +11,7 @@ use crate::system::row::Form;
 use nalgebra::{Matrix3, Vector3};
 
 impl Elimination {
-    /// Sets the particular accelerations and the wrenches from the right-hand sides Γ of the rigid-body rows.
+    /// Sets the particular accelerations and the wrenches (F, T) from the right-hand sides Γ of the rigid-body rows — eq. (7.5).
     ///
     /// `gamma(q, q̇)` returns the symmetric matrix of those rows of a body: units on the diagonal, right angles off it.
     pub(super) fn set_particular(
@@ -66,7 +66,7 @@ impl Elimination {
         }
     }
 
-    /// Writes γ' = γ − Φ_Q Q̈ᵖ of the solver rows, γ of a product's velocity terms included if asked for, and of
+    /// Writes γ' = γ − Φ_Q Q̈ᵖ of the solver rows — eq. (7.3) —, γ of a product's velocity terms included if asked for, and of
     /// each equation whatever `shift(Φ, Φ̇)` adds.
     pub(super) fn set_gamma(
         &mut self,

@@ -45,7 +45,7 @@ impl<'a> Multipliers<'a> {
         }
     }
 
-    /// Force and moment about the centre of mass, −A_bᵀ λ, of a joint on a body.
+    /// Force and moment about the centre of mass, −A_bᵀ λ, of a joint on a body — eq. (9.1).
     pub fn wrench_on(&self, incidence: usize) -> [Vector3<f64>; 2] {
         let group = self.system.incidences[incidence].group;
         let lambda = &self.lambda[self.system.groups[group].solver.clone()];
