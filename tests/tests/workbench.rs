@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use serde_json::{Value, json};
+use std::time::{Duration, Instant};
 use triad_tests::program::{Server, run, run_json};
 use triad_tests::reference::distance;
 
@@ -58,7 +59,11 @@ fn a_lesson_is_read_run_and_answered_and_the_result_survives_a_restart() {
 
     let played = server.post(&format!("{session}/play"), &json!({"speed": 4})).json();
     assert_eq!(played["playing"], true);
-    std::thread::sleep(std::time::Duration::from_millis(300));
+    // It plays on by itself; how fast is a matter of the machine.
+    let waiting = Instant::now();
+    while server.get(&session).json()["time"].as_f64().unwrap() <= 2.1 {
+        assert!(waiting.elapsed() < Duration::from_secs(60), "the session does not play");
+    }
     let paused = server.post(&format!("{session}/pause"), &json!({})).json();
     assert!(paused["time"].as_f64().unwrap() > 2.1, "{}", paused["time"]);
     let reset = server.post(&format!("{session}/reset"), &json!({})).json();

@@ -1,28 +1,11 @@
-//! The stress suite, the part that is cheap enough for every change: verdicts are as they have to be, the same seed
+//! The stress suite in its quick form: verdicts are as they have to be, the same seed
 //! gives the same bits, and random mechanisms keep their invariants.
 
 use triad_lab::stress::{self, Treatment, Verdict};
 
-/// Cases of the quick form that take long without optimization; `triad stress --quick` runs them.
-const SLOW: &[&str] = &[
-    "four-bars",
-    "chain-2000",
-    "tree-1023",
-    "net",
-    "four-bar-999",
-    "hub",
-    "friction-smooth",
-    "free-body-turns",
-    "intermediate-axis-turns",
-    "pendulum-2000-s",
-    "chain-of-ten",
-    "spring-1e10",
-    "spring-damped",
-];
-
 #[test]
 fn every_case_goes_as_it_has_to() {
-    for case in stress::cases().iter().filter(|case| !SLOW.contains(&case.name)) {
+    for case in &stress::cases() {
         let entry = stress::run(case, &Treatment::default(), true);
         assert!(entry.as_expected(), "{}: {:?}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
     }
