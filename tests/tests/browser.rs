@@ -4,9 +4,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
 use triad_tests::program::Server;
 use triad_tests::root;
 
@@ -21,37 +20,19 @@ fn must(what: &str, command: &mut Command) -> String {
     said
 }
 
-/// Installs what is missing: Debian's Chromium (as root), and the driver from `tests/browser/package-lock.json`.
-fn prepare(folder: &Path) {
-    // Two tests at once must not install twice.
-    static TURN: Mutex<()> = Mutex::new(());
-    let _turn = TURN.lock().unwrap();
-    if !Path::new(CHROMIUM).exists() {
-        let user = must("who runs this", Command::new("id").arg("-u"));
-        assert_eq!(
-            user.trim(),
-            "0",
-            "the browser test needs {CHROMIUM}: install it (apt-get install chromium), or run the test as root"
-        );
-        println!("installing chromium");
-        must("package lists", Command::new("apt-get").args(["update", "-qq"]));
-        let mut install = Command::new("apt-get");
-        install.env("DEBIAN_FRONTEND", "noninteractive");
-        must("chromium", install.args(["install", "-y", "-qq", "--no-install-recommends", "chromium"]));
+/// The folder of the browser scripts, if all that they need is there.
+fn scripts() -> PathBuf {
+    let folder = root().join("tests/browser");
+    let driver = folder.join("node_modules/playwright-core");
+    for needed in [Path::new(CHROMIUM), &driver] {
+        assert!(needed.exists(), "{} is missing: `cargo verify setup` installs it", needed.display());
     }
-    let lock = std::fs::metadata(folder.join("package-lock.json")).unwrap().modified().unwrap();
-    let installed =
-        std::fs::metadata(folder.join("node_modules/.package-lock.json")).and_then(|m| m.modified());
-    if installed.is_ok_and(|installed| installed >= lock) {
-        return;
-    }
-    must("browser driver", Command::new("npm").args(["ci", "--no-audit", "--no-fund"]).current_dir(folder));
+    folder
 }
 
 #[test]
 fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
-    let folder = root().join("tests/browser");
-    prepare(&folder);
+    let folder = scripts();
     let home = tempfile::tempdir().unwrap();
     let profile = home.path().join("profile");
     let pictures = root().join("tests/output");
@@ -76,8 +57,7 @@ fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
 
 #[test]
 fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_in_trouble() {
-    let folder = root().join("tests/browser");
-    prepare(&folder);
+    let folder = scripts();
     let home = tempfile::tempdir().unwrap();
     let server = Server::start(home.path());
     let said = must(

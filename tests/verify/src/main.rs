@@ -1,0 +1,135 @@
+//! `cargo verify`: everything that must hold before a change is taken, step by step, with the time of each.
+//!
+//! `cargo verify setup` alone installs what the tests need and the machine lacks; no test installs anything itself. All
+//! steps build in the release profile, so that build scripts and macros are compiled once. A step that fails does not stop
+//! those after it, but the program ends with a failure.
+
+mod setup;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+/// One step: its name, what it is for, and what it does in the repository's root.
+struct Step {
+    name: &'static str,
+    purpose: &'static str,
+    run: fn(&Path) -> Result<(), String>,
+}
+
+const STEPS: [Step; 6] = [
+    Step {
+        name: "setup",
+        purpose: "install what the tests need: Chromium, Octave, npm packages",
+        run: setup::run,
+    },
+    Step { name: "format", purpose: "cargo fmt", run: |root| cargo(root, "fmt --all --check") },
+    Step {
+        name: "test",
+        purpose: "all tests of all crates",
+        run: |root| cargo(root, "test --release --workspace"),
+    },
+    Step {
+        name: "lint",
+        purpose: "clippy on all targets, the fuzz targets included, without warnings",
+        run: |root| {
+            let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
+            cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))
+        },
+    },
+    Step { name: "doc", purpose: "cargo doc, without warnings", run: documentation },
+    Step { name: "page", purpose: "types, lints and tests of the web page", run: page },
+];
+
+fn documentation(root: &Path) -> Result<(), String> {
+    let mut command = cargo_command(root);
+    command.env("RUSTDOCFLAGS", "-D warnings");
+    command.args("doc --release --quiet --workspace --no-deps".split(' '));
+    must(&mut command)
+}
+
+fn page(root: &Path) -> Result<(), String> {
+    must(Command::new(setup::NPM).args(["run", "check"]).current_dir(root.join("web")))
+}
+
+fn cargo(root: &Path, arguments: &str) -> Result<(), String> {
+    must(cargo_command(root).args(arguments.split(' ')))
+}
+
+/// Cargo in a folder, without what the cargo that started this program set for it: with another environment build
+/// scripts would run again.
+fn cargo_command(root: &Path) -> Command {
+    let mut command = Command::new("cargo");
+    command.current_dir(root);
+    for (name, _) in std::env::vars_os() {
+        let shown = name.to_string_lossy();
+        if shown.starts_with("CARGO_PKG_") || shown.starts_with("CARGO_MANIFEST_") {
+            command.env_remove(name);
+        }
+    }
+    command
+}
+
+/// Runs a command whose output goes where this program's goes.
+fn must(command: &mut Command) -> Result<(), String> {
+    let shown = format!("{command:?}").replace('"', "");
+    println!("verify: {shown}");
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{shown}: {status}")),
+        Err(error) => Err(format!("{shown}: {error}")),
+    }
+}
+
+/// Runs steps one after the other and reports each; whether all succeeded.
+fn all_pass(steps: &[&Step], root: &Path) -> bool {
+    let mut report = Vec::new();
+    let mut passed = true;
+    for step in steps {
+        println!("\nverify: step {} - {}", step.name, step.purpose);
+        let began = Instant::now();
+        let result = (step.run)(root);
+        passed &= result.is_ok();
+        let said = result.map_or_else(|why| format!("FAILED: {why}"), |()| "ok".to_owned());
+        report.push(format!("verify: {:<8} {:>7.1} s  {said}", step.name, began.elapsed().as_secs_f64()));
+    }
+    println!("\n{}", report.join("\n"));
+    passed
+}
+
+fn main() -> ExitCode {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let unknown = wanted.iter().find(|name| STEPS.iter().all(|step| step.name != **name));
+    if let Some(unknown) = unknown {
+        let help = unknown == "--help" || unknown == "-h";
+        if !help {
+            eprintln!("verify: there is no step \"{unknown}\"");
+        }
+        println!("cargo verify [STEP…]: without a step, all of them in this order");
+        for step in &STEPS {
+            println!("  {:<8} {}", step.name, step.purpose);
+        }
+        return if help { ExitCode::SUCCESS } else { ExitCode::from(2) };
+    }
+    let chosen: Vec<&Step> = STEPS
+        .iter()
+        .filter(|step| wanted.is_empty() || wanted.iter().any(|name| name == step.name))
+        .collect();
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    if all_pass(&chosen, &root) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_failing_step_fails_the_whole() {
+        let good = Step { name: "good", purpose: "", run: |_| Ok(()) };
+        let bad = Step { name: "bad", purpose: "", run: |_| must(&mut Command::new("false")) };
+        let root = Path::new(".");
+        assert!(all_pass(&[&good, &good], root));
+        assert!(!all_pass(&[&bad, &good], root));
+        assert!(!all_pass(&[&good, &bad], root));
+    }
+}
