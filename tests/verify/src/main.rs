@@ -6,6 +6,7 @@
 
 mod setup;
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
@@ -72,7 +73,8 @@ fn cargo_command(root: &Path) -> Command {
 
 /// Runs a command whose output goes where this program's goes.
 fn must(command: &mut Command) -> Result<(), String> {
-    let shown = format!("{command:?}").replace('"', "");
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let shown = words.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(" ");
     println!("verify: {shown}");
     match command.status() {
         Ok(status) if status.success() => Ok(()),
