@@ -4,6 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::missing_panics_doc)]
 
+pub mod accuracy;
 pub mod lecture;
 pub mod probe;
 pub mod program;

@@ -97,7 +97,7 @@ fn the_seventeen_reactions_of_the_slider_crank_match_their_reference() {
     let mut scene = catalogue::scene("spatial-slider-crank").unwrap();
     scene.simulation.tolerance = 1e-11;
     let mut simulation = Simulation::new(&scene).unwrap();
-    let (names, rows) = table(include_str!("data/slider-crank.csv"));
+    let (names, rows) = table(include_str!("../../../tests/data/b01-slider-crank.csv"));
     let column = |row: &[f64], name: &str| row[names.iter().position(|n| *n == name).unwrap()];
     let mut largest = 0.0f64;
     for row in &rows {

@@ -38,37 +38,6 @@ fn deviation(
 const KINDS: [Coordinates; 3] = [Coordinates::Full, Coordinates::Reduced, Coordinates::Shared];
 
 #[test]
-fn the_bricard_loop_follows_its_reference() {
-    for kind in KINDS {
-        let columns = ["P3x[m]", "P3y[m]", "P3z[m]", "P4x[m]", "P4y[m]", "P4z[m]"];
-        let found = deviation("bricard", kind, include_str!("data/bricard.csv"), &columns, |frame| {
-            // P3 and P4 are the ends of the third bar, which lies along its u.
-            let bar = &frame.bodies[2];
-            let end = |side: f64| [0, 1, 2].map(|k| bar.position[k] + side * bar.u[k]);
-            [end(-0.5), end(0.5)].concat()
-        });
-        assert!(found < 1e-8, "{found:e}");
-    }
-}
-
-#[test]
-fn the_spatial_slider_crank_follows_its_references() {
-    let references = [
-        ("spatial-slider-crank:file", include_str!("data/slider-crank.csv")),
-        ("spatial-slider-crank:slender", include_str!("data/slider-crank-slender.csv")),
-        ("spatial-slider-crank:mbdyn", include_str!("data/slider-crank-mbdyn.csv")),
-    ];
-    for (kind, (name, reference)) in KINDS.into_iter().flat_map(|kind| references.map(|r| (kind, r))) {
-        let columns = ["s[m]", "rodx[m]", "rody[m]", "rodz[m]", "ds[m/s]"];
-        let found = deviation(name, kind, reference, &columns, |frame| {
-            let (rod, block) = (&frame.bodies[1], &frame.bodies[2]);
-            [vec![block.position[0]], rod.position.to_vec(), vec![block.velocity[0]]].concat()
-        });
-        assert!(found < 1e-8, "{name}: {found:e}");
-    }
-}
-
-#[test]
 fn the_falling_body_follows_its_reference() {
     for kind in KINDS {
         let columns = ["x", "y", "z[m]", "px", "py", "pz[m]"];
