@@ -137,7 +137,9 @@ fn ask(question: &str, scene: &str, folder: &Path) -> (String, Vec<f64>) {
     }
     let table = std::fs::read_to_string(&table).unwrap_or_default();
     let lines: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
-    lines.iter().for_each(|line| digest.add(line.as_bytes()));
+    for line in &lines {
+        digest.add(line.as_bytes());
+    }
     let last =
         lines.last().map_or(vec![], |line| line.split(',').filter_map(|x| x.parse().ok()).take(13).collect());
     (format!("{:016x}", digest.0), last)

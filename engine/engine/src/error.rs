@@ -30,7 +30,7 @@ pub enum EngineError {
     #[error("{error}{}", last.as_ref().map(ToString::to_string).unwrap_or_default())]
     Constraint {
         /// Which, and how far they are from it.
-        error: ConstraintError,
+        error: Box<ConstraintError>,
         /// What the last good state tells, where there is one.
         last: Option<LastGood>,
     },
@@ -114,7 +114,7 @@ impl From<ConstraintError> for EngineError {
             return Self::Diverged { time, last: LastGood::default() };
         }
         let last = error.is_during_motion().then(LastGood::default);
-        Self::Constraint { error, last }
+        Self::Constraint { error: Box::new(error), last }
     }
 }
 

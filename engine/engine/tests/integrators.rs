@@ -70,11 +70,10 @@ fn each_method_has_its_order_on_constrained_mechanisms() {
     for (integrator, treatment, expected, step) in cases {
         let check = |name: &str, step: f64, most: f64| {
             let found = order(name, integrator, treatment, step);
-            println!("{name} {integrator:?} {}: {found:.2}", treatment);
+            println!("{name} {integrator:?} {treatment}: {found:.2}");
             assert!(
                 found > expected - 0.6 && found < most,
-                "{name}, {integrator:?} with {}: order {found:.2} instead of {expected}",
-                treatment
+                "{name}, {integrator:?} with {treatment}: order {found:.2} instead of {expected}"
             );
         };
         check("spatial-double-pendulum", step, expected + 1.8);

@@ -75,7 +75,7 @@ fn a_run_that_goes_on_unchanged_is_the_same_run() {
     let mut first = Simulation::new(&scene).unwrap();
     first.advance_to(0.7).unwrap();
     let mut second = Simulation::new(&scene).unwrap();
-    second.continue_from(&mut first).unwrap();
+    second.continue_from(&first).unwrap();
     assert_eq!(second.time(), 0.7);
     assert!(second.summary().energy_drift == 0.0);
     second.advance_to(1.5).unwrap();
@@ -98,7 +98,7 @@ fn gravity_may_vanish_in_flight() {
     };
     let then = speed(&mut before);
     let mut after = Simulation::new(&pendulum().changed([("g", 0.0)], []).unwrap()).unwrap();
-    after.continue_from(&mut before).unwrap();
+    after.continue_from(&before).unwrap();
     after.advance_to(3.0).unwrap();
     assert!((speed(&mut after) - then).abs() < 1e-9);
 }
@@ -112,7 +112,7 @@ fn a_driven_angle_keeps_its_turns() {
     let mut before = Simulation::new(&scene(text)).unwrap();
     before.advance_to(4.0).unwrap();
     let mut after = Simulation::new(&scene(text)).unwrap();
-    after.continue_from(&mut before).unwrap();
+    after.continue_from(&before).unwrap();
     after.advance_to(5.0).unwrap();
     assert!((after.frame().bodies[0].u[0] - 25.0f64.cos()).abs() < 1e-7);
 }
@@ -125,7 +125,7 @@ fn a_state_that_no_longer_fits_is_refused() {
     let moved = pendulum().changed([], [("/bodies/0/position/0", &far)]).unwrap();
     let mut after = Simulation::new(&moved).unwrap();
     assert!(matches!(
-        after.continue_from(&mut before),
-        Err(EngineError::Constraint { error: ConstraintError::StartTooFar { .. }, .. })
+        after.continue_from(&before),
+        Err(EngineError::Constraint { error, .. }) if matches!(*error, ConstraintError::StartTooFar { .. })
     ));
 }

@@ -240,7 +240,7 @@ fn a_driven_run_is_taken_over_by_another_where_it_stands() {
     for step in 1..=8 {
         run.advance_to(0.01 * f64::from(step)).unwrap();
         let mut next = Simulation::new(&scene).unwrap();
-        next.continue_from(&mut run).unwrap();
+        next.continue_from(&run).unwrap();
         assert!((next.time() - run.time()).abs() < 1e-12);
     }
 }

@@ -60,7 +60,7 @@ impl Question {
                 texts.extend(options.iter().flat_map(|o| [o.text.as_str(), o.reason.as_str()]));
             }
             QuestionBody::Formula(f) => {
-                texts.extend(f.misconceptions.iter().map(|(.., feedback)| feedback.as_str()))
+                texts.extend(f.misconceptions.iter().map(|(.., feedback)| feedback.as_str()));
             }
             QuestionBody::Model(m) => texts.extend(m.watches().iter().map(|w| w.feedback.as_str())),
             QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Tuning(_) => {}

@@ -198,13 +198,11 @@ fn checked(node: Node, ids: &mut BTreeSet<String>) -> Result<(), FigureError> {
 fn is_harmless(key: &str, value: &str) -> bool {
     let reference = value.strip_prefix("url(#").and_then(|v| v.strip_suffix(')'));
     let plain_id = |id: &str| id.chars().all(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | '.'));
-    match reference {
-        Some(id) => plain_id(id),
-        None => {
-            let call = value.contains('(') && key != "transform" || value.to_lowercase().contains("url(");
-            !call && !value.contains([':', '&', '\\', '<', '>', '"']) && !value.contains("//")
-        }
+    if let Some(id) = reference {
+        return plain_id(id);
     }
+    let call = value.contains('(') && key != "transform" || value.to_lowercase().contains("url(");
+    !call && !value.contains([':', '&', '\\', '<', '>', '"']) && !value.contains("//")
 }
 
 /// Writes an element as it was checked, with everything in it.

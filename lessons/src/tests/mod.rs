@@ -117,10 +117,10 @@ fn the_public_view_holds_no_answer() {
                     secrets.extend(q.misconceptions.iter().map(|m| m.id.clone()));
                 }
                 QuestionBody::Choice { options, .. } => {
-                    secrets.extend(options.iter().map(|o| o.reason.clone()))
+                    secrets.extend(options.iter().map(|o| o.reason.clone()));
                 }
                 QuestionBody::Formula(f) => {
-                    secrets.extend(f.misconceptions.iter().map(|(.., text)| text.clone()))
+                    secrets.extend(f.misconceptions.iter().map(|(.., text)| text.clone()));
                 }
                 QuestionBody::Model(m) => secrets.extend(m.watches().iter().map(|w| w.feedback.clone())),
                 QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Tuning(_) => {}

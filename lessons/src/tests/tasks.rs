@@ -59,6 +59,9 @@ fn reference(lesson: &Lesson, id: &str) -> serde_json::Value {
     serde_json::from_str(&text).unwrap()
 }
 
+/// Tells whether an error is the one that was expected.
+type Is<E> = fn(&E) -> bool;
+
 #[test]
 fn a_program_is_told_which_block_row_and_column_is_off() {
     let lesson = lesson("jacobian").variant("ada").unwrap();
@@ -134,8 +137,7 @@ fn a_program_may_write_csv_and_bad_files_cost_nothing() {
         }
     }
     assert_eq!(judged(&lesson, "program", file(&csv)).verdict, Mark::Right);
-    type Is = fn(&OutputError) -> bool;
-    let cases: [(&str, Is); 8] = [
+    let cases: [(&str, Is<OutputError>); 8] = [
         ("{", |e| matches!(e, OutputError::Json { .. })),
         ("{\"states\": []}", |e| *e == OutputError::StateCount { found: 0, given: 5 }),
         (
@@ -216,8 +218,7 @@ fn a_table_is_judged_by_bands_and_phase_is_told_from_amplitude() {
 fn a_table_that_cannot_be_used_says_why() {
     let lesson = lesson("verification");
     let long = pendulum(0.0, 1.0, 0.02);
-    type Is = fn(&InvalidTrajectory) -> bool;
-    let cases: [(String, Is); 6] = [
+    let cases: [(String, Is<InvalidTrajectory>); 6] = [
         ("t,x\n0,1\n".to_owned(), |e| matches!(e, InvalidTrajectory::NoColumn { name, .. } if name == "y")),
         ("t,x,y\n0,1,2\n".to_owned(), |e| *e == InvalidTrajectory::FewRows { rows: 1, fewest: 20 }),
         (long.lines().take(300).collect::<Vec<_>>().join("\n"), |e| {

@@ -93,8 +93,8 @@ impl Feedback {
     pub(crate) fn authored(&self) -> Option<&str> {
         match self {
             Self::Option { reason } => Some(reason),
-            Self::Formula(FormulaFinding::Misconception { feedback }) => Some(feedback),
-            Self::Quantity(QuantityFeedback {
+            Self::Formula(FormulaFinding::Misconception { feedback })
+            | Self::Quantity(QuantityFeedback {
                 number: NumberFinding::Misconception { feedback }, ..
             }) => Some(feedback),
             _ => None,

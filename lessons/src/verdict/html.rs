@@ -1,5 +1,7 @@
 //! The one place where what is said about an answer becomes HTML.
 
+use std::fmt::Write as _;
+
 use super::feedback::{
     Demand, DemandResult, Discrepancy, Feedback, FormulaFinding, MotionFinding, NumberFinding, PartFinding,
     QuantityFeedback, TuningFeedback, UnitFinding,
@@ -144,7 +146,7 @@ fn discrepancy(off: &Discrepancy) -> String {
         text += &listed(&off.columns);
     }
     if let Some((row, body)) = &off.block {
-        text += &format!(": all in the block of {row} and body {body}");
+        let _ = write!(text, ": all in the block of {row} and body {body}");
     }
     text += match off.factor {
         Some(-1) => ". They have the right size and the wrong sign",
@@ -167,13 +169,11 @@ fn listed(names: &[String]) -> String {
 fn model(demands: &[DemandResult], note: Option<&str>) -> String {
     let lines: String = demands.iter().map(demand).collect();
     let list = format!("<ul class=\"checks\">{lines}</ul>");
-    match note {
-        Some(note) => format!("<p>Right.</p>{list}{}", render_short(note)),
-        None => {
-            let met = demands.iter().filter(|d| d.met).count();
-            format!("<p>{met} of {} demands are met.</p>{list}", demands.len())
-        }
+    if let Some(note) = note {
+        return format!("<p>Right.</p>{list}{}", render_short(note));
     }
+    let met = demands.iter().filter(|d| d.met).count();
+    format!("<p>{met} of {} demands are met.</p>{list}", demands.len())
 }
 
 fn demand(result: &DemandResult) -> String {

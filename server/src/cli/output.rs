@@ -10,7 +10,7 @@ use crate::problem::Problem;
 
 /// Makes the folder of a file, so that work does not begin whose result has no place.
 pub(super) fn make_room(file: &Path) -> Result<(), Problem> {
-    file.parent().map_or(Ok(()), |folder| make_folder(folder))
+    file.parent().map_or(Ok(()), make_folder)
 }
 
 /// Makes a folder and those above it.

@@ -129,7 +129,7 @@ mod tests {
             then.push(tension(&mut run));
         }
         let mut heavy = pendulum(10.0);
-        heavy.continue_from(&mut run).expect("goes on");
+        heavy.continue_from(&run).expect("goes on");
         history.start_segment(std::mem::replace(&mut run, heavy));
         run.advance_to(0.3).expect("runs");
         history.keep(&mut run);

@@ -195,7 +195,7 @@ impl Worker {
     /// Lets another simulation go on from the state of the current one.
     fn transfer_state(&mut self, next: &mut Simulation) -> Result<(), Problem> {
         self.ready_to_change()?;
-        next.continue_from(&mut self.simulation).map(drop).map_err(|error| {
+        next.continue_from(&self.simulation).map(drop).map_err(|error| {
             let problem = Problem::from(error);
             Problem::new(
                 StatusCode::UNPROCESSABLE_ENTITY,

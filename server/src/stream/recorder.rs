@@ -150,13 +150,15 @@ impl Recorder {
         for index in 0..self.description.joints.len() {
             let drawn: Vec<Glyphs> =
                 samples.iter().map(|sample| self.arrows.of_joint(&self.description, index, sample)).collect();
-            let (pieces, circles) = drawn.into_iter().map(|glyphs| (glyphs.pieces, glyphs.circles)).unzip();
+            let (pieces, circles): (Vec<_>, Vec<_>) =
+                drawn.into_iter().map(|glyphs| (glyphs.pieces, glyphs.circles)).unzip();
             let name = self.description.joints[index].name.clone();
-            self.write_pieces(path(&["world", "joints", &name]), samples, pieces)?;
+            self.write_pieces(path(&["world", "joints", &name]), samples, &pieces)?;
             self.write_circles(path(&["world", "joints", &name, "moment"]), samples, circles)?;
         }
-        let of_body = samples.iter().map(|sample| self.arrows.of_body(&self.description, sample)).collect();
-        self.write_pieces(FREE_BODY.into(), samples, of_body)
+        let of_body: Vec<_> =
+            samples.iter().map(|sample| self.arrows.of_body(&self.description, sample)).collect();
+        self.write_pieces(FREE_BODY.into(), samples, &of_body)
     }
 
     fn write_mark(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
@@ -192,9 +194,9 @@ impl Recorder {
         &mut self,
         entity: EntityPath,
         samples: &[Sample],
-        drawn: Vec<Vec<Piece>>,
+        drawn: &[Vec<Piece>],
     ) -> RecordingStreamResult<()> {
-        if self.is_idle(&entity, &drawn) {
+        if self.is_idle(&entity, drawn) {
             return Ok(());
         }
         let counts: Vec<usize> = drawn.iter().map(Vec::len).collect();

@@ -147,7 +147,7 @@ async fn scenes_and_analyses_are_as_described() {
     let mut api = watched().await;
     let scenes = api.get("/api/v1/scenes", "/api/v1/scenes").await;
     for entry in scenes.as_array().expect("scenes") {
-        let name = entry["name"].as_str().expect("a name").replace("N", "2");
+        let name = entry["name"].as_str().expect("a name").replace('N', "2");
         let reply = get(&api.server, &format!("/api/v1/scenes/{name}")).await;
         if reply.status == 200 {
             let scene = api.get("/api/v1/scenes/{name}", &format!("/api/v1/scenes/{name}")).await;

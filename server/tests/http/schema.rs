@@ -30,10 +30,10 @@ impl Check<'_> {
                 "minimum" if value.as_f64().zip(said.as_f64()).is_some_and(|(v, least)| v < least) => {
                     refuse(format!("is below {said}"));
                 }
-                "minItems" if value.as_array().map(Vec::len) < said.as_u64().map(|n| n as usize) => {
+                "minItems" if value.as_array().map(|list| list.len() as u64) < said.as_u64() => {
                     refuse(format!("has less than {said} items"));
                 }
-                "maxItems" if value.as_array().map(Vec::len) > said.as_u64().map(|n| n as usize) => {
+                "maxItems" if value.as_array().map(|list| list.len() as u64) > said.as_u64() => {
                     refuse(format!("has more than {said} items"));
                 }
                 "oneOf" | "anyOf" => {

@@ -1,5 +1,7 @@
 //! No endpoint tells an answer: everything that a student can ask for is asked for, and every byte is searched.
 
+use std::fmt::Write as _;
+
 use std::collections::BTreeSet;
 use std::net::SocketAddr;
 use std::pin::Pin;
@@ -69,7 +71,7 @@ fn secrets(lesson: &Lesson) -> Secrets {
         }
         if let Question::Quantity(q) = &question.body {
             for x in q.reference.iter().chain(q.misconceptions.iter().flat_map(|m| &m.value)) {
-                files.push_str(&format!(" {x:.12} "));
+                let _ = write!(files, " {x:.12} ");
             }
         }
     }

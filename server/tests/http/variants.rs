@@ -81,5 +81,5 @@ async fn a_file_is_kept_but_a_list_only_tells_its_length() {
     assert_eq!((verdict.status.as_u16(), &verdict.json()["passed"]), (201, &Value::Bool(true)));
     let list = get(&server, "/api/v1/submissions?student=ada").await.json();
     let bytes = list[0]["answers"]["program"]["file"]["bytes"].as_u64().expect("a length");
-    assert_eq!(bytes as usize, right["answers"]["program"]["file"].as_str().expect("text").len());
+    assert_eq!(bytes, right["answers"]["program"]["file"].as_str().expect("text").len() as u64);
 }

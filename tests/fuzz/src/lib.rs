@@ -18,8 +18,11 @@ use triad_lessons::answers::number;
 use triad_lessons::answers::units::Unit;
 use triad_lessons::rendering::markdown;
 
+/// Reads bytes in one way.
+pub type Target = fn(&[u8]);
+
 /// What can be fuzzed, by name.
-pub const TARGETS: [(&str, fn(&[u8])); 5] = [
+pub const TARGETS: [(&str, Target); 5] = [
     ("scene", scene),
     ("lesson", lesson),
     ("submission", submission),

@@ -12,13 +12,17 @@ static TARGET: LazyLock<fn(&[u8])> = LazyLock::new(|| {
 });
 
 /// Tries one input. A panic ends the process: so libFuzzer knows that the input is worth keeping.
+///
+/// # Safety
+///
+/// `data` points to `size` bytes that live until the function returns.
 #[allow(unsafe_code, reason = "libFuzzer is called and calls in C")]
 #[unsafe(no_mangle)]
-pub extern "C" fn LLVMFuzzerTestOneInput(data: *const u8, size: usize) -> i32 {
+pub unsafe extern "C" fn LLVMFuzzerTestOneInput(data: *const u8, size: usize) -> i32 {
     let data = if size == 0 {
         &[]
     } else {
-        // SAFETY: libFuzzer gives a pointer to `size` bytes that live until this returns.
+        // SAFETY: what the caller promises.
         unsafe { std::slice::from_raw_parts(data, size) }
     };
     if catch_unwind(|| TARGET(data)).is_err() {

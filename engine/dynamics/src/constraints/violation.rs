@@ -170,9 +170,8 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
     let mut doubts = Vec::new();
     if let Some(time) = signs.passed.filter(|_| !projected) {
         doubts.push(format!(
-            "a singular position was passed at t = {time:.6} s, through which {} holds neither the constraints nor the \
-             branch of the motion: what follows may be wrong; {instead}",
-            treatment
+            "a singular position was passed at t = {time:.6} s, through which {treatment} holds neither the constraints nor the \
+             branch of the motion: what follows may be wrong; {instead}"
         ));
     }
     let allowed = (ALLOWED * settings.tolerance).clamp(ALLOWED_WITHIN.0, ALLOWED_WITHIN.1);

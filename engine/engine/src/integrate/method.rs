@@ -47,7 +47,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
     if let Stabilization::AugmentedLagrangian { .. } = treatment {
         let why = match settings.integrator {
             IntegratorKind::Auto | IntegratorKind::Trapezoidal => String::new(),
-            asked => format!("{} was asked for, but ", asked),
+            asked => format!("{asked} was asked for, but "),
         };
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
@@ -55,7 +55,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
     let obstacle = if treatment == Stabilization::Projection {
         settings.step.map(|_| "its steps have no fixed size".to_owned())
     } else {
-        Some(format!("{} belongs to Runge-Kutta methods", treatment))
+        Some(format!("{treatment} belongs to Runge-Kutta methods"))
     };
     let System { curves, targets, loads, .. } = &mechanism.system;
     let prescribed = !(curves.is_empty() && targets.is_empty() && loads.is_empty());
@@ -81,7 +81,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
             (IntegratorKind::Dop853, format!("taylor was asked for, but {obstacle}"))
         }
         (asked, _) => match own_constraints(asked, treatment) {
-            Some(why) => (IntegratorKind::Dop853, format!("{} was asked for, but {why}", asked)),
+            Some(why) => (IntegratorKind::Dop853, format!("{asked} was asked for, but {why}")),
             None => (asked, "the scene asks for it".to_owned()),
         },
     }

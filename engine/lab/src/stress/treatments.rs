@@ -68,7 +68,7 @@ pub fn all() -> Vec<(String, Treatment)> {
     ];
     let mut list: Vec<(String, Treatment)> = projected
         .into_iter()
-        .map(|kind| (format!("{}, projection", kind), with(kind, Stabilization::Projection, STEPS)))
+        .map(|kind| (format!("{kind}, projection"), with(kind, Stabilization::Projection, STEPS)))
         .collect();
     let explicit = IntegratorKind::Dop853;
     for strength in [0.0, 1.0, 5.0, 20.0, 100.0] {

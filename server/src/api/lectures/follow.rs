@@ -78,7 +78,7 @@ async fn follow_on(
                 _ => return Ok(()),
             },
             changed = follower.live.changed() => {
-                let shown = changed.map(|()| follower.live.borrow_and_update().clone()).unwrap_or(LiveView::Closed);
+                let shown = changed.map_or(LiveView::Closed, |()| follower.live.borrow_and_update().clone());
                 watcher = match shown {
                     LiveView::Closed => {
                         viewer.tell(&LectureMessage::Closed).await?;

@@ -110,7 +110,7 @@ pub(in crate::cli) fn stress(options: &Stress, json: bool) -> Result<Outcome, Pr
         comparison: if options.compare { compare(&cases, json) } else { Vec::new() },
     };
     if let Some(file) = &options.html {
-        write(file, &page::render(&report))?;
+        write(file, page::render(&report))?;
     }
     print_report(&report, options, json);
     Ok(if report.unexpected.is_empty() { Outcome::Done } else { Outcome::No })
@@ -124,11 +124,11 @@ fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
         .collect();
     let columns = compare(&cases, json);
     if let Some(file) = &options.svg {
-        write(file, &picture::svg(&columns))?;
+        write(file, picture::svg(&columns))?;
     }
     if let Some(file) = &options.markdown {
         let name = options.svg.as_deref().and_then(|svg| svg.file_name()).unwrap_or_default();
-        write(file, &picture::markdown(&columns, &name.to_string_lossy()))?;
+        write(file, picture::markdown(&columns, &name.to_string_lossy()))?;
     }
     if json {
         print_json(&columns);

@@ -42,26 +42,26 @@ impl TwistJacobian {
                 Form::Coincidence { a, b } => {
                     for k in 0..3 {
                         let g = Vector3::ith(k, 1.0);
-                        self.add_gradient(system, state, row, k, 0, a, &g);
-                        self.add_gradient(system, state, row, k, 1, b, &-g);
+                        self.add_gradient(system, state, row, k, (0, a), &g);
+                        self.add_gradient(system, state, row, k, (1, b), &-g);
                     }
                 }
                 Form::CommonVector { a, b } => {
                     self.transverse[index] = orthonormal_basis(&state.feature_value(a).normalize());
                     for k in 0..2 {
                         let t = self.transverse[index][k];
-                        self.add_gradient(system, state, row, k, 0, a, &t);
-                        self.add_gradient(system, state, row, k, 1, b, &-t);
+                        self.add_gradient(system, state, row, k, (0, a), &t);
+                        self.add_gradient(system, state, row, k, (1, b), &-t);
                     }
                 }
                 Form::Product { a, b, .. } => {
                     let (x, y) = (a.of(|f| state.feature_value(f)), b.of(|f| state.feature_value(f)));
                     let mut place = 0;
                     for (difference, g) in [(a, y), (b, x)] {
-                        self.add_gradient(system, state, row, 0, place, difference.plus, &g);
+                        self.add_gradient(system, state, row, 0, (place, difference.plus), &g);
                         place += 1;
                         if let Some(minus) = difference.minus {
-                            self.add_gradient(system, state, row, 0, place, minus, &-g);
+                            self.add_gradient(system, state, row, 0, (place, minus), &-g);
                             place += 1;
                         }
                     }
@@ -71,17 +71,17 @@ impl TwistJacobian {
                     for (angle, factor) in angles.into_iter().flatten() {
                         let gradient = state.angles()[angle].gradient;
                         for (feature, g) in system.angles[angle].features().into_iter().zip(gradient) {
-                            self.add_gradient(system, state, row, 0, place, feature, &(g * factor));
+                            self.add_gradient(system, state, row, 0, (place, feature), &(g * factor));
                             place += 1;
                         }
                     }
                     if let Some((a, b, factor)) = slide {
                         let (x, y) = (a.of(|f| state.feature_value(f)), b.of(|f| state.feature_value(f)));
                         for (difference, g) in [(a, y * factor), (b, x * factor)] {
-                            self.add_gradient(system, state, row, 0, place, difference.plus, &g);
+                            self.add_gradient(system, state, row, 0, (place, difference.plus), &g);
                             place += 1;
                             if let Some(minus) = difference.minus {
-                                self.add_gradient(system, state, row, 0, place, minus, &-g);
+                                self.add_gradient(system, state, row, 0, (place, minus), &-g);
                                 place += 1;
                             }
                         }
@@ -91,15 +91,14 @@ impl TwistJacobian {
         }
     }
 
-    /// Adds the row gᵀ C of one feature, in twist form (g, arm × g) — eq. (7.4).
+    /// Adds the row gᵀ C of one feature, given with its place within the form, in twist form (g, arm × g) — eq. (7.4).
     fn add_gradient(
         &mut self,
         system: &System,
         state: &State,
         row: &Row,
         k: usize,
-        place: usize,
-        feature: usize,
+        (place, feature): (usize, usize),
         g: &Vector3<f64>,
     ) {
         let incidence = row.incidence[place];

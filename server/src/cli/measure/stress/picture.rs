@@ -77,7 +77,7 @@ pub(super) fn svg(columns: &[Column]) -> String {
     let verdicts = [Verdict::Survived, Verdict::Degraded, Verdict::Refused, Verdict::Warned, Verdict::Wrong];
     let words = verdicts.map(|verdict| {
         let (_, mark) = look(verdict);
-        format!("{mark} {}", verdict)
+        format!("{mark} {verdict}")
     });
     let _ = writeln!(
         out,
