@@ -8,10 +8,21 @@ use crate::catalogue::CatalogueError;
 use crate::integrate::Stop;
 use crate::reactions::uniqueness::UniquenessError;
 use crate::scene::SceneError;
+use crate::scene::text::nearest_name;
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::model::ModelError;
 
 /// Any failure of the engine: what, where, and what to try.
+///
+/// ```
+/// use triad_engine::prelude::*;
+///
+/// let mut scene = Scene::new("sign");
+/// scene.add(Body::new("stone", -1.0));
+/// let error = scene.simulate(0.0..1.0).unwrap_err();
+/// assert!(error.to_string().contains("stone") && !error.hint().is_empty());
+/// assert_eq!(error.pointer().as_deref(), Some("/bodies/0/mass"));
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EngineError {
     /// The text is not a scene.
@@ -106,6 +117,16 @@ pub enum EngineError {
         /// Last time, s.
         to: f64,
     },
+    /// A body, joint, driver or event was asked for by a name that the scene does not have.
+    #[error("there is no {what} \"{name}\"")]
+    UnknownName {
+        /// What was asked for.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The nearest name that there is.
+        nearest: Option<String>,
+    },
 }
 
 impl From<ConstraintError> for EngineError {
@@ -128,6 +149,11 @@ impl EngineError {
             Stop::Undetermined { time } => Self::Undetermined { time, last },
             Stop::Stalled { time, step } => Self::Stalled { time, step, last },
         }
+    }
+
+    /// A name that none of the known ones is.
+    pub(crate) fn unknown<'a>(what: &'static str, name: &str, known: impl Iterator<Item = &'a str>) -> Self {
+        Self::UnknownName { what, name: name.to_owned(), nearest: nearest_name(name, known) }
     }
 
     /// The same error, told with the last good state.
@@ -160,6 +186,7 @@ impl EngineError {
             Self::Undetermined { .. } => "undetermined-motion",
             Self::StepLimit { .. } => "step-limit",
             Self::TimeOutside { .. } => "time-outside-run",
+            Self::UnknownName { .. } => "unknown-name",
         }
     }
 
@@ -237,6 +264,8 @@ impl EngineError {
                 "Allow more steps, loosen the tolerance, or look for a stiff spring or a fast driver.".to_owned()
             }
             Self::TimeOutside { .. } => "Ask for a time within the run, or reset it first.".to_owned(),
+            Self::UnknownName { nearest: Some(nearest), .. } => format!("Did you mean \"{nearest}\"?"),
+            Self::UnknownName { what, .. } => format!("Ask for a {what} by its name in the scene."),
         }
     }
 }

@@ -30,7 +30,13 @@ use triad_dynamics::model::{Model, ModelBody};
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::System;
 
-/// A scene that runs.
+/// A scene that runs: it stands at a time, and can be asked about the state there.
+///
+/// ```
+/// let mut run = triad_engine::run::Simulation::new(&triad_engine::catalogue::scene("free-fall")?)?;
+/// assert_eq!(run.advance_to(0.5).map(|()| run.frame().time)?, 0.5);
+/// # Ok::<(), triad_engine::EngineError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Simulation {
     mechanism: Mechanism,
@@ -365,8 +371,7 @@ impl Simulation {
         self.integrator.time()
     }
 
-    /// A run that starts where this one stands, all velocities reversed: without drivers and losses it goes the same
-    /// way back.
+    /// A run that starts where this one stands, velocities reversed: without drivers and losses it goes the way back.
     #[must_use]
     pub fn turned_back(&self) -> Self {
         let mut back = self.clone();

@@ -146,7 +146,7 @@ impl Elimination {
         self.factor.set_dependent(rows);
     }
 
-    /// How firmly each joint holds at the positions that were factored last: see [`BlockCholesky::holds`].
+    /// How firmly each joint holds at the positions that were factored last: see [`BlockCholesky::pivot_products`].
     pub fn holds(&self) -> &[f64] {
         self.factor.pivot_products()
     }

@@ -26,7 +26,7 @@ pub enum Curve {
         /// Phase, rad.
         phase: f64,
     },
-    /// Polynomial pieces: pieces[k] holds in (t − knots[k]) from knots[k] to the next knot. The first piece also
+    /// Polynomial pieces: `pieces[k]` holds in (t − `knots[k]`) from `knots[k]` to the next knot. The first piece also
     /// holds before its knot, the last also after the last knot.
     Pieces {
         /// Times at which pieces begin, s.

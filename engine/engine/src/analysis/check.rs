@@ -75,6 +75,18 @@ pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
 }
 
 /// Checks, assembles and counts.
+///
+/// # Errors
+///
+/// [`EngineError`]: a scene that cannot be, or constraints that cannot be met at the start.
+///
+/// ```
+/// use triad_engine::{analysis::check::check, prelude::*};
+///
+/// let found = check(&catalogue::scene("n-four-bar:1")?)?;
+/// assert_eq!(found.degrees_of_freedom, 1);
+/// # Ok::<(), EngineError>(())
+/// ```
 pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
     let simulation = Simulation::from_model(Model::new(scene)?)?;
     let system = simulation.system();

@@ -38,6 +38,21 @@ pub struct Equilibrium {
 ///
 /// Newton's method in the small motions of the mechanism, its stiffness made positive in every direction so that the
 /// search runs downhill: it comes to a stable position, unless it starts at an unstable one.
+///
+/// # Errors
+///
+/// [`AnalysisError`]: a scene that cannot be, one too large for dense matrices, or no position of rest.
+///
+/// ```
+/// use triad_engine::{analysis::equilibrium, prelude::*};
+///
+/// let mut scene = Scene::new("hanging").gravity([0.0, -9.81, 0.0]);
+/// let rod = scene.add(Body::rod("rod", 1.0, [0.0; 3], [1.0, 0.0, 0.0]));
+/// scene.add(Joint::revolute("pin", Ground, &rod).at([0.0; 3]).about([0.0, 0.0, 1.0]));
+/// let rest = equilibrium(&scene)?;
+/// assert!((rest.bodies[0].position[1] + 0.5).abs() < 1e-6 && rest.stable == Some(true));
+/// # Ok::<(), triad_engine::analysis::AnalysisError>(())
+/// ```
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     find(&mut stage)

@@ -44,6 +44,22 @@ pub struct Kinematics {
 }
 
 /// Follows the drivers of a scene over its duration, every so many seconds as its settings say.
+///
+/// # Errors
+///
+/// [`AnalysisError`]: a scene that is free to move, or drivers that ask for what the joints do not allow, with the time.
+///
+/// ```
+/// use triad_engine::{analysis::kinematics, prelude::*};
+///
+/// let mut scene = Scene::new("crank").duration(1.0);
+/// let crank = scene.add(Body::rod("crank", 1.0, [0.0; 3], [1.0, 0.0, 0.0]));
+/// let hinge = scene.add(Joint::revolute("hinge", Ground, &crank).at([0.0; 3]).about([0.0, 0.0, 1.0]));
+/// scene.add(Driver::angle("motor", &hinge, Motion::ramp(0.0, 3.0)));
+/// let motion = kinematics(&scene, triad_engine::reactions::report::Convention::default())?;
+/// assert!((motion.states[0].bodies[0].angular_velocity[2] - 3.0).abs() < 1e-9);
+/// # Ok::<(), triad_engine::analysis::AnalysisError>(())
+/// ```
 pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     let freedoms = stage.tangent().ncols();

@@ -69,6 +69,22 @@ pub struct Modes {
 ///
 /// M ẍ + C ẋ + K x = 0 in an orthonormal basis of small motions; K holds the stiffness of loads and the geometric
 /// stiffness of the constraint forces.
+///
+/// # Errors
+///
+/// [`AnalysisError`]: as for [`equilibrium`](super::equilibrium()), and a motion without inertia.
+///
+/// ```
+/// use triad_engine::{analysis::{About, modes}, prelude::*};
+///
+/// let mut scene = Scene::new("pendulum").gravity([0.0, -9.81, 0.0]);
+/// let rod = scene.add(Body::rod("rod", 1.0, [0.0; 3], [0.0, -1.0, 0.0]));
+/// scene.add(Joint::revolute("pin", Ground, &rod).at([0.0; 3]).about([0.0, 0.0, 1.0]));
+/// let found = modes(&scene, About::Equilibrium)?;
+/// let exact = f64::sqrt(1.5 * 9.81) / std::f64::consts::TAU;
+/// assert!(found.freedoms == 1 && (found.modes[0].frequency - exact).abs() < 1e-6);
+/// # Ok::<(), triad_engine::analysis::AnalysisError>(())
+/// ```
 pub fn modes(scene: &Scene, about: About) -> Result<Modes, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     let mut notes = Vec::new();
