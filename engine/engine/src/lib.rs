@@ -49,13 +49,13 @@ pub mod reactions;
 #[doc(hidden)]
 pub mod integrate;
 
+mod error;
+
 pub mod run;
 
 pub mod solution;
 
 pub mod analysis;
-
-mod error;
 
 pub mod prelude;
 
