@@ -7,6 +7,7 @@ use triad_engine::constraints::rank;
 use triad_engine::equations;
 use triad_engine::equations::jacobian::Jacobian;
 use triad_engine::model::Model;
+use triad_engine::ode::OdeSystem;
 use triad_engine::scene::Coordinates;
 use triad_engine::system::System;
 
@@ -81,7 +82,7 @@ impl Probe {
     /// Accelerations q̈ at y by the engine.
     pub fn accelerations(&mut self, y: &[f64]) -> DVector<f64> {
         let mut rate = vec![0.0; y.len()];
-        self.mechanism.rate(0.0, y, &mut rate);
+        self.mechanism.rhs(0.0, y, &mut rate);
         DVector::from_column_slice(&rate[self.n()..])
     }
 

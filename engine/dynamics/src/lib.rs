@@ -15,4 +15,6 @@ pub mod equations;
 
 pub mod dynamics;
 
+pub mod ode;
+
 pub mod constraints;

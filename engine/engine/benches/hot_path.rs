@@ -10,6 +10,7 @@ use triad_engine::catalogue;
 use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::dynamics::series::IslandSeries;
 use triad_engine::model::Model;
+use triad_engine::ode::OdeSystem;
 use triad_engine::run::Simulation;
 use triad_engine::system::System;
 
@@ -53,7 +54,7 @@ fn parts(criterion: &mut Criterion) {
             black_box(series.correct_positions());
         });
         let mut rate = vec![0.0; y.len()];
-        group("evaluation of q and q̇, body by body", &mut || mechanism.rate(0.0, black_box(&y), &mut rate));
+        group("evaluation of q and q̇, body by body", &mut || mechanism.rhs(0.0, black_box(&y), &mut rate));
 
         let mut run = Simulation::new(&catalogue::scene(name).unwrap()).unwrap();
         group("step", &mut || {

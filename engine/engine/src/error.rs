@@ -5,7 +5,7 @@ mod last_good;
 pub use last_good::{Cause, LastGood};
 
 use crate::catalogue::CatalogueError;
-use crate::integrate::Stop;
+use crate::integrate::StopReason;
 use crate::reactions::uniqueness::UniquenessError;
 use crate::scene::SceneError;
 use crate::scene::text::nearest_name;
@@ -141,13 +141,13 @@ impl From<ConstraintError> for EngineError {
 
 impl EngineError {
     /// A stop of an integrator, told with the last good state.
-    pub fn stopped(stop: Stop, last: LastGood) -> Self {
+    pub fn stopped(stop: StopReason, last: LastGood) -> Self {
         match stop {
-            Stop::StepTooSmall { time, step } => Self::StepTooSmall { time, step, last },
-            Stop::NotFinite { time } => Self::Diverged { time, last },
-            Stop::NoConvergence { time, step } => Self::NoConvergence { time, step, last },
-            Stop::Undetermined { time } => Self::Undetermined { time, last },
-            Stop::Stalled { time, step } => Self::Stalled { time, step, last },
+            StopReason::StepTooSmall { time, step } => Self::StepTooSmall { time, step, last },
+            StopReason::NotFinite { time } => Self::Diverged { time, last },
+            StopReason::NoConvergence { time, step } => Self::NoConvergence { time, step, last },
+            StopReason::Undetermined { time } => Self::Undetermined { time, last },
+            StopReason::Stalled { time, step } => Self::Stalled { time, step, last },
         }
     }
 

@@ -20,7 +20,7 @@ pub use summary::Summary;
 
 use crate::error::{EngineError, LastGood};
 use crate::integrate::{self, Integrator};
-use crate::run::singularity::{Passage, Watch};
+use crate::run::singularity::{SingularConfiguration, SingularityMonitor};
 use crate::scene::{IntegratorKind, Scene};
 use nalgebra::{Matrix3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -68,8 +68,8 @@ pub struct Simulation {
     /// When the run ends, s: its duration, or the moment of an event that stops it.
     end: f64,
     counted: explain::Counted,
-    /// Looks out for singular positions.
-    watch: Watch,
+    /// Searches steps for singular configurations.
+    singularities: SingularityMonitor,
 }
 
 impl Simulation {
@@ -108,7 +108,7 @@ impl Simulation {
         mechanism.elimination.counters = Counters::default();
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let shown = start.clone();
-        let watch = Watch::new(&mut mechanism, &rank);
+        let singularities = SingularityMonitor::new(&mut mechanism, &rank);
         let conservative = mechanism.system.is_conservative();
         let looks = !conservative || !mechanism.system.event_functions.is_empty();
         let scratch = vec![0.0; if looks { 2 * n } else { 0 }];
@@ -134,7 +134,7 @@ impl Simulation {
             last_numbers: Vec::new(),
             end,
             counted: explain::Counted::default(),
-            watch,
+            singularities,
         };
         simulation.restart_events();
         Ok(simulation)
@@ -211,7 +211,7 @@ impl Simulation {
         self.mechanism.projections = 0;
         self.counted = explain::Counted::default();
         (self.work, self.kinetic) = (0.0, 0.0);
-        self.watch.forget();
+        self.singularities.reset();
         self.mechanism.set_state(time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
         self.time = time;
@@ -231,10 +231,10 @@ impl Simulation {
 
     /// Goes on by one step of the integrator (or to the end of the step that the shown state lies in).
     pub fn step(&mut self) -> Result<(), EngineError> {
-        if self.time >= self.integrator.time() && !self.finished() {
+        if self.time >= self.integrator.last().t && !self.finished() {
             self.integrate_one(self.duration())?;
         }
-        self.show(self.integrator.time());
+        self.show(self.integrator.last().t);
         Ok(())
     }
 
@@ -253,7 +253,7 @@ impl Simulation {
         }
         let mut left = most_steps;
         let end = if self.model().settings.skip.outputs { self.duration() } else { t };
-        while self.integrator.time() < t {
+        while self.integrator.last().t < t {
             if left == 0 {
                 return Ok(false);
             }
@@ -261,7 +261,7 @@ impl Simulation {
             self.integrate_one(end)?;
             t = t.min(self.end);
         }
-        self.counted.outputs[0] += u64::from(t < self.integrator.time());
+        self.counted.outputs[0] += u64::from(t < self.integrator.last().t);
         self.counted.outputs[1] += 1;
         self.show(t);
         Ok(true)
@@ -288,30 +288,31 @@ impl Simulation {
     }
 
     fn integrate_one(&mut self, end: f64) -> Result<(), EngineError> {
-        let steps = self.integrator.steps();
+        let steps = self.integrator.last().steps;
         if steps.accepted + steps.rejected >= self.step_limit {
-            let (time, steps) = (self.integrator.time(), self.step_limit);
-            let last = self.show_last_good(time, self.integrator.steps().accepted);
+            let (time, steps) = (self.integrator.last().t, self.step_limit);
+            let last = self.show_last_good(time, self.integrator.last().steps.accepted);
             return Err(EngineError::StepLimit { time, steps, last });
         }
-        self.work += self.work_of_last_step(self.integrator.time());
+        self.work += self.work_of_last_step(self.integrator.last().t);
         if let Err(stop) = self.integrator.step(&mut self.mechanism, end) {
-            let last = self.show_last_good(self.integrator.time(), self.integrator.steps().accepted);
+            let last = self.show_last_good(self.integrator.last().t, self.integrator.last().steps.accepted);
             return Err(EngineError::stopped(stop, last));
         }
         let skip = self.model().settings.skip;
         if !(skip.checks && self.integrator.proves_constraints()) {
             self.counted.checks += 1;
-            let time = self.integrator.time();
-            if let Err(error) = self.mechanism.check(time, self.integrator.state()) {
-                let start = time - self.integrator.last_step();
-                let last = self.show_last_good(start, self.integrator.steps().accepted.saturating_sub(1));
+            let time = self.integrator.last().t;
+            if let Err(error) = self.mechanism.check(time, &self.integrator.last().y) {
+                let start = time - self.integrator.last().h;
+                let last =
+                    self.show_last_good(start, self.integrator.last().steps.accepted.saturating_sub(1));
                 return Err(EngineError::from(error).after(last));
             }
             let Mechanism { system, state, .. } = &self.mechanism;
             self.kinetic = self.kinetic.max(state.kinetic_energy(system));
         }
-        self.watch.step(&mut self.mechanism, &mut self.integrator);
+        self.singularities.step(&mut self.mechanism, &mut self.integrator);
         self.look_for_events();
         if !skip.reports {
             self.report_step();
@@ -329,8 +330,8 @@ impl Simulation {
 
     /// Finds what is otherwise found when somebody asks, at the end of the last step.
     fn report_step(&mut self) {
-        let shown = (self.time, std::mem::replace(&mut self.shown, self.integrator.state().to_vec()));
-        self.time = self.integrator.time();
+        let shown = (self.time, std::mem::replace(&mut self.shown, self.integrator.last().y.clone()));
+        self.time = self.integrator.last().t;
         self.evaluate_current();
         let _ = (self.summary(), self.multipliers(), self.jacobian());
         (self.time, self.shown) = shown;
@@ -338,19 +339,19 @@ impl Simulation {
         self.counted.reports += 1;
     }
 
-    /// Singular positions passed since the start.
-    pub fn passages(&self) -> Vec<Passage> {
-        self.watch.passages(self.system())
+    /// Singular configurations passed since the start.
+    pub fn singular_configurations(&self) -> Vec<SingularConfiguration> {
+        self.singularities.configurations(self.system())
     }
 
-    /// Places inside steps that were looked at in the search for singular positions.
-    pub fn looks(&self) -> u64 {
-        self.watch.looks()
+    /// Evaluations inside steps in the search for singular configurations.
+    pub fn probes(&self) -> u64 {
+        self.singularities.probes()
     }
 
     /// Work of drivers and of loads without potential from the start of the last step to time t, J.
     fn work_of_last_step(&mut self, t: f64) -> f64 {
-        let start = self.integrator.time() - self.integrator.last_step();
+        let start = self.integrator.last().t - self.integrator.last().h;
         if self.conservative || t <= start {
             return 0.0;
         }
@@ -368,7 +369,7 @@ impl Simulation {
 
     /// Time up to which the run has been integrated, s: that of the last good state if it has stopped.
     pub fn reached(&self) -> f64 {
-        self.integrator.time()
+        self.integrator.last().t
     }
 
     /// A run that starts where this one stands, velocities reversed: without drivers and losses it goes the way back.

@@ -156,7 +156,7 @@ fn run(scene: &Scene, kind: IntegratorKind, tolerance: f64, sample: bool) -> Opt
     let clock = Clock::start();
     for _ in 0..MOST_STEPS {
         integrator.step(&mut mechanism, end).ok()?;
-        while sample && 0.1 * f64::from(next) <= integrator.time() {
+        while sample && 0.1 * f64::from(next) <= integrator.last().t {
             integrator.interpolate(&mut mechanism, 0.1 * f64::from(next), &mut y);
             for body in &mechanism.system.bodies {
                 let place = body.layout.position(&y[..n]);
@@ -166,7 +166,7 @@ fn run(scene: &Scene, kind: IntegratorKind, tolerance: f64, sample: bool) -> Opt
             }
             next += 1;
         }
-        if integrator.time() >= end {
+        if integrator.last().t >= end {
             return Some((clock.seconds(), places));
         }
         if !places.is_empty() && clock.seconds() > TOO_LONG && kind != IntegratorKind::Taylor {

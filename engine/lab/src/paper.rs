@@ -18,7 +18,7 @@ pub use plant::{LinearAlgebra, PaperPlant};
 
 use serde::Serialize;
 use triad_engine::EngineError;
-use triad_engine::integrate::{Explicit, ODE45_TOLERANCE};
+use triad_engine::integrate::{Explicit, ODE45_TOLERANCE, OdeMethod};
 use triad_engine::run::Simulation;
 use triad_scene::{Coordinates, IntegratorKind, Scene, Settings, Stabilization};
 
@@ -109,20 +109,20 @@ pub fn run(case: &Case, coordinates: Coordinates, algebra: LinearAlgebra) -> Res
     let mut last = (0.0, start[place], start[n + place]);
     sample(last, last, &mut tracked);
     let mut ode45 = Explicit::ode45(&mut plant, 0.0, &start, ODE45_TOLERANCE, end);
-    while ode45.time() < end {
+    while ode45.last().t < end {
         if ode45.step(&mut plant, end).is_err() {
             let case = case.name;
-            return Err(PaperError::Singular { case, coordinates, time: ode45.time() });
+            return Err(PaperError::Singular { case, coordinates, time: ode45.last().t });
         }
-        let y = ode45.state();
+        let y = &ode45.last().y;
         let (energy, open) = observer.observe(y);
         violation = violation.max(open);
         drift = drift.max((energy - first_energy).abs());
-        let now = (ode45.time(), y[place], y[n + place]);
+        let now = (ode45.last().t, y[place], y[n + place]);
         sample(last, now, &mut tracked);
         last = now;
     }
-    let steps = ode45.steps;
+    let steps = ode45.last().steps;
     let counts = Counts {
         steps: steps.accepted,
         failed: steps.rejected,

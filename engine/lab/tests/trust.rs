@@ -45,20 +45,20 @@ fn window_times(windows: f64) -> Vec<f64> {
     horizontal_times((0.0, 1.0), 10.0, |angle, _| kappa * angle.sin())
 }
 
-/// Runs a scene with each integrator: the passages that it tells must be those at the given times, all of them, however
-/// long the steps, and none invented.
-fn passages_are(exact: &[f64], name: &str, scene: &triad_engine::Scene, missed: &mut Vec<String>) {
+/// Runs a scene with each integrator: the singular configurations that it finds must be those at the given times, all of
+/// them, however long the steps, and none invented.
+fn singularities_are(exact: &[f64], name: &str, scene: &triad_engine::Scene, missed: &mut Vec<String>) {
     for integrator in INTEGRATORS {
         let mut scene = scene.clone();
         scene.simulation.integrator = integrator;
         let mut run = Simulation::new(&scene).unwrap();
         run.advance_to(run.duration()).unwrap();
-        let found = run.summary().passages;
+        let found = run.summary().singularities;
         let times: Vec<f64> = found.iter().map(|p| p.time).collect();
-        let (looks, steps) = (run.looks(), run.summary().steps);
+        let (probes, steps) = (run.probes(), run.summary().steps);
         let tolerance = scene.simulation.tolerance;
         println!(
-            "{name} {tolerance:.0e} {integrator:?}: {} found, {looks} looks in {steps} steps",
+            "{name} {tolerance:.0e} {integrator:?}: {} found, {probes} probes in {steps} steps",
             times.len()
         );
         if times.len() != exact.len() {
@@ -74,7 +74,7 @@ fn passages_are(exact: &[f64], name: &str, scene: &triad_engine::Scene, missed: 
 }
 
 #[test]
-fn singular_passages_are_told_with_their_times_and_joints() {
+fn singular_configurations_are_found_with_their_times_and_joints() {
     let mut missed = Vec::new();
     for (windows, tolerance) in
         [(1.0f64, 1e-9), (1.0, 1e-5), (2.0, 1e-9), (2.0, 1e-5), (5.0, 1e-8), (12.0, 1e-6)]
@@ -83,7 +83,7 @@ fn singular_passages_are_told_with_their_times_and_joints() {
         assert!(exact.len() >= 9);
         let mut scene = catalogue::scene(&format!("n-four-bar:{windows}")).unwrap();
         scene.simulation.tolerance = tolerance;
-        passages_are(&exact, &format!("{windows} windows"), &scene, &mut missed);
+        singularities_are(&exact, &format!("{windows} windows"), &scene, &mut missed);
     }
     // Crank and rod of equal length: the slider passes the crank's pivot, and may stay there.
     let acceleration = |angle: f64, rate: f64| {
@@ -95,13 +95,13 @@ fn singular_passages_are_told_with_their_times_and_joints() {
     for tolerance in [1e-9, 1e-6] {
         let mut scene = triad_engine::Scene::from_json(include_str!("data/slider-crank-equal.json")).unwrap();
         scene.simulation.tolerance = tolerance;
-        passages_are(&exact, "slider-crank", &scene, &mut missed);
+        singularities_are(&exact, "slider-crank", &scene, &mut missed);
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }
 
 #[test]
-fn regular_runs_tell_of_no_passage() {
+fn regular_runs_find_no_singular_configuration() {
     for name in
         ["simple-pendulum", "spatial-double-pendulum", "spatial-chain:5", "spatial-slider-crank", "bricard"]
     {
@@ -111,9 +111,13 @@ fn regular_runs_tell_of_no_passage() {
             scene.simulation.duration = 2.0;
             let mut run = Simulation::new(&scene).unwrap();
             run.advance_to(2.0).unwrap();
-            assert!(run.passages().is_empty(), "{name} {integrator:?}: {:?}", run.passages());
+            assert!(
+                run.singular_configurations().is_empty(),
+                "{name} {integrator:?}: {:?}",
+                run.singular_configurations()
+            );
             // Where no joints close loops, nothing is looked at.
-            assert!(run.looks() == 0 || ["spatial-slider-crank", "bricard"].contains(&name));
+            assert!(run.probes() == 0 || ["spatial-slider-crank", "bricard"].contains(&name));
         }
     }
 }
@@ -308,7 +312,7 @@ fn what_a_treatment_does_not_survive_is_told() {
         let (position, summary) = end(treatment);
         let off = (0..3).map(|k| (position[k] - right[k]).abs()).fold(0.0, f64::max);
         println!("{treatment:?}: off by {off:.1e}, {:?}", summary.doubts);
-        let first = summary.passages.first().unwrap();
+        let first = summary.singularities.first().unwrap();
         assert!((first.time - exact[0]).abs() < 0.05, "{treatment:?}: {} is not {}", first.time, exact[0]);
         let doubts = summary.doubts.join("\n");
         assert!(

@@ -3,6 +3,7 @@
 use crate::constraints::ConstraintError;
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination};
+use crate::ode::OdeSystem;
 use crate::scene::Stabilization;
 use crate::state::{self, State};
 use crate::system::System;
@@ -191,17 +192,18 @@ impl Mechanism {
             _ => (0.0, 0.0),
         }
     }
+}
 
-    /// Writes ẏ = (q̇, q̈) at t and y = (q, q̇).
-    pub fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+impl OdeSystem for Mechanism {
+    /// ẏ = (q̇, q̈).
+    fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
         let n = self.system.coordinates;
         rate[..n].copy_from_slice(&y[n..]);
         self.accelerations(t, y).write(&mut rate[n..]);
     }
 
-    /// Ends an accepted step at t: counts revolutions from there, and moves y onto the constraints where projection keeps
-    /// them. ẏ is renewed if that move was not negligible.
-    pub fn settle(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
+    /// Counts revolutions from here, and moves y onto the constraints where projection keeps them.
+    fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
         self.state.commit_revolutions();
         if self.system.model.settings.stabilization != Stabilization::Projection {
             return;
@@ -231,7 +233,7 @@ impl Mechanism {
         }
         let tolerance = self.system.model.settings.tolerance;
         if moved > NEGLIGIBLE * tolerance {
-            self.rate(t, y, rate);
+            self.rhs(t, y, rate);
         } else {
             rate[..n].copy_from_slice(&y[n..]);
         }

@@ -6,19 +6,34 @@
 //! λ ← λ + α Φ. Their matrix M + h/2 C + h²/4 (Φ_qᵀ α Φ_q + K) is never singular, also where rows are redundant, and
 //! serves the projections as well. Order 2.
 
-use super::{Stepper, Steps, Stop, resolution};
+use super::hermite;
+use super::step::{StepRecord, StopReason};
+use super::stepper::Stepper;
 use nalgebra::DVector;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::equations::augmented::{Normal, RankOne, RightSides};
+use triad_dynamics::ode::OdeSystem;
 
-/// Most Newton iterations of a step, and further augmentations.
-const ITERATIONS: usize = 25;
-/// Most augmentations of each projection, and the part of its velocities or accelerations that may stay.
-const PROJECTIONS: usize = 40;
+/// Most Newton iterations of a step, each of which augments the multipliers.
+const MAX_ITERATIONS: usize = 25;
+/// Iterations after which a growing change means that the step cannot be solved.
+const MIN_ITERATIONS: usize = 6;
+/// A change of more than so many lengths of the mechanism leads nowhere.
+const DIVERGED: f64 = 1e3;
+/// Most augmentations of each projection.
+const MAX_PROJECTIONS: usize = 40;
+/// What a projection may leave of the constraints, relative to the largest velocity or acceleration.
 const PROJECTED: f64 = 1e-13;
-/// Safety factor, and bounds of the change of the step.
+/// Part of the step that the error estimate would allow which is taken.
 const SAFETY: f64 = 0.9;
+/// Least and greatest change of the step, as factors.
 const CHANGE: (f64, f64) = (0.2, 3.0);
+/// The step after one whose equations were not solved, as a factor.
+const AFTER_FAILURE: f64 = 0.25;
+/// Step below which equations that cannot be solved are no longer answered by a smaller one, s for each second of time.
+const MIN_RETRY: f64 = 1e-10;
+/// Relative error below which a larger step is not considered.
+const MIN_ERROR: f64 = 1e-12;
 /// Part of the tolerance to which a step is solved.
 const SOLVED: f64 = 1e-3;
 
@@ -28,7 +43,8 @@ pub struct Augmented {
     alpha: f64,
     tolerance: f64,
     fixed: bool,
-    t: f64,
+    last: StepRecord,
+    /// Size of the next step.
     h: f64,
     /// q, q̇ and q̈ at the end of the last step and at its start.
     state: [DVector<f64>; 3],
@@ -36,13 +52,8 @@ pub struct Augmented {
     /// Change of q̈ in the last step by its size.
     jerk: Option<DVector<f64>>,
     multipliers: DVector<f64>,
-    y: Vec<f64>,
-    t_old: f64,
-    h_old: f64,
     equations: Normal,
     laws: Vec<Law>,
-    /// Steps so far.
-    pub steps: Steps,
 }
 
 /// Stiffness and damping of a load with the gradient of its coordinate.
@@ -57,7 +68,7 @@ impl Augmented {
         let n = mechanism.system.coordinates;
         let tolerance = mechanism.system.model.settings.tolerance;
         let mut rate = vec![0.0; 2 * n];
-        super::Plant::rate(mechanism, t, y, &mut rate);
+        mechanism.rhs(t, y, &mut rate);
         let equations = Normal::new(&mechanism.system, &mechanism.state);
         let column = |x: &[f64]| DVector::from_column_slice(x);
         let state = [column(&y[..n]), column(&y[n..]), column(&rate[n..])];
@@ -68,18 +79,14 @@ impl Augmented {
             alpha,
             tolerance,
             fixed: step.is_some(),
-            t,
+            last: StepRecord::new(t, y),
             h: step.unwrap_or(first),
             old: state.clone(),
             state,
             jerk: None,
             multipliers: DVector::zeros(rows),
-            y: y.to_vec(),
-            t_old: t,
-            h_old: 0.0,
             equations,
             laws: Vec::new(),
-            steps: Steps::default(),
         }
     }
 
@@ -125,7 +132,7 @@ impl Augmented {
     /// Solves for the end of a step of size h. Returns q, q̇, q̈ and the multipliers there.
     fn attempt(&mut self, mechanism: &mut Mechanism, h: f64) -> Option<([DVector<f64>; 3], DVector<f64>)> {
         let [q0, v0, a0] = self.state.clone();
-        let t = self.t + h;
+        let t = self.last.t + h;
         let mut q = &q0 + &v0 * h + &a0 * (0.5 * h * h);
         let mut multipliers = self.multipliers.clone();
         let quarter = 0.25 * h * h;
@@ -135,7 +142,7 @@ impl Augmented {
         let mut solved = false;
         let mut last = f64::INFINITY;
         let length = mechanism.system.length;
-        for iteration in 0..ITERATIONS {
+        for iteration in 0..MAX_ITERATIONS {
             let sides = self.evaluate(mechanism, t, &q, &velocity(&q));
             if iteration == 0 {
                 self.take_laws(mechanism);
@@ -155,7 +162,10 @@ impl Augmented {
             self.equations.solve(&mut residual);
             q += &residual;
             let step = residual.amax();
-            if !step.is_finite() || step > 1e3 * length.max(1.0) || (iteration > 6 && step > last) {
+            if !step.is_finite()
+                || step > DIVERGED * length.max(1.0)
+                || (iteration > MIN_ITERATIONS && step > last)
+            {
                 solved = step < self.tolerance * length;
                 break;
             }
@@ -204,7 +214,7 @@ impl Augmented {
             equations.add_transposed(penalty, target, &mut fixed);
             let mut multipliers = DVector::zeros(target.len());
             let mut x = from;
-            for _ in 0..PROJECTIONS {
+            for _ in 0..MAX_PROJECTIONS {
                 let mut right = fixed.clone();
                 equations.add_transposed(-penalty, &multipliers, &mut right);
                 equations.solve(&mut right);
@@ -231,7 +241,7 @@ impl Augmented {
         let n = jerk.len();
         for i in 0..n {
             let position = h * h * h / 12.0 * jerk[i];
-            let snap = self.jerk.as_ref().map_or(0.0, |last| 2.0 * (jerk[i] - last[i]) / (h + self.h_old));
+            let snap = self.jerk.as_ref().map_or(0.0, |last| 2.0 * (jerk[i] - last[i]) / (h + self.last.h));
             let velocity = h * h * h / 12.0 * snap;
             let weight = |x: f64, y: f64| self.tolerance * (1.0 + x.abs().max(y.abs()));
             sum += (position / weight(self.state[0][i], end[0][i])).powi(2);
@@ -242,72 +252,56 @@ impl Augmented {
 }
 
 impl Stepper for Augmented {
-    fn time(&self) -> f64 {
-        self.t
+    fn last(&self) -> &StepRecord {
+        &self.last
     }
 
-    fn state(&self) -> &[f64] {
-        &self.y
-    }
-
-    fn last_step(&self) -> f64 {
-        self.h_old
-    }
-
-    fn steps(&self) -> Steps {
-        self.steps
-    }
-
-    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
+    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
         loop {
-            let left = end - self.t;
-            let h = if 1.01 * self.h >= left { left } else { self.h };
-            if h <= resolution(self.t, end) && left > h {
-                return Err(Stop::StepTooSmall { time: self.t, step: h });
-            }
+            let h = self.last.next_size(self.h, end)?;
             let Some((state, multipliers)) = self.attempt(mechanism, h) else {
-                self.steps.rejected += 1;
-                if self.fixed || h < 1e-10 * (1.0 + self.t.abs()) {
-                    return Err(Stop::NoConvergence { time: self.t, step: h });
+                self.last.steps.rejected += 1;
+                let time = self.last.t;
+                if self.fixed || h < MIN_RETRY * (1.0 + time.abs()) {
+                    return Err(StopReason::NoConvergence { time, step: h });
                 }
-                self.h = 0.25 * h;
+                self.h = AFTER_FAILURE * h;
                 continue;
             };
             let (error, jerk) = self.error(h, &state);
-            let by = (SAFETY * error.max(1e-12).powf(-1.0 / 3.0)).clamp(CHANGE.0, CHANGE.1);
+            let by = (SAFETY * error.max(MIN_ERROR).powf(-1.0 / 3.0)).clamp(CHANGE.0, CHANGE.1);
             if error >= 1.0 && !self.fixed {
-                self.steps.rejected += 1;
+                self.last.steps.rejected += 1;
                 self.h = h * by;
                 continue;
             }
             self.old = std::mem::replace(&mut self.state, state);
             self.multipliers = multipliers;
             self.jerk = Some(jerk);
-            (self.t_old, self.h_old) = (self.t, h);
-            self.t = if h == left { end } else { self.t + h };
+            self.last.advance(h, end);
             if !self.fixed {
                 self.h = if h < self.h { self.h.max(h * by) } else { h * by };
             }
-            self.steps.accepted += 1;
-            let n = self.state[0].len();
-            self.y[..n].copy_from_slice(self.state[0].as_slice());
-            self.y[n..].copy_from_slice(self.state[1].as_slice());
-            mechanism.set_state(self.t, &self.y);
+            let StepRecord { t, y, .. } = &mut self.last;
+            let (q, q_dot) = y.split_at_mut(self.state[0].len());
+            q.copy_from_slice(self.state[0].as_slice());
+            q_dot.copy_from_slice(self.state[1].as_slice());
+            mechanism.set_state(*t, y);
             mechanism.state.commit_revolutions();
             return Ok(());
         }
     }
 
     fn interpolate(&mut self, _: &mut Mechanism, t: f64, y: &mut [f64]) {
-        if t >= self.t || self.h_old == 0.0 {
-            y.copy_from_slice(&self.y);
+        if self.last.has_ended(t) {
+            y.copy_from_slice(&self.last.y);
             return;
         }
-        let s = ((t - self.t_old) / self.h_old).clamp(0.0, 1.0);
+        let s = self.last.part(t);
         let n = y.len() / 2;
         for i in 0..n {
             let [start, end] = [&self.old, &self.state].map(|state| [0, 1, 2].map(|k| state[k][i]));
-            (y[i], y[n + i]) = super::quintic(start, end, self.h_old, s);
+            (y[i], y[n + i]) = hermite::quintic(start, end, self.last.h, s);
         }
     }
 

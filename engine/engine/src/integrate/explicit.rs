@@ -1,12 +1,34 @@
 //! Explicit Runge-Kutta methods: stages, step control and dense output, whatever the coefficients
 //! (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, sections II.4 to II.6) — eq. (10.1).
 
-use super::matlab::Matlab;
-use super::tableau::Tableau;
-use super::{Plant, Steps, Stop, combine, resolution, weighted_norm};
+mod dop853;
+mod dopri5;
+mod ode45;
+mod tableau;
+#[cfg(test)]
+mod tests;
 
-/// Safety factor of the step control.
+pub use dop853::DOP853;
+pub use dopri5::DOPRI5;
+pub use ode45::DEFAULT_TOLERANCE as ODE45_TOLERANCE;
+pub use tableau::Tableau;
+
+use super::step::{StepRecord, StopReason, weighted_norm};
+use super::stepper::{IslandStep, OdeMethod, Stepper};
+use ode45::Ode45Control;
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::state;
+
+/// Part of the step that the error estimate would allow which is taken (Hairer, Nørsett, Wanner, section II.4).
 const SAFETY: f64 = 0.9;
+/// Relative error below which a larger step is not considered: the step control would divide by zero.
+const MIN_ERROR: f64 = 1e-12;
+/// A fixed step that is shorter than what is left to the end by at most this factor is stretched to the end: rounding of the
+/// sum of steps must not add a sliver.
+const FIXED_STEP_STRETCH: f64 = 1.000_001;
+/// Step below which states that are not finite are no longer answered by a smaller one, s for each second of time.
+const MIN_RETRY: f64 = 1e-10;
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +39,7 @@ enum Control {
         tolerance: f64,
     },
     /// As MATLAB's ode45 does.
-    Matlab(Matlab),
+    Ode45(Ode45Control),
     /// All of one size.
     Fixed,
 }
@@ -27,46 +49,54 @@ enum Control {
 pub struct Explicit {
     tableau: &'static Tableau,
     control: Control,
-    /// End of the last accepted step.
-    t: f64,
-    y: Vec<f64>,
+    last: StepRecord,
+    /// ẏ at the end of the last step.
     rate: Vec<f64>,
     /// Size of the next step.
     h: f64,
-    /// The last accepted step: its start, size, first state and stages.
-    t_old: f64,
-    h_old: f64,
+    /// State at the start of the last step, and the stages of the step.
     y_old: Vec<f64>,
     k: Vec<Vec<f64>>,
     trial: Vec<f64>,
+    /// Coefficients of the dense output, and whether they are those of the last step.
     dense: Vec<Vec<f64>>,
     dense_ready: bool,
-    /// Steps so far.
-    pub steps: Steps,
 }
 
 impl Explicit {
     /// Starts at (t, y), with relative and absolute tolerance `tolerance`.
-    pub fn new(tableau: &'static Tableau, plant: &mut impl Plant, t: f64, y: &[f64], tolerance: f64) -> Self {
+    pub fn new(
+        tableau: &'static Tableau,
+        system: &mut impl OdeSystem,
+        t: f64,
+        y: &[f64],
+        tolerance: f64,
+    ) -> Self {
         let mut integrator = Self::at(tableau, Control::MeanSquare { tolerance }, t, y);
-        plant.rate(t, y, &mut integrator.rate);
-        integrator.h = integrator.first_step(plant, tolerance);
+        system.rhs(t, y, &mut integrator.rate);
+        integrator.h = integrator.first_step(system, tolerance);
         integrator
     }
 
     /// Starts at (t, y) under the step control of MATLAB's ode45, for a run to `end`.
-    pub fn ode45(plant: &mut impl Plant, t: f64, y: &[f64], tolerance: f64, end: f64) -> Self {
-        let control = Matlab::new(tolerance, end - t);
-        let mut integrator = Self::at(&super::DOPRI5, Control::Matlab(control), t, y);
-        plant.rate(t, y, &mut integrator.rate);
+    pub fn ode45(system: &mut impl OdeSystem, t: f64, y: &[f64], tolerance: f64, end: f64) -> Self {
+        let control = Ode45Control::new(tolerance, end - t);
+        let mut integrator = Self::at(&DOPRI5, Control::Ode45(control), t, y);
+        system.rhs(t, y, &mut integrator.rate);
         integrator.h = control.first_step(y, &integrator.rate, end - t);
         integrator
     }
 
     /// Starts at (t, y) with steps of size h, whatever the error.
-    pub fn with_step(tableau: &'static Tableau, plant: &mut impl Plant, t: f64, y: &[f64], h: f64) -> Self {
+    pub fn with_step(
+        tableau: &'static Tableau,
+        system: &mut impl OdeSystem,
+        t: f64,
+        y: &[f64],
+        h: f64,
+    ) -> Self {
         let mut integrator = Self::at(tableau, Control::Fixed, t, y);
-        plant.rate(t, y, &mut integrator.rate);
+        system.rhs(t, y, &mut integrator.rate);
         integrator.h = h;
         integrator
     }
@@ -76,53 +106,27 @@ impl Explicit {
         Self {
             tableau,
             control,
-            t,
-            y: y.to_vec(),
+            last: StepRecord::new(t, y),
             rate: vec![0.0; n],
             h: 0.0,
-            t_old: t,
-            h_old: 0.0,
             y_old: y.to_vec(),
             k: vec![vec![0.0; n]; tableau.stored()],
             trial: vec![0.0; n],
             dense: vec![vec![0.0; n]; 3 + tableau.dense.len()],
             dense_ready: false,
-            steps: Steps::default(),
         }
     }
 
-    /// Goes on from (t, y), a state written in other coordinates, with the step size that was reached.
-    pub fn restart(&mut self, plant: &mut impl Plant, y: &[f64]) {
-        self.y.copy_from_slice(y);
-        plant.rate(self.t, y, &mut self.rate);
-        self.h_old = 0.0;
-    }
-
-    /// End of the last step.
-    pub fn time(&self) -> f64 {
-        self.t
-    }
-
-    /// State at the end of the last step.
-    pub fn state(&self) -> &[f64] {
-        &self.y
-    }
-
-    /// Size of the last accepted step, s.
-    pub fn last_step(&self) -> f64 {
-        self.h_old
-    }
-
     /// A first step from the sizes of y, ẏ and a difference quotient of ẏ.
-    fn first_step(&mut self, plant: &mut impl Plant, tolerance: f64) -> f64 {
-        let (y, f) = (&self.y, &self.rate);
+    fn first_step(&mut self, system: &mut impl OdeSystem, tolerance: f64) -> f64 {
+        let (y, f) = (&self.last.y, &self.rate);
         let d0 = weighted_norm(y.iter().copied(), y, y, tolerance);
         let d1 = weighted_norm(f.iter().copied(), y, y, tolerance);
         let h0 = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
         for (x, (y, f)) in self.trial.iter_mut().zip(y.iter().zip(f)) {
             *x = y + h0 * f;
         }
-        plant.rate(self.t + h0, &self.trial, &mut self.k[1]);
+        system.rhs(self.last.t + h0, &self.trial, &mut self.k[1]);
         let change = self.k[1].iter().zip(f).map(|(a, b)| a - b);
         let d2 = weighted_norm(change, y, y, tolerance) / h0;
         let largest = d1.max(d2);
@@ -131,153 +135,129 @@ impl Explicit {
         h1.min(100.0 * h0)
     }
 
-    /// Takes one accepted step, not beyond `end`.
-    pub fn step(&mut self, plant: &mut impl Plant, end: f64) -> Result<(), Stop> {
-        match self.control {
-            Control::MeanSquare { tolerance } => self.step_by_mean_square(plant, end, tolerance),
-            Control::Matlab(control) => self.step_by_matlab(plant, end, control),
-            Control::Fixed => {
-                let left = end - self.t;
-                let h = if 1.000_001 * self.h >= left { left } else { self.h };
-                self.attempt(plant, h);
-                if self.trial.iter().any(|y| !y.is_finite()) {
-                    return Err(Stop::NotFinite { time: self.t });
-                }
-                self.accept(plant, h, end);
-                Ok(())
-            }
+    fn fixed_step(&mut self, system: &mut impl OdeSystem, end: f64) -> Result<(), StopReason> {
+        let left = end - self.last.t;
+        let h = if FIXED_STEP_STRETCH * self.h >= left { left } else { self.h };
+        self.attempt(system, h);
+        if self.trial.iter().any(|y| !y.is_finite()) {
+            return Err(self.last.not_finite());
         }
+        self.accept(system, h, end);
+        Ok(())
     }
 
-    fn step_by_mean_square(&mut self, plant: &mut impl Plant, end: f64, tolerance: f64) -> Result<(), Stop> {
+    fn step_by_mean_square(
+        &mut self,
+        system: &mut impl OdeSystem,
+        end: f64,
+        tolerance: f64,
+    ) -> Result<(), StopReason> {
         let power = -1.0 / f64::from(self.tableau.order);
         let (least, greatest) = self.tableau.change;
         let mut rejected = false;
         loop {
-            // Stretch a step that would leave a sliver before the end.
-            let left = end - self.t;
-            let h = if 1.01 * self.h >= left { left } else { self.h };
-            if h <= resolution(self.t, end) && left > h {
-                return Err(Stop::StepTooSmall { time: self.t, step: h });
-            }
-            self.attempt(plant, h);
-            let error = self.tableau.error(h, &self.k, &self.y, &self.trial, tolerance);
+            let h = self.last.next_size(self.h, end)?;
+            self.attempt(system, h);
+            let error = self.tableau.error(h, &self.k, &self.last.y, &self.trial, tolerance);
             if error < 1.0 {
-                let grown = (SAFETY * error.max(1e-12).powf(power)).clamp(least, greatest);
+                let grown = (SAFETY * error.max(MIN_ERROR).powf(power)).clamp(least, greatest);
                 let next = h * if rejected { grown.min(1.0) } else { grown };
-                self.accept(plant, h, end);
+                self.accept(system, h, end);
                 // A step that was cut to meet the end says nothing about the next one.
                 self.h = if h < self.h { self.h.max(next) } else { next };
                 return Ok(());
             }
             if error.is_finite() {
                 self.h = h * (SAFETY * error.powf(power)).max(least);
-            } else if h > 1e-10 * (1.0 + self.t.abs()) {
+            } else if h > MIN_RETRY * (1.0 + self.last.t.abs()) {
                 self.h = 0.1 * h;
             } else {
-                return Err(Stop::NotFinite { time: self.t });
+                return Err(self.last.not_finite());
             }
             rejected = true;
-            self.steps.rejected += 1;
+            self.last.steps.rejected += 1;
         }
     }
 
-    fn step_by_matlab(&mut self, plant: &mut impl Plant, end: f64, control: Matlab) -> Result<(), Stop> {
-        let least = 16.0 * f64::EPSILON * self.t;
-        let left = end - self.t;
+    fn step_by_ode45(
+        &mut self,
+        system: &mut impl OdeSystem,
+        end: f64,
+        control: Ode45Control,
+    ) -> Result<(), StopReason> {
+        let least = 16.0 * f64::EPSILON * self.last.t;
+        let left = end - self.last.t;
         let mut h = self.h.clamp(least, control.largest.max(least));
         if 1.1 * h >= left {
             h = left;
         }
         let mut untouched = true;
         let error = loop {
-            self.attempt(plant, h);
-            let error = h * Matlab::error(&self.k, &self.y, &self.trial);
+            self.attempt(system, h);
+            let error = h * Ode45Control::error(&self.k, &self.last.y, &self.trial);
             if error <= control.relative {
                 break error;
             }
-            self.steps.rejected += 1;
+            self.last.steps.rejected += 1;
             if error.is_nan() {
-                return Err(Stop::NotFinite { time: self.t });
+                return Err(self.last.not_finite());
             }
             if h <= least {
-                return Err(Stop::StepTooSmall { time: self.t, step: h });
+                return Err(StopReason::StepTooSmall { time: self.last.t, step: h });
             }
             h = (h * control.shrink(error, untouched)).max(least);
             untouched = false;
         };
-        self.accept(plant, h, end);
+        self.accept(system, h, end);
         self.h = if untouched { control.next(h, error) } else { h };
         Ok(())
     }
 
     /// All stages of a step of size h, and its end.
-    fn attempt(&mut self, plant: &mut impl Plant, h: f64) {
-        let Self { tableau, control, t, y, rate, k, trial, .. } = self;
+    fn attempt(&mut self, system: &mut impl OdeSystem, h: f64) {
+        let Self { tableau, control, last: StepRecord { t, y, .. }, rate, k, trial, .. } = self;
         let rows = tableau.rows;
         let combine = match control {
             Control::MeanSquare { .. } | Control::Fixed => combine,
             // The published counts of steps depend on the last bit.
-            Control::Matlab(_) => Matlab::combine,
+            Control::Ode45(_) => Ode45Control::combine,
         };
         k[0].copy_from_slice(rate);
         for stage in 1..tableau.stages {
             combine(trial, y, h, rows[stage], k);
-            plant.rate(*t + tableau.nodes[stage] * h, trial, &mut k[stage]);
+            system.rhs(*t + tableau.nodes[stage] * h, trial, &mut k[stage]);
         }
         if !tableau.reuses_last {
             combine(trial, y, h, rows[tableau.stages], k);
         }
     }
 
-    fn accept(&mut self, plant: &mut impl Plant, h: f64, end: f64) {
-        self.t_old = self.t;
-        self.h_old = h;
-        self.y_old.copy_from_slice(&self.y);
-        self.y.copy_from_slice(&self.trial);
-        self.t = if h == end - self.t { end } else { self.t + h };
+    fn accept(&mut self, system: &mut impl OdeSystem, h: f64, end: f64) {
+        self.y_old.copy_from_slice(&self.last.y);
+        self.last.y.copy_from_slice(&self.trial);
+        self.last.advance(h, end);
+        let StepRecord { t, y, .. } = &mut self.last;
         if self.tableau.reuses_last {
             self.rate.copy_from_slice(&self.k[self.tableau.stages - 1]);
         } else {
-            plant.rate(self.t, &self.y, &mut self.rate);
+            system.rhs(*t, y, &mut self.rate);
         }
-        plant.settle(self.t, &mut self.y, &mut self.rate);
+        system.after_step(*t, y, &mut self.rate);
         self.dense_ready = false;
-        self.steps.accepted += 1;
     }
 
-    /// Writes y(t) within the last step. What it needs beyond the stages is evaluated once for each step that is
-    /// asked.
-    pub fn interpolate(&mut self, plant: &mut impl Plant, t: f64, out: &mut [f64]) {
-        if t >= self.t || self.h_old == 0.0 {
-            out.copy_from_slice(&self.y);
-            return;
-        }
-        if !self.dense_ready {
-            self.prepare_dense(plant);
-        }
-        let x = ((t - self.t_old) / self.h_old).clamp(0.0, 1.0);
-        for (i, out) in out.iter_mut().enumerate() {
-            let mut sum = 0.0;
-            for (power, coefficient) in self.dense.iter().enumerate().rev() {
-                sum = (sum + coefficient[i]) * if power % 2 == 0 { x } else { 1.0 - x };
-            }
-            *out = self.y_old[i] + sum;
-        }
-    }
-
-    fn prepare_dense(&mut self, plant: &mut impl Plant) {
-        let h = self.h_old;
+    fn prepare_dense(&mut self, system: &mut impl OdeSystem) {
+        let h = self.last.h;
         let Self { tableau, k, trial, .. } = self;
         if tableau.stored() > tableau.stages {
             k[tableau.stages].copy_from_slice(&self.rate);
         }
         for stage in tableau.stages + 1..tableau.stored() {
             combine(trial, &self.y_old, h, tableau.rows[stage], k);
-            plant.rate(self.t_old + tableau.nodes[stage] * h, trial, &mut k[stage]);
+            system.rhs(self.last.t_old + tableau.nodes[stage] * h, trial, &mut k[stage]);
         }
-        for i in 0..self.y.len() {
-            let change = self.y[i] - self.y_old[i];
+        for i in 0..self.last.y.len() {
+            let change = self.last.y[i] - self.y_old[i];
             self.dense[0][i] = change;
             self.dense[1][i] = h * k[0][i] - change;
             self.dense[2][i] = 2.0 * change - h * (self.rate[i] + k[0][i]);
@@ -289,75 +269,78 @@ impl Explicit {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::super::{DOP853, DOPRI5};
-    use super::*;
+impl OdeMethod for Explicit {
+    fn last(&self) -> &StepRecord {
+        &self.last
+    }
 
-    /// ẏ = (y₂, −y₁ + t): y = (sin t + t, cos t + 1) from (0, 2).
-    struct Oscillator;
-
-    impl Plant for Oscillator {
-        fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
-            rate[0] = y[1];
-            rate[1] = -y[0] + t;
+    fn step(&mut self, system: &mut impl OdeSystem, end: f64) -> Result<(), StopReason> {
+        match self.control {
+            Control::MeanSquare { tolerance } => self.step_by_mean_square(system, end, tolerance),
+            Control::Ode45(control) => self.step_by_ode45(system, end, control),
+            Control::Fixed => self.fixed_step(system, end),
         }
-        fn settle(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
     }
 
-    fn fixed_step(tableau: &'static Tableau, h: f64) -> Explicit {
-        let mut integrator = Explicit::with_step(tableau, &mut Oscillator, 0.0, &[0.0, 2.0], h);
-        while integrator.t < 2.0 {
-            integrator.step(&mut Oscillator, 2.0).unwrap();
+    /// What dense output needs beyond the stages is evaluated at most once for each step.
+    fn interpolate(&mut self, system: &mut impl OdeSystem, t: f64, out: &mut [f64]) {
+        if self.last.has_ended(t) {
+            out.copy_from_slice(&self.last.y);
+            return;
         }
-        integrator
-    }
-
-    /// Orders of the end of a step and of the dense output, the step going from `h` to a part of it.
-    fn orders(tableau: &'static Tableau, h: f64) -> (f64, f64) {
-        let end = |h: f64| (fixed_step(tableau, h).y[0] - (2f64.sin() + 2.0)).abs();
-        let inside = |h: f64| {
-            let mut integrator = fixed_step(tableau, h);
-            let mut worst: f64 = 0.0;
-            for part in 1..20 {
-                let t = 2.0 - h * f64::from(part) / 20.0;
-                let mut y = [0.0; 2];
-                integrator.interpolate(&mut Oscillator, t, &mut y);
-                worst = worst.max((y[0] - t.sin() - t).abs());
+        if !self.dense_ready {
+            self.prepare_dense(system);
+        }
+        let x = self.last.part(t);
+        for (i, out) in out.iter_mut().enumerate() {
+            let mut sum = 0.0;
+            for (power, coefficient) in self.dense.iter().enumerate().rev() {
+                sum = (sum + coefficient[i]) * if power % 2 == 0 { x } else { 1.0 - x };
             }
-            worst
-        };
-        ((end(h) / end(h / 4.0)).log2() / 2.0, (inside(h) / inside(h / 2.0)).log2())
+            *out = self.y_old[i] + sum;
+        }
     }
 
-    #[test]
-    fn dop853_has_order_eight_and_dense_output_of_order_seven() {
-        let (end, inside) = orders(&DOP853, 0.5);
-        assert!((end - 8.0).abs() < 0.3, "{end}");
-        assert!((7.0..9.0).contains(&inside), "{inside}");
+    fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64]) {
+        self.last.y.copy_from_slice(y);
+        system.rhs(self.last.t, y, &mut self.rate);
+        self.last.h = 0.0;
+    }
+}
+
+impl Stepper for Explicit {
+    fn last(&self) -> &StepRecord {
+        &self.last
     }
 
-    #[test]
-    fn dopri5_has_order_five_and_dense_output_of_order_four() {
-        let end = orders(&DOPRI5, 0.125).0;
-        assert!((end - 5.0).abs() < 0.3, "{end}");
-        let inside = orders(&DOPRI5, 0.25).1;
-        assert!((4.0..6.2).contains(&inside), "{inside}");
+    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
+        OdeMethod::step(self, mechanism, end)
     }
 
-    #[test]
-    fn all_meet_the_end_exactly_and_the_estimate_bounds_the_error() {
-        let y = [0.0, 2.0];
-        for mut integrator in [
-            Explicit::new(&DOP853, &mut Oscillator, 0.0, &y, 1e-9),
-            Explicit::new(&DOPRI5, &mut Oscillator, 0.0, &y, 1e-9),
-            Explicit::ode45(&mut Oscillator, 0.0, &y, 1e-9, 3.0),
-        ] {
-            while integrator.time() < 3.0 {
-                integrator.step(&mut Oscillator, 3.0).unwrap();
-            }
-            assert_eq!(integrator.time(), 3.0);
-            assert!((integrator.state()[0] - 3f64.sin() - 3.0).abs() < 1e-7);
+    fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        OdeMethod::interpolate(self, mechanism, t, y);
+    }
+
+    fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
+        let StepRecord { t, y, h, .. } = &self.last;
+        // The last evaluation was at the end of the step.
+        let pivot_products = Some(mechanism.elimination.holds());
+        let pace = state::fastest(&mechanism.system, y);
+        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products, pace })
+    }
+
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+}
+
+/// out ← y + h Σ a_j k_j.
+fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[(usize, f64)], k: &[Vec<f64>]) {
+    out.copy_from_slice(y);
+    for &(j, a) in weights {
+        let factor = h * a;
+        for (out, k) in out.iter_mut().zip(&k[j]) {
+            *out += factor * k;
         }
     }
 }

@@ -4,27 +4,30 @@
 //! rows included, as the literature has it. Redundant rows and singular positions do no harm; the constraints are
 //! violated by λ / (α Ω²).
 
-use super::{Explicit, Plant, Stepper, Steps, Stop};
+use super::explicit::Explicit;
+use super::step::{StepRecord, StopReason};
+use super::stepper::{OdeMethod, Stepper};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::equations::augmented::{Normal, RightSides};
+use triad_dynamics::ode::OdeSystem;
 
-/// Rounding of the accelerations grows with α: a tolerance below this part of α would take it for motion.
+/// Tolerance for each kg of α below which the rounding of the accelerations, which grows with α, would be taken for motion.
 const ROUNDING: f64 = 2e-15;
 
-/// α, Ω and μ.
+/// The parameters of the penalty method.
 #[derive(Clone, Copy, Debug)]
-pub struct Strength {
-    /// α, kg.
+pub struct PenaltyParameters {
+    /// α, the mass of a row, kg.
     pub alpha: f64,
-    /// Ω, rad/s.
+    /// Ω, the angular frequency of a row, rad/s.
     pub omega: f64,
-    /// μ.
+    /// μ, the damping ratio of a row.
     pub mu: f64,
 }
 
-impl Strength {
-    /// The least tolerance that rounding admits.
-    pub fn least_tolerance(&self) -> f64 {
+impl PenaltyParameters {
+    /// The smallest tolerance that rounding admits.
+    pub fn min_tolerance(&self) -> f64 {
         ROUNDING * self.alpha
     }
 }
@@ -33,11 +36,11 @@ impl Strength {
 struct Penalized<'a> {
     mechanism: &'a mut Mechanism,
     equations: &'a mut Normal,
-    strength: Strength,
+    parameters: PenaltyParameters,
 }
 
-impl Plant for Penalized<'_> {
-    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+impl OdeSystem for Penalized<'_> {
+    fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
         let n = self.mechanism.system.coordinates;
         self.mechanism.set_state(t, y);
         let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
@@ -47,7 +50,7 @@ impl Plant for Penalized<'_> {
         let equations = &mut *self.equations;
         equations.refresh(system, state);
         let sides = RightSides::new(system, state);
-        let Strength { alpha, omega, mu } = self.strength;
+        let PenaltyParameters { alpha, omega, mu } = self.parameters;
         let wanted = &sides.gamma
             - (equations.product(&y[n..]) - &sides.nu) * (2.0 * omega * mu)
             - &sides.value * (omega * omega);
@@ -62,7 +65,7 @@ impl Plant for Penalized<'_> {
         rate[n..].copy_from_slice(right.as_slice());
     }
 
-    fn settle(&mut self, t: f64, y: &mut [f64], _: &mut [f64]) {
+    fn after_step(&mut self, t: f64, y: &mut [f64], _: &mut [f64]) {
         self.mechanism.set_state(t, y);
         self.mechanism.state.commit_revolutions();
     }
@@ -73,7 +76,7 @@ impl Plant for Penalized<'_> {
 pub struct Penalty {
     method: Explicit,
     equations: Normal,
-    strength: Strength,
+    parameters: PenaltyParameters,
 }
 
 impl Penalty {
@@ -82,36 +85,28 @@ impl Penalty {
         mechanism: &mut Mechanism,
         t: f64,
         y: &[f64],
-        strength: Strength,
-        start: impl FnOnce(&mut dyn Plant, &[f64]) -> Explicit,
+        parameters: PenaltyParameters,
+        start: impl FnOnce(&mut dyn OdeSystem, &[f64]) -> Explicit,
     ) -> Self {
         mechanism.set_state(t, y);
         let mut equations = Normal::new(&mechanism.system, &mechanism.state);
-        let method = start(&mut Penalized { mechanism, equations: &mut equations, strength }, y);
-        Self { method, equations, strength }
+        let method = start(&mut Penalized { mechanism, equations: &mut equations, parameters }, y);
+        Self { method, equations, parameters }
     }
 }
 
 impl Stepper for Penalty {
-    fn time(&self) -> f64 {
-        self.method.time()
+    fn last(&self) -> &StepRecord {
+        OdeMethod::last(&self.method)
     }
-    fn state(&self) -> &[f64] {
-        self.method.state()
-    }
-    fn last_step(&self) -> f64 {
-        self.method.last_step()
-    }
-    fn steps(&self) -> Steps {
-        self.method.steps
-    }
-    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
-        let Self { method, equations, strength } = self;
-        method.step(&mut Penalized { mechanism, equations, strength: *strength }, end)
+    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
+        let Self { method, equations, parameters } = self;
+        OdeMethod::step(method, &mut Penalized { mechanism, equations, parameters: *parameters }, end)
     }
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        let Self { method, equations, strength } = self;
-        method.interpolate(&mut Penalized { mechanism, equations, strength: *strength }, t, y);
+        let Self { method, equations, parameters } = self;
+        let mut system = Penalized { mechanism, equations, parameters: *parameters };
+        OdeMethod::interpolate(method, &mut system, t, y);
     }
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())

@@ -7,9 +7,13 @@
 
 #![allow(clippy::excessive_precision, reason = "the numbers stand as they were published")]
 
-use super::{DOP853, Explicit, Stepper, Steps, Stop, resolution};
+use super::explicit::{DOP853, Explicit};
+use super::hermite;
+use super::step::{StepRecord, StopReason};
+use super::stepper::Stepper;
 use nalgebra::Vector3;
 use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state::{Residual, State};
 use triad_dynamics::system::natural::Lift;
 
@@ -24,29 +28,35 @@ const PARTS: [f64; 5] = [
 /// Substeps of a step.
 const SUBSTEPS: usize = 9;
 /// Most iterations for the end of a substep.
-const ITERATIONS: usize = 100;
-/// Changes below the first part of the mechanism's length that do not shrink any more, or below the second that hardly do,
-/// are rounding.
-const SETTLED: f64 = 1e-9;
+const MAX_ITERATIONS: usize = 100;
+/// Iterations after which a growing change means that the substep cannot be solved.
+const MIN_ITERATIONS: usize = 8;
+/// A change below this part of the mechanism's length that does not shrink any more is rounding.
+const STALLED: f64 = 1e-9;
+/// A change below this part of the mechanism's length that no longer halves is rounding.
 const ROUNDING: f64 = 1e-15;
-/// Steps of the trial run from which the step size is found, and how much smaller it is made.
+/// A step that is longer than what is left to the end by less than this part of itself is the last.
+const LAST_STEP: f64 = 1e-6;
+/// Most steps of the trial run from which the step size is found.
 const TRIAL_STEPS: usize = 100;
-/// A step of this part of the longest one: the trial comes to a halt, and says no more about the motion until then.
+/// Part of the longest step of the trial below which the trial is coming to a halt, and says no more about the motion before
+/// that.
 const HALTING: f64 = 1e-4;
+/// The step size in steps of the trial.
 const PART_OF_TRIAL: f64 = 0.5;
+/// Steps of a run whose trial came to no second step.
+const STEPS_WITHOUT_TRIAL: f64 = 20.0;
 
 /// The integrator and its last step.
 #[derive(Clone, Debug)]
 pub struct Rattle {
-    t: f64,
+    last: StepRecord,
+    /// Size of the steps.
     h: f64,
-    y: Vec<f64>,
     position: Vec<Lift>,
     velocity: Vec<Lift>,
     /// Both at the start of the step.
     kept: (Vec<Lift>, Vec<Lift>),
-    t_old: f64,
-    h_old: f64,
     y_old: Vec<f64>,
     /// Rates at both ends of the last step, for dense output.
     rates: [Vec<f64>; 2],
@@ -62,8 +72,6 @@ pub struct Rattle {
     residuals: Vec<Residual>,
     /// Whether loads act: their forces may depend on the velocity.
     loaded: bool,
-    /// Steps so far.
-    pub steps: Steps,
 }
 
 impl Rattle {
@@ -88,14 +96,11 @@ impl Rattle {
             system.bodies.iter().zip(&position).map(|(b, q)| b.layout.velocity(q, q_dot)).collect();
         let rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
         let mut rattle = Self {
-            t,
+            last: StepRecord::new(t, y),
             h,
-            y: y.to_vec(),
             position,
             velocity,
             kept: (zero.clone(), zero.clone()),
-            t_old: t,
-            h_old: 0.0,
             y_old: y.to_vec(),
             rates,
             dense_ready: false,
@@ -107,16 +112,15 @@ impl Rattle {
             pushed: zero,
             residuals: vec![Residual::zeros(); system.rows.len()],
             loaded: !system.loads.is_empty(),
-            steps: Steps::default(),
         };
-        rattle.come_back(mechanism);
+        rattle.restore(mechanism);
         rattle
     }
 
     /// Puts the state at the end of the last step in place, with its factor.
-    fn come_back(&mut self, mechanism: &mut Mechanism) {
+    fn restore(&mut self, mechanism: &mut Mechanism) {
         let Mechanism { system, state, elimination, .. } = mechanism;
-        state.set_time(system, self.t);
+        state.set_time(system, self.last.t);
         state.set_natural_positions(system, &self.position);
         state.set_natural_velocities(system, &self.velocity);
         elimination.linearize(system, state);
@@ -135,7 +139,7 @@ impl Rattle {
         }
         self.other.set_time(system, t + h);
         let (mut last, mut converged) = (f64::INFINITY, false);
-        for iteration in 0..ITERATIONS {
+        for iteration in 0..MAX_ITERATIONS {
             self.other.set_natural_positions(system, &self.there);
             self.other.residuals(system, false, &mut self.residuals);
             elimination.increment(system, here, &self.forces, &self.other, false, &self.residuals);
@@ -151,13 +155,13 @@ impl Rattle {
                 return false;
             }
             // To the last bit: what is left over would add up in a long run.
-            let rounding = (step >= last && step < SETTLED * system.length)
+            let rounding = (step >= last && step < STALLED * system.length)
                 || (step > 0.5 * last && step < ROUNDING * system.length);
             if step == 0.0 || (iteration > 0 && rounding) {
                 converged = true;
                 break;
             }
-            if iteration > 8 && step > last {
+            if iteration > MIN_ITERATIONS && step > last {
                 return false;
             }
             last = step;
@@ -212,7 +216,7 @@ impl Rattle {
 
     fn store(&mut self, mechanism: &Mechanism) {
         let n = mechanism.system.coordinates;
-        let (q, q_dot) = self.y.split_at_mut(n);
+        let (q, q_dot) = self.last.y.split_at_mut(n);
         for (index, body) in mechanism.system.bodies.iter().enumerate() {
             body.layout.store(&self.position[index], q);
             body.layout.store(&self.velocity[index], q_dot);
@@ -221,68 +225,53 @@ impl Rattle {
 }
 
 impl Stepper for Rattle {
-    fn time(&self) -> f64 {
-        self.t
+    fn last(&self) -> &StepRecord {
+        &self.last
     }
 
-    fn state(&self) -> &[f64] {
-        &self.y
-    }
-
-    fn last_step(&self) -> f64 {
-        self.h_old
-    }
-
-    fn steps(&self) -> Steps {
-        self.steps
-    }
-
-    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
-        let left = end - self.t;
-        let h = if left <= self.h * (1.0 + 1e-6) { left } else { self.h };
-        if h <= resolution(self.t, end) && left > h {
-            return Err(Stop::StepTooSmall { time: self.t, step: h });
-        }
+    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
+        let start = self.last.t;
+        let left = end - start;
+        let h = if left <= self.h * (1.0 + LAST_STEP) { left } else { self.h };
+        self.last.check_size(h, end)?;
         self.kept.0.copy_from_slice(&self.position);
         self.kept.1.copy_from_slice(&self.velocity);
         // Outputs between steps have moved the mechanism.
-        self.come_back(mechanism);
-        let mut t = self.t;
+        self.restore(mechanism);
+        let mut t = start;
         for part in 0..SUBSTEPS {
             let part = PARTS[part.min(SUBSTEPS - 1 - part)];
             if !self.substep(mechanism, t, part * h) {
                 self.position.copy_from_slice(&self.kept.0);
                 self.velocity.copy_from_slice(&self.kept.1);
-                return Err(Stop::NoConvergence { time: self.t, step: h });
+                return Err(StopReason::NoConvergence { time: start, step: h });
             }
             t += part * h;
         }
-        self.t_old = self.t;
-        self.h_old = h;
-        self.y_old.copy_from_slice(&self.y);
-        self.t = if h == left { end } else { self.t + h };
+        self.y_old.copy_from_slice(&self.last.y);
+        self.last.advance(h, end);
         self.store(mechanism);
         self.dense_ready = false;
-        self.steps.accepted += 1;
         Ok(())
     }
 
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        if t >= self.t || self.h_old == 0.0 {
-            y.copy_from_slice(&self.y);
+        let StepRecord { t: t_new, y: y_new, t_old, h, .. } = &self.last;
+        if self.last.has_ended(t) {
+            y.copy_from_slice(y_new);
             return;
         }
         if !self.dense_ready {
-            mechanism.rate(self.t_old, &self.y_old, &mut self.rates[0]);
-            mechanism.rate(self.t, &self.y, &mut self.rates[1]);
+            mechanism.rhs(*t_old, &self.y_old, &mut self.rates[0]);
+            mechanism.rhs(*t_new, y_new, &mut self.rates[1]);
             self.dense_ready = true;
         }
         let n = y.len() / 2;
-        let s = ((t - self.t_old) / self.h_old).clamp(0.0, 1.0);
+        let s = self.last.part(t);
         for i in 0..n {
             let start = [self.y_old[i], self.y_old[n + i], self.rates[0][n + i]];
-            let end = [self.y[i], self.y[n + i], self.rates[1][n + i]];
-            (y[i], y[n + i]) = super::quintic(start, end, self.h_old, s);
+            let end = [y_new[i], y_new[n + i], self.rates[1][n + i]];
+            (y[i], y[n + i]) = hermite::quintic(start, end, *h, s);
         }
     }
 
@@ -297,19 +286,20 @@ fn trial_step(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end:
     let mut explicit = Explicit::new(&DOP853, &mut trial, t, y, tolerance);
     let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);
     for step in 0..TRIAL_STEPS {
-        if explicit.time() >= end || explicit.step(&mut trial, end).is_err() {
+        if explicit.last().t >= end || explicit.step(&mut trial, end).is_err() {
             break;
         }
         // The first step is a guess, the last one is cut.
-        if step > 0 && explicit.time() < end {
-            largest = largest.max(explicit.last_step());
-            if explicit.last_step() < HALTING * largest {
+        let &StepRecord { t, h, .. } = explicit.last();
+        if step > 0 && t < end {
+            largest = largest.max(h);
+            if h < HALTING * largest {
                 break;
             }
-            smallest = smallest.min(explicit.last_step());
+            smallest = smallest.min(h);
         }
     }
-    if smallest.is_finite() { smallest } else { (end - t) / 20.0 }
+    if smallest.is_finite() { smallest } else { (end - t) / STEPS_WITHOUT_TRIAL }
 }
 
 /// a + factor b.

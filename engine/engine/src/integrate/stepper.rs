@@ -1,52 +1,91 @@
-//! What every integrator of a mechanism can do.
+//! What integrators offer: as methods for ordinary differential equations, and as integrators of a mechanism.
 
-use super::taylor::Saved;
-use super::{Explicit, Steps, Stop, Taylor};
-use crate::run::singularity::Stepped;
+use super::step::{StepRecord, StopReason};
 use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
+use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state::{self, State};
 use triad_dynamics::system::System;
 
-/// An integrator of a mechanism and its last step.
-pub trait Stepper: Debug + Send + Sync {
-    /// End of the last step, s.
-    fn time(&self) -> f64;
-
-    /// State y = (q, q̇) at the end of the last step.
-    fn state(&self) -> &[f64];
-
-    /// Size of the last accepted step, s.
-    fn last_step(&self) -> f64;
-
-    /// Steps so far.
-    fn steps(&self) -> Steps;
+/// A method for ordinary differential equations ẏ = f(t, y).
+pub trait OdeMethod: Clone + Debug + Send + Sync + 'static {
+    /// The last step.
+    fn last(&self) -> &StepRecord;
 
     /// Takes one accepted step, not beyond `end`.
-    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop>;
+    fn step(&mut self, system: &mut impl OdeSystem, end: f64) -> Result<(), StopReason>;
+
+    /// Writes y(t) within the last step.
+    fn interpolate(&mut self, system: &mut impl OdeSystem, t: f64, y: &mut [f64]);
+
+    /// Goes on from the same state y, written in other coordinates, with the step size that was reached.
+    fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64]);
+}
+
+/// The last step of an island of the mechanism, as far as it concerns singular configurations.
+#[derive(Clone, Copy, Debug)]
+pub struct IslandStep<'a> {
+    /// The island that took it.
+    pub island: usize,
+    /// Its start, s.
+    pub start: f64,
+    /// Its end, s.
+    pub end: f64,
+    /// Pivot products of the joints at its end, if a factorization there has given them.
+    pub pivot_products: Option<&'a [f64]>,
+    /// How fast the rows turn at its end, 1/s: see [`state::pace`].
+    pub pace: f64,
+}
+
+/// What a run leaves out because nothing depends on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SkippedWork {
+    /// Bodies that are solved in a plane.
+    pub planar_bodies: usize,
+    /// Rows of the solver.
+    pub rows: usize,
+    /// Rows of the solver if all bodies were solved in space.
+    pub rows_in_space: usize,
+    /// Islands that are solved apart.
+    pub islands: usize,
+    /// Steps of bodies taken: each step counts once for each body of its island.
+    pub body_steps: u64,
+    /// The same if all islands took the steps of the busiest.
+    pub body_steps_together: u64,
+    /// Bodies that are left out because they cannot move.
+    pub fixed_bodies: usize,
+    /// Entries of the matrix that were not written again.
+    pub constants: u64,
+    /// Steps after which the constraints needed no measuring.
+    pub checks: u64,
+}
+
+/// An integrator of a mechanism.
+pub trait Stepper: Debug + Send + Sync {
+    /// The last step. Its state is y = (q, q̇).
+    fn last(&self) -> &StepRecord;
+
+    /// Takes one accepted step, not beyond `end`.
+    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason>;
 
     /// Writes y(t) within the last step.
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]);
 
-    /// The last step as it concerns singular positions; nothing where it cannot hide any.
-    fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
-        Some(Stepped {
-            part: 0,
-            start: self.time() - self.last_step(),
-            end: self.time(),
-            holds: None,
-            pace: state::fastest(&mechanism.system, self.state()),
-        })
+    /// The last step as it concerns singular configurations; `None` where it cannot hide any.
+    fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
+        let StepRecord { t, y, h, .. } = self.last();
+        let pace = state::fastest(&mechanism.system, y);
+        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products: None, pace })
     }
 
-    /// How firmly each joint holds at time t within that step, if the method has a way of its own to find it.
-    fn holds_inside(&mut self, _: f64) -> Option<&[f64]> {
+    /// Pivot products of the joints at time t within that step, if the method has a way of its own to find them.
+    fn pivot_products_inside(&mut self, _: f64) -> Option<&[f64]> {
         None
     }
 
-    /// Writes y(t) within the step that [`Stepper::stepped`] tells of.
-    fn write_part(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+    /// Writes y(t) within the step of [`Stepper::island_step`].
+    fn interpolate_island(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
         self.interpolate(mechanism, t, y);
     }
 
@@ -67,7 +106,7 @@ pub trait Stepper: Debug + Send + Sync {
     }
 
     /// What has been left out so far, where the method knows.
-    fn saved(&self) -> Option<Saved> {
+    fn skipped(&self) -> Option<SkippedWork> {
         None
     }
 
@@ -78,123 +117,4 @@ pub trait Stepper: Debug + Send + Sync {
 
     /// A copy.
     fn boxed(&self) -> Box<dyn Stepper>;
-}
-
-impl Stepper for Explicit {
-    fn time(&self) -> f64 {
-        self.time()
-    }
-    fn state(&self) -> &[f64] {
-        self.state()
-    }
-    fn last_step(&self) -> f64 {
-        self.last_step()
-    }
-    fn steps(&self) -> Steps {
-        self.steps
-    }
-    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
-        self.step(mechanism, end)
-    }
-    fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        self.interpolate(mechanism, t, y);
-    }
-    fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
-        Some(Stepped {
-            part: 0,
-            start: self.time() - self.last_step(),
-            end: self.time(),
-            // Its last evaluation was at the end of the step.
-            holds: Some(mechanism.elimination.holds()),
-            pace: state::fastest(&mechanism.system, self.state()),
-        })
-    }
-    fn boxed(&self) -> Box<dyn Stepper> {
-        Box::new(self.clone())
-    }
-}
-
-impl Stepper for Taylor {
-    fn time(&self) -> f64 {
-        self.time()
-    }
-    fn state(&self) -> &[f64] {
-        self.state()
-    }
-    fn last_step(&self) -> f64 {
-        self.last_step()
-    }
-    fn steps(&self) -> Steps {
-        self.steps
-    }
-    fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), Stop> {
-        Taylor::step(self, &mechanism.system, end)?;
-        if !mechanism.system.angles.is_empty() {
-            mechanism.set_state(Taylor::time(self), Taylor::state(self));
-            mechanism.state.commit_revolutions();
-        }
-        Ok(())
-    }
-    fn proves_constraints(&mut self) -> bool {
-        Taylor::proves_constraints(self)
-    }
-    fn saved(&self) -> Option<Saved> {
-        Some(Taylor::saved(self))
-    }
-    fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
-        Taylor::multipliers(self, system, state, jacobian)
-    }
-    fn work_to(&self, t: f64) -> Option<f64> {
-        Some(Taylor::work_to(self, t))
-    }
-    fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        Taylor::interpolate(self, &mechanism.system, t, y);
-    }
-    fn stepped<'a>(&'a self, mechanism: &'a Mechanism) -> Option<Stepped<'a>> {
-        Taylor::stepped(self, &mechanism.system)
-    }
-    fn holds_inside(&mut self, t: f64) -> Option<&[f64]> {
-        Some(Taylor::holds_inside(self, t))
-    }
-    fn write_part(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        Taylor::write_part(self, &mechanism.system, t, y);
-    }
-    fn own_work(&self) -> (Counters, u64) {
-        (self.counters(), self.projections)
-    }
-    fn boxed(&self) -> Box<dyn Stepper> {
-        Box::new(self.clone())
-    }
-}
-
-/// An integrator that could not start: its first step tells why.
-#[derive(Clone, Debug)]
-pub(super) struct Halted {
-    pub t: f64,
-    pub y: Vec<f64>,
-    pub stop: Stop,
-}
-
-impl Stepper for Halted {
-    fn time(&self) -> f64 {
-        self.t
-    }
-    fn state(&self) -> &[f64] {
-        &self.y
-    }
-    fn last_step(&self) -> f64 {
-        0.0
-    }
-    fn steps(&self) -> Steps {
-        Steps::default()
-    }
-    fn step(&mut self, _: &mut Mechanism, _: f64) -> Result<(), Stop> {
-        Err(self.stop)
-    }
-    fn interpolate(&mut self, _: &mut Mechanism, _: f64, y: &mut [f64]) {
-        y.copy_from_slice(&self.y);
-    }
-    fn boxed(&self) -> Box<dyn Stepper> {
-        Box::new(self.clone())
-    }
 }

@@ -57,10 +57,10 @@ impl Simulation {
             return;
         }
         let Self { mechanism, integrator, scratch, happened, last_numbers, .. } = self;
-        let (before, end) = (happened.len(), integrator.time());
-        let step = (end - integrator.last_step(), end);
+        let (before, end) = (happened.len(), integrator.last().t);
+        let step = (end - integrator.last().h, end);
         let functions = Arc::clone(&mechanism.system.event_functions);
-        let y = &mut scratch[..integrator.state().len()];
+        let y = &mut scratch[..integrator.last().y.len()];
         let see = |t: f64, function: &EventFunction| {
             integrator.interpolate(mechanism, t, y);
             mechanism.set_state(t, y);

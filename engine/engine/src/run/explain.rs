@@ -34,8 +34,8 @@ impl Simulation {
     pub fn left_out(&self) -> Vec<LeftOut> {
         let skip = self.model().settings.skip;
         let bodies = self.model().bodies.len() as u64;
-        let steps = self.integrator.steps().accepted;
-        let saved = self.integrator.saved();
+        let steps = self.integrator.last().steps.accepted;
+        let saved = self.integrator.skipped();
         let entry = |word, on, saved: u64, of: u64, what: String| {
             let what =
                 if of == 0 { "this integrator knows nothing to leave out here".to_owned() } else { what };

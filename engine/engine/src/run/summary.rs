@@ -1,8 +1,8 @@
 //! What a run has cost and how far it can be trusted.
 
 use super::Simulation;
-use crate::integrate::Strength;
-use crate::run::singularity::Passage;
+use crate::integrate::PenaltyParameters;
+use crate::run::singularity::SingularConfiguration;
 use crate::scene::{IntegratorKind, Stabilization};
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
@@ -44,8 +44,9 @@ pub struct Summary {
     pub integrator: IntegratorKind,
     /// Why it is this one.
     pub reason: String,
-    /// Singular positions passed, where the mobility jumps for a moment.
-    pub passages: Vec<Passage>,
+    /// Singular configurations passed, where the mobility jumps for a moment.
+    #[serde(rename = "passages")]
+    pub singularities: Vec<SingularConfiguration>,
     /// What speaks against the result, in words, with what to use instead.
     pub doubts: Vec<String>,
     /// Whether the end of the run is reached.
@@ -56,7 +57,7 @@ pub struct Summary {
 fn swallowed(system: &System) -> f64 {
     let Stabilization::Penalty { alpha, omega, mu } = system.model.settings.stabilization else { return 0.0 };
     let lightest = system.bodies.iter().fold(f64::INFINITY, |least, body| least.min(body.mass));
-    (Strength { alpha, omega, mu }.least_tolerance() / lightest).min(1.0)
+    (PenaltyParameters { alpha, omega, mu }.min_tolerance() / lightest).min(1.0)
 }
 
 impl Simulation {
@@ -74,9 +75,9 @@ impl Simulation {
         let velocity_violation = current.velocity_violation(system);
         let energy_drift = energy - self.start_energy - work;
         let (counters, projections) = self.integrator.work(&self.mechanism);
-        let steps = self.integrator.steps();
-        let passages = self.watch.passages(system);
-        let doubts = self.doubts(&passages, energy_drift);
+        let steps = self.integrator.last().steps;
+        let singularities = self.singularities.configurations(system);
+        let doubts = self.doubts(&singularities, energy_drift);
         Summary {
             time: self.time,
             energy,
@@ -86,21 +87,21 @@ impl Simulation {
             velocity_violation,
             steps: steps.accepted,
             rejected: steps.rejected,
-            step_size: self.integrator.last_step(),
+            step_size: self.integrator.last().h,
             evaluations: counters.evaluations,
             factorizations: counters.factorizations,
             solves: counters.solves,
             projections,
             integrator: self.kind,
             reason: self.reason.clone(),
-            passages,
+            singularities,
             doubts,
             finished: self.finished(),
         }
     }
 
     /// What speaks against the shown state.
-    fn doubts(&self, passages: &[Passage], drift: f64) -> Vec<String> {
+    fn doubts(&self, singularities: &[SingularConfiguration], drift: f64) -> Vec<String> {
         // A Taylor series meets its tolerance or stops, and does not look at each step.
         if self.kind == IntegratorKind::Taylor {
             return Vec::new();
@@ -108,7 +109,7 @@ impl Simulation {
         let (system, current) = (&self.mechanism.system, &self.current);
         let kinetic = self.kinetic.max(current.kinetic_energy(system));
         let signs = violation::Signs {
-            passed: passages.first().map(|passage| passage.time),
+            passed: singularities.first().map(|passed| passed.time),
             drift: if drift == 0.0 {
                 0.0
             } else {

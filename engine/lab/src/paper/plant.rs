@@ -7,8 +7,8 @@ use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations;
 use triad_engine::equations::augmented::{DEPENDENT, Literal, for_mass_entries, force};
 use triad_engine::equations::jacobian::Jacobian;
-use triad_engine::integrate::Plant;
 use triad_engine::model::Model;
+use triad_engine::ode::OdeSystem;
 use triad_engine::state::State;
 use triad_engine::system::System;
 use triad_linalg::{Columns, SparseLu, independent_rows};
@@ -166,12 +166,12 @@ impl PaperPlant {
     }
 }
 
-impl Plant for PaperPlant {
-    fn rate(&mut self, _: f64, y: &[f64], rate: &mut [f64]) {
+impl OdeSystem for PaperPlant {
+    fn rhs(&mut self, _: f64, y: &[f64], rate: &mut [f64]) {
         if !Self::rate(self, y, rate) {
             rate.fill(f64::NAN);
         }
     }
 
-    fn settle(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
+    fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
 }

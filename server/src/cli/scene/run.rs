@@ -320,8 +320,8 @@ fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[S
         ),
     ];
     lines.push(format!("  integrator             {}: {}", s.integrator, s.reason));
-    if let Some((first, last)) = s.passages.first().zip(s.passages.last()) {
-        let (count, joints) = (s.passages.len(), first.joints.join(", "));
+    if let Some((first, last)) = s.singularities.first().zip(s.singularities.last()) {
+        let (count, joints) = (s.singularities.len(), first.joints.join(", "));
         let times = if count == 1 {
             format!("at {:.6} s", first.time)
         } else {

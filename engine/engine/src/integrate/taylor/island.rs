@@ -1,7 +1,7 @@
-//! A part of a scene that nothing connects with the rest, and its series.
+//! An island, a part of a scene that nothing connects with the rest, and its series.
 
-use super::{MAX_ORDER, Stop};
-use crate::run::singularity::Stepped;
+use crate::integrate::step::StopReason;
+use crate::integrate::stepper::IslandStep;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, LEAST_TOLERANCE_REDUNDANT, Plan};
 use triad_dynamics::state::State;
@@ -9,16 +9,19 @@ use triad_dynamics::system::System;
 use triad_dynamics::system::islands::{self, Part};
 use triad_dynamics::system::planar;
 
-/// Knots follow closely if they leave less than this part of a step between them (measured: docs/PERFORMANCE.md).
-const CROWDED: f64 = 0.1;
-/// A step below this part of what is left is the last if the constraints cannot be satisfied at its end, or could be only
-/// after it had been halved so often: from there on steps lead nowhere, and spoil the state.
-const HOPELESS: f64 = 1e-9;
-const HALVED: u64 = 3;
-/// Most knots that are counted.
-const MOST_KNOTS: usize = 100_000;
+/// Highest order of the series.
+const MAX_ORDER: usize = 30;
+/// Mean distance of breakpoints, in natural steps of the series, below which they are dense (measured: docs/PERFORMANCE.md).
+const DENSE_BREAKPOINTS: f64 = 0.1;
+/// Most breakpoints that are counted.
+const MAX_BREAKPOINTS: usize = 100_000;
+/// Part of what is left to the end below which a step is the last, if the constraints cannot be satisfied at its end, or only
+/// after [`MANY_HALVINGS`]: from there on steps lead nowhere, and spoil the state.
+const MIN_PROGRESS: f64 = 1e-9;
+/// So many halvings of a step until the constraints could be satisfied at its end show that it leads nowhere.
+const MANY_HALVINGS: u64 = 3;
 
-/// A part and its last step.
+/// An island and its last step.
 #[derive(Clone, Debug)]
 pub struct Island {
     /// Its bodies, if it is not the whole.
@@ -41,7 +44,7 @@ pub struct Island {
 }
 
 impl Island {
-    /// Starts a part of a system, or the whole, at (t, y).
+    /// Starts an island of a system, or the whole, at (t, y).
     pub fn new(
         whole: &System,
         part: Option<Part>,
@@ -115,15 +118,15 @@ impl Island {
         self.series.is_planar()
     }
 
-    /// Its last step, if it may hide a singular position.
-    pub fn stepped(&self, whole: &System, part: usize) -> Option<Stepped<'_>> {
+    /// Its last step, if it may hide a singular configuration; `island` is its own place among all.
+    pub fn last_step(&self, whole: &System, island: usize) -> Option<IslandStep<'_>> {
         let system = self.part.as_deref().unwrap_or(whole);
-        let (holds, pace) = (self.series.holds(), self.series.pace(system));
-        self.loops.then_some(Stepped { part, start: self.t_old, end: self.t, holds: Some(holds), pace })
+        let (pivot_products, pace) = (Some(self.series.holds()), self.series.pace(system));
+        self.loops.then_some(IslandStep { island, start: self.t_old, end: self.t, pivot_products, pace })
     }
 
-    /// How firmly each joint holds at time t within its last step.
-    pub fn holds_inside(&mut self, t: f64) -> &[f64] {
+    /// Pivot products of the joints at time t within its last step.
+    pub fn pivot_products_inside(&mut self, t: f64) -> &[f64] {
         let tau = (t - self.t_old).clamp(0.0, self.h_old);
         self.series.holds_inside(self.t_old, tau, self.order_old)
     }
@@ -140,7 +143,7 @@ impl Island {
 
     /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
     /// itself that the constraints hold, and how often it was shortened.
-    pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), Stop> {
+    pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), StopReason> {
         let plan =
             Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, look_only: false };
         let system = self.part.as_deref().unwrap_or(whole);
@@ -149,14 +152,14 @@ impl Island {
             self.series.store(system, y);
         }
         if !taken.finite || taken.h.is_nan() {
-            return Err(Stop::NotFinite { time: self.t });
+            return Err(StopReason::NotFinite { time: self.t });
         }
-        if (taken.far || taken.rejected >= HALVED) && taken.h < HOPELESS * (end - self.t) {
-            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
+        if (taken.far || taken.rejected >= MANY_HALVINGS) && taken.h < MIN_PROGRESS * (end - self.t) {
+            return Err(StopReason::StepTooSmall { time: self.t, step: taken.h });
         }
         if taken.h <= 16.0 * f64::EPSILON * self.t.abs().max(end.abs()) && taken.time < end && !taken.at_break
         {
-            return Err(Stop::StepTooSmall { time: self.t, step: taken.h });
+            return Err(StopReason::StepTooSmall { time: self.t, step: taken.h });
         }
         self.t_old = self.t;
         self.h_old = taken.h;
@@ -166,16 +169,17 @@ impl Island {
         Ok((taken.proven, taken.rejected))
     }
 
-    /// Whether knots of prescribed functions follow so closely until `end` that steps, which end at each of them, would be
-    /// far shorter than the series allow.
-    pub fn crowded(&mut self, end: f64) -> bool {
+    /// Whether breakpoints of prescribed functions follow so closely until `end` that steps, which end at each of them, would
+    /// be far shorter than the series allow.
+    pub fn breakpoints_dense(&mut self, end: f64) -> bool {
         let (t, order, tolerance) = (self.t, self.order, self.tolerance);
-        let knots = self.series.knots_before(end, MOST_KNOTS);
-        knots > 0 && (end - t) / (knots as f64) < CROWDED * self.series.natural_step(order, tolerance)
+        let knots = self.series.knots_before(end, MAX_BREAKPOINTS);
+        knots > 0
+            && (end - t) / (knots as f64) < DENSE_BREAKPOINTS * self.series.natural_step(order, tolerance)
     }
 
     /// Multipliers of the solver rows at a state within the last step, with A there. The series of the whole in space have
-    /// them; those of a part or of the plane do not.
+    /// them; those of an island or of the plane do not.
     pub fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
         let tau = state.time() - self.t_old;
         let inside = self.h_old > 0.0 && (0.0..=self.h_old).contains(&tau);

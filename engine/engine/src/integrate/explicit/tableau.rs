@@ -1,6 +1,6 @@
 //! An explicit Runge-Kutta method as data.
 
-use super::weighted_norm;
+use crate::integrate::step::weighted_norm;
 
 /// Coefficients of an explicit Runge-Kutta method with an error estimate and dense output.
 #[derive(Debug)]

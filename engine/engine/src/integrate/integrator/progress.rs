@@ -1,11 +1,10 @@
 //! Whether a run still gets anywhere.
 
-/// Steps over which progress is judged, for each part that takes steps of its own.
+/// Steps over which progress is judged, for each island of the mechanism.
 const WINDOW: u64 = 100;
-/// Steps that nobody can wait for.
+/// Steps still needed to the end of the run above which nobody can wait for it.
 const ENDLESS: f64 = 1e9;
-
-/// A window that goes less than so many times as far as the one before it does not grow.
+/// Ratio of the times gained in two successive windows above which steps are growing, and the run may recover.
 const GROWTH: f64 = 2.0;
 
 /// How far the last steps have gone.
@@ -13,28 +12,29 @@ const GROWTH: f64 = 2.0;
 pub(super) struct Progress {
     window: u64,
     steps: u64,
-    /// Where the window began, and how far the one before it went, s: nothing before the first, which is not judged.
-    mark: f64,
+    /// Where the window began, s.
+    window_start: f64,
+    /// Time gained in the window before it, s; zero before the first window, which is not judged.
     before: f64,
 }
 
 impl Progress {
-    /// From time t on, for a mechanism of so many parts.
-    pub(super) fn new(t: f64, parts: usize) -> Self {
-        Self { window: WINDOW * parts.max(1) as u64, steps: 0, mark: t, before: 0.0 }
+    /// From time t on, for a mechanism of so many islands.
+    pub(super) fn new(t: f64, islands: usize) -> Self {
+        Self { window: WINDOW * islands.max(1) as u64, steps: 0, window_start: t, before: 0.0 }
     }
 
-    /// Counts a step that ended at time t. Tells the size of steps if the rest of the run until `end` would need endlessly
-    /// many of them, and they do not grow.
+    /// Counts a step that ended at time t. Returns the mean size of steps, s, if the rest of the run until `end` would need
+    /// more than [`ENDLESS`] of them and they are not growing.
     pub(super) fn stalled(&mut self, t: f64, end: f64) -> Option<f64> {
         self.steps += 1;
         if self.steps < self.window {
             return None;
         }
-        let gained = t - self.mark;
+        let gained = t - self.window_start;
         let before = std::mem::replace(&mut self.before, gained);
-        (self.steps, self.mark) = (0, t);
-        // Of each part at least so many steps lie within the window.
+        (self.steps, self.window_start) = (0, t);
+        // Each island took at least about this many steps within the window.
         let step = gained / WINDOW as f64;
         (gained <= GROWTH * before && step * ENDLESS < end - t).then_some(step)
     }

@@ -6,21 +6,21 @@
 
 use super::dopri5::E;
 
-/// Default relative tolerance.
+/// Default relative tolerance of ode45.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
-/// Absolute by relative tolerance.
+/// Absolute tolerance divided by the relative one: the default of ode45, 1e-6, by its relative one, 1e-3.
 const THRESHOLD: f64 = 1e-3;
 
 /// Bounds of the step control.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Matlab {
+pub(super) struct Ode45Control {
     /// Relative tolerance.
     pub relative: f64,
     /// Largest step, s.
     pub largest: f64,
 }
 
-impl Matlab {
+impl Ode45Control {
     /// For a tolerance and a length of the run.
     pub fn new(relative: f64, duration: f64) -> Self {
         Self { relative, largest: 0.1 * duration }

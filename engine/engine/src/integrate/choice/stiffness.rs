@@ -1,32 +1,34 @@
 //! Whether a scene is stiff: whether an explicit method would take its steps from stability instead of accuracy.
 
 use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::ode::OdeSystem;
 
 /// Decay rate of a load times the length of the run above which an implicit method pays: measured (docs/PERFORMANCE.md), the
 /// series take three quarters of its time at 6.5e4, and their steps grow with this number.
 const MANY_DECAYS: f64 = 1e5;
-/// The tolerance for which that holds. At a tighter one the implicit method needs more steps, by the fourth root, between
-/// its order of five and that of its stages, three; the series do not.
+/// The tolerance at which [`MANY_DECAYS`] and [`MANY_OSCILLATIONS`] hold. At a tighter one the implicit method needs more
+/// steps, by the fourth root, between its order of five and that of its stages, three; the series do not.
 const AT_TOLERANCE: f64 = 1e-6;
-/// The same for oscillations, which an implicit method may leave out only if they are not excited.
+/// Angular frequency of a load times the length of the run above which an implicit method pays, provided that the
+/// oscillations are not excited: only then may it leave them out.
 const MANY_OSCILLATIONS: f64 = 3e5;
-/// An oscillation is excited if its amplitude is above this multiple of the tolerance, in lengths of the mechanism.
+/// Amplitude above which an oscillation counts as excited, in tolerances times the length of the mechanism.
 const EXCITED: f64 = 1e3;
-/// Freedoms above which the dense linear algebra of the implicit method costs more than small steps.
-pub const MOST_FREEDOMS: usize = 300;
+/// Degrees of freedom above which the dense linear algebra of the implicit method costs more than small steps.
+const MAX_FREEDOMS: usize = 300;
 
 /// Why a scene is stiff at the state (t, y), or nothing.
 pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String> {
     let settings = &mechanism.system.model.settings;
     let (duration, tolerance) = (settings.duration, settings.tolerance);
     let freedoms = (6 * mechanism.system.bodies.len()).saturating_sub(mechanism.system.solver_rows);
-    if mechanism.system.loads.is_empty() || freedoms > MOST_FREEDOMS {
+    if mechanism.system.loads.is_empty() || freedoms > MAX_FREEDOMS {
         return None;
     }
     let length = mechanism.system.length;
-    let dearer = (AT_TOLERANCE / tolerance).powf(0.25).max(1.0);
+    let cost_factor = (AT_TOLERANCE / tolerance).powf(0.25).max(1.0);
     let mut rate = vec![0.0; y.len()];
-    crate::integrate::Plant::rate(mechanism, t, y, &mut rate);
+    mechanism.rhs(t, y, &mut rate);
     let n = mechanism.system.coordinates;
     let Mechanism { system, state, elimination, .. } = mechanism;
     for load in 0..system.loads.len() {
@@ -40,12 +42,12 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         let (speed, acceleration) = (along(&y[n..]).abs(), along(&rate[n..]).abs());
         let mobility = elimination.mobility(system, state, load).unwrap_or(0.0).max(0.0);
         let decay = system.loads[load].steepest_damping() * mobility;
-        if decay * duration > MANY_DECAYS * dearer {
+        if decay * duration > MANY_DECAYS * cost_factor {
             return Some(format!("load \"{name}\" makes motions decay within {:.0e} s", 1.0 / decay));
         }
         let omega = (stiffness * mobility).sqrt();
         let amplitude = (acceleration / (omega * omega)).max(speed / omega);
-        if omega * duration > MANY_OSCILLATIONS * dearer && amplitude <= EXCITED * tolerance * length {
+        if omega * duration > MANY_OSCILLATIONS * cost_factor && amplitude <= EXCITED * tolerance * length {
             return Some(format!("spring \"{name}\" could oscillate at {omega:.0e} rad/s, but does not"));
         }
     }

@@ -11,20 +11,33 @@ use triad_dynamics::constraints::tangent;
 use triad_dynamics::system::natural::Lift;
 use triad_linalg::independent_rows;
 
-/// Corrections of positions and velocities below this, relative to the size of the mechanism, are rounding.
+/// Corrections of positions, in lengths of the mechanism, and of velocities, relative to the fastest, below which the state is
+/// consistent to rounding.
 const CONSISTENT: f64 = 1e-13;
-/// Iterations of the two solutions.
-const ITERATIONS: usize = 30;
-/// Iterations above which a chart is taken anew at the state in hand.
-const WORN: usize = 9;
-/// Largest entry of Z above which independent coordinates are chosen anew.
+/// A correction below this part of the same sizes that no longer halves has stalled at rounding, and is accepted.
+const STALLED: f64 = 1e-9;
+/// Iterations after which a correction may count as stalled.
+const MIN_ITERATIONS: usize = 4;
+/// Most iterations for a position, and again for its velocity.
+const MAX_ITERATIONS: usize = 30;
+/// Iterations for each linearization of the constraints.
+const LINEARIZE_EVERY: usize = 4;
+/// A correction of more than so many lengths of the mechanism leads nowhere.
+const DIVERGED: f64 = 1e3;
+/// Iterations of one solution above which the chart is taken anew at the current state.
+const SLOW: usize = 9;
+/// Largest entry of Z above which other independent coordinates are chosen.
 const ILL_CONDITIONED: f64 = 4.0;
-/// How far the basis is looked for ahead of a singular position, relative to the size of the mechanism.
+/// Pivot of a row of the basis, relative to the largest, below which it depends on the rows that are chosen.
+const DEPENDENT: f64 = 1e-9;
+/// Distance beyond a singular configuration at which the basis is taken instead, in lengths of the mechanism.
 const AHEAD: f64 = 1e-3;
+/// Corrections of the position at that distance.
+const AHEAD_CORRECTIONS: usize = 4;
 
 /// How the independent coordinates are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
+pub enum IndependentCoordinates {
     /// Orthogonal to all that the constraints forbid: L = Zᵀ W with the weights W = diag(1/length² of r, 1 of directors).
     Tangent,
     /// Some of the coordinates q themselves, by pivoting.
@@ -34,7 +47,8 @@ pub enum Choice {
 /// Independent coordinates near one position.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    choice: Choice,
+    choice: IndependentCoordinates,
+    /// q₀.
     base: DVector<f64>,
     /// Z, n × f.
     basis: DMatrix<f64>,
@@ -42,29 +56,38 @@ pub struct Chart {
     functionals: DMatrix<f64>,
     /// Places of the independent coordinates in q, if they are some of them.
     chosen: Vec<usize>,
-    /// Position and velocity that were lifted last, from which the next search begins.
-    q: DVector<f64>,
-    q_dot: DVector<f64>,
-    eta: DVector<f64>,
-    gap: DVector<f64>,
-    /// Most iterations of a lift since the chart was taken.
-    iterations: usize,
     /// How often coordinates were chosen.
     pub choices: u64,
 }
 
-/// Where a search began.
+/// The state from which the search for the next one begins: the one that was found last.
 #[derive(Clone, Debug)]
-pub struct Mark {
+pub struct Guess {
     q: DVector<f64>,
     q_dot: DVector<f64>,
     eta: DVector<f64>,
+    /// What η or η̇ still differ by.
+    gap: DVector<f64>,
+    /// Most iterations of a search since the chart was taken.
     iterations: usize,
 }
 
+impl Guess {
+    /// Whether searches have become slow: a new chart at the current state will be better.
+    pub fn needs_refresh(&self) -> bool {
+        self.iterations > SLOW
+    }
+}
+
 impl Chart {
-    /// A chart about the consistent state y at time t. `None` if the motions allowed cannot be told.
-    pub fn new(choice: Choice, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<Self> {
+    /// A chart about the consistent state y at time t, with the guess to begin from. `None` if the motions that the
+    /// constraints allow cannot be determined.
+    pub fn new(
+        choice: IndependentCoordinates,
+        mechanism: &mut Mechanism,
+        t: f64,
+        y: &[f64],
+    ) -> Option<(Self, Guess)> {
         let n = mechanism.system.coordinates;
         mechanism.set_state(t, y);
         let rank = {
@@ -78,14 +101,16 @@ impl Chart {
             basis: DMatrix::zeros(n, freedoms),
             functionals: DMatrix::zeros(freedoms, n),
             chosen: Vec::new(),
+            choices: 0,
+        };
+        let mut guess = Guess {
             q: DVector::from_column_slice(&y[..n]),
             q_dot: DVector::from_column_slice(&y[n..]),
             eta: DVector::zeros(freedoms),
             gap: DVector::zeros(freedoms),
             iterations: 0,
-            choices: 0,
         };
-        chart.take(mechanism, t, y).then_some(chart)
+        chart.take(mechanism, t, y, &mut guess).then_some((chart, guess))
     }
 
     /// Number of independent coordinates f.
@@ -93,22 +118,18 @@ impl Chart {
         self.basis.ncols()
     }
 
-    /// Whether lifting has become slow: a new chart at the state in hand will be better.
-    pub fn is_worn(&self) -> bool {
-        self.iterations > WORN
-    }
-
-    /// Takes the chart anew at a consistent state. Returns false if the motions allowed there cannot be told.
-    pub fn take(&mut self, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> bool {
+    /// Takes the chart anew at a consistent state. Returns false if the motions that the constraints allow there cannot be
+    /// determined.
+    pub fn take(&mut self, mechanism: &mut Mechanism, t: f64, y: &[f64], guess: &mut Guess) -> bool {
         let n = mechanism.system.coordinates;
         let Some(basis) = allowed_motions(mechanism, t, y, self.freedoms()) else { return false };
         self.base.copy_from_slice(&y[..n]);
-        self.q.copy_from_slice(&y[..n]);
-        self.q_dot.copy_from_slice(&y[n..]);
-        self.eta.fill(0.0);
-        self.iterations = 0;
+        guess.q.copy_from_slice(&y[..n]);
+        guess.q_dot.copy_from_slice(&y[n..]);
+        guess.eta.fill(0.0);
+        guess.iterations = 0;
         match self.choice {
-            Choice::Tangent => {
+            IndependentCoordinates::Tangent => {
                 let weights = weights(mechanism);
                 self.basis = basis;
                 self.functionals = self.basis.transpose();
@@ -118,30 +139,30 @@ impl Chart {
                 self.choices += 1;
                 true
             }
-            Choice::Partition => self.partition(&basis),
+            IndependentCoordinates::Partition => self.partition(&basis, guess),
         }
     }
 
     /// Keeps the chosen coordinates while they are well conditioned, else chooses others. η counts from zero of q, so
     /// that it stays the same as long as the choice does.
-    fn partition(&mut self, basis: &DMatrix<f64>) -> bool {
-        let lifted = |chosen: &[usize]| {
+    fn partition(&mut self, basis: &DMatrix<f64>, guess: &mut Guess) -> bool {
+        let solved = |chosen: &[usize]| {
             let square = chosen.len() == basis.ncols();
             square.then(|| basis.select_rows(chosen).try_inverse()).flatten().map(|inverse| basis * inverse)
         };
-        let kept = lifted(&self.chosen).filter(|z| z.amax() < ILL_CONDITIONED);
+        let kept = solved(&self.chosen).filter(|z| z.amax() < ILL_CONDITIONED);
         if kept.is_none() {
-            self.chosen = independent_rows(basis, 1e-9);
+            self.chosen = independent_rows(basis, DEPENDENT);
             self.choices += 1;
         }
-        let Some(found) = kept.or_else(|| lifted(&self.chosen)) else { return false };
+        let Some(found) = kept.or_else(|| solved(&self.chosen)) else { return false };
         self.basis = found;
         self.base.fill(0.0);
         self.functionals.fill(0.0);
         for (row, &column) in self.chosen.iter().enumerate() {
             self.functionals[(row, column)] = 1.0;
         }
-        self.eta = &self.functionals * &self.q;
+        guess.eta = &self.functionals * &guess.q;
         true
     }
 
@@ -161,67 +182,59 @@ impl Chart {
         out.copy_from_slice(product.as_slice());
     }
 
-    /// Where the next search begins, to come back to: outputs between steps must not change the run.
-    pub fn mark(&self) -> Mark {
-        Mark {
-            q: self.q.clone(),
-            q_dot: self.q_dot.clone(),
-            eta: self.eta.clone(),
-            iterations: self.iterations,
-        }
-    }
-
-    /// Goes back to where a search began.
-    pub fn come_back(&mut self, mark: Mark) {
-        let Mark { q, q_dot, eta, iterations } = mark;
-        (self.q, self.q_dot, self.eta, self.iterations) = (q, q_dot, eta, iterations);
-    }
-
-    /// Writes the state y with the independent coordinates and velocities x = (η, η̇) at time t. False if there is none
-    /// near the last one.
-    pub fn lift(&mut self, mechanism: &mut Mechanism, t: f64, x: &[f64], y: &mut [f64]) -> bool {
-        let f = self.freedoms();
-        let (eta, eta_dot) = x.split_at(f);
-        let found = self.lift_position(mechanism, t, eta) && self.lift_velocity(mechanism, eta_dot);
+    /// Writes the state y with the independent coordinates and velocities x = (η, η̇) at time t, and keeps it as the next
+    /// guess. False if there is none near the guess.
+    pub fn find_state(
+        &self,
+        mechanism: &mut Mechanism,
+        t: f64,
+        x: &[f64],
+        guess: &mut Guess,
+        y: &mut [f64],
+    ) -> bool {
+        let (eta, eta_dot) = x.split_at(self.freedoms());
+        let found =
+            self.find_position(mechanism, t, eta, guess) && self.find_velocity(mechanism, eta_dot, guess);
         let n = self.base.len();
-        y[..n].copy_from_slice(self.q.as_slice());
-        y[n..].copy_from_slice(self.q_dot.as_slice());
+        y[..n].copy_from_slice(guess.q.as_slice());
+        y[n..].copy_from_slice(guess.q_dot.as_slice());
         if !found {
             // The next search must not begin where this one was lost.
-            self.q.copy_from(&self.base);
-            self.eta.fill(0.0);
-            if self.choice == Choice::Partition {
-                self.iterations = WORN + 1;
+            guess.q.copy_from(&self.base);
+            guess.eta.fill(0.0);
+            if self.choice == IndependentCoordinates::Partition {
+                guess.iterations = SLOW + 1;
             }
         }
         found
     }
 
-    fn lift_position(&mut self, mechanism: &mut Mechanism, t: f64, eta: &[f64]) -> bool {
+    fn find_position(&self, mechanism: &mut Mechanism, t: f64, eta: &[f64], guess: &mut Guess) -> bool {
         let Mechanism { system, state, elimination, .. } = mechanism;
+        let Guess { q, eta: known, gap, iterations, .. } = guess;
+        let scale = system.length.max(1.0);
         state.set_time(system, t);
-        self.gap.copy_from_slice(eta);
-        self.gap -= &self.eta;
-        self.q.gemv(1.0, &self.basis, &self.gap, 1.0);
+        gap.copy_from_slice(eta);
+        *gap -= &*known;
+        q.gemv(1.0, &self.basis, gap, 1.0);
         let mut last = f64::INFINITY;
-        for iteration in 0..ITERATIONS {
-            state.set_positions(system, self.q.as_slice());
-            if iteration % 4 == 0 {
+        for iteration in 0..MAX_ITERATIONS {
+            state.set_positions(system, q.as_slice());
+            if iteration % LINEARIZE_EVERY == 0 {
                 elimination.linearize(system, state);
             }
-            let mut step = elimination.correct_positions(system, state, self.q.as_mut_slice());
-            self.gap.copy_from_slice(eta);
-            self.gap -= &self.functionals * (&self.q - &self.base);
-            self.q.gemv(1.0, &self.basis, &self.gap, 1.0);
-            step += self.gap.amax();
-            self.iterations = self.iterations.max(iteration);
-            let small = step <= CONSISTENT * system.length.max(1.0);
-            if small || (iteration > 4 && step > 0.5 * last && step < 1e-9 * system.length.max(1.0)) {
-                self.eta.copy_from_slice(eta);
-                state.set_positions(system, self.q.as_slice());
+            let mut step = elimination.correct_positions(system, state, q.as_mut_slice());
+            gap.copy_from_slice(eta);
+            *gap -= &self.functionals * (&*q - &self.base);
+            q.gemv(1.0, &self.basis, gap, 1.0);
+            step += gap.amax();
+            *iterations = (*iterations).max(iteration);
+            if is_solved(step, last, iteration, scale) {
+                known.copy_from_slice(eta);
+                state.set_positions(system, q.as_slice());
                 return true;
             }
-            if !step.is_finite() || step > 1e3 * system.length.max(1.0) {
+            if !step.is_finite() || step > DIVERGED * scale {
                 return false;
             }
             last = step;
@@ -229,19 +242,19 @@ impl Chart {
         false
     }
 
-    fn lift_velocity(&mut self, mechanism: &mut Mechanism, eta_dot: &[f64]) -> bool {
+    fn find_velocity(&self, mechanism: &mut Mechanism, eta_dot: &[f64], guess: &mut Guess) -> bool {
         let Mechanism { system, state, elimination, .. } = mechanism;
+        let Guess { q_dot, gap, iterations, .. } = guess;
         let mut last = f64::INFINITY;
-        for iteration in 0..ITERATIONS {
-            self.gap.copy_from_slice(eta_dot);
-            self.gap.gemv(-1.0, &self.functionals, &self.q_dot, 1.0);
-            self.q_dot.gemv(1.0, &self.basis, &self.gap, 1.0);
-            state.set_velocities(system, self.q_dot.as_slice());
-            let step =
-                elimination.correct_velocities(system, state, self.q_dot.as_mut_slice()) + self.gap.amax();
-            self.iterations = self.iterations.max(iteration);
-            let scale = system.length.max(1.0).max(self.q_dot.amax());
-            if step <= CONSISTENT * scale || (iteration > 4 && step > 0.5 * last && step < 1e-9 * scale) {
+        for iteration in 0..MAX_ITERATIONS {
+            gap.copy_from_slice(eta_dot);
+            gap.gemv(-1.0, &self.functionals, q_dot, 1.0);
+            q_dot.gemv(1.0, &self.basis, gap, 1.0);
+            state.set_velocities(system, q_dot.as_slice());
+            let step = elimination.correct_velocities(system, state, q_dot.as_mut_slice()) + gap.amax();
+            *iterations = (*iterations).max(iteration);
+            let scale = system.length.max(1.0).max(q_dot.amax());
+            if is_solved(step, last, iteration, scale) {
                 return true;
             }
             if !step.is_finite() {
@@ -251,6 +264,11 @@ impl Chart {
         }
         false
     }
+}
+
+/// Whether a correction leaves nothing to correct, or has stalled at rounding.
+fn is_solved(step: f64, last: f64, iteration: usize, scale: f64) -> bool {
+    step <= CONSISTENT * scale || (iteration > MIN_ITERATIONS && step > 0.5 * last && step < STALLED * scale)
 }
 
 /// Weights W of the coordinates: places are measured in lengths of the mechanism.
@@ -276,7 +294,7 @@ fn allowed_motions(mechanism: &mut Mechanism, t: f64, y: &[f64], f: usize) -> Op
             let step = AHEAD * mechanism.system.length / speed;
             let mut ahead: Vec<f64> = y[..n].iter().zip(&y[n..]).map(|(q, v)| q + step * v).collect();
             let Mechanism { system, state, elimination, .. } = mechanism;
-            for _ in 0..4 {
+            for _ in 0..AHEAD_CORRECTIONS {
                 state.set_positions(system, &ahead);
                 elimination.linearize(system, state);
                 elimination.correct_positions(system, state, &mut ahead);

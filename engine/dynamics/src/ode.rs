@@ -1,0 +1,20 @@
+//! First-order ordinary differential equations, the form in which integrators see a mechanism.
+
+/// ẏ = f(t, y).
+pub trait OdeSystem {
+    /// Writes ẏ = f(t, y). The result must depend on nothing but t and y.
+    fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]);
+
+    /// Called once after each accepted step, with ẏ = f(t, y) at its end. It may move y onto the constraints; then it must
+    /// evaluate ẏ again unless the change was negligible.
+    fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]);
+}
+
+impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
+    fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+        (**self).rhs(t, y, rate);
+    }
+    fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
+        (**self).after_step(t, y, rate);
+    }
+}

@@ -1,0 +1,64 @@
+//! Hermite interpolation between the ends of a step, from values and derivatives.
+
+/// Value and rate at the part s of a step of size h, of the cubic with the given [value, rate] at both ends.
+pub(super) fn cubic(start: [f64; 2], end: [f64; 2], h: f64, s: f64) -> (f64, f64) {
+    let ([y0, from], [y1, to]) = (start, end);
+    let mean = (y1 - y0) / h;
+    let (c2, c3) = (3.0 * mean - 2.0 * from - to, from + to - 2.0 * mean);
+    (y0 + h * s * (from + s * (c2 + s * c3)), from + s * (2.0 * c2 + s * 3.0 * c3))
+}
+
+/// Value and rate at the part s of a step of size h, of the polynomial of degree 5 with the given [value, rate, second
+/// derivative] at both ends.
+pub(super) fn quintic(start: [f64; 3], end: [f64; 3], h: f64, s: f64) -> (f64, f64) {
+    let change = end[0] - start[0] - h * start[1] - 0.5 * h * h * start[2];
+    let slope = h * (end[1] - start[1]) - h * h * start[2];
+    let bend = h * h * (end[2] - start[2]);
+    let c3 = 10.0 * change - 4.0 * slope + 0.5 * bend;
+    let c4 = -15.0 * change + 7.0 * slope - bend;
+    let c5 = 6.0 * change - 3.0 * slope + 0.5 * bend;
+    let (c1, c2) = (h * start[1], 0.5 * h * h * start[2]);
+    let value = start[0] + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
+    let rate = c1 + s * (2.0 * c2 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)));
+    (value, rate / h)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x^n − x and its first two derivatives.
+    fn p(n: i32, x: f64) -> [f64; 3] {
+        let n_real = f64::from(n);
+        [x.powi(n) - x, n_real * x.powi(n - 1) - 1.0, n_real * (n_real - 1.0) * x.powi(n - 2)]
+    }
+
+    /// Largest error of value and rate of an interpolant of x^n − x from x = 1 to 3.
+    fn error(n: i32, interpolant: impl Fn([f64; 3], [f64; 3], f64) -> (f64, f64)) -> f64 {
+        let parts = [0.0, 0.3, 0.5, 0.9, 1.0];
+        let errors = parts.map(|s| {
+            let (value, rate) = interpolant(p(n, 1.0), p(n, 3.0), s);
+            let [expected, slope, _] = p(n, 1.0 + 2.0 * s);
+            (value - expected).abs().max((rate - slope).abs())
+        });
+        errors.into_iter().fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_cubic_is_exact_for_degree_three_and_no_higher() {
+        let cubic = |a: [f64; 3], b: [f64; 3], s| cubic([a[0], a[1]], [b[0], b[1]], 2.0, s);
+        for n in 1..=3 {
+            assert!(error(n, cubic) < 1e-13, "{n}");
+        }
+        assert!(error(4, cubic) > 0.1);
+    }
+
+    #[test]
+    fn the_quintic_is_exact_for_degree_five_and_no_higher() {
+        let quintic = |a, b, s| quintic(a, b, 2.0, s);
+        for n in 1..=5 {
+            assert!(error(n, quintic) < 1e-11, "{n}");
+        }
+        assert!(error(6, quintic) > 0.1);
+    }
+}

@@ -1,0 +1,160 @@
+//! The integrator of a run: starts the method that was chosen, and stops a run that no longer gets anywhere.
+
+mod progress;
+
+use super::augmented::Augmented;
+use super::explicit::{DOP853, DOPRI5, Explicit};
+use super::in_chart::{InChart, IndependentCoordinates};
+use super::penalty::{Penalty, PenaltyParameters};
+use super::radau::Radau;
+use super::rattle::Rattle;
+use super::step::{StepRecord, StopReason};
+use super::stepper::{OdeMethod, Stepper};
+use super::taylor::Taylor;
+use crate::scene::{IntegratorKind, Stabilization};
+use progress::Progress;
+use std::ops::{Deref, DerefMut};
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::dynamics::elimination::Counters;
+use triad_dynamics::ode::OdeSystem;
+
+/// The integrator of a run. It dereferences to the method that it runs.
+#[derive(Debug)]
+pub struct Integrator {
+    stepper: Box<dyn Stepper>,
+    progress: Progress,
+}
+
+impl Clone for Integrator {
+    fn clone(&self) -> Self {
+        Self { stepper: self.stepper.boxed(), progress: self.progress.clone() }
+    }
+}
+
+impl Deref for Integrator {
+    type Target = dyn Stepper;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.stepper
+    }
+}
+
+impl DerefMut for Integrator {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut *self.stepper
+    }
+}
+
+impl Integrator {
+    /// Starts an integrator of the given kind (not `Auto`) at (t, y). One that cannot start fails at its first step.
+    pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
+        let started = start(kind, mechanism, t, y);
+        let stepper =
+            started.unwrap_or_else(|reason| Box::new(FailedStart { record: StepRecord::new(t, y), reason }));
+        let islands = stepper.skipped().map_or(1, |skipped| skipped.islands);
+        Self { progress: Progress::new(t, islands), stepper }
+    }
+
+    /// Work done and projections made, including those that the mechanism counts.
+    pub fn work(&self, mechanism: &Mechanism) -> (Counters, u64) {
+        let counted = mechanism.elimination.counters;
+        let (own, projections) = self.own_work();
+        let sum = Counters {
+            evaluations: counted.evaluations + own.evaluations,
+            factorizations: counted.factorizations + own.factorizations,
+            solves: counted.solves + own.solves,
+        };
+        (sum, mechanism.projections + projections)
+    }
+
+    /// Takes one accepted step, not beyond `end`.
+    pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
+        self.stepper.step(mechanism, end)?;
+        let settings = &mechanism.system.model.settings;
+        let time = self.last().t;
+        match self.progress.stalled(time, settings.duration) {
+            // With a fixed step the author chose how many there are.
+            Some(step) if settings.step.is_none() => Err(StopReason::Stalled { time, step }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// An integrator that could not start: its first step returns the reason.
+#[derive(Clone, Debug)]
+struct FailedStart {
+    record: StepRecord,
+    reason: StopReason,
+}
+
+impl Stepper for FailedStart {
+    fn last(&self) -> &StepRecord {
+        &self.record
+    }
+    fn step(&mut self, _: &mut Mechanism, _: f64) -> Result<(), StopReason> {
+        Err(self.reason)
+    }
+    fn interpolate(&mut self, _: &mut Mechanism, _: f64, y: &mut [f64]) {
+        y.copy_from_slice(&self.record.y);
+    }
+    fn boxed(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+}
+
+fn start(
+    kind: IntegratorKind,
+    mechanism: &mut Mechanism,
+    t: f64,
+    y: &[f64],
+) -> Result<Box<dyn Stepper>, StopReason> {
+    let settings = &mechanism.system.model.settings;
+    let (tolerance, end, step) = (settings.tolerance, settings.duration, settings.step);
+    let treatment = settings.stabilization;
+    let tolerance = match treatment {
+        Stabilization::Penalty { alpha, omega, mu } => {
+            tolerance.max(PenaltyParameters { alpha, omega, mu }.min_tolerance())
+        }
+        _ => tolerance,
+    };
+    let explicit = move |mut system: &mut dyn OdeSystem, y: &[f64]| {
+        let tableau = if kind == IntegratorKind::Dop853 { &DOP853 } else { &DOPRI5 };
+        match (kind, step) {
+            (_, Some(h)) => Explicit::with_step(tableau, &mut system, t, y, h),
+            (IntegratorKind::Ode45, None) => Explicit::ode45(&mut system, t, y, tolerance, end),
+            (_, None) => Explicit::new(tableau, &mut system, t, y, tolerance),
+        }
+    };
+    let radau = move |mut system: &mut dyn OdeSystem, x: &[f64]| match step {
+        Some(h) => Radau::with_step(&mut system, t, x, tolerance, h),
+        None => Radau::new(&mut system, t, x, tolerance),
+    };
+    let (tangent, partition) = (IndependentCoordinates::Tangent, IndependentCoordinates::Partition);
+    Ok(match (kind, treatment) {
+        (IntegratorKind::Taylor | IntegratorKind::Auto, _) => {
+            Box::new(Taylor::new(mechanism, t, y, tolerance))
+        }
+        (IntegratorKind::Rattle, _) => Box::new(Rattle::new(mechanism, t, y, step)),
+        (_, Stabilization::AugmentedLagrangian { alpha }) => {
+            Box::new(Augmented::new(mechanism, t, y, alpha, step))
+        }
+        (IntegratorKind::Radau, Stabilization::Partitioning) => in_chart(partition, mechanism, t, y, radau)?,
+        (IntegratorKind::Radau, _) => in_chart(tangent, mechanism, t, y, radau)?,
+        (_, Stabilization::Partitioning) => in_chart(partition, mechanism, t, y, explicit)?,
+        (_, Stabilization::Penalty { alpha, omega, mu }) => {
+            let parameters = PenaltyParameters { alpha, omega, mu };
+            Box::new(Penalty::new(mechanism, t, y, parameters, explicit))
+        }
+        _ => Box::new(explicit(mechanism, y)),
+    })
+}
+
+fn in_chart<M: OdeMethod>(
+    coordinates: IndependentCoordinates,
+    mechanism: &mut Mechanism,
+    t: f64,
+    y: &[f64],
+    start: impl FnOnce(&mut dyn OdeSystem, &[f64]) -> M,
+) -> Result<Box<dyn Stepper>, StopReason> {
+    Ok(Box::new(InChart::new(coordinates, mechanism, t, y, start)?))
+}

@@ -1,0 +1,48 @@
+//! What is known of the pivot products of an island from the steps so far.
+
+/// Least turn of the rows in a step from which the rate of change of pivot products is taken, rad.
+const MIN_TURN: f64 = 0.005;
+
+/// Pivot products of an island so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct IslandHistory {
+    /// Largest pivot product of each joint.
+    pub largest: Vec<f64>,
+    /// Pivot products at the end of the last step.
+    pub pivot_products: Vec<f64>,
+    /// Fastest change of the roots of pivot products, relative to the largest, for each radian that rows turn.
+    pub fastest_change: Vec<f64>,
+    /// How fast rows turned at the end of the last step, 1/s.
+    pub pace: f64,
+}
+
+impl IslandHistory {
+    /// Whether no step was noted.
+    pub(super) fn is_new(&self) -> bool {
+        self.largest.is_empty()
+    }
+
+    /// Starts from the pivot products at the start of the first step.
+    pub(super) fn begin(&mut self, pivot_products: &[f64], pace: f64) {
+        (self.largest, self.pace) = (pivot_products.to_vec(), pace);
+    }
+
+    pub(super) fn note_largest(&mut self, pivot_products: &[f64]) {
+        for (largest, product) in self.largest.iter_mut().zip(pivot_products) {
+            *largest = largest.max(*product);
+        }
+    }
+
+    /// Notes a change of pivot products while rows turned by an angle.
+    pub(super) fn note_change(&mut self, from: &[f64], to: &[f64], turned: f64) {
+        self.fastest_change.resize(self.largest.len(), 0.0);
+        if turned < MIN_TURN {
+            return;
+        }
+        let changes = self.fastest_change.iter_mut().zip(&self.largest);
+        for (((fastest, largest), from), to) in changes.zip(from).zip(to) {
+            let root = |product: f64| (product / largest).max(0.0).sqrt();
+            *fastest = fastest.max((root(*to) - root(*from)).abs() / turned);
+        }
+    }
+}
