@@ -45,9 +45,9 @@ fn parts(criterion: &mut Criterion) {
             group.bench_function(BenchmarkId::from_parameter(name), |bencher| bencher.iter(&mut *work));
             group.finish();
         };
-        let mut series = IslandSeries::in_space(&mechanism.system, 2, false, &[]);
+        let mut series = IslandSeries::in_space(&mechanism.system, 2, &[]);
         series.place(&mechanism.system, 0.0, &y);
-        series.find_dependent(mechanism.system.length);
+        series.find_dependent(mechanism.system.length, false);
         group("factorization", &mut || series.linearize());
         group("evaluation", &mut || series.evaluate());
         group("projection", &mut || {

@@ -140,8 +140,9 @@ fn order_zero_is_an_evaluation_of_the_accelerations() {
         let expected = simulation.accelerations();
         let y = [simulation.q(), simulation.q_dot()].concat();
         let redundant = !simulation.rank().dependent.is_empty();
-        let mut series = IslandSeries::in_space(simulation.system(), 2, redundant, &[]);
+        let mut series = IslandSeries::in_space(simulation.system(), 2, &[]);
         series.place(simulation.system(), simulation.time(), &y);
+        assert_eq!(series.find_dependent(simulation.system().length, redundant), redundant, "{name}");
         series.evaluate();
         let mut found = vec![0.0; expected.len()];
         series.store_accelerations(simulation.system(), &mut found);

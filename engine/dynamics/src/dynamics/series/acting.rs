@@ -1,7 +1,7 @@
 //! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers; and
 //! the power of what drivers and loads bring in — eq. (11.8).
 
-use super::{Bodies, Dependent, Series};
+use super::{Bodies, Series};
 use crate::dynamics::elimination::TwistJacobian;
 use crate::system::System;
 use nalgebra::Vector3;
@@ -68,7 +68,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         order: usize,
         jacobian: &TwistJacobian,
     ) -> Option<Vec<f64>> {
-        if self.dependent != Dependent::None || order < 2 {
+        if self.rows_left_out || order < 2 {
             return None;
         }
         let rows = self.correction.len();
@@ -99,7 +99,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// How many times prescribed functions change to another piece before `end`, at most so many.
-    pub fn knots_before(&self, end: f64, most: usize) -> usize {
+    pub fn breakpoints_before(&self, end: f64, most: usize) -> usize {
         let next = |&t: &f64| Some(self.prescribed.next_break(t).min(self.loads.next_break(t)));
         std::iter::successors(Some(self.next_break), next).take(most).take_while(|&t| t < end).count()
     }

@@ -2,18 +2,17 @@
 
 use super::bodies::Bodies;
 use super::convolution::{gram, moment, symmetric};
+use super::inertia::{invert_inertia, products_of_inertia};
 use super::lanes::{
-    Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, inverse_root, less, minor, multiply, negative,
-    plus, scaled, sum, times, zero,
+    Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus, scaled,
+    sum, times, zero,
 };
 use super::slot::Slot;
-use crate::system::System;
-use crate::system::body::Body;
-use crate::system::natural::Lift;
+use crate::system::{System, body::Body, natural::Lift};
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// L bodies: what never changes, what belongs to the point of expansion, and the solution at hand.
+/// L bodies: what never changes, what belongs to the point of expansion, and the present solution.
 #[derive(Clone, Debug)]
 pub struct Bundle<const L: usize> {
     /// The bodies; fewer than L in the last bundle, whose other lanes hold bodies at rest without joints.
@@ -24,13 +23,13 @@ pub struct Bundle<const L: usize> {
     inverse_mass: Lane<L>,
     /// Ī of u, v, w.
     ibar: Triple<L>,
-    /// Lent inertia.
-    regularization: Lane<L>,
+    /// δ, the inertia regularization.
+    regularizing_inertia: Lane<L>,
     /// Constant generalized force: the weight.
     weight: Triple<L>,
     /// Half the dual basis of the directors.
     dual: [Triple<L>; 3],
-    /// Rows of I_g⁻¹, the regularizing inertia included.
+    /// Rows of I_g⁻¹, δ included.
     inverse: [Triple<L>; 3],
     /// Lower triangle (00, 10, 11, 20, 21, 22) of C⁻¹, I_g = C Cᵀ.
     lower: [Lane<L>; 6],
@@ -40,9 +39,9 @@ pub struct Bundle<const L: usize> {
     moment: Triple<L>,
     /// The unknown: κ Q_(n+2), or a correction of Q.
     solution: Lifted<L>,
-    /// Its twist part ω̇, and the part for which the regularizing inertia has been taken out.
+    /// Its twist part ω̇, and the part for which the effect of δ has been taken out.
     omega: Triple<L>,
-    returned: Triple<L>,
+    taken_out: Triple<L>,
 }
 
 impl<const L: usize> Bundle<L> {
@@ -79,7 +78,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             slots,
             inverse_mass: [1.0; L],
             ibar: [[1.0; L]; 3],
-            regularization: [0.0; L],
+            regularizing_inertia: [0.0; L],
             weight: zeros,
             dual: [zeros; 3],
             inverse: [zeros; 3],
@@ -88,16 +87,16 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             moment: zeros,
             solution: zero(),
             omega: zeros,
-            returned: zeros,
+            taken_out: zeros,
         }
     }
 
     fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
         self.inverse_mass[lane] = 1.0 / body.mass;
-        self.regularization[lane] = body.regularizing_inertia;
+        self.regularizing_inertia[lane] = body.regularizing_inertia;
         for c in 0..3 {
-            self.ibar[c][lane] = body.ibar[c];
-            self.weight[c][lane] = body.mass * system.model.gravity[c];
+            let weight = body.mass * system.model.gravity[c];
+            (self.ibar[c][lane], self.weight[c][lane]) = (body.ibar[c], weight);
         }
     }
 
@@ -214,40 +213,10 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     fn linearize(&mut self, q: &Lifted<L>) {
         let [_, u, v, w] = q;
         let dual = [cross(v, w), cross(w, u), cross(u, v)];
-        let mut half = dot(u, &dual[0]);
-        for l in 0..L {
-            half[l] = 0.5 / half[l];
-        }
+        let half = dot(u, &dual[0]).map(|volume| 0.5 / volume);
         self.dual = dual.map(|d| scaled(&half, &d));
-        // I_g = Σ Ī_k (|e_k|² 1 − e_k e_kᵀ) from its second term; xx, xy, yy, xz, yz, zz.
-        let mut products = [[0.0; L]; 6];
-        for k in 0..3 {
-            let e = &q[1 + k];
-            let weighted = scaled(&self.ibar[k], e);
-            for (sum, (i, j)) in products.iter_mut().zip([(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)]) {
-                *sum = plus(&weighted[i], &e[j], sum);
-            }
-        }
-        let [xx, xy, yy, xz, yz, zz] = &products;
-        let mut diagonal = [[0.0; L]; 3];
-        for (out, (a, b)) in diagonal.iter_mut().zip([(yy, zz), (xx, zz), (xx, yy)]) {
-            *out = sum(&sum(a, b), &self.regularization);
-        }
-        // C⁻¹ of I_g = C Cᵀ, and I_g⁻¹ = C⁻ᵀ C⁻¹.
-        let p0 = inverse_root(&diagonal[0]);
-        let (l10, l20) = (negative(&times(xy, &p0)), negative(&times(xz, &p0)));
-        let p1 = inverse_root(&less(&l10, &l10, &diagonal[1]));
-        let l21 = times(&less(&l20, &l10, &negative(yz)), &p1);
-        let p2 = inverse_root(&less(&l20, &l20, &less(&l21, &l21, &diagonal[2])));
-        let m10 = negative(&times(&times(&l10, &p0), &p1));
-        let m21 = negative(&times(&times(&l21, &p1), &p2));
-        let m20 = negative(&times(&plus(&l20, &p0, &times(&l21, &m10)), &p2));
-        let corner = plus(&m10, &p1, &times(&m20, &m21));
-        let (side, low) = (times(&m20, &p2), times(&m21, &p2));
-        let first = plus(&p0, &p0, &plus(&m10, &m10, &times(&m20, &m20)));
-        let middle = plus(&p1, &p1, &times(&m21, &m21));
-        self.inverse = [[first, corner, side], [corner, middle, low], [side, low, times(&p2, &p2)]];
-        self.lower = [p0, m10, p1, m20, m21, p2];
+        let products = products_of_inertia(&self.ibar, q);
+        (self.inverse, self.lower) = invert_inertia(&products, &self.regularizing_inertia);
     }
 
     /// C⁻¹ s̃ of a feature's arm s: three rows.
@@ -380,7 +349,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             add_cross(&mut moment, &q[1 + k], &p);
         }
         self.omega = multiply(&self.inverse, &moment);
-        self.returned = [[0.0; L]; 3];
+        self.taken_out = [[0.0; L]; 3];
         self.solution[0] = scaled(&self.inverse_mass, &self.force[0]);
         for k in 0..3 {
             self.solution[1 + k] = particular[k];
@@ -408,10 +377,10 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         let mut moment = [[0.0; L]; 3];
         for c in 0..3 {
             for l in 0..L {
-                moment[c][l] = self.regularization[l] * (self.omega[c][l] - self.returned[c][l]);
+                moment[c][l] = self.regularizing_inertia[l] * (self.omega[c][l] - self.taken_out[c][l]);
             }
         }
-        self.returned = self.omega;
+        self.taken_out = self.omega;
         self.turn(q, &moment);
     }
 

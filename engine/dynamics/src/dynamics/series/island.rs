@@ -35,18 +35,18 @@ pub struct IslandSeries(Bundled);
 
 impl IslandSeries {
     /// Allocates for motion in space, and coefficients up to order `order`; `turns` are the angles of joints at the start.
-    pub fn in_space(system: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
+    pub fn in_space(system: &System, order: usize, turns: &[f64]) -> Self {
         Self(match system.bodies.len() {
-            1 => Bundled::Narrow(Box::new(Series::new(system, order, redundant, turns))),
-            _ => Bundled::Wide(Box::new(Series::new(system, order, redundant, turns))),
+            1 => Bundled::Narrow(Box::new(Series::new(system, order, turns))),
+            _ => Bundled::Wide(Box::new(Series::new(system, order, turns))),
         })
     }
 
     /// The same for motion in a plane, of a system that has been reduced to it.
-    pub fn in_plane(flat: &System, order: usize, redundant: bool, turns: &[f64]) -> Self {
+    pub fn in_plane(flat: &System, order: usize, turns: &[f64]) -> Self {
         Self(match flat.bodies.len() {
-            1 => Bundled::NarrowPlanar(Box::new(Series::planar(flat, order, redundant, turns))),
-            _ => Bundled::WidePlanar(Box::new(Series::planar(flat, order, redundant, turns))),
+            1 => Bundled::NarrowPlanar(Box::new(Series::planar(flat, order, turns))),
+            _ => Bundled::WidePlanar(Box::new(Series::planar(flat, order, turns))),
         })
     }
 
@@ -70,14 +70,15 @@ impl IslandSeries {
         with!(&mut self.0, s => s.place(system, t, y));
     }
 
-    /// Finds the rows that depend on others everywhere, and tells whether there are any.
-    pub fn find_dependent(&mut self, length: f64) -> bool {
-        with!(&mut self.0, s => s.find_dependent(length))
+    /// Finds the rows that depend on others everywhere, which are then left out; `expected` tells that there are some. Returns
+    /// whether there are any.
+    pub fn find_dependent(&mut self, length: f64, expected: bool) -> bool {
+        with!(&mut self.0, s => s.find_dependent(length, expected))
     }
 
     /// Makes room for evaluations of S inside steps.
-    pub fn allow_looks(&mut self) {
-        with!(&mut self.0, s => s.allow_looks());
+    pub fn enable_probes(&mut self) {
+        with!(&mut self.0, s => s.enable_probes());
     }
 
     /// Builds and factors S at the point of expansion.
@@ -100,14 +101,14 @@ impl IslandSeries {
         with!(&mut self.0, s => s.correct_positions())
     }
 
-    /// How firmly each joint holds at the point of expansion.
-    pub fn holds(&self) -> &[f64] {
-        with!(&self.0, s => s.holds())
+    /// Pivot products of the joints at the point of expansion.
+    pub fn pivot_products(&self) -> &[f64] {
+        with!(&self.0, s => s.pivot_products())
     }
 
-    /// How firmly each joint holds a time τ after the start t of the last step, whose series have the given order.
-    pub fn holds_inside(&mut self, t: f64, tau: f64, order: usize) -> &[f64] {
-        with!(&mut self.0, s => s.holds_inside(t, tau, order))
+    /// Pivot products of the joints a time τ after the start t of the last step, whose series have the given order.
+    pub fn pivot_products_inside(&mut self, t: f64, tau: f64, order: usize) -> &[f64] {
+        with!(&mut self.0, s => s.pivot_products_inside(t, tau, order))
     }
 
     /// How fast rows turn at the state, 1/s.
@@ -146,8 +147,8 @@ impl IslandSeries {
     }
 
     /// How many times prescribed functions change to another piece before `end`, at most so many.
-    pub fn knots_before(&self, end: f64, most: usize) -> usize {
-        with!(&self.0, s => s.knots_before(end, most))
+    pub fn breakpoints_before(&self, end: f64, most: usize) -> usize {
+        with!(&self.0, s => s.breakpoints_before(end, most))
     }
 
     /// Multipliers of the solver rows a time τ after the start of the last step; A is that of the state there.

@@ -1,9 +1,10 @@
 //! Between the numbers of the system, body after body, and those of the series, side by side in lanes.
 
+use super::Series;
 use super::bodies::Bodies;
+use super::expand::Value;
 use super::rows::Place;
 use super::slot::Slot;
-use super::{Series, Value};
 use crate::model::BodyRef;
 use crate::system::System;
 use pulp::Arch;

@@ -4,16 +4,14 @@
 //! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
 
 use super::bodies::Bodies;
-use super::lanes::{Lane, Triple, less, plus, sum, times};
+use super::lanes::{Lane, Triple};
+use super::pair::{Pair, cross, each, gram, moment, turned};
 use super::slot::Slot;
 use crate::system::System;
 use crate::system::body::{Body, PlanarPose};
 use crate::system::natural::Lift;
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// A vector in the plane for each lane.
-pub type Pair<const L: usize> = [Lane<L>; 2];
 
 /// L bodies in a plane.
 #[derive(Clone, Debug)]
@@ -24,20 +22,20 @@ pub struct Planar<const L: usize> {
     poses: [PlanarPose; L],
     height: Lane<L>,
     mass: Lane<L>,
-    /// 1/m, or zero for a body that hangs on the ground by a point: then 1, that point in the body's frame, and on the ground.
+    /// 1/m, or zero for a body on a ground pivot: then 1, the pivot in the body's frame, and on the ground.
     inverse_mass: Lane<L>,
-    hangs: Lane<L>,
+    pivoted: Lane<L>,
     pivot: Pair<L>,
     ground: Pair<L>,
     /// From the centre of mass to the pivot, at the point of expansion.
     arm: Pair<L>,
     inertia: Lane<L>,
-    regularization: Lane<L>,
+    regularizing_inertia: Lane<L>,
     weight: Pair<L>,
     /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
     dual: Pair<L>,
     particular: Pair<L>,
-    /// 1 / I_g and its root, about the pivot where there is one, the regularizing inertia included.
+    /// 1 / I_g and its root, about the pivot where there is one, δ included.
     inverse: Lane<L>,
     root: Lane<L>,
     force: [Pair<L>; 2],
@@ -45,37 +43,12 @@ pub struct Planar<const L: usize> {
     moment: Lane<L>,
     solution: [Pair<L>; 2],
     omega: Lane<L>,
-    returned: Lane<L>,
-}
-
-#[inline(always)]
-fn each<const L: usize>(of: impl Fn(usize) -> f64) -> Lane<L> {
-    let mut out = [0.0; L];
-    for (l, out) in out.iter_mut().enumerate() {
-        *out = of(l);
-    }
-    out
-}
-
-/// a z + b J z.
-#[inline(always)]
-fn turned<const L: usize>([a, b]: &Pair<L>, z: &Pair<L>) -> Pair<L> {
-    let mut out = [[0.0; L]; 2];
-    for l in 0..L {
-        out[0][l] = a[l].mul_add(z[0][l], -(b[l] * z[1][l]));
-        out[1][l] = a[l].mul_add(z[1][l], b[l] * z[0][l]);
-    }
-    out
-}
-
-#[inline(always)]
-fn cross<const L: usize>(a: &Pair<L>, b: &Pair<L>) -> Lane<L> {
-    each(|l| a[0][l] * b[1][l] - a[1][l] * b[0][l])
+    taken_out: Lane<L>,
 }
 
 impl<const L: usize> Planar<L> {
-    /// Adds what a force at the centre of mass and a moment about it do. z̈ is made anew of ω̇: where inertia is regularized, its
-    /// large parts must not leave their rounding in z · z̈.
+    /// Adds the effect of a force at the centre of mass and of a moment about it. z̈ is computed from the sum of all ω̇: where δ
+    /// is small, their large parts must not leave their rounding in z · z̈.
     #[inline(always)]
     fn turn(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
         let about_pivot = cross(&self.arm, force);
@@ -110,12 +83,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             height: [0.0; L],
             mass: [1.0; L],
             inverse_mass: [1.0; L],
-            hangs: [0.0; L],
+            pivoted: [0.0; L],
             pivot: zeros,
             ground: zeros,
             arm: zeros,
             inertia: [1.0; L],
-            regularization: [0.0; L],
+            regularizing_inertia: [0.0; L],
             weight: zeros,
             dual: zeros,
             particular: zeros,
@@ -125,7 +98,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             moment: [0.0; L],
             solution: [zeros; 2],
             omega: [0.0; L],
-            returned: [0.0; L],
+            taken_out: [0.0; L],
         }
     }
 
@@ -133,20 +106,18 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         self.mass[lane] = body.mass;
         self.inverse_mass[lane] = body.free_inverse_mass();
         if let Some(pivot) = body.pivot {
-            self.hangs[lane] = 1.0;
+            self.pivoted[lane] = 1.0;
             for c in 0..2 {
-                self.pivot[c][lane] = pivot.local[c];
-                self.ground[c][lane] = pivot.ground[c];
+                (self.pivot[c][lane], self.ground[c][lane]) = (pivot.local[c], pivot.ground[c]);
             }
         }
         self.inertia[lane] = body.ibar[0];
-        self.regularization[lane] = body.regularizing_inertia;
+        self.regularizing_inertia[lane] = body.regularizing_inertia;
         for c in 0..2 {
             self.weight[c][lane] = body.mass * system.model.gravity[c];
         }
         if let Some(pose) = body.planar_pose {
-            self.poses[lane] = pose;
-            self.height[lane] = pose.height;
+            (self.poses[lane], self.height[lane]) = (pose, pose.height);
         }
     }
 
@@ -238,8 +209,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         Vector3::new(q[0][0][lane], q[0][1][lane], 0.0)
     }
 
-    fn spin(e: &[Pair<L>; 2], f: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
-        let ([_, z], [_, rate]) = (e, f);
+    fn spin([_, z]: &[Pair<L>; 2], [_, rate]: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
         Vector3::new(0.0, 0.0, z[0][lane] * rate[1][lane] - z[1][lane] * rate[0][lane])
     }
 
@@ -271,7 +241,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             self.dual[1][l] = half * z[1][l];
             let [x, y] = self.arm.map(|s| s[l]);
             let about_pivot = self.mass[l] * (x * x + y * y);
-            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_pivot + self.regularization[l]);
+            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_pivot + self.regularizing_inertia[l]);
             self.root[l] = self.inverse[l].sqrt();
         }
     }
@@ -346,7 +316,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             let p = [0, 1].map(|c| self.force[1][c][l] - self.inertia[l] * self.particular[c][l]);
             moment[l] += self.moment[l] + z[0][l] * p[1] - z[1][l] * p[0];
             self.omega[l] = 0.0;
-            self.returned[l] = 0.0;
+            self.taken_out[l] = 0.0;
         }
         // The pivot stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the pivot.
         let particular = turned(&self.pivot, &self.particular);
@@ -371,8 +341,8 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn remove_regularization(&mut self, q: &[Pair<L>; 2]) {
-        let moment = each(|l| self.regularization[l] * (self.omega[l] - self.returned[l]));
-        self.returned = self.omega;
+        let moment = each(|l| self.regularizing_inertia[l] * (self.omega[l] - self.taken_out[l]));
+        self.taken_out = self.omega;
         self.turn(&q[1], &[[0.0; L]; 2], &moment);
     }
 
@@ -397,30 +367,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
-        let mut sums = [[0.0; L]; 2];
-        let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
-        for ([_, a], [_, b]) in heads.zip(tails).take((n - 1) / 2) {
-            for (c, all) in sums.iter_mut().enumerate() {
-                *all = plus(&a[c], &b[c], all);
-            }
-        }
-        let half = sum(&sums[0], &sums[1]);
-        let mut all = sum(&half, &half);
-        if n.is_multiple_of(2) {
-            let [_, z] = &q[n / 2];
-            all = plus(&z[0], &z[0], &plus(&z[1], &z[1], &all));
-        }
-        (times(&[-kappa; L], &all), [[0.0; L]; 2])
+        (gram(q, n, kappa), [[0.0; L]; 2])
     }
 
     #[inline(always)]
     fn moment(q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
-        let mut sums = [[0.0; L]; 2];
-        for ([_, z], p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
-            sums[0] = plus(&z[0], &p[1], &sums[0]);
-            sums[1] = less(&z[1], &p[0], &sums[1]);
-        }
-        sum(&sums[0], &sums[1])
+        moment(q, p, n)
     }
 
     #[inline(always)]
@@ -433,7 +385,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         let [r, z] = q;
         let arm = turned(&self.pivot, z);
         let open: Pair<L> =
-            [0, 1].map(|c| each(|l| self.hangs[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
+            [0, 1].map(|c| each(|l| self.pivoted[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
         (each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l])), open)
     }
 
@@ -441,7 +393,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     fn velocity_correction(&self, q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Self::Rigid {
         let (z, [r_rate, rate]) = (&q[1], q_dot);
         let arm = turned(&self.pivot, rate);
-        let open: Pair<L> = [0, 1].map(|c| each(|l| -self.hangs[l] * (r_rate[c][l] + arm[c][l])));
+        let open: Pair<L> = [0, 1].map(|c| each(|l| -self.pivoted[l] * (r_rate[c][l] + arm[c][l])));
         (each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l])), open)
     }
 }

@@ -1,22 +1,32 @@
 //! Corrections of the state at the end of a step, onto the constraints — eq. (10.2).
 
 use super::lanes::{largest, sum};
-use super::{Bodies, Dependent, Series};
+use super::step::Which;
+use super::{Bodies, Series};
 
-/// A relative pivot below this belongs to a row that depends on others.
+/// Relative pivot below which a row depends on others.
 const DEPENDENT: f64 = 1e-10;
-/// How far the rank is taken away from a state, relative to the size of the mechanism.
+/// Distance from a state at which the rank is taken, in lengths of the mechanism.
 const AWAY: f64 = 0.03;
+/// Largest velocity below which no motion leads away from the state.
+const AT_REST: f64 = 1e-9;
+/// Most corrections of the positions at that distance.
+const MAX_CORRECTIONS: usize = 12;
+/// Correction, in lengths of the mechanism, below which the positions there are consistent.
+const CONSISTENT: f64 = 1e-12;
+/// Phase between the velocities of successive coordinates, rad: the inverse of the plastic number, so that the motion has no
+/// symmetry.
+const PHASE: f64 = 0.754_877_666_2;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
-    /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the factor at hand. Returns its size.
+    /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the present factor of S. Returns its size.
     pub fn correct_positions(&mut self) -> f64 {
-        self.correct(0)
+        self.piece(Which::Correct(0))
     }
 
-    /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the factor at hand.
+    /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the present factor of S.
     pub fn correct_velocities(&mut self) -> f64 {
-        self.correct(1)
+        self.piece(Which::Correct(1))
     }
 
     /// The one of the positions (0) or of the velocities (1); one body of code, because it is compiled many times.
@@ -62,18 +72,19 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Finds the rows that depend on others everywhere, which the factorization then leaves out: those that do a little away
-    /// from the state, along an admissible velocity without symmetry. Tells whether there are any. S is left to be factored.
-    pub fn find_dependent(&mut self, length: f64) -> bool {
+    /// from the state, along an admissible velocity without symmetry. Returns whether there are any. S must be factored
+    /// afterwards. Where some are expected, S is regularized from the beginning.
+    pub fn find_dependent(&mut self, length: f64, expected: bool) -> bool {
         let state = self.state.clone();
-        self.linearize();
+        self.piece(Which::Linearize { regularized: expected });
         let velocities = self.state.iter_mut().flat_map(|[_, rate]| B::lanes_mut(rate).as_flattened_mut());
         for (i, v) in velocities.enumerate() {
-            *v = (1.0 + i as f64 * 0.754_877_666_2).sin();
+            *v = (1.0 + i as f64 * PHASE).sin();
         }
         self.correct_velocities();
         self.correct_velocities();
         let largest = self.state.iter().map(|[_, rate]| largest(B::lanes(rate))).fold(0.0, f64::max);
-        if largest > 1e-9 {
+        if largest > AT_REST {
             let scale = AWAY * length / largest;
             for [position, rate] in &mut self.state {
                 let rates = B::lanes(rate).as_flattened();
@@ -81,17 +92,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     *x += scale * v;
                 }
             }
-            for _ in 0..12 {
-                self.linearize();
-                if self.correct_positions() < 1e-12 * length {
+            for _ in 0..MAX_CORRECTIONS {
+                self.piece(Which::Linearize { regularized: expected });
+                if self.correct_positions() < CONSISTENT * length {
                     break;
                 }
             }
         }
-        self.assemble();
-        let dependent = self.schur.factor.find_dependent(DEPENDENT);
-        self.dependent = if dependent == 0 { Dependent::None } else { Dependent::LeftOut };
+        self.piece(Which::Assemble);
+        self.rows_left_out = self.schur.factor.find_dependent(DEPENDENT) > 0;
         self.state = state;
-        self.dependent != Dependent::None
+        self.rows_left_out
     }
 }

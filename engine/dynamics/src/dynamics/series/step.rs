@@ -1,26 +1,27 @@
 //! One step of the series: expand, choose how far the terms reach, move there, and project.
 
 use super::lanes::largest;
-use super::{Bodies, Dependent, Series};
+use super::{Bodies, Series};
 use pulp::{Arch, Simd, WithSimd};
 
-/// A correction of positions above this part of the tolerance calls for a new factor.
+/// Correction of the positions, in tolerances, above which S is factored again.
 const NEGLIGIBLE: f64 = 0.01;
-/// A Newton step of this size, relative to the mechanism, leaves an error of its square.
+/// Size of a Newton step, in lengths of the mechanism, after which the error, its square, is rounding.
 const CONSISTENT: f64 = 1e-7;
-
-/// Newton steps of the positions at the end of a step.
-const MOST_CORRECTIONS: usize = 3;
-
-/// Orders that are found in any case.
-const LEAST_ORDER: usize = 8;
-/// A step that leaves its constraints, or a prescribed function its series, by this many tolerances is taken anew, half
-/// as long, but not more often than this.
+/// Most Newton steps of the positions at the end of a step.
+const MAX_CORRECTIONS: usize = 3;
+/// Order up to which the series is always expanded.
+const MIN_ORDER: usize = 8;
+/// Distance of a step's end from its constraints, or of a prescribed function from its series, in tolerances, above which the
+/// step is halved.
 const FAR: f64 = 100.0;
-const MOST_REJECTED: u64 = 12;
+/// Most halvings of a step.
+const MAX_REJECTED: u64 = 12;
 /// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
 /// end of a step.
-const FARTHEST_TURN: f64 = 3.0;
+const MAX_TURN: f64 = 3.0;
+/// A step that reaches what is left to the end when stretched by this factor ends there.
+const LAST_STEP: f64 = 1.01;
 
 /// What a step has to do.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +34,8 @@ pub struct Plan {
     pub length: f64,
     /// End of the run, s: no step goes beyond it.
     pub end: f64,
-    /// Whether to tell only how far the series reach, without knots.
-    pub look_only: bool,
+    /// Whether to find only the step that the series allow, regardless of breakpoints, and not to take it.
+    pub dry_run: bool,
 }
 
 /// What a step was.
@@ -75,12 +76,14 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
 /// A piece of a step on its own, likewise: all of them together, so that each is compiled once.
 struct Piece<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Which);
 
+/// Which piece.
 #[derive(Clone, Copy)]
-enum Which {
-    /// S without its factor.
+pub(super) enum Which {
+    /// Builds S.
     Assemble,
-    Linearize,
-    /// Of the positions (0) or the velocities (1).
+    /// Builds S and factors it, regularized from the beginning or where it is nearly singular.
+    Linearize { regularized: bool },
+    /// Corrects the positions (0) or the velocities (1).
     Correct(usize),
 }
 
@@ -91,7 +94,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Piece<'_, L, B> {
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         match self.1 {
             Which::Assemble => self.0.assemble_here(simd),
-            Which::Linearize => self.0.linearize_here(simd),
+            Which::Linearize { regularized } => self.0.linearize_here(simd, regularized),
             Which::Correct(which) => return self.0.correct_here(which),
         }
         0.0
@@ -106,7 +109,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.0.linearize_here(simd);
+        self.0.linearize_here(simd, false);
         self.0.expand(2, |_, _| false);
     }
 }
@@ -119,21 +122,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Builds and factors S at the point of expansion.
     pub fn linearize(&mut self) {
-        self.piece(Which::Linearize);
-    }
-
-    /// Builds S at the point of expansion.
-    pub(super) fn assemble(&mut self) {
-        self.piece(Which::Assemble);
-    }
-
-    pub(super) fn correct(&mut self, which: usize) -> f64 {
-        self.piece(Which::Correct(which))
+        self.piece(Which::Linearize { regularized: false });
     }
 
     /// Pieces on their own are for the start of a run and for tests.
     #[inline(never)]
-    fn piece(&mut self, which: Which) -> f64 {
+    pub(super) fn piece(&mut self, which: Which) -> f64 {
         Arch::new().dispatch(Piece(self, which))
     }
 
@@ -142,9 +136,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         Arch::new().dispatch(Step(self, plan))
     }
 
-    /// The step that the series at the state allow, at which S must be factored, if no knot were in the way, s.
+    /// The step that the series at the state allow, at which S must be factored, if no breakpoint were in the way, s.
     pub fn natural_step(&mut self, order: usize, tolerance: f64) -> f64 {
-        self.step(Plan { order, tolerance, length: 0.0, end: f64::INFINITY, look_only: true }).h
+        self.step(Plan { order, tolerance, length: 0.0, end: f64::INFINITY, dry_run: true }).h
     }
 
     #[inline(always)]
@@ -156,15 +150,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         // Pieces are polynomials of degree five: orders above that of their accelerations say how good the series are.
         let order = self.expand(plan.order, |s, k| {
             end < plan.end
-                && !plan.look_only
-                && k > LEAST_ORDER
+                && !plan.dry_run
+                && k > MIN_ORDER
                 && s.reached(k - 1, allowance, 0.0).min(s.reached(k, allowance, 0.0)) >= left
         });
         if !self.power.is_empty() {
             self.find_power(order);
         }
         let (h, order) = self.reach(order, allowance);
-        if plan.look_only {
+        if plan.dry_run {
             return Taken {
                 h,
                 time: start,
@@ -176,19 +170,19 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 proven: false,
             };
         }
-        let mut h = self.loads.limit(self.angles.limit(h.min(left), order, FARTHEST_TURN), order);
+        let mut h = self.loads.limit(self.angles.limit(h.min(left), order, MAX_TURN), order);
         let mut rejected = 0;
         loop {
             let mut time = start + h;
-            if 1.01 * h >= left {
+            if LAST_STEP * h >= left {
                 (h, time) = (left, end);
             }
-            let met = rejected == MOST_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
+            let met = rejected == MAX_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
             if met {
-                let most = (rejected < MOST_REJECTED).then_some(FAR * plan.tolerance);
+                let most = (rejected < MAX_REJECTED).then_some(FAR * plan.tolerance);
                 if let Some((moved, closed)) = self.arrive(simd, h, time, order, plan, most) {
                     // Rows that are left out are measured.
-                    let proven = closed && !self.regularized && self.dependent == Dependent::None;
+                    let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
                     let far = moved.is_nan() || moved > FAR * plan.tolerance;
                     return Taken { h, time, at_break: time == end, order, rejected, far, finite, proven };
@@ -199,9 +193,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
-    /// Moves to the end of a step, factors S there and projects positions and velocities. Tells how far the positions were
-    /// moved and whether Newton's method has converged, or nothing if it moved the positions by more than `most`: what the terms that were left out would have
-    /// added.
+    /// Moves to the end of a step, factors S there and projects positions and velocities. Returns how far the positions were
+    /// moved, which is what the terms that were left out would have added, and whether Newton's method has converged; `None`
+    /// if it moved them by more than `most`.
     #[inline(always)]
     fn arrive<S: Simd>(
         &mut self,
@@ -215,13 +209,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.advance(h, order);
         self.set_time(time);
         let (mut moved, mut closed) = (0.0f64, false);
-        for round in 0..=MOST_CORRECTIONS {
-            let last = closed || round == MOST_CORRECTIONS;
+        for round in 0..=MAX_CORRECTIONS {
+            let last = closed || round == MAX_CORRECTIONS;
             if last && most.is_some_and(|most| moved.is_nan() || moved > most) {
                 return None;
             }
             if round == 0 || (last && moved > NEGLIGIBLE * plan.tolerance) {
-                self.linearize_here(simd);
+                self.linearize_here(simd, false);
             }
             let step = self.correct_here(usize::from(last));
             if last {
@@ -292,11 +286,11 @@ mod tests {
             let mut y = vec![0.0; 2 * system.coordinates];
             let (q, q_dot) = y.split_at_mut(system.coordinates);
             system.start(q, q_dot);
-            let mut own = Series::<4>::new(system, 12, false, &[]);
+            let mut own = Series::<4>::new(system, 12, &[]);
             own.place(system, 0.0, &y);
             own.linearize();
             let mut plain = own.clone();
-            let plan = Plan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, look_only: false };
+            let plan = Plan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, dry_run: false };
             for _ in 0..5 {
                 let taken = own.step(plan);
                 assert_eq!(

@@ -3,7 +3,7 @@
 use crate::integrate::step::StopReason;
 use crate::integrate::stepper::IslandStep;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
-use triad_dynamics::dynamics::series::{IslandSeries, LEAST_TOLERANCE_REDUNDANT, Plan};
+use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, Plan};
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
 use triad_dynamics::system::islands::{self, Part};
@@ -64,17 +64,17 @@ impl Island {
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
         let loops = islands::has_loops(&system.model);
         let mut series = match &flat {
-            None => IslandSeries::in_space(system, order, redundant, turns),
-            Some(flat) => IslandSeries::in_plane(flat, order, redundant, turns),
+            None => IslandSeries::in_space(system, order, turns),
+            Some(flat) => IslandSeries::in_plane(flat, order, turns),
         };
         series.keep_constants(skip.constants);
         series.place(system, t, y);
-        let redundant = (flat.is_some() || redundant) && series.find_dependent(system.length);
+        let redundant = (flat.is_some() || redundant) && series.find_dependent(system.length, redundant);
         if loops {
-            series.allow_looks();
+            series.enable_probes();
         }
         series.linearize();
-        let tolerance = if redundant { tolerance.max(LEAST_TOLERANCE_REDUNDANT) } else { tolerance };
+        let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies) = (system.length, system.bodies.len());
         Self {
             loops,
@@ -121,14 +121,14 @@ impl Island {
     /// Its last step, if it may hide a singular configuration; `island` is its own place among all.
     pub fn last_step(&self, whole: &System, island: usize) -> Option<IslandStep<'_>> {
         let system = self.part.as_deref().unwrap_or(whole);
-        let (pivot_products, pace) = (Some(self.series.holds()), self.series.pace(system));
+        let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(system));
         self.loops.then_some(IslandStep { island, start: self.t_old, end: self.t, pivot_products, pace })
     }
 
     /// Pivot products of the joints at time t within its last step.
     pub fn pivot_products_inside(&mut self, t: f64) -> &[f64] {
         let tau = (t - self.t_old).clamp(0.0, self.h_old);
-        self.series.holds_inside(self.t_old, tau, self.order_old)
+        self.series.pivot_products_inside(self.t_old, tau, self.order_old)
     }
 
     /// Work done so far.
@@ -145,7 +145,7 @@ impl Island {
     /// itself that the constraints hold, and how often it was shortened.
     pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), StopReason> {
         let plan =
-            Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, look_only: false };
+            Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, dry_run: false };
         let system = self.part.as_deref().unwrap_or(whole);
         let taken = self.series.step(plan);
         if taken.finite {
@@ -173,9 +173,10 @@ impl Island {
     /// be far shorter than the series allow.
     pub fn breakpoints_dense(&mut self, end: f64) -> bool {
         let (t, order, tolerance) = (self.t, self.order, self.tolerance);
-        let knots = self.series.knots_before(end, MAX_BREAKPOINTS);
-        knots > 0
-            && (end - t) / (knots as f64) < DENSE_BREAKPOINTS * self.series.natural_step(order, tolerance)
+        let breakpoints = self.series.breakpoints_before(end, MAX_BREAKPOINTS);
+        breakpoints > 0
+            && (end - t) / (breakpoints as f64)
+                < DENSE_BREAKPOINTS * self.series.natural_step(order, tolerance)
     }
 
     /// Multipliers of the solver rows at a state within the last step, with A there. The series of the whole in space have

@@ -1,0 +1,197 @@
+//! The recurrence over the orders: from all coefficients before them to Q_(n+2) and λ_n.
+
+use super::lanes::times;
+use super::{Bodies, Series};
+use pulp::{Simd, WithSimd};
+
+/// Iterative refinements of a solution with the factor of a regularized S, which take its effect out again.
+const REFINEMENTS: usize = 2;
+/// Most proximal steps that take the effect of inertia regularization out again.
+const PROXIMAL_STEPS: usize = 3;
+/// Part of the multipliers below which a correction is rounding.
+const ROUNDING: f64 = 1e-15;
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
+    /// Expands the motion about the state up to Q_order and λ_(order−2), with the present factor of S, or up to the
+    /// first order that is `enough`. Returns the order.
+    #[inline(always)]
+    pub fn expand(&mut self, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
+        for (b, state) in self.state.iter().enumerate() {
+            self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
+        }
+        if self.needs_values() {
+            self.place_values();
+            self.store_values(0);
+            self.values_of(|state, _| state[1]);
+            self.set_ground(false);
+            self.prepare_prescribed(1, 1.0);
+            self.prescribed.add_known(1.0, &mut self.values);
+            self.store_values(1);
+        }
+        self.rows.clear_extra();
+        self.rows.keep_directions();
+        self.counters.evaluations += 1;
+        let order = order.min(self.stride - 1);
+        for n in 0..=order.saturating_sub(2) {
+            self.solve_order(n);
+            if enough(self, n + 2) {
+                return n + 2;
+            }
+        }
+        order
+    }
+
+    /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
+    #[inline(always)]
+    fn solve_order(&mut self, n: usize) {
+        let kappa = ((n + 1) * (n + 2)) as f64;
+        let over_kappa = 1.0 / kappa;
+        for bundle in &mut self.bundles {
+            bundle.clear_force();
+            if n == 0 {
+                bundle.add_weight();
+            }
+        }
+        if self.needs_values() {
+            self.demand(n, kappa);
+            self.set_known_forces(n);
+        }
+        for (b, bundle) in self.bundles.iter_mut().enumerate() {
+            let range = b * self.stride..(b + 1) * self.stride;
+            let (q, p) = (&self.q[range.clone()], &self.p[range]);
+            bundle.begin(&q[0], &B::gram(q, n + 2, kappa), B::moment(q, p, n));
+        }
+        self.prepare_prescribed(n + 2, kappa);
+        self.solve(n);
+        for (b, bundle) in self.bundles.iter().enumerate() {
+            let at = b * self.stride + n;
+            let next = B::lanes_mut(&mut self.q[at + 2]);
+            for (q, a) in next.iter_mut().zip(B::lanes(bundle.solution())) {
+                *q = times(a, &[over_kappa; L]);
+            }
+            self.p[at] = bundle.director_forces();
+        }
+        if self.needs_values() {
+            let rows = self.correction.len();
+            let lambda = &self.lambda[n * rows..(n + 1) * rows];
+            self.rows.store_multipliers(n, lambda);
+            self.angles.store_multipliers(n, lambda);
+            for (b, bundle) in self.bundles.iter().enumerate() {
+                for slot in bundle.slots() {
+                    self.values[slot] = B::value(&self.slots[slot], &self.q[b * self.stride + n + 2]);
+                }
+            }
+            self.prescribed.add_known(over_kappa, &mut self.values);
+            self.store_values(n + 2);
+        }
+    }
+
+    /// Whether values of features are needed in every order.
+    #[inline(always)]
+    fn needs_values(&self) -> bool {
+        self.rows.curved() || !self.angles.is_empty() || !self.loads.is_empty() || !self.prescribed.is_empty()
+    }
+
+    /// Takes over coefficient m of all features.
+    #[inline(always)]
+    fn store_values(&mut self, m: usize) {
+        self.rows.store_factors(m, &self.values);
+        self.angles.store(m, &self.values);
+        self.loads.store(m, &self.values, &self.angles.list);
+    }
+
+    /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
+    #[inline(always)]
+    pub(super) fn solve(&mut self, n: usize) {
+        let rows = self.correction.len();
+        let refinements = match (self.regularizes_inertia, self.regularized) {
+            (true, _) => PROXIMAL_STEPS,
+            (false, true) => REFINEMENTS,
+            (false, false) => 0,
+        };
+        if rows == 0 && !self.regularizes_inertia {
+            return;
+        }
+        self.set_ground(false);
+        let (mut first, mut last) = (0.0, f64::INFINITY);
+        for pass in 0..=refinements {
+            if pass > 0 && self.regularizes_inertia {
+                for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+                    bundle.remove_regularization(&state[0]);
+                }
+            }
+            self.values_of(|_, bundle| *bundle.solution());
+            self.prescribed.add_known(1.0, &mut self.values);
+            self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
+            self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
+            self.schur.factor.solve(&mut self.correction);
+            self.counters.solves += 1;
+            let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
+            for (lambda, correction) in lambda.iter_mut().zip(&self.correction) {
+                *lambda = if pass == 0 { *correction } else { *lambda + correction };
+            }
+            self.forces.fill([[0.0; L]; 3]);
+            self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
+            self.angles.add_forces(&self.correction, &mut self.forces);
+            self.prescribed.add_forces(n, &self.forces);
+            for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+                let mut force = B::zero();
+                for slot in bundle.slots() {
+                    B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
+                }
+                bundle.apply(&state[0], &force);
+            }
+            if self.regularizes_inertia && !self.regularized {
+                // Corrections shrink by the same factor each time: the next one would be size²/last.
+                let size = self.correction.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                if pass == 0 {
+                    first = size;
+                } else if size * size <= ROUNDING * first * last {
+                    break;
+                }
+                last = size;
+            }
+        }
+    }
+
+    /// Moves the point of expansion to the series' value after h, with terms up to order `order`.
+    #[inline(always)]
+    pub fn advance(&mut self, h: f64, order: usize) {
+        self.angles.advance(h, order);
+        for (b, state) in self.state.iter_mut().enumerate() {
+            *state = horner::<L, B>(&self.q[b * self.stride..=b * self.stride + order], h);
+        }
+    }
+}
+
+/// Value and derivative of a polynomial Σ Q_k τᵏ — eq. (11.1).
+#[inline(always)]
+fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Lifted], tau: f64) -> [B::Lifted; 2] {
+    let mut state = [B::zero(); 2];
+    let [value, rate] = &mut state;
+    let (value, rate) = (B::lanes_mut(value), B::lanes_mut(rate));
+    for coefficient in coefficients.iter().rev() {
+        for ((value, rate), c) in value.iter_mut().zip(rate.iter_mut()).zip(B::lanes(coefficient)) {
+            for l in 0..L {
+                rate[l] = rate[l].mul_add(tau, value[l]);
+                value[l] = value[l].mul_add(tau, c[l]);
+            }
+        }
+    }
+    state
+}
+
+/// The same on its own, to be compiled for each set of vector instructions.
+pub(super) struct Value<'a, const L: usize, B: Bodies<L>> {
+    pub coefficients: &'a [B::Lifted],
+    pub tau: f64,
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Value<'_, L, B> {
+    type Output = [B::Lifted; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [B::Lifted; 2] {
+        horner::<L, B>(self.coefficients, self.tau)
+    }
+}
