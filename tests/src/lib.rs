@@ -5,11 +5,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::missing_panics_doc)]
 
 pub mod accuracy;
-pub mod lecture;
 pub mod probe;
 pub mod program;
 pub mod random;
 pub mod reference;
+
+pub mod lecture;
 
 use std::path::PathBuf;
 

@@ -7,14 +7,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use triad_tests::root;
 
-/// Arrows that still run back, as `crate: from -> to`. This list only shrinks; one that is gone must go here too.
-const EXCEPTIONS: &[&str] = &[
-    "engine/engine: analysis -> error",
-    "engine/engine: run -> error",
-    "engine/urdf: convert -> read",
-    "tests: lecture -> program",
-];
-
 /// The files of a crate by their path as a module: `[]` for lib.rs, `["system", "row"]` for system/row.rs.
 fn files(folder: &Path, at: &[String], found: &mut BTreeMap<Vec<String>, String>) {
     for entry in folder.read_dir().unwrap() {
@@ -125,9 +117,5 @@ fn modules_import_only_what_stands_before_them() {
     for member in members.split('"').skip(1).step_by(2) {
         arrows.extend(backward(member, &root().join(member).join("src")));
     }
-    let known: BTreeSet<String> = EXCEPTIONS.iter().map(|&arrow| arrow.to_owned()).collect();
-    let new: Vec<_> = arrows.difference(&known).collect();
-    let gone: Vec<_> = known.difference(&arrows).collect();
-    assert!(new.is_empty(), "imports of modules that stand later: {new:#?}");
-    assert!(gone.is_empty(), "no longer there, so no longer an exception: {gone:#?}");
+    assert!(arrows.is_empty(), "imports of modules that stand later: {arrows:#?}");
 }

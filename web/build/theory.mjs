@@ -8,10 +8,23 @@ const TARGET = new URL("../../docs/theory-mathml.md", import.meta.url);
 const HEAD = "<!-- Generated from THEORY.md by `npm run theory`: do not edit. -->\n";
 
 /** Characters that Markdown would read inside of a formula. */
-const ESCAPES = { "|": "&#124;", "*": "&#42;", _: "&#95;", "[": "&#91;", "]": "&#93;", "`": "&#96;", "~": "&#126;" };
+const ESCAPES = {
+  "|": "&#124;",
+  "*": "&#42;",
+  _: "&#95;",
+  "[": "&#91;",
+  "]": "&#93;",
+  "`": "&#96;",
+  "~": "&#126;",
+};
 
 function mathml(tex, displayMode) {
-  const html = katex.renderToString(tex, { displayMode, output: "mathml", throwOnError: true, strict: "error" });
+  const html = katex.renderToString(tex, {
+    displayMode,
+    output: "mathml",
+    throwOnError: true,
+    strict: "error",
+  });
   const math = html.match(/<math.*<\/math>/s)[0];
   return math
     .replace(/<annotation.*?<\/annotation>/s, "")

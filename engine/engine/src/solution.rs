@@ -159,8 +159,9 @@ impl Solution {
     pub fn every(&self, step: f64) -> impl Iterator<Item = f64> + use<> {
         let (start, end) = (self.start, self.end());
         // A last time that rounding puts beyond the end is the end.
-        let count = if step > 0.0 { ((end - start) / step + 1e-9).floor() as u64 + 1 } else { 0 };
-        (0..count).map(move |k| (start + k as f64 * step).min(end))
+        let last = if step > 0.0 { (end - start) / step + 1e-9 } else { -1.0 };
+        let whole = (0_u64..).map(|k| k as f64).take_while(move |&k| k <= last);
+        whole.map(move |k| (start + k * step).min(end))
     }
 
     /// The state at time t, s.

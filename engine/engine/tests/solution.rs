@@ -50,7 +50,7 @@ fn singular_positions_are_told_as_they_ran() {
     for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
         let scene = catalogue::scene("n-four-bar:2").unwrap().integrator(integrator);
         assert!(
-            !scene.simulate(0.0..2.0).unwrap().summary().passages.is_empty(),
+            !scene.simulate(0.0..2.0).unwrap().summary().singularities.is_empty(),
             "{integrator}: none is passed"
         );
         compare(&scene, 2.0);

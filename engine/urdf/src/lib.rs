@@ -3,8 +3,9 @@
 //! URDF describes a tree; loops are closed by a side-car: JSON with joints, drivers and loads in the words of a scene,
 //! whose bodies are the robot's links. What a scene has no word for is told, with its line, never dropped in silence.
 
-mod convert;
 mod read;
+
+mod convert;
 
 use std::collections::BTreeMap;
 

@@ -38,7 +38,8 @@ impl Mark {
 pub(super) struct Marks {
     /// Where the run starts.
     first: Mark,
-    marks: Vec<Mark>,
+    /// The marks after the first.
+    later: Vec<Mark>,
     stride: u64,
     steps: u64,
     most: usize,
@@ -49,7 +50,7 @@ impl Marks {
     pub fn new(run: &Simulation) -> Self {
         let most = (ROOM / run.model().bodies.len().max(1)).max(FEWEST);
         let first = Mark { from: f64::NEG_INFINITY, run: run.clone() };
-        Self { first, marks: Vec::new(), stride: 1, steps: 0, most }
+        Self { first, later: Vec::new(), stride: 1, steps: 0, most }
     }
 
     /// The model of the run.
@@ -63,11 +64,11 @@ impl Marks {
         if !self.steps.is_multiple_of(self.stride) {
             return;
         }
-        self.marks.push(Mark { from, run: run.clone() });
-        if self.marks.len() > self.most {
+        self.later.push(Mark { from, run: run.clone() });
+        if self.later.len() > self.most {
             self.stride *= 2;
             let mut step = 0;
-            self.marks.retain(|_| {
+            self.later.retain(|_| {
                 step += 1;
                 step % 2 == 0
             });
@@ -76,7 +77,7 @@ impl Marks {
 
     /// The last mark whose step begins before time t: a run that comes to t shows it from the step that reaches t.
     pub fn before(&self, t: f64) -> &Mark {
-        let after = self.marks.partition_point(|mark| mark.from < t);
-        after.checked_sub(1).map_or(&self.first, |last| &self.marks[last])
+        let after = self.later.partition_point(|mark| mark.from < t);
+        after.checked_sub(1).map_or(&self.first, |last| &self.later[last])
     }
 }
