@@ -1,7 +1,7 @@
 //! What a student hands in, and how it is read: numbers, units, formulas, tables, and how close is close enough.
 //!
-//! [`lexer`] replaces the signs of word processors once for all of them. [`number`], [`units`] and [`expression`] read
-//! what is typed into a field, [`table`] reads a file of numbers, [`tolerance`] decides whether numbers are right, and
+//! `lexer` replaces the signs of word processors once for all of them. [`number`], [`units`] and [`expression`] read
+//! what is typed into a field, `table` reads a file of numbers, [`tolerance`] decides whether numbers are right, and
 //! [`submission`] is the whole of it as JSON.
 
 mod dimension;

@@ -1,8 +1,8 @@
 //! Questions that are answered by work: what a program is given and what it sends, and motions as tables.
 //!
-//! [`instances`] are the states of a student, [`instances_view`] is what a program is given of them, [`program_output`]
-//! reads what it sends, [`misconceptions`] recognises what went wrong, [`starter`] is a program to begin with;
-//! [`trajectory`] is the reference of a table.
+//! `instances` are the states of a student, `instances_view` is what a program is given of them, `program_output`
+//! reads what it sends, `misconceptions` recognises what went wrong, [`starter`] is a program to begin with;
+//! `trajectory` is the reference of a table.
 
 pub(crate) mod grid;
 pub(crate) mod instances;
