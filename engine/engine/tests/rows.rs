@@ -106,7 +106,13 @@ fn rows(system: &System, at: &mut State, t: f64, q: &DVector<f64>, q_dot: &DVect
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    // The same states every time: a test must not depend on luck.
+    #![proptest_config(ProptestConfig {
+        cases: 48,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(20_260_521),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn rows_agree_with_their_differences(

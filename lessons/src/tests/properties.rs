@@ -39,7 +39,8 @@ fn formula() -> impl Strategy<Value = (String, f64)> {
             pair.prop_map(|((a, x), (b, y))| (format!("({a})/({b})"), x / y)),
             inner.clone().prop_map(|(a, x)| (format!("-({a})"), -x)),
             inner.clone().prop_map(|(a, x)| (format!("cos({a})"), x.cos())),
-            inner.prop_map(|(a, x)| (format!("({a})**2"), x.powf(2.0))),
+            // Hidden from the compiler, which would make a square of it: the last bit may differ from that of a power.
+            inner.prop_map(|(a, x)| (format!("({a})**2"), x.powf(std::hint::black_box(2.0)))),
         ]
     })
     .prop_filter("formulas have a greatest length", |(text, _)| text.chars().count() <= 400)
@@ -67,6 +68,13 @@ fn unit() -> impl Strategy<Value = (String, [i32; 3], f64)> {
 }
 
 proptest! {
+    // The same inputs every time: a test must not depend on luck.
+    #![proptest_config(ProptestConfig {
+        rng_seed: proptest::test_runner::RngSeed::Fixed(20_260_521),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
     #[test]
     fn nothing_that_is_typed_makes_a_reader_panic(text in typed()) {
         if let Ok((parsed, _)) = number::read(&text) {
