@@ -10,7 +10,7 @@ use crate::scene::Coordinates;
 use crate::state::{ScalarState, State};
 use crate::system::System;
 use crate::system::feature::{Difference, FeatureId, Target};
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::{Form, equation_labels};
 use nalgebra::Vector3;
 
@@ -33,10 +33,10 @@ pub fn row_names(system: &System) -> Vec<String> {
     for (body, model) in system.bodies.iter().zip(&system.model.bodies) {
         names.extend(body.layout.rigid_rows().map(|(_, _, label)| format!("{}: {label}", model.name)));
     }
-    for group in &system.groups {
-        for row in system.rows[group.forms.clone()].iter().filter(|row| !row.implied) {
+    for constraint in &system.constraints {
+        for row in system.rows[constraint.forms.clone()].iter().filter(|row| !row.implied) {
             let labels = equation_labels(row.label, row.form.equations());
-            names.extend(labels.into_iter().map(|label| format!("{}: {label}", group.name)));
+            names.extend(labels.into_iter().map(|label| format!("{}: {label}", constraint.name)));
         }
     }
     names
@@ -63,13 +63,13 @@ pub enum Source {
     },
 }
 
-/// The gradient of an equation with respect to the lifted coordinates of one body.
+/// The gradient of an equation with respect to the natural coordinates of one body.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct BodyGradient {
     /// The body.
     pub body: usize,
     /// The gradient.
-    pub gradient: Lift,
+    pub gradient: NaturalCoordinates,
     /// Which of r, u, v, w can be other than zero.
     pub touched: [bool; 4],
     /// Whether it is the same at every Q.
@@ -86,7 +86,7 @@ pub struct Equation {
     /// γ before the term of reduced bodies.
     pub gamma: f64,
     /// Its gradient, body by body.
-    pub parts: Vec<Part>,
+    pub gradients: Vec<BodyGradient>,
 }
 
 /// Where all equations come from, in their order: rigid-body rows first.
@@ -113,7 +113,7 @@ pub fn equation(system: &System, at: &State, source: Source) -> Equation {
                     value: difference(&|f| at.feature_value(f)),
                     nu: -difference(&|f| at.driven_rate(system, f)),
                     gamma: -difference(&|f| at.driven_acceleration(system, f)),
-                    parts: parts(system, at, &[(a, g, true), (b, -g, true)]),
+                    gradients: gradients(system, at, &[(a, g, true), (b, -g, true)]),
                 }
             }
             Form::Product { a, b, target } => product_equation(system, at, a, b, target),
@@ -125,7 +125,7 @@ pub fn equation(system: &System, at: &State, source: Source) -> Equation {
 fn rigid_equation(at: &State, body: usize, k: usize, l: usize) -> Equation {
     let state = &at.bodies()[body];
     let unit = if k == l { 1.0 } else { 0.0 };
-    let mut gradient = Lift::default();
+    let mut gradient = NaturalCoordinates::default();
     gradient.e[k] += state.q.e[l];
     gradient.e[l] += state.q.e[k];
     let touched = [0, 1, 2, 3].map(|block| block == k + 1 || block == l + 1);
@@ -133,7 +133,7 @@ fn rigid_equation(at: &State, body: usize, k: usize, l: usize) -> Equation {
         value: state.q.e[k].dot(&state.q.e[l]) - unit,
         nu: 0.0,
         gamma: -2.0 * state.q_dot.e[k].dot(&state.q_dot.e[l]),
-        parts: vec![Part { body, gradient, touched, constant: false }],
+        gradients: vec![BodyGradient { body, gradient, touched, constant: false }],
     }
 }
 
@@ -154,7 +154,7 @@ fn product_equation(system: &System, at: &State, a: Difference, b: Difference, t
         value: x.dot(&y) - c,
         nu: c_rate - driven_rate(a).dot(&y) - x.dot(&driven_rate(b)),
         gamma: c_acceleration - 2.0 * rate(a).dot(&rate(b)) - driven(a).dot(&y) - x.dot(&driven(b)),
-        parts: parts(system, at, &gradient),
+        gradients: gradients(system, at, &gradient),
     }
 }
 
@@ -175,35 +175,40 @@ fn relation_equation(system: &System, at: &State, form: &Form) -> Equation {
             }
         }
     }
-    let parts = parts(system, at, &gradient);
+    let gradients = gradients(system, at, &gradient);
     // A relation does not depend on time itself; what its rate has beyond Φ_q q̇ is that of driven features.
-    let along: f64 = parts.iter().map(|p| p.gradient.dot(&at.bodies()[p.body].q_dot)).sum();
-    Equation { value, nu: along - rate, gamma: -curvature, parts }
+    let along: f64 = gradients.iter().map(|p| p.gradient.dot(&at.bodies()[p.body].q_dot)).sum();
+    Equation { value, nu: along - rate, gamma: -curvature, gradients }
 }
 
 /// Cᵀ g of each feature, summed by body, bodies in their order.
-fn parts(system: &System, at: &State, gradient: &[(FeatureId, Vector3<f64>, bool)]) -> Vec<Part> {
-    let mut list: Vec<Part> = Vec::with_capacity(2);
+fn gradients(system: &System, at: &State, gradient: &[(FeatureId, Vector3<f64>, bool)]) -> Vec<BodyGradient> {
+    let mut list: Vec<BodyGradient> = Vec::with_capacity(2);
     for &(feature, g, constant) in gradient {
         let local = at.feature_local(system, feature);
         let feature = &system.features[feature];
         let BodyRef::Moving(body) = feature.body else { continue };
         let place = list.iter().position(|p| p.body == body).unwrap_or_else(|| {
-            list.push(Part { body, gradient: Lift::default(), touched: [false; 4], constant: true });
+            list.push(BodyGradient {
+                body,
+                gradient: NaturalCoordinates::default(),
+                touched: [false; 4],
+                constant: true,
+            });
             list.len() - 1
         });
-        let part = &mut list[place];
+        let own = &mut list[place];
         if feature.point {
-            part.gradient.r += g;
-            part.touched[0] = true;
+            own.gradient.r += g;
+            own.touched[0] = true;
         }
         for k in 0..3 {
-            part.gradient.e[k] += g * local[k];
-            part.touched[k + 1] |= local[k] != 0.0 || feature.curve.is_some();
+            own.gradient.e[k] += g * local[k];
+            own.touched[k + 1] |= local[k] != 0.0 || feature.curve.is_some();
         }
-        part.constant &= constant && feature.curve.is_none();
+        own.constant &= constant && feature.curve.is_none();
     }
-    list.sort_by_key(|part| part.body);
+    list.sort_by_key(|own| own.body);
     list
 }
 
@@ -224,19 +229,19 @@ pub fn nu(system: &System, at: &State) -> Vec<f64> {
 
 /// γ of all rows, Φ_q q̈ = γ — eq. (4.2).
 pub fn gamma(system: &System, at: &State) -> Vec<f64> {
-    gamma_parts(system, at).into_iter().map(|[lifted, reduced]| lifted + reduced).collect()
+    gamma_parts(system, at).into_iter().map(|[natural, reduced]| natural + reduced).collect()
 }
 
-/// γ of all rows in its two parts: that of the lifted coordinates, and −Φ_Q V̇ q̇ of reduced bodies — eq. (3.3).
+/// γ of all rows in its two parts: that of the natural coordinates, and −Φ_Q V̇ q̇ of reduced bodies — eq. (3.3).
 pub fn gamma_parts(system: &System, at: &State) -> Vec<[f64; 2]> {
     at.require_velocities();
     // For a reduced body V̇ q̇ = (0, 0, 0, 2 u̇ × v̇).
-    let reduced = |part: &Part| match system.bodies[part.body].coordinates {
+    let reduced = |own: &BodyGradient| match system.bodies[own.body].coordinates {
         Coordinates::Full | Coordinates::Shared => 0.0,
         Coordinates::Reduced => {
-            let rate = &at.bodies()[part.body].q_dot;
-            part.gradient.e[2].dot(&(2.0 * rate.e[0].cross(&rate.e[1])))
+            let rate = &at.bodies()[own.body].q_dot;
+            own.gradient.e[2].dot(&(2.0 * rate.e[0].cross(&rate.e[1])))
         }
     };
-    all(system, at).map(|e| [e.gamma, -e.parts.iter().map(reduced).sum::<f64>()]).collect()
+    all(system, at).map(|e| [e.gamma, -e.gradients.iter().map(reduced).sum::<f64>()]).collect()
 }

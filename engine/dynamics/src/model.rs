@@ -20,9 +20,9 @@ pub use driver::{DriverKind, ModelDriver};
 pub use error::ModelError;
 pub use event::{EventQuantity, ModelEvent};
 pub use joint::{ModelJoint, director_along};
-pub use load::{Element, LoadKind, ModelLoad};
+pub use load::{ForceLaw, LoadKind, ModelLoad};
 
-use crate::scene::{Scene, Settings, Stabilization};
+use crate::scene::{ConstraintMethod, Scene, Settings};
 use nalgebra::Vector3;
 use reader::Reader;
 use std::collections::HashMap;
@@ -155,17 +155,17 @@ fn check_settings(settings: &Settings) -> Result<(), ModelError> {
     if let Some(step) = settings.step {
         range("step", step, 1e-9, 1e3)?;
     }
-    match settings.stabilization {
-        Stabilization::Projection | Stabilization::Partitioning => Ok(()),
-        Stabilization::Baumgarte { alpha, beta } => {
+    match settings.constraint_method {
+        ConstraintMethod::Projection | ConstraintMethod::Partitioning => Ok(()),
+        ConstraintMethod::Baumgarte { alpha, beta } => {
             range("stabilization/alpha", alpha, 0.0, 1e6)?;
             range("stabilization/beta", beta, 0.0, 1e6)
         }
-        Stabilization::Penalty { alpha, omega, mu } => {
+        ConstraintMethod::Penalty { alpha, omega, mu } => {
             range("stabilization/alpha", alpha, 1e-3, 1e15)?;
             range("stabilization/omega", omega, 0.0, 1e6)?;
             range("stabilization/mu", mu, 0.0, 1e3)
         }
-        Stabilization::AugmentedLagrangian { alpha } => range("stabilization/alpha", alpha, 1e-3, 1e15),
+        ConstraintMethod::AugmentedLagrangian { alpha } => range("stabilization/alpha", alpha, 1e-3, 1e15),
     }
 }

@@ -21,16 +21,16 @@ use crate::model::BodyRef;
 use crate::model::motion::Jet;
 use crate::system::System;
 use crate::system::feature::{FeatureId, Target};
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
 /// What is known of a body at one state.
 #[derive(Clone, Debug, Default)]
 pub struct BodyState {
     /// Position Q.
-    pub q: Lift,
+    pub q: NaturalCoordinates,
     /// Velocity Q̇.
-    pub q_dot: Lift,
+    pub q_dot: NaturalCoordinates,
 }
 
 /// What is known of a feature at one state.
@@ -126,7 +126,7 @@ impl State {
 
     /// Takes over positions that are given body by body; the third director of a reduced body need not be a product.
     /// Velocities are to follow.
-    pub fn set_natural_positions(&mut self, system: &System, positions: &[Lift]) {
+    pub fn set_natural_positions(&mut self, system: &System, positions: &[NaturalCoordinates]) {
         for (state, q) in self.bodies.iter_mut().zip(positions) {
             state.q = *q;
         }
@@ -143,7 +143,7 @@ impl State {
     }
 
     /// Takes over velocities that are given body by body.
-    pub fn set_natural_velocities(&mut self, system: &System, velocities: &[Lift]) {
+    pub fn set_natural_velocities(&mut self, system: &System, velocities: &[NaturalCoordinates]) {
         self.require(Stage::Positions);
         for (state, q_dot) in self.bodies.iter_mut().zip(velocities) {
             state.q_dot = *q_dot;

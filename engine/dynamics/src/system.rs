@@ -33,16 +33,16 @@ use crate::system::body::Body;
 use crate::system::event::EventFunction;
 use crate::system::feature::{Feature, TargetCurve};
 use crate::system::load::Load;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
-use crate::system::row_builder::{LabelledForm, Writer, WrittenGroup};
+use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
 use nalgebra::Vector3;
 use std::ops::Range;
 use std::sync::Arc;
 
 /// The rows of one joint or driver.
 #[derive(Clone, Debug)]
-pub struct Group {
+pub struct Constraint {
     /// Name of the joint or driver.
     pub name: String,
     /// Whether it is a driver.
@@ -65,7 +65,7 @@ pub struct Group {
 #[derive(Clone, Copy, Debug)]
 pub struct Incidence {
     /// The joint.
-    pub group: usize,
+    pub constraint: usize,
     /// The body.
     pub body: usize,
     /// Offset of the block (rows are contiguous).
@@ -132,7 +132,7 @@ pub struct System {
     /// The rows.
     pub rows: Vec<Row>,
     /// The joints.
-    pub groups: Vec<Group>,
+    pub constraints: Vec<Constraint>,
     /// Where joints meet bodies.
     pub incidences: Vec<Incidence>,
     /// For each body, the incidences that touch it.
@@ -146,7 +146,7 @@ pub struct System {
     /// Number of joint rows in the solver.
     pub solver_rows: usize,
     /// Numbers in all incidence blocks.
-    pub block_numbers: usize,
+    pub block_entries: usize,
     /// A length of the mechanism, m: the largest local coordinate of a joint's point, or 1.
     pub length: f64,
 }
@@ -154,21 +154,21 @@ pub struct System {
 impl System {
     /// Assembles a model.
     pub fn new(model: Model) -> Self {
-        let mut writer = Writer::default();
+        let mut builder = RowBuilder::default();
         for joint in &model.joints {
-            joint::write(&model, joint, &mut writer);
+            joint::write(&model, joint, &mut builder);
         }
         for driver in &model.drivers {
-            driver::write(&model, driver, &mut writer);
+            driver::write(&model, driver, &mut builder);
         }
-        let mut loads: Vec<Load> = model.loads.iter().map(|l| Load::new(&model, l, &mut writer)).collect();
+        let mut loads: Vec<Load> = model.loads.iter().map(|l| Load::new(&model, l, &mut builder)).collect();
         let event_functions =
-            model.events.iter().map(|event| EventFunction::new(&model, event, &mut writer)).collect();
-        let place = writer.sort_features();
+            model.events.iter().map(|event| EventFunction::new(&model, event, &mut builder)).collect();
+        let place = builder.sort_features();
         for load in &mut loads {
             load.rename(&place);
         }
-        let Writer { features, curves, targets, angles, angle_joints, groups, .. } = writer;
+        let RowBuilder { features, curves, targets, angles, angle_joints, constraints, .. } = builder;
         let mut system = Self {
             bodies: Vec::with_capacity(model.bodies.len()),
             moving: features.iter().filter(|f| !f.is_fixed() && f.curve.is_none()).count(),
@@ -181,21 +181,21 @@ impl System {
             loads,
             event_functions,
             rows: Vec::new(),
-            groups: Vec::with_capacity(groups.len()),
+            constraints: Vec::with_capacity(constraints.len()),
             incidences: Vec::new(),
             incidences_of_body: vec![Vec::new(); model.bodies.len()],
             coordinates: 0,
             rigid_rows: 0,
             equations: 0,
             solver_rows: 0,
-            block_numbers: 0,
+            block_entries: 0,
             length: 1.0,
             model,
         };
         system.length = system.characteristic_length();
         system.add_bodies();
-        for group in groups {
-            system.add_group(group);
+        for constraint in constraints {
+            system.add_constraint(constraint);
         }
         system
     }
@@ -248,9 +248,9 @@ impl System {
         }
     }
 
-    fn add_group(&mut self, written: WrittenGroup) {
-        let WrittenGroup { name, forms, bodies: pair, points, driver } = written;
-        let index = self.groups.len();
+    fn add_constraint(&mut self, written: ConstraintBlock) {
+        let ConstraintBlock { name, forms, bodies: pair, points, driver } = written;
+        let index = self.constraints.len();
         let size: usize = forms.iter().map(|row| row.form.independent()).sum();
         let first = self.incidences.len();
         let mut bodies: Vec<usize> = forms
@@ -265,8 +265,13 @@ impl System {
         bodies.dedup();
         for body in bodies {
             self.incidences_of_body[body].push(self.incidences.len());
-            self.incidences.push(Incidence { group: index, body, offset: self.block_numbers, rows: size });
-            self.block_numbers += 6 * size;
+            self.incidences.push(Incidence {
+                constraint: index,
+                body,
+                offset: self.block_entries,
+                rows: size,
+            });
+            self.block_entries += 6 * size;
         }
         let (first_form, first_equation) = (self.rows.len(), self.equations);
         let mut local = 0;
@@ -290,7 +295,7 @@ impl System {
             self.equations += if implied { 0 } else { form.equations() };
             local += form.independent();
         }
-        self.groups.push(Group {
+        self.constraints.push(Constraint {
             name,
             driver,
             bodies: pair,
@@ -305,7 +310,8 @@ impl System {
 
     /// Whether nothing but weight and springs acts: then the energy stays what it is.
     pub fn is_conservative(&self) -> bool {
-        !self.groups.iter().any(|group| group.driver) && self.loads.iter().all(Load::is_conservative)
+        !self.constraints.iter().any(|constraint| constraint.driver)
+            && self.loads.iter().all(Load::is_conservative)
     }
 
     /// Whether any body has no inertia about some axis.
@@ -322,9 +328,9 @@ impl System {
     pub fn start_of(&self, bodies: &[ModelBody], q: &mut [f64], q_dot: &mut [f64]) {
         for (body, model) in self.bodies.iter().zip(bodies) {
             let e = [0, 1, 2].map(|k| model.directors.column(k).into_owned());
-            body.layout.store(&Lift { r: model.position, e }, q);
+            body.layout.store(&NaturalCoordinates { r: model.position, e }, q);
             let e_dot = e.map(|e| model.angular_velocity.cross(&e));
-            body.layout.store(&Lift { r: model.velocity, e: e_dot }, q_dot);
+            body.layout.store(&NaturalCoordinates { r: model.velocity, e: e_dot }, q_dot);
         }
     }
 }

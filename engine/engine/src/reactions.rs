@@ -55,9 +55,9 @@ pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
         BodyRef::Ground => crate::scene::GROUND.to_owned(),
         BodyRef::Moving(body) => system.model.bodies[body].name.clone(),
     };
-    let mut joints = Vec::with_capacity(system.groups.len());
-    for group in &system.groups {
-        let rows = group
+    let mut joints = Vec::with_capacity(system.constraints.len());
+    for constraint in &system.constraints {
+        let rows = constraint
             .forms
             .clone()
             .flat_map(|index| {
@@ -67,19 +67,20 @@ pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
             })
             .map(|(label, value)| Multiplier { label, value })
             .collect();
-        let side = usize::from(group.bodies[1] != BodyRef::Ground);
-        let BodyRef::Moving(body) = group.bodies[side] else { continue };
-        let Some(incidence) = group.incidences.clone().find(|&i| system.incidences[i].body == body) else {
+        let side = usize::from(constraint.bodies[1] != BodyRef::Ground);
+        let BodyRef::Moving(body) = constraint.bodies[side] else { continue };
+        let Some(incidence) = constraint.incidences.clone().find(|&i| system.incidences[i].body == body)
+        else {
             continue;
         };
         let [force, about_center] = at.wrench_on(incidence);
         let q = &at.state.bodies()[body].q;
-        let arm = q.arm(&group.points[side]);
+        let arm = q.arm(&constraint.points[side]);
         joints.push(JointMultipliers {
-            joint: group.name.clone(),
+            joint: constraint.name.clone(),
             rows,
-            on: name(group.bodies[side]),
-            by: name(group.bodies[1 - side]),
+            on: name(constraint.bodies[side]),
+            by: name(constraint.bodies[1 - side]),
             force: force.into(),
             moment: (about_center - arm.cross(&force)).into(),
             about: (q.r + arm).into(),

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::equations::jacobian::Jacobian;
 use triad_engine::model::Model;
 use triad_engine::reactions::rigid_multipliers;
@@ -223,11 +223,11 @@ fn single_bodies_accelerate_as_the_check_vectors_say() {
             assert!(error < 1e-12, "{} {what}: off by {error}", case.body);
         };
         close(&acceleration, &case.qddot, "q̈");
-        let literal = Literal::new(&system, &at);
+        let augmented = AugmentedSystem::new(&system, &at);
         for (row, expected) in case.mass.iter().enumerate() {
-            close(literal.mass.row(row).transpose().as_slice(), expected, "M");
+            close(augmented.mass.row(row).transpose().as_slice(), expected, "M");
         }
-        close(literal.force.as_slice(), &case.g_total_including_velocity_term, "g");
+        close(augmented.force.as_slice(), &case.g_total_including_velocity_term, "g");
         let multipliers: Vec<f64> =
             rigid_multipliers(&found).iter().flat_map(|b| b.rows.iter().map(|m| m.value)).collect();
         close(&multipliers, &case.multipliers, "λ");

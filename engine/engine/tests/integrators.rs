@@ -1,11 +1,11 @@
-//! Every integrator and treatment keeps its order, and the structure-preserving ones their invariants.
+//! Every integrator with every constraint method keeps its order, and the structure-preserving ones their invariants.
 
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use triad_engine::Scene;
 use triad_engine::catalogue;
 use triad_engine::run::{Frame, Simulation};
-use triad_engine::scene::{IntegratorKind, Stabilization};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind};
 
 /// Largest distance of centres of mass.
 fn apart(a: &Frame, b: &Frame) -> f64 {
@@ -21,9 +21,9 @@ fn scene(name: &str, duration: f64) -> Scene {
     scene
 }
 
-fn treated(mut scene: Scene, integrator: IntegratorKind, treatment: Stabilization) -> Scene {
+fn treated(mut scene: Scene, integrator: IntegratorKind, method: ConstraintMethod) -> Scene {
     scene.simulation.integrator = integrator;
-    scene.simulation.stabilization = treatment;
+    scene.simulation.constraint_method = method;
     scene
 }
 
@@ -34,9 +34,9 @@ fn end(scene: &Scene) -> (Frame, Simulation) {
 }
 
 /// Observed order at the end of a run when the steps become half as large.
-fn order(name: &str, integrator: IntegratorKind, treatment: Stabilization, step: f64) -> f64 {
-    let scene = treated(scene(name, 0.48), integrator, treatment);
-    let reference = end(&treated(scene.clone(), IntegratorKind::Dop853, Stabilization::Projection)).0;
+fn order(name: &str, integrator: IntegratorKind, method: ConstraintMethod, step: f64) -> f64 {
+    let scene = treated(scene(name, 0.48), integrator, method);
+    let reference = end(&treated(scene.clone(), IntegratorKind::Dop853, ConstraintMethod::Projection)).0;
     let error = |step: f64| {
         let mut scene = scene.clone();
         scene.simulation.step = Some(step);
@@ -52,34 +52,34 @@ fn order(name: &str, integrator: IntegratorKind, treatment: Stabilization, step:
 #[test]
 fn each_method_has_its_order_on_constrained_mechanisms() {
     use IntegratorKind::{Dop853, Dopri5, Radau, Rattle, Trapezoidal};
-    let augmented = Stabilization::AugmentedLagrangian { alpha: 1e9 };
-    let feedback = Stabilization::Baumgarte { alpha: 5.0, beta: 5.0 };
-    let penalty = Stabilization::Penalty { alpha: 1e8, omega: 10.0, mu: 1.0 };
+    let augmented = ConstraintMethod::AugmentedLagrangian { alpha: 1e9 };
+    let feedback = ConstraintMethod::Baumgarte { alpha: 5.0, beta: 5.0 };
+    let penalty = ConstraintMethod::Penalty { alpha: 1e8, omega: 10.0, mu: 1.0 };
     let cases = [
-        (Dop853, Stabilization::Projection, 8.0, 0.08),
-        (Dopri5, Stabilization::Projection, 5.0, 0.02),
-        (Radau, Stabilization::Projection, 5.0, 0.04),
-        (Rattle, Stabilization::Projection, 6.0, 0.04),
-        (Dop853, Stabilization::Partitioning, 8.0, 0.08),
-        (Dopri5, Stabilization::Partitioning, 5.0, 0.02),
-        (Radau, Stabilization::Partitioning, 5.0, 0.04),
+        (Dop853, ConstraintMethod::Projection, 8.0, 0.08),
+        (Dopri5, ConstraintMethod::Projection, 5.0, 0.02),
+        (Radau, ConstraintMethod::Projection, 5.0, 0.04),
+        (Rattle, ConstraintMethod::Projection, 6.0, 0.04),
+        (Dop853, ConstraintMethod::Partitioning, 8.0, 0.08),
+        (Dopri5, ConstraintMethod::Partitioning, 5.0, 0.02),
+        (Radau, ConstraintMethod::Partitioning, 5.0, 0.04),
         (Dopri5, feedback, 5.0, 0.02),
         (Dopri5, penalty, 5.0, 0.04),
         (Trapezoidal, augmented, 2.0, 0.005),
     ];
-    for (integrator, treatment, expected, step) in cases {
+    for (integrator, method, expected, step) in cases {
         let check = |name: &str, step: f64, most: f64| {
-            let found = order(name, integrator, treatment, step);
-            println!("{name} {integrator:?} {treatment}: {found:.2}");
+            let found = order(name, integrator, method, step);
+            println!("{name} {integrator:?} {method}: {found:.2}");
             assert!(
                 found > expected - 0.6 && found < most,
-                "{name}, {integrator:?} with {treatment}: order {found:.2} instead of {expected}"
+                "{name}, {integrator:?} with {method}: order {found:.2} instead of {expected}"
             );
         };
         check("spatial-double-pendulum", step, expected + 1.8);
         // A closed loop moves more slowly at first: its steps are longer, so that the errors stand above rounding, and
         // where that leaves only two or three of them the order may seem higher than it is.
-        let few = integrator == Dop853 && treatment == Stabilization::Partitioning;
+        let few = integrator == Dop853 && method == ConstraintMethod::Partitioning;
         check("n-four-bar:2", if few { 3.0 } else { 2.0 } * step, expected + 2.5);
     }
 }
@@ -89,7 +89,7 @@ fn floating() -> Scene {
     let mut scene = scene("spatial-chain:3", 60.0);
     scene.joints.remove(0);
     scene.gravity = [0.0; 3];
-    treated(scene, IntegratorKind::Rattle, Stabilization::Projection)
+    treated(scene, IntegratorKind::Rattle, ConstraintMethod::Projection)
 }
 
 fn angular_momentum(run: &mut Simulation) -> [f64; 3] {
@@ -134,7 +134,7 @@ fn rattle_is_symmetric_in_time() {
     for name in ["spatial-chain:3", "spatial-double-pendulum", "n-four-bar:2"] {
         // The loop only as far as its first singular position.
         let duration = if name == "n-four-bar:2" { 0.6 } else { 2.0 };
-        let mut scene = treated(scene(name, duration), IntegratorKind::Rattle, Stabilization::Projection);
+        let mut scene = treated(scene(name, duration), IntegratorKind::Rattle, ConstraintMethod::Projection);
         scene.simulation.step = Some(0.02);
         let start = Simulation::new(&scene).unwrap().frame();
         let (_, run) = end(&scene);
@@ -150,10 +150,10 @@ fn rattle_is_symmetric_in_time() {
 fn partitioning_satisfies_the_constraints_at_every_output_and_passes_full_turns() {
     // Turns over the top: no coordinate can be the independent one all the time.
     let mut scene =
-        treated(scene("simple-pendulum", 4.0), IntegratorKind::Dop853, Stabilization::Partitioning);
+        treated(scene("simple-pendulum", 4.0), IntegratorKind::Dop853, ConstraintMethod::Partitioning);
     scene.simulation.tolerance = 1e-9;
     scene.bodies[0].velocity[2] -= 7.0;
-    let reference = treated(scene.clone(), IntegratorKind::Dop853, Stabilization::Projection);
+    let reference = treated(scene.clone(), IntegratorKind::Dop853, ConstraintMethod::Projection);
     let mut reference = Simulation::new(&reference).unwrap();
     let mut run = Simulation::new(&scene).unwrap();
     for step in 1..=100 {
@@ -171,9 +171,9 @@ fn partitioning_satisfies_the_constraints_at_every_output_and_passes_full_turns(
 #[test]
 fn penalties_converge_to_the_constrained_motion_as_they_grow() {
     let plain = scene("spatial-double-pendulum", 1.0);
-    let reference = end(&treated(plain.clone(), IntegratorKind::Dop853, Stabilization::Projection)).0;
+    let reference = end(&treated(plain.clone(), IntegratorKind::Dop853, ConstraintMethod::Projection)).0;
     let error = |alpha: f64| {
-        let penalty = Stabilization::Penalty { alpha, omega: 10.0, mu: 1.0 };
+        let penalty = ConstraintMethod::Penalty { alpha, omega: 10.0, mu: 1.0 };
         let mut scene = treated(plain.clone(), IntegratorKind::Dop853, penalty);
         scene.simulation.tolerance = 1e-9;
         apart(&end(&scene).0, &reference)
@@ -186,8 +186,8 @@ fn penalties_converge_to_the_constrained_motion_as_they_grow() {
 #[test]
 fn the_augmented_lagrangian_follows_its_tolerance_and_keeps_all_constraints() {
     let plain = scene("spatial-double-pendulum", 1.0);
-    let reference = end(&treated(plain.clone(), IntegratorKind::Dop853, Stabilization::Projection)).0;
-    let augmented = Stabilization::AugmentedLagrangian { alpha: 1e9 };
+    let reference = end(&treated(plain.clone(), IntegratorKind::Dop853, ConstraintMethod::Projection)).0;
+    let augmented = ConstraintMethod::AugmentedLagrangian { alpha: 1e9 };
     let mut last = f64::INFINITY;
     for tolerance in [1e-5, 1e-7, 1e-9] {
         let mut scene = treated(plain.clone(), IntegratorKind::Auto, augmented);
@@ -208,15 +208,15 @@ fn the_augmented_lagrangian_follows_its_tolerance_and_keeps_all_constraints() {
 
 #[test]
 fn an_integrator_that_a_treatment_does_not_know_is_replaced_with_the_reason() {
-    let feedback = Stabilization::Baumgarte { alpha: 5.0, beta: 5.0 };
-    let augmented = Stabilization::AugmentedLagrangian { alpha: 1e9 };
-    for (integrator, treatment, instead) in [
+    let feedback = ConstraintMethod::Baumgarte { alpha: 5.0, beta: 5.0 };
+    let augmented = ConstraintMethod::AugmentedLagrangian { alpha: 1e9 };
+    for (integrator, method, instead) in [
         (IntegratorKind::Radau, feedback, IntegratorKind::Dop853),
-        (IntegratorKind::Rattle, Stabilization::Partitioning, IntegratorKind::Dop853),
-        (IntegratorKind::Trapezoidal, Stabilization::Projection, IntegratorKind::Dop853),
+        (IntegratorKind::Rattle, ConstraintMethod::Partitioning, IntegratorKind::Dop853),
+        (IntegratorKind::Trapezoidal, ConstraintMethod::Projection, IntegratorKind::Dop853),
         (IntegratorKind::Dop853, augmented, IntegratorKind::Trapezoidal),
     ] {
-        let scene = treated(scene("simple-pendulum", 0.01), integrator, treatment);
+        let scene = treated(scene("simple-pendulum", 0.01), integrator, method);
         let summary = Simulation::new(&scene).unwrap().summary();
         assert_eq!(summary.integrator, instead);
         assert!(summary.reason.contains(&integrator.to_string()), "{}", summary.reason);
@@ -273,11 +273,11 @@ fn stiff_loads_cost_few_steps_and_auto_knows_them() {
 
 #[test]
 fn what_is_looked_at_between_steps_does_not_change_a_run_in_a_chart() {
-    for (integrator, treatment) in [
-        (IntegratorKind::Radau, Stabilization::Projection),
-        (IntegratorKind::Dop853, Stabilization::Partitioning),
+    for (integrator, method) in [
+        (IntegratorKind::Radau, ConstraintMethod::Projection),
+        (IntegratorKind::Dop853, ConstraintMethod::Partitioning),
     ] {
-        let mut scene = treated(scene("n-four-bar:2", 2.0), integrator, treatment);
+        let mut scene = treated(scene("n-four-bar:2", 2.0), integrator, method);
         scene.simulation.tolerance = 1e-5;
         let (frame, _) = end(&scene);
         let mut looked = Simulation::new(&scene).unwrap();

@@ -7,7 +7,7 @@ use common::{random_scene, start, table};
 use nalgebra::Vector3;
 use triad_engine::analysis::check::check;
 use triad_engine::catalogue;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::model::BodyRef;
 use triad_engine::reactions::report::{
     About, Component, Convention, ExpressedIn, Reaction, ReactionReport, Side,
@@ -300,18 +300,18 @@ fn all_rows_and_the_solver_rows_mark_the_same() {
         let report = simulation.reactions(on(Side::J, About::WorldPoint([0.0; 3]))).unwrap();
         let (system, ..) = start(&scene);
         let at = State::at(&system, 0.0, simulation.q(), simulation.q_dot());
-        let jacobian = Literal::new(&system, &at).jacobian;
+        let jacobian = AugmentedSystem::new(&system, &at).jacobian;
         let null = left_null_space(&jacobian, 1e-9);
         assert!(jacobian.tr_mul(&null).amax() < 1e-13);
         let redundant: usize = report.redundancies.iter().map(|r| r.rows).sum();
         assert_eq!(null.ncols(), redundant + common_vectors, "{}", scene.name);
-        for (group, reaction) in system.groups.iter().zip(&report.reactions) {
-            let BodyRef::Moving(body) = group.bodies[1] else { continue };
+        for (constraint, reaction) in system.constraints.iter().zip(&report.reactions) {
+            let BodyRef::Moving(body) = constraint.bodies[1] else { continue };
             let (first, state) = (system.bodies[body].layout.first, &at.bodies()[body]);
             let mut changes = [0.0f64; 6];
             for k in 0..null.ncols() {
                 let part = |at: usize| -> f64 {
-                    group
+                    constraint
                         .equations
                         .clone()
                         .map(|e| system.rigid_rows + e)

@@ -153,7 +153,7 @@ proptest! {
 
 /// A chain with each kind of joint, driven, far from consistent: Φ_q q̈ = γ holds for what the elimination returns.
 #[test]
-fn accelerations_satisfy_the_literal_rows() {
+fn accelerations_satisfy_the_written_rows() {
     for kinds in [["full", "full", "full"], ["reduced", "reduced", "reduced"], ["full", "reduced", "full"]] {
         let mut scene = scene(kinds);
         scene.joints.retain(|j| ["rev", "rev2", "cyl", "gear"].contains(&j.name.as_str()));

@@ -102,8 +102,8 @@ fn automatic_choice_says_why() {
     let summary = Simulation::new(&scene).unwrap().summary();
     assert_eq!(summary.integrator, IntegratorKind::Taylor);
     assert!(!summary.reason.is_empty());
-    scene.simulation.stabilization =
-        triad_engine::scene::Stabilization::Baumgarte { alpha: 10.0, beta: 10.0 };
+    scene.simulation.constraint_method =
+        triad_engine::scene::ConstraintMethod::Baumgarte { alpha: 10.0, beta: 10.0 };
     let summary = Simulation::new(&scene).unwrap().summary();
     assert_eq!(summary.integrator, IntegratorKind::Dop853);
     assert!(summary.reason.contains("baumgarte"));

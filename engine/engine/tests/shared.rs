@@ -4,7 +4,7 @@
 use triad_engine::analysis::check::check;
 use triad_engine::catalogue;
 use triad_engine::dynamics::elimination::Elimination;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::model::Model;
 use triad_engine::run::Simulation;
 use triad_engine::scene::{AxisRows, Coordinates, Scene};
@@ -63,10 +63,10 @@ fn sharing_removes_coordinates_and_rows_but_no_freedom() {
     assert_eq!((explicit.redundant.len(), shared.redundant.len()), (1, 0));
 }
 
-/// The literal equations in the shared coordinates, whose mass matrix couples the bodies, give the accelerations that
+/// The augmented system in the shared coordinates, whose mass matrix couples the bodies, gives the accelerations that
 /// the elimination gives.
 #[test]
-fn the_literal_equations_agree() {
+fn the_augmented_system_agree() {
     let system = System::new(Model::new(&scene("shared")).unwrap());
     let n = system.coordinates;
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
@@ -74,7 +74,7 @@ fn the_literal_equations_agree() {
     let at = State::at(&system, 0.0, &q, &v);
     let mut acceleration = vec![0.0; n];
     Elimination::new(&system).accelerate(&system, &at, (0.0, 0.0)).write(&mut acceleration);
-    let solution = Literal::new(&system, &at).solve().unwrap().acceleration;
+    let solution = AugmentedSystem::new(&system, &at).solve().unwrap().acceleration;
     for k in 0..n {
         assert!((solution[k] - acceleration[k]).abs() < 1e-9, "{k}: {} {}", solution[k], acceleration[k]);
     }

@@ -8,7 +8,7 @@ use common::Random;
 use triad_engine::prelude::*;
 use triad_engine::reactions::report::{Convention, ReactionReport};
 use triad_engine::run::Frame;
-use triad_engine::scene::Stabilization;
+use triad_engine::scene::ConstraintMethod;
 
 /// What a fresh run shows at time t, or how it fails.
 fn shown(scene: &Scene, t: f64) -> (Frame, Result<ReactionReport, EngineError>) {
@@ -60,15 +60,15 @@ fn singular_positions_are_told_as_they_ran() {
 #[test]
 fn every_treatment_is_told_as_it_ran() {
     let scene = catalogue::scene("simple-pendulum").unwrap();
-    for treatment in [
-        Stabilization::Projection,
-        Stabilization::Partitioning,
-        Stabilization::Baumgarte { alpha: 5.0, beta: 5.0 },
-        Stabilization::Penalty { alpha: 1e7, omega: 10.0, mu: 1.0 },
-        Stabilization::AugmentedLagrangian { alpha: 1e7 },
+    for method in [
+        ConstraintMethod::Projection,
+        ConstraintMethod::Partitioning,
+        ConstraintMethod::Baumgarte { alpha: 5.0, beta: 5.0 },
+        ConstraintMethod::Penalty { alpha: 1e7, omega: 10.0, mu: 1.0 },
+        ConstraintMethod::AugmentedLagrangian { alpha: 1e7 },
     ] {
         let mut scene = scene.clone();
-        scene.simulation.stabilization = treatment;
+        scene.simulation.constraint_method = method;
         compare(&scene, 0.3);
     }
 }

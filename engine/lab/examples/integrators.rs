@@ -39,7 +39,7 @@ const ERRORS: [f64; 3] = [1e-4, 1e-6, 1e-9];
 const ENOUGH: f64 = 0.06;
 /// A run that takes longer, s, does not count.
 const TOO_LONG: f64 = 2.0;
-const MOST_STEPS: usize = 200_000;
+const MAX_STEPS: usize = 200_000;
 
 /// Loads and drivers for the chain of three rods on oblique hinges that [`acted`] makes.
 fn actions() -> Vec<(&'static str, serde_json::Value)> {
@@ -154,7 +154,7 @@ fn run(scene: &Scene, kind: IntegratorKind, tolerance: f64, sample: bool) -> Opt
     let mut integrator = Integrator::start(kind, &mut mechanism, 0.0, &y);
     let (end, mut places, mut next) = (scene.simulation.duration.min(5.0), Vec::new(), 1);
     let clock = Clock::start();
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         integrator.step(&mut mechanism, end).ok()?;
         while sample && 0.1 * f64::from(next) <= integrator.last().t {
             integrator.interpolate(&mut mechanism, 0.1 * f64::from(next), &mut y);

@@ -1,4 +1,4 @@
-//! Run time against error: scenes × integrators × treatments × kinds of bodies × tolerances, measured in turns, with
+//! Run time against error: scenes × integrators × constraint methods × kinds of bodies × tolerances, measured in turns, with
 //! references of their own.
 //!
 //! Times are of integration alone, on one thread, without assembly and output. Every run is repeated and the repeats

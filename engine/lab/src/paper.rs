@@ -1,7 +1,7 @@
 //! The demonstrative examples of the paper, with the paper's own settings.
 //!
 //! Gonçalves, Roupa, Flores and Tavares da Silva, Mechanism and Machine Theory (2025) 105955, section 5: ode45 with its
-//! default options, Baumgarte's stabilization with 2α and β², the literal equations of motion with the redundant rows
+//! default options, Baumgarte's stabilization with 2α and β², the augmented system with the redundant rows
 //! dropped once, at the start. Nothing here measures time: the caller does.
 //!
 //! The counts of the N-four-bar mechanisms hang on rounding at their singular positions: another order of elimination,
@@ -20,7 +20,7 @@ use serde::Serialize;
 use triad_engine::EngineError;
 use triad_engine::integrate::{Explicit, ODE45_TOLERANCE, OdeMethod};
 use triad_engine::run::Simulation;
-use triad_scene::{Coordinates, IntegratorKind, Scene, Settings, Stabilization};
+use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind, Scene, Settings};
 
 /// Interval at which two runs are compared, s.
 const EVERY: f64 = 0.01;
@@ -159,7 +159,7 @@ pub fn reference(case: &Case) -> Result<Vec<f64>, PaperError> {
         every: EVERY,
         integrator: IntegratorKind::Dop853,
         tolerance: REFERENCE_TOLERANCE,
-        stabilization: Stabilization::Projection,
+        constraint_method: ConstraintMethod::Projection,
         ..Settings::default()
     };
     let mut simulation = Simulation::new(&scene)?;

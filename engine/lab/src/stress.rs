@@ -8,6 +8,7 @@
 mod build;
 mod large;
 mod long;
+mod methods;
 mod oracle;
 pub mod random;
 mod redundant;
@@ -16,7 +17,6 @@ pub mod shrink;
 mod singular;
 mod starts;
 mod stiff;
-mod treatments;
 mod trial;
 
 pub use trial::Trial;
@@ -24,7 +24,7 @@ pub use trial::Trial;
 use serde::Serialize;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use triad_scene::{IntegratorKind, Scene, Stabilization};
+use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 
 /// What became of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -54,25 +54,25 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// How scenes are run.
+/// How the scenes of a case are run, where that differs from what they say.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Treatment {
+pub struct TrialMethod {
     /// Integrator, if not that of the scene.
     pub integrator: Option<IntegratorKind>,
     /// What keeps the constraints satisfied, if not what the scene says.
-    pub stabilization: Option<Stabilization>,
+    pub constraint_method: Option<ConstraintMethod>,
     /// Steps after which a run is stopped, if fewer than the case allows.
-    pub most_steps: Option<u64>,
+    pub max_steps: Option<u64>,
     /// Bodies above which it is not tried, if its matrices are full.
-    pub most_bodies: Option<usize>,
+    pub max_bodies: Option<usize>,
 }
 
-impl Treatment {
+impl TrialMethod {
     /// Applies it to a scene.
     pub fn apply(&self, scene: &mut Scene) {
         let settings = &mut scene.simulation;
         settings.integrator = self.integrator.unwrap_or(settings.integrator);
-        settings.stabilization = self.stabilization.unwrap_or(settings.stabilization);
+        settings.constraint_method = self.constraint_method.unwrap_or(settings.constraint_method);
     }
 }
 
@@ -118,7 +118,7 @@ pub struct Case {
     /// Whether it is part of the quick form.
     pub quick: bool,
     /// Runs it; the flag asks for the quick form.
-    run: fn(&Treatment, bool) -> Outcome,
+    run: fn(&TrialMethod, bool) -> Outcome,
 }
 
 /// A case with what became of it.
@@ -157,26 +157,26 @@ pub fn cases() -> Vec<Case> {
         long::CASES,
         large::CASES,
         starts::CASES,
-        treatments::CASES,
+        methods::CASES,
     ]
     .concat()
 }
 
-/// Which treatment survives what: each integrator and each stabilization with its name.
-pub fn comparison() -> Vec<(String, Treatment)> {
-    treatments::all()
+/// Which method survives what: each integrator and each constraint method with its name.
+pub fn comparison() -> Vec<(String, TrialMethod)> {
+    methods::all()
 }
 
-/// The cases on which treatments are compared.
+/// The cases on which methods are compared.
 pub fn compared() -> Vec<Case> {
     let all = cases();
     let named = |name: &&str| all.iter().find(|case| case.name == *name).copied();
-    treatments::COMPARED.iter().filter_map(named).collect()
+    methods::COMPARED.iter().filter_map(named).collect()
 }
 
 /// Runs a case. A panic is caught and counts as wrong.
-pub fn run(case: &Case, treatment: &Treatment, quick: bool) -> Entry {
-    let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(treatment, quick)))
+pub fn run(case: &Case, method: &TrialMethod, quick: bool) -> Entry {
+    let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(method, quick)))
         .unwrap_or_else(|panic| Outcome::nothing(Verdict::Wrong, format!("panicked: {}", words_of(&*panic))));
     Entry {
         case: case.name.to_owned(),

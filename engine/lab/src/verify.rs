@@ -3,7 +3,7 @@
 use serde::Serialize;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_scene::{IntegratorKind, Scene, Stabilization};
+use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 
 /// Tolerance of the second solution over that of the first.
 const TIGHTER: f64 = 1e-3;
@@ -53,7 +53,7 @@ impl Verifier {
         let settings = &mut scene.simulation;
         let by_first = first.summary().integrator;
         settings.tolerance = (settings.tolerance * TIGHTER).max(TIGHTEST);
-        settings.stabilization = Stabilization::Projection;
+        settings.constraint_method = ConstraintMethod::Projection;
         settings.step = None;
         settings.integrator = match by_first {
             IntegratorKind::Taylor => IntegratorKind::Dop853,

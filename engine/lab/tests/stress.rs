@@ -1,12 +1,12 @@
 //! The stress suite in its quick form: verdicts are as they have to be, the same seed
 //! gives the same bits, and random mechanisms keep their invariants.
 
-use triad_lab::stress::{self, Treatment, Verdict};
+use triad_lab::stress::{self, TrialMethod, Verdict};
 
 #[test]
 fn every_case_goes_as_it_has_to() {
     for case in &stress::cases() {
-        let entry = stress::run(case, &Treatment::default(), true);
+        let entry = stress::run(case, &TrialMethod::default(), true);
         assert!(entry.as_expected(), "{}: {:?}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
     }
 }
@@ -22,8 +22,8 @@ fn names_of_cases_are_unique() {
 
 #[test]
 fn a_seed_means_the_same_bits() {
-    let once = stress::random::run(7, &Treatment::default());
-    let again = stress::random::run(7, &Treatment::default());
+    let once = stress::random::run(7, &TrialMethod::default());
+    let again = stress::random::run(7, &TrialMethod::default());
     assert_eq!(serde_json::to_string(&once).unwrap(), serde_json::to_string(&again).unwrap());
 }
 
@@ -31,7 +31,7 @@ fn a_seed_means_the_same_bits() {
 fn random_mechanisms_are_never_silently_wrong() {
     let seeds = if cfg!(debug_assertions) { 15 } else { 100 };
     for seed in 0..seeds {
-        let entry = stress::random::run(seed, &Treatment::default());
+        let entry = stress::random::run(seed, &TrialMethod::default());
         let outcome = entry.outcome;
         assert!(outcome.verdict < Verdict::Wrong, "seed {seed} ({}): {}", entry.summary, outcome.reason);
     }
@@ -42,9 +42,9 @@ fn no_treatment_is_silently_wrong() {
     let cases = stress::cases();
     for name in ["slider-crank-equal", "micrometre"] {
         let case = cases.iter().find(|case| case.name == name).unwrap();
-        for (treatment, how) in stress::comparison() {
+        for (method, how) in stress::comparison() {
             let outcome = stress::run(case, &how, true).outcome;
-            assert!(outcome.verdict < Verdict::Wrong, "{name}, {treatment}: {}", outcome.reason);
+            assert!(outcome.verdict < Verdict::Wrong, "{name}, {method}: {}", outcome.reason);
         }
     }
 }

@@ -5,7 +5,7 @@
 use triad_engine::run::Simulation;
 use triad_lab::verify::Verifier;
 use triad_scene::catalogue;
-use triad_scene::{IntegratorKind, Stabilization};
+use triad_scene::{ConstraintMethod, IntegratorKind};
 
 /// Those that go through singular positions; rattle stops there.
 const INTEGRATORS: [IntegratorKind; 5] = [
@@ -291,57 +291,57 @@ fn rattle_goes_as_far_as_the_driver_reaches() {
 #[test]
 fn what_a_treatment_does_not_survive_is_told() {
     let exact = window_times(2.0);
-    let end = |treatment: Stabilization| {
+    let end = |method: ConstraintMethod| {
         let mut scene = catalogue::scene("n-four-bar:2").unwrap();
         scene.simulation.integrator = IntegratorKind::Dop853;
-        scene.simulation.stabilization = treatment;
+        scene.simulation.constraint_method = method;
         let mut run = Simulation::new(&scene).unwrap();
         run.advance_to(10.0).unwrap();
         (run.frame().bodies[0].position, run.summary())
     };
-    let (right, projected) = end(Stabilization::Projection);
+    let (right, projected) = end(ConstraintMethod::Projection);
     assert!(projected.doubts.is_empty(), "{:?}", projected.doubts);
-    for treatment in [
-        Stabilization::Baumgarte { alpha: 0.0, beta: 0.0 },
-        Stabilization::Baumgarte { alpha: 1.0, beta: 1.0 },
-        Stabilization::Baumgarte { alpha: 5.0, beta: 5.0 },
-        Stabilization::Penalty { alpha: 1e4, omega: 10.0, mu: 1.0 },
-        Stabilization::Penalty { alpha: 1e7, omega: 10.0, mu: 1.0 },
-        Stabilization::Partitioning,
+    for method in [
+        ConstraintMethod::Baumgarte { alpha: 0.0, beta: 0.0 },
+        ConstraintMethod::Baumgarte { alpha: 1.0, beta: 1.0 },
+        ConstraintMethod::Baumgarte { alpha: 5.0, beta: 5.0 },
+        ConstraintMethod::Penalty { alpha: 1e4, omega: 10.0, mu: 1.0 },
+        ConstraintMethod::Penalty { alpha: 1e7, omega: 10.0, mu: 1.0 },
+        ConstraintMethod::Partitioning,
     ] {
-        let (position, summary) = end(treatment);
+        let (position, summary) = end(method);
         let off = (0..3).map(|k| (position[k] - right[k]).abs()).fold(0.0, f64::max);
-        println!("{treatment:?}: off by {off:.1e}, {:?}", summary.doubts);
+        println!("{method:?}: off by {off:.1e}, {:?}", summary.doubts);
         let first = summary.singularities.first().unwrap();
-        assert!((first.time - exact[0]).abs() < 0.05, "{treatment:?}: {} is not {}", first.time, exact[0]);
+        assert!((first.time - exact[0]).abs() < 0.05, "{method:?}: {} is not {}", first.time, exact[0]);
         let doubts = summary.doubts.join("\n");
         assert!(
             doubts.contains("singular position") && doubts.contains("use projection"),
-            "{treatment:?}: {doubts}"
+            "{method:?}: {doubts}"
         );
         // What is wrong by centimetres is measured, and not only feared.
         let measured = summary.doubts.len() > 1;
-        assert!(measured || off < 1e-2, "{treatment:?}: {off:.1e}, {doubts}");
+        assert!(measured || off < 1e-2, "{method:?}: {off:.1e}, {doubts}");
     }
 }
 
 #[test]
 fn sound_runs_are_not_doubted() {
     for name in ["simple-pendulum", "spatial-double-pendulum", "spatial-slider-crank", "bricard"] {
-        for treatment in [
-            Stabilization::Projection,
-            Stabilization::Partitioning,
-            Stabilization::Baumgarte { alpha: 20.0, beta: 20.0 },
+        for method in [
+            ConstraintMethod::Projection,
+            ConstraintMethod::Partitioning,
+            ConstraintMethod::Baumgarte { alpha: 20.0, beta: 20.0 },
         ] {
             for integrator in [IntegratorKind::Dop853, IntegratorKind::Radau] {
                 let mut scene = catalogue::scene(name).unwrap();
                 scene.simulation.integrator = integrator;
-                scene.simulation.stabilization = treatment;
+                scene.simulation.constraint_method = method;
                 scene.simulation.duration = 2.0;
                 let mut run = Simulation::new(&scene).unwrap();
                 run.advance_to(2.0).unwrap();
                 let doubts = run.summary().doubts;
-                assert!(doubts.is_empty(), "{name} {treatment:?} {integrator:?}: {doubts:?}");
+                assert!(doubts.is_empty(), "{name} {method:?} {integrator:?}: {doubts:?}");
             }
         }
     }

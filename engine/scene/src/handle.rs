@@ -68,7 +68,7 @@ macro_rules! handles {
             }
         }
 
-        impl Part for $part {
+        impl SceneElement for $part {
             type Handle = $handle;
 
             fn add_to(self, scene: &mut Scene) -> $handle {
@@ -81,7 +81,7 @@ macro_rules! handles {
 }
 
 /// What [`Scene::add`] takes: bodies, joints, drivers, loads and events.
-pub trait Part {
+pub trait SceneElement {
     /// What stands for it in later calls.
     type Handle;
 

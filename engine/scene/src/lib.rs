@@ -32,13 +32,13 @@ pub use body::{Body, Coordinates, Inertia, Shape};
 pub use driver::Driver;
 pub use error::SceneError;
 pub use event::{Event, Passing, Quantity};
-pub use handle::{BodyHandle, DriverHandle, EventHandle, Ground, JointHandle, LoadHandle, Part};
+pub use handle::{BodyHandle, DriverHandle, EventHandle, Ground, JointHandle, LoadHandle, SceneElement};
 pub use joint::{AxisRows, Joint, JointKind};
 pub use load::{Friction, Load, LoadFrame};
 pub use motion::{Motion, VectorMotion};
 pub use orientation::{Orientation, WrittenOrientation};
 pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places, WrittenScene};
-pub use settings::{IntegratorKind, Settings, Skip, Stabilization};
+pub use settings::{ConstraintMethod, IntegratorKind, Settings, Skip};
 pub use text::UnknownWord;
 
 use error::{plain_error, syntax_error};
@@ -152,8 +152,8 @@ impl Scene {
     /// let motor = scene.add(Driver::angle("motor", &hinge, Motion::ramp(0.0, 10.0)));
     /// assert_eq!((crank.name(), hinge.name(), motor.name()), ("crank", "hinge", "motor"));
     /// ```
-    pub fn add<P: Part>(&mut self, part: P) -> P::Handle {
-        part.add_to(self)
+    pub fn add<E: SceneElement>(&mut self, element: E) -> E::Handle {
+        element.add_to(self)
     }
 
     /// Its title for people.

@@ -19,7 +19,8 @@ pub struct Settings {
     /// Relative and absolute tolerance of the step control.
     pub tolerance: f64,
     /// What keeps the constraints satisfied.
-    pub stabilization: Stabilization,
+    #[serde(rename = "stabilization")]
+    pub constraint_method: ConstraintMethod,
     /// What is left out because nothing depends on it.
     #[serde(skip_serializing_if = "Skip::is_everything")]
     pub skip: Skip,
@@ -35,7 +36,7 @@ impl Default for Settings {
             every: 0.01,
             integrator: IntegratorKind::default(),
             tolerance: 1e-9,
-            stabilization: Stabilization::default(),
+            constraint_method: ConstraintMethod::default(),
             skip: Skip::default(),
             step: None,
         }
@@ -115,7 +116,8 @@ impl FromStr for IntegratorKind {
 /// What keeps the constraints satisfied during a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", deny_unknown_fields, rename_all = "kebab-case")]
-pub enum Stabilization {
+#[schemars(rename = "Stabilization")]
+pub enum ConstraintMethod {
     /// After each step the state is projected onto the position and velocity constraints.
     #[default]
     Projection,
@@ -167,7 +169,7 @@ const fn augmented_alpha() -> f64 {
     1e9
 }
 
-impl Stabilization {
+impl ConstraintMethod {
     /// All of them, each with its usual strength.
     pub const ALL: [Self; 5] = [
         Self::Projection,
@@ -178,7 +180,7 @@ impl Stabilization {
     ];
 }
 
-impl fmt::Display for Stabilization {
+impl fmt::Display for ConstraintMethod {
     /// The `kind` that a scene writes, without its numbers.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
@@ -191,15 +193,15 @@ impl fmt::Display for Stabilization {
     }
 }
 
-impl FromStr for Stabilization {
+impl FromStr for ConstraintMethod {
     type Err = UnknownWord;
 
     /// The one of that `kind` with its usual strength.
     ///
     /// ```
-    /// use triad_scene::Stabilization;
+    /// use triad_scene::ConstraintMethod;
     ///
-    /// assert_eq!("baumgarte".parse(), Ok(Stabilization::Baumgarte { alpha: 10.0, beta: 10.0 }));
+    /// assert_eq!("baumgarte".parse(), Ok(ConstraintMethod::Baumgarte { alpha: 10.0, beta: 10.0 }));
     /// ```
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
         choice(word, Self::ALL.into_iter())

@@ -2,7 +2,7 @@
 
 use triad_engine::analysis::check::{CheckReport, check};
 use triad_engine::run::Simulation;
-use triad_engine::scene::{IntegratorKind, Scene, Settings, Stabilization};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene, Settings};
 
 use crate::answers::Answer;
 use crate::answers::tolerance::{distance, norm};
@@ -51,7 +51,7 @@ fn accepted(task: &ModelTask, text: &str) -> Result<(Scene, CheckReport), Invali
         duration: end,
         integrator: IntegratorKind::Auto,
         tolerance: TOLERANCE,
-        stabilization: Stabilization::Projection,
+        constraint_method: ConstraintMethod::Projection,
         ..scene.simulation
     };
     let report = check(&scene).map_err(Box::new)?;

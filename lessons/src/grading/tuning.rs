@@ -1,7 +1,7 @@
 //! Settings of a run under a budget: the run is made, its error and its work are measured and drawn.
 
 use triad_engine::run::Simulation;
-use triad_engine::scene::{Scene, Stabilization};
+use triad_engine::scene::{ConstraintMethod, Scene};
 
 use super::picture::{Picture, Point};
 use crate::answers::tolerance::distance;
@@ -66,15 +66,15 @@ fn chosen(task: &Tuning, settings: &RunSettings) -> Result<Scene, InvalidSetting
     if !(1e-13..=1e-1).contains(&tolerance) {
         return Err(InvalidSettings::ToleranceRange);
     }
-    let stabilization = match &settings.baumgarte {
-        None => Stabilization::Projection,
+    let constraint_method = match &settings.baumgarte {
+        None => ConstraintMethod::Projection,
         Some(_) if !task.baumgarte => return Err(InvalidSettings::NoBaumgarte),
         Some([alpha, beta]) => {
             let (alpha, beta) = (positive(alpha, "Alpha")?, positive(beta, "Beta")?);
             if alpha > 1e4 || beta > 1e4 {
                 return Err(InvalidSettings::BaumgarteRange);
             }
-            Stabilization::Baumgarte { alpha, beta }
+            ConstraintMethod::Baumgarte { alpha, beta }
         }
     };
     let mut scene = task.scene.clone();
@@ -82,7 +82,7 @@ fn chosen(task: &Tuning, settings: &RunSettings) -> Result<Scene, InvalidSetting
     scene.parameters.clear();
     scene.simulation.integrator = settings.integrator;
     scene.simulation.tolerance = tolerance;
-    scene.simulation.stabilization = stabilization;
+    scene.simulation.constraint_method = constraint_method;
     scene.simulation.duration = task.watch.time;
     Ok(scene)
 }

@@ -2,31 +2,31 @@
 
 use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::equations;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::scene::{Coordinates, Driver, Motion, Scene, VectorMotion};
-use triad_engine::system::natural::Lift;
+use triad_engine::system::natural::NaturalCoordinates;
 
 /// The equations as they are first written, at a state.
-pub(crate) fn literal_at(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Literal {
+pub(crate) fn augmented_at(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> AugmentedSystem {
     mechanism.set_state(t, y);
-    Literal::new(&mechanism.system, &mechanism.state)
+    AugmentedSystem::new(&mechanism.system, &mechanism.state)
 }
 
-/// γ of the lifted coordinates alone and −Φ_Q V̇q̇, at the state that is in place.
+/// γ of the natural coordinates alone and −Φ_Q V̇q̇, at the state that is in place.
 pub(crate) fn gamma_parts(mechanism: &Mechanism) -> Vec<[f64; 2]> {
     equations::gamma_parts(&mechanism.system, &mechanism.state)
 }
 
 /// The equations at the state that is in place, with +M V̇q̇ of reduced bodies in the place of −M V̇q̇.
-pub(crate) fn wrong_sign(mechanism: &Mechanism, mut literal: Literal) -> Literal {
+pub(crate) fn wrong_sign(mechanism: &Mechanism, mut augmented: AugmentedSystem) -> AugmentedSystem {
     for (body, state) in mechanism.system.bodies.iter().zip(mechanism.state.bodies()) {
         if body.coordinates == Coordinates::Reduced {
-            let mut twice = Lift::default();
+            let mut twice = NaturalCoordinates::default();
             twice.e[2] = state.q_dot.e[0].cross(&state.q_dot.e[1]) * (4.0 * body.ibar[2]);
-            body.layout.pull_back(&state.q, &twice, |column, value| literal.force[column] += value);
+            body.layout.pull_back(&state.q, &twice, |column, value| augmented.force[column] += value);
         }
     }
-    literal
+    augmented
 }
 
 /// The scene whose angles and angular velocities were taken for degrees.

@@ -5,7 +5,7 @@ use triad_engine::EngineError;
 use triad_engine::analysis::check::check as engine_check;
 use triad_engine::reactions::JointMultipliers;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{GROUND, IntegratorKind, Scene, Settings, Stabilization};
+use triad_engine::scene::{ConstraintMethod, GROUND, IntegratorKind, Scene, Settings};
 use triad_engine::state::BodyFrame;
 
 use crate::answers::tolerance::{distance, norm};
@@ -177,11 +177,12 @@ pub(crate) fn start(scene: &Scene) -> Result<Simulation, MeasureError> {
 pub(crate) fn reference_scenes(scene: &Scene, end: f64) -> [Scene; 2] {
     let with = |integrator, tolerance| {
         let mut scene = scene.clone();
-        let stabilization = Stabilization::Projection;
+        let constraint_method = ConstraintMethod::Projection;
         let duration = scene.simulation.duration.max(end);
         // What a reader may change belongs to the settings as they were.
         scene.parameters.clear();
-        scene.simulation = Settings { integrator, tolerance, stabilization, duration, ..scene.simulation };
+        scene.simulation =
+            Settings { integrator, tolerance, constraint_method, duration, ..scene.simulation };
         scene
     };
     [with(IntegratorKind::Auto, TIGHT), with(IntegratorKind::Dop853, LESS_TIGHT)]

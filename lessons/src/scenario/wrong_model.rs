@@ -9,7 +9,7 @@ use triad_engine::reactions;
 use triad_engine::scene::{Coordinates, Driver, GROUND, Motion, Scene, VectorMotion};
 use triad_engine::system::System;
 
-use super::equations::{in_degrees, literal_at, wrong_sign};
+use super::equations::{augmented_at, in_degrees, wrong_sign};
 use super::measure::{MeasureError, Observation, component, measure, run_to};
 use crate::answers::tolerance::norm;
 use crate::files::{Component, MeasuredFile, WrongModel, WrongModelFile};
@@ -158,9 +158,9 @@ fn with_wrong_sign(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, W
     let steps = (measured.time * STEPS_PER_SECOND).ceil().clamp(1.0, MAX_STEPS);
     let h = measured.time / steps;
     let mut rate = |t: f64, y: &[f64]| -> Result<Vec<f64>, WrongModelError> {
-        let literal = literal_at(&mut mechanism, t, y);
-        let literal = wrong_sign(&mechanism, literal);
-        let solution = literal.solve().ok_or(WrongModelError::Singular)?;
+        let augmented = augmented_at(&mut mechanism, t, y);
+        let augmented = wrong_sign(&mechanism, augmented);
+        let solution = augmented.solve().ok_or(WrongModelError::Singular)?;
         Ok([&y[n..], solution.acceleration.as_slice()].concat())
     };
     let along = |y: &[f64], k: &[f64], h: f64| y.iter().zip(k).map(|(y, k)| y + h * k).collect::<Vec<f64>>();

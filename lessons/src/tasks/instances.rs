@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 use triad_engine::EngineError;
 use triad_engine::constraints::mechanism::Mechanism;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 use triad_engine::system::natural::Director;
@@ -16,7 +16,7 @@ use crate::exercise::{Implement, QuestionBody};
 use crate::files::EquationPart;
 use crate::lesson::Lesson;
 use crate::random::Random;
-use crate::scenario::equations::literal_at;
+use crate::scenario::equations::augmented_at;
 
 /// Draws after which a consistent state is given up.
 const MAX_DRAWS: usize = 40;
@@ -80,7 +80,7 @@ pub(crate) struct Instances {
     pub mechanism: Mechanism,
     pub states: Vec<Instance>,
     /// The equations at each state.
-    literals: Vec<Literal>,
+    augmented: Vec<AugmentedSystem>,
 }
 
 impl Instances {
@@ -108,20 +108,20 @@ impl Instances {
 
     /// A mechanism at given states.
     pub(crate) fn at_states(mut mechanism: Mechanism, states: Vec<Instance>) -> Self {
-        let literals = states.iter().map(|s| literal_at(&mut mechanism, s.t, &s.together())).collect();
-        Self { mechanism, states, literals }
+        let augmented = states.iter().map(|s| augmented_at(&mut mechanism, s.t, &s.together())).collect();
+        Self { mechanism, states, augmented }
     }
 
     /// Puts state `k` in place and hands out the mechanism and its equations there.
-    pub(super) fn placed(&mut self, k: usize) -> (&Mechanism, &Literal) {
+    pub(super) fn placed(&mut self, k: usize) -> (&Mechanism, &AugmentedSystem) {
         let state = &self.states[k];
         self.mechanism.set_state(state.t, &state.together());
-        (&self.mechanism, &self.literals[k])
+        (&self.mechanism, &self.augmented[k])
     }
 
     /// What is asked for, at every state.
     pub(crate) fn answers(&self, part: EquationPart) -> Result<Vec<Grid>, InstanceError> {
-        self.literals.iter().map(|literal| part_of(literal, part)).collect()
+        self.augmented.iter().map(|augmented| part_of(augmented, part)).collect()
     }
 
     /// Several parts, at every state.
@@ -142,21 +142,21 @@ fn mechanism(scene: &Scene) -> Result<Mechanism, InstanceError> {
 }
 
 /// One part of the equations.
-pub(crate) fn part_of(literal: &Literal, part: EquationPart) -> Result<Grid, InstanceError> {
+pub(crate) fn part_of(augmented: &AugmentedSystem, part: EquationPart) -> Result<Grid, InstanceError> {
     let matrix = |m: &dyn Fn(usize, usize) -> f64, rows, columns| Grid::make(rows, columns, m);
     Ok(match part {
-        EquationPart::Phi => Grid::column(literal.constraints.iter().copied().collect()),
-        EquationPart::Gamma => Grid::column(literal.gamma.iter().copied().collect()),
+        EquationPart::Phi => Grid::column(augmented.constraints.iter().copied().collect()),
+        EquationPart::Gamma => Grid::column(augmented.gamma.iter().copied().collect()),
         EquationPart::Jacobian => {
-            let j = &literal.jacobian;
+            let j = &augmented.jacobian;
             matrix(&|row, column| j[(row, column)], j.nrows(), j.ncols())
         }
         EquationPart::Mass => {
-            let m = &literal.mass;
+            let m = &augmented.mass;
             matrix(&|row, column| m[(row, column)], m.nrows(), m.ncols())
         }
         EquationPart::Acceleration => {
-            let solution = literal.solve().ok_or(InstanceError::Singular)?;
+            let solution = augmented.solve().ok_or(InstanceError::Singular)?;
             Grid::column(solution.acceleration.iter().copied().collect())
         }
     })

@@ -160,8 +160,8 @@ fn bodies(system: &System) -> Vec<InstanceBody> {
 fn joint_rows(instances: &Instances) -> Result<Vec<InstanceRow>, InstanceError> {
     let mut list = Vec::new();
     let system = &instances.mechanism.system;
-    for group in &system.groups {
-        for row in system.rows[group.forms.clone()].iter().filter(|row| !row.implied) {
+    for constraint in &system.constraints {
+        for row in system.rows[constraint.forms.clone()].iter().filter(|row| !row.implied) {
             let (form, a, b, c) = match row.form {
                 Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
                     ("difference", feature(system, a)?, feature(system, b)?, None)
@@ -172,7 +172,7 @@ fn joint_rows(instances: &Instances) -> Result<Vec<InstanceRow>, InstanceError> 
                 }
                 Form::Relation { .. } => return Err(InstanceError::Relation),
             };
-            let name = format!("{}: {}", group.name, row.label);
+            let name = format!("{}: {}", constraint.name, row.label);
             list.push(InstanceRow { name, form, first_row: system.rigid_rows + row.equation, a, b, c });
         }
     }

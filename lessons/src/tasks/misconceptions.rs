@@ -2,7 +2,7 @@
 
 use triad_engine::EngineError;
 use triad_engine::constraints::mechanism::Mechanism;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::model::Model;
 use triad_engine::scene::{Coordinates, Scene};
 use triad_engine::system::System;
@@ -36,7 +36,7 @@ pub(crate) fn all_agree(given: &[Grid], wanted: &[Grid], right: &[Grid], toleran
 }
 
 /// What one misconception makes of the equations at one instance.
-type Make<'a> = &'a dyn Fn(&Mechanism, &Literal) -> Result<Grid, InstanceError>;
+type Make<'a> = &'a dyn Fn(&Mechanism, &AugmentedSystem) -> Result<Grid, InstanceError>;
 
 /// Every misconception of a part that differs from the right answer on this mechanism.
 pub(crate) fn misconceptions(
@@ -57,8 +57,8 @@ pub(crate) fn misconceptions(
     let each = |instances: &mut Instances, make: Make| -> Result<Vec<Grid>, InstanceError> {
         (0..instances.states.len())
             .map(|k| {
-                let (mechanism, literal) = instances.placed(k);
-                make(mechanism, literal)
+                let (mechanism, augmented) = instances.placed(k);
+                make(mechanism, augmented)
             })
             .collect()
     };
@@ -91,12 +91,13 @@ fn other_scenes(task: &Implement, part: EquationPart) -> Vec<(&'static str, &'st
     list
 }
 
-type Row = (&'static str, &'static str, Box<dyn Fn(&Mechanism, &Literal) -> Result<Grid, InstanceError>>);
+type Row =
+    (&'static str, &'static str, Box<dyn Fn(&Mechanism, &AugmentedSystem) -> Result<Grid, InstanceError>>);
 
 fn row(
     id: &'static str,
     feedback: &'static str,
-    make: impl Fn(&Mechanism, &Literal) -> Result<Grid, InstanceError> + 'static,
+    make: impl Fn(&Mechanism, &AugmentedSystem) -> Result<Grid, InstanceError> + 'static,
 ) -> Row {
     (id, feedback, Box::new(make))
 }
@@ -195,14 +196,14 @@ fn gamma() -> Vec<Row> {
         row(
             "velocity-term-missing",
             "The term with V̇q̇ of the reduced body is missing: ẅ has the part 2 u̇ × v̇, which enters γ wherever a row contains w.",
-            |m, _| Ok(Grid::column(gamma_parts(m).into_iter().map(|[lifted, _]| lifted).collect())),
+            |m, _| Ok(Grid::column(gamma_parts(m).into_iter().map(|[natural, _]| natural).collect())),
         ),
         row(
             "velocity-term-sign",
             "The term with V̇q̇ of the reduced body has the wrong sign in γ.",
             |m, _| {
                 Ok(Grid::column(
-                    gamma_parts(m).into_iter().map(|[lifted, reduced]| lifted - reduced).collect(),
+                    gamma_parts(m).into_iter().map(|[natural, reduced]| natural - reduced).collect(),
                 ))
             },
         ),
@@ -287,15 +288,15 @@ fn unit_rows(mechanism: &Mechanism) -> Vec<usize> {
 fn columns_swapped(mechanism: &Mechanism, right: &Grid) -> Grid {
     let system = &mechanism.system;
     let mut grid = right.clone();
-    for group in &system.groups {
+    for constraint in &system.constraints {
         let touched: Vec<usize> =
-            system.incidences[group.incidences.clone()].iter().map(|i| i.body).collect();
+            system.incidences[constraint.incidences.clone()].iter().map(|i| i.body).collect();
         let [a, b] = touched.as_slice() else { continue };
         let (a, b) = (system.bodies[*a].layout, system.bodies[*b].layout);
         if a.size() != b.size() {
             continue;
         }
-        for row in group.equations.clone() {
+        for row in constraint.equations.clone() {
             for k in 0..a.size() {
                 let line = (system.rigid_rows + row) * grid.columns;
                 grid.values.swap(line + a.first + k, line + b.first + k);

@@ -1,6 +1,6 @@
 //! Words of the command line that choose an integrator or a treatment of the constraints.
 
-use triad_engine::scene::{IntegratorKind, Stabilization, UnknownWord};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind, UnknownWord};
 
 /// The integrator of that name.
 pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
@@ -8,7 +8,7 @@ pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
 }
 
 /// The treatment of that name, with its usual strength.
-pub(super) fn treatment(word: &str) -> Result<Stabilization, String> {
+pub(super) fn treatment(word: &str) -> Result<ConstraintMethod, String> {
     word.parse().map_err(|UnknownWord(words)| format!("no such treatment; there are {words}"))
 }
 

@@ -289,7 +289,7 @@ impl SessionState {
 }
 
 fn forces(simulation: &mut Simulation) -> Vec<JointForce> {
-    if simulation.system().groups.len() > MAX_FORCES {
+    if simulation.system().constraints.len() > MAX_FORCES {
         return Vec::new();
     }
     let multipliers = simulation.multipliers().into_iter();

@@ -4,7 +4,7 @@ use crate::constraints::ConstraintError;
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination};
 use crate::ode::OdeSystem;
-use crate::scene::Stabilization;
+use crate::scene::ConstraintMethod;
 use crate::state::{self, State};
 use crate::system::System;
 
@@ -15,18 +15,18 @@ const CONSISTENT: f64 = 1e-13;
 /// A step of assembly that is below this part of the mechanism's size and does not shrink any more is rounding.
 const STALLED: f64 = 1e-9;
 /// Newton steps of an assembly.
-const MOST_ASSEMBLING: usize = 40;
+const MAX_ASSEMBLY_STEPS: usize = 40;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
 /// Most corrections of the velocities of a start. They have failed if they leave more than these parts of the largest rate
 /// that was to be made up for, and of the fastest turning body.
-const MOST_CORRECTING: usize = 12;
-const UNSOLVED: f64 = 1e-6;
-const ROUNDING: f64 = 1e-9;
+const MAX_CORRECTIONS: usize = 12;
+const MAX_RATE_LEFT: f64 = 1e-6;
+const RATE_ROUNDING: f64 = 1e-9;
 /// Rates that are left at the end of a step, 1/s, for each part of the tolerance, are none.
-const LEFT: f64 = 1e3;
+const RATE_TOLERANCE: f64 = 1e3;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
-const FARTHEST: f64 = 0.35;
+const MAX_MOVE: f64 = 0.35;
 
 /// A system, a state, and the solver of its equations.
 #[derive(Clone, Debug)]
@@ -65,11 +65,12 @@ impl Mechanism {
         self.set_state(t, y);
         violation::check(&self.system, &self.state, t)?;
         let settings = &self.system.model.settings;
-        if self.system.model.drivers.is_empty() || settings.stabilization != Stabilization::Projection {
+        if self.system.model.drivers.is_empty() || settings.constraint_method != ConstraintMethod::Projection
+        {
             return Ok(());
         }
         // What a projection leaves of the rates, no velocities satisfy.
-        let most = LEFT * settings.tolerance + UNSOLVED * state::fastest(&self.system, y);
+        let most = RATE_TOLERANCE * settings.tolerance + MAX_RATE_LEFT * state::fastest(&self.system, y);
         if violation::largest_rate(&self.system, &self.state) <= most {
             return Ok(());
         }
@@ -91,11 +92,12 @@ impl Mechanism {
         self.set_state(t, y);
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
-        let opening = self.state.position_violation(&self.system);
+        let violated = self.state.position_violation(&self.system);
         let mut last = f64::INFINITY;
         // Differences of large numbers are never smaller than these are exact.
         let rounding = |x: &[f64]| 2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
-        let most = if opening <= CONSISTENT * length + rounding(&given[..n]) { 0 } else { MOST_ASSEMBLING };
+        let most =
+            if violated <= CONSISTENT * length + rounding(&given[..n]) { 0 } else { MAX_ASSEMBLY_STEPS };
         for _ in 0..most {
             self.elimination.linearize(&self.system, &self.state);
             let step = self.elimination.correct_positions(&self.system, &self.state, &mut y[..n]);
@@ -107,38 +109,38 @@ impl Mechanism {
             }
             last = step;
         }
-        let left = violation::opening(&self.system, &self.state).relative;
+        let left = violation::measure(&self.system, &self.state).relative;
         let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         // A comparison that is false for NaN as well.
         let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
         if !solved {
             return Err(self.assembly_error(t, &given, y, moved));
         }
-        let limit = FARTHEST * length.max(1.0);
+        let limit = MAX_MOVE * length.max(1.0);
         if moved > limit {
             self.set_state(t, &given);
-            let opening = violation::opening(&self.system, &self.state);
-            let (joint, pointer) = (opening.names(&self.system).0, opening.pointer(&self.system));
+            let violated = violation::measure(&self.system, &self.state);
+            let (joint, pointer) = (violated.names(&self.system).0, violated.pointer(&self.system));
             return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
         }
-        if opening > 1e-9 * length {
+        if violated > 1e-9 * length {
             notes.push(format!(
-                "positions violated the constraints by {opening:.3e}; bodies were moved by up to {moved:.3e} onto them"
+                "positions violated the constraints by {violated:.3e}; bodies were moved by up to {moved:.3e} onto them"
             ));
         }
         self.state.set_velocities(&self.system, &y[n..]);
         let rate = self.state.velocity_violation(&self.system);
         if rate > CONSISTENT * length + rounding(&given[n..]) {
-            let asked = violation::rates(&self.system, &self.state).into_iter().fold(0.0, f64::max);
+            let rate = violation::rates(&self.system, &self.state).into_iter().fold(0.0, f64::max);
             self.elimination.linearize(&self.system, &self.state);
-            for _ in 0..MOST_CORRECTING {
+            for _ in 0..MAX_CORRECTIONS {
                 let step = self.elimination.correct_velocities(&self.system, &self.state, &mut y[n..]);
                 self.state.set_velocities(&self.system, &y[n..]);
                 if step <= CONSISTENT * length {
                     break;
                 }
             }
-            self.check_motion(t, UNSOLVED * asked + ROUNDING * state::fastest(&self.system, y))?;
+            self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
         let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
         if rate > 1e-9 * length {
@@ -155,16 +157,16 @@ impl Mechanism {
     fn check_motion(&self, time: f64, most: f64) -> Result<(), ConstraintError> {
         let Self { system, state, .. } = self;
         let rates = violation::rates(system, state);
-        let drivers = (0..rates.len()).filter(|&group| system.groups[group].driver);
+        let drivers = (0..rates.len()).filter(|&constraint| system.constraints[constraint].driver);
         let driver = drivers.max_by(|&a, &b| rates[a].total_cmp(&rates[b]));
         let unsolved = rates.iter().any(|rate| *rate > most);
         let Some(driver) = driver.filter(|_| unsolved) else { return Ok(()) };
-        let others = violation::worst(&rates).into_iter().filter(|&(group, _)| group != driver);
-        let name = |group: usize| system.groups[group].name.clone();
+        let others = violation::worst(&rates).into_iter().filter(|&(constraint, _)| constraint != driver);
+        let name = |constraint: usize| system.constraints[constraint].name.clone();
         Err(ConstraintError::MotionImpossible {
             time,
             driver: name(driver),
-            with: others.take(violation::NAMED).map(|(group, _)| name(group)).collect(),
+            with: others.take(violation::MAX_NAMED).map(|(constraint, _)| name(constraint)).collect(),
             pointer: violation::pointer(system, driver),
             missed: rates[driver],
         })
@@ -173,22 +175,22 @@ impl Mechanism {
     fn assembly_error(&mut self, t: f64, given: &[f64], reached: &[f64], moved: f64) -> ConstraintError {
         // The best compromise leaves open the joints that contradict each other, and closes all others. Where there
         // is none (bodies were stretched instead), the joint that is open at the given start says most.
-        let mut opening = violation::opening(&self.system, &self.state);
-        let worst = opening.groups.first().map_or(0.0, |&(_, open)| open);
-        if !reached.iter().all(|x| x.is_finite()) || worst < 0.1 * opening.relative {
+        let mut violated = violation::measure(&self.system, &self.state);
+        let worst = violated.constraints.first().map_or(0.0, |&(_, open)| open);
+        if !reached.iter().all(|x| x.is_finite()) || worst < 0.1 * violated.relative {
             self.set_state(t, given);
-            opening = violation::opening(&self.system, &self.state);
+            violated = violation::measure(&self.system, &self.state);
         }
-        let (joint, with) = opening.names(&self.system);
-        let pointer = opening.pointer(&self.system);
-        let violation = opening.groups.first().map_or(opening.relative, |&(_, violation)| violation);
+        let (joint, with) = violated.names(&self.system);
+        let pointer = violated.pointer(&self.system);
+        let violation = violated.constraints.first().map_or(violated.relative, |&(_, violation)| violation);
         ConstraintError::Assembly { joint, with, pointer, violation, moved }
     }
 
     /// α and β of Baumgarte's stabilization, or zero.
     pub fn baumgarte(&self) -> (f64, f64) {
-        match self.system.model.settings.stabilization {
-            Stabilization::Baumgarte { alpha, beta } => (alpha, beta),
+        match self.system.model.settings.constraint_method {
+            ConstraintMethod::Baumgarte { alpha, beta } => (alpha, beta),
             _ => (0.0, 0.0),
         }
     }
@@ -205,7 +207,7 @@ impl OdeSystem for Mechanism {
     /// Counts revolutions from here, and moves y onto the constraints where projection keeps them.
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
         self.state.commit_revolutions();
-        if self.system.model.settings.stabilization != Stabilization::Projection {
+        if self.system.model.settings.constraint_method != ConstraintMethod::Projection {
             return;
         }
         self.projections += 1;

@@ -55,7 +55,7 @@ pub fn analyze(system: &System, state: &mut State, elimination: &mut Elimination
 /// Rows of a tree of joints are independent whatever the position: if rounding finds them dependent, the masses are to
 /// blame, and what would be computed has nothing to do with the mechanism.
 pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
-    let System { groups, bodies, model, .. } = system;
+    let System { constraints, bodies, model, .. } = system;
     let Some(row) = rank.dependent.first() else { return Ok(()) };
     let tree = model.drivers.is_empty() && model.joints.iter().all(|joint| joint.gear.is_none());
     if !tree || islands::has_loops(model) {
@@ -64,9 +64,9 @@ pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
     let by_mass = || bodies.iter().zip(&model.bodies).map(|(body, named)| (body.mass, named.name.clone()));
     let light = by_mass().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     let heavy = by_mass().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
-    let joint = groups.iter().position(|group| group.solver.contains(row)).unwrap_or_default();
+    let joint = constraints.iter().position(|constraint| constraint.solver.contains(row)).unwrap_or_default();
     Err(ConstraintError::MassesTooDifferent {
-        joint: groups[joint].name.clone(),
+        joint: constraints[joint].name.clone(),
         pointer: format!("/joints/{joint}"),
         light: light.1,
         light_mass: light.0,

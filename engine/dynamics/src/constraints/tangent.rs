@@ -17,7 +17,7 @@ pub fn twists(system: &System, state: &State, elimination: &mut Elimination) -> 
     // Aᵀ with columns of unit length; A ξ = 0 does not mind.
     let mut a = DMatrix::zeros(6 * system.bodies.len(), system.solver_rows);
     for (index, incidence) in system.incidences.iter().enumerate() {
-        let first = system.groups[incidence.group].solver.start;
+        let first = system.constraints[incidence.constraint].solver.start;
         for (k, row) in elimination.jacobian().rows_on(system, index).chunks_exact(6).enumerate() {
             for c in 0..6 {
                 let scale = if c < 3 { 1.0 } else { 1.0 / length };

@@ -4,7 +4,7 @@
 //! micrometres is held as strictly as one of kilometres.
 
 use crate::constraints::ConstraintError;
-use crate::scene::{Settings, Stabilization};
+use crate::scene::{ConstraintMethod, Settings};
 use crate::state::State;
 use crate::system::feature::Difference;
 use crate::system::row::Form;
@@ -12,35 +12,35 @@ use crate::system::{Row, System};
 
 /// The rows that are violated most.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Opening {
+pub struct ConstraintViolation {
     /// Largest |Φ| relative to the size of its row, rigid-body rows included.
     pub relative: f64,
-    /// Joints and drivers that are open, the worst first: index of the group and relative |Φ|.
-    pub groups: Vec<(usize, f64)>,
+    /// Joints and drivers that are open, the worst first: index of the constraint and its relative |Φ|.
+    pub constraints: Vec<(usize, f64)>,
 }
 
-/// Most joints that an error names.
-pub const NAMED: usize = 4;
+/// Greatest number of joints that an error names.
+pub const MAX_NAMED: usize = 4;
 
-impl Opening {
+impl ConstraintViolation {
     /// Name of the joint that is open most, and of those open with it.
     pub fn names(&self, system: &System) -> (String, Vec<String>) {
-        let name = |&(index, _): &(usize, f64)| system.groups.get(index).map(|g| g.name.clone());
-        let mut names = self.groups.iter().take(NAMED).filter_map(name);
+        let name = |&(index, _): &(usize, f64)| system.constraints.get(index).map(|g| g.name.clone());
+        let mut names = self.constraints.iter().take(MAX_NAMED).filter_map(name);
         (names.next().unwrap_or_default(), names.collect())
     }
 
     /// JSON pointer of the element that is open most.
     pub fn pointer(&self, system: &System) -> String {
-        pointer(system, self.groups.first().map_or(0, |&(index, _)| index))
+        pointer(system, self.constraints.first().map_or(0, |&(index, _)| index))
     }
 }
 
-/// JSON pointer of a joint or driver, by the index of its group: rows are written by joints, then by drivers.
-pub fn pointer(system: &System, group: usize) -> String {
-    match group.checked_sub(system.model.joints.len()) {
+/// JSON pointer of a joint or driver, by the index of its constraint: rows are written by joints, then by drivers.
+pub fn pointer(system: &System, constraint: usize) -> String {
+    match constraint.checked_sub(system.model.joints.len()) {
         Some(driver) => format!("/drivers/{driver}"),
-        None => format!("/joints/{group}"),
+        None => format!("/joints/{constraint}"),
     }
 }
 
@@ -54,43 +54,43 @@ const LOST_BY_FEEDBACK: f64 = 0.1;
 
 /// Refuses positions that are off the constraints: they are no result.
 pub fn check(system: &System, at: &State, time: f64) -> Result<(), ConstraintError> {
-    let limit = match system.model.settings.stabilization {
-        Stabilization::Projection
-        | Stabilization::Partitioning
-        | Stabilization::AugmentedLagrangian { .. } => LOST,
-        Stabilization::Baumgarte { .. } | Stabilization::Penalty { .. } => LOST_BY_FEEDBACK,
+    let limit = match system.model.settings.constraint_method {
+        ConstraintMethod::Projection
+        | ConstraintMethod::Partitioning
+        | ConstraintMethod::AugmentedLagrangian { .. } => LOST,
+        ConstraintMethod::Baumgarte { .. } | ConstraintMethod::Penalty { .. } => LOST_BY_FEEDBACK,
     };
     if relative(system, at) <= limit {
         return Ok(());
     }
-    let opening = opening(system, at);
-    if !opening.relative.is_finite() {
+    let measured = measure(system, at);
+    if !measured.relative.is_finite() {
         return Err(ConstraintError::NotFinite { time });
     }
-    let (joint, with) = opening.names(system);
-    Err(ConstraintError::Lost { time, joint, with, violation: opening.relative })
+    let (joint, with) = measured.names(system);
+    Err(ConstraintError::Lost { time, joint, with, violation: measured.relative })
 }
 
 /// Largest |Φ| of the positions of a state, relative to the size of its row; allocates nothing.
 pub fn relative(system: &System, at: &State) -> f64 {
-    let rows = system.rows.iter().map(|row| row_opening(system, at, &row.form));
-    rows.fold(rigid_opening(at), larger)
+    let rows = system.rows.iter().map(|row| relative_row_violation(system, at, &row.form));
+    rows.fold(rigid_violation(at), larger)
 }
 
-fn row_opening(system: &System, at: &State, form: &Form) -> f64 {
+fn relative_row_violation(system: &System, at: &State, form: &Form) -> f64 {
     at.row_violation(form) / row_size(system, form)
 }
 
 /// Measures the positions of a state.
-pub fn opening(system: &System, at: &State) -> Opening {
-    let groups = worst(&by_group(system, |form| row_opening(system, at, form)));
-    let relative = groups.first().map_or(0.0, |&(_, open)| open);
-    Opening { relative: larger(rigid_opening(at), relative), groups }
+pub fn measure(system: &System, at: &State) -> ConstraintViolation {
+    let constraints = worst(&by_constraint(system, |form| relative_row_violation(system, at, form)));
+    let relative = constraints.first().map_or(0.0, |&(_, open)| open);
+    ConstraintViolation { relative: larger(rigid_violation(at), relative), constraints }
 }
 
 /// Largest |Φ̇| of each joint and driver at the velocities of a state, relative to the size of its rows, 1/s.
 pub fn rates(system: &System, at: &State) -> Vec<f64> {
-    by_group(system, |form| at.row_rate_violation(form) / row_size(system, form))
+    by_constraint(system, |form| at.row_rate_violation(form) / row_size(system, form))
 }
 
 /// The largest of them; allocates nothing.
@@ -99,23 +99,23 @@ pub fn largest_rate(system: &System, at: &State) -> f64 {
     rows.map(|row| at.row_rate_violation(&row.form) / row_size(system, &row.form)).fold(0.0, larger)
 }
 
-/// The largest number of the rows of each group.
-fn by_group(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
+/// The largest number of the rows of each constraint.
+fn by_constraint(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
     let largest = |forms: &[Row]| forms.iter().map(|row| of(&row.form)).fold(0.0, larger);
-    system.groups.iter().map(|group| largest(&system.rows[group.forms.clone()])).collect()
+    system.constraints.iter().map(|constraint| largest(&system.rows[constraint.forms.clone()])).collect()
 }
 
-/// The groups with the largest numbers, the worst first.
+/// The constraints with the largest numbers, the worst first.
 pub fn worst(numbers: &[f64]) -> Vec<(usize, f64)> {
     let worst = numbers.iter().copied().fold(0.0, larger);
     let counts = |&(_, open): &(usize, f64)| open > SHARE * worst || open.is_nan();
-    let mut groups: Vec<(usize, f64)> = numbers.iter().copied().enumerate().filter(counts).collect();
-    groups.sort_by(|a, b| b.1.total_cmp(&a.1));
-    groups
+    let mut constraints: Vec<(usize, f64)> = numbers.iter().copied().enumerate().filter(counts).collect();
+    constraints.sort_by(|a, b| b.1.total_cmp(&a.1));
+    constraints
 }
 
 /// Largest violation of a rigid-body row.
-fn rigid_opening(at: &State) -> f64 {
+fn rigid_violation(at: &State) -> f64 {
     let mut largest = 0.0;
     for state in at.bodies() {
         for k in 0..3 {
@@ -160,8 +160,8 @@ const ALLOWED_WITHIN: (f64, f64) = (1e-6, 1e-2);
 
 /// What speaks against the result of a run, in words, with what to use instead.
 pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
-    let treatment = settings.stabilization;
-    let projected = treatment == Stabilization::Projection;
+    let method = settings.constraint_method;
+    let projected = method == ConstraintMethod::Projection;
     let instead = match settings.step {
         _ if !projected => "use projection, with taylor or dop853",
         Some(_) => "use shorter steps, or leave their size to the tolerance",
@@ -170,7 +170,7 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
     let mut doubts = Vec::new();
     if let Some(time) = signs.passed.filter(|_| !projected) {
         doubts.push(format!(
-            "a singular position was passed at t = {time:.6} s, through which {treatment} holds neither the constraints nor the \
+            "a singular position was passed at t = {time:.6} s, through which {method} holds neither the constraints nor the \
              branch of the motion: what follows may be wrong; {instead}"
         ));
     }

@@ -16,7 +16,7 @@ pub use twist_jacobian::TwistJacobian;
 
 use crate::state::{AppliedForces, State};
 use crate::system::System;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
 use triad_linalg::BlockCholesky;
@@ -55,9 +55,9 @@ struct Contribution {
 #[derive(Clone, Debug, Default)]
 pub struct BodySolve {
     /// Particular acceleration Q̈ᵖ that satisfies the rigid-body rows.
-    pub particular: Lift,
+    pub particular: NaturalCoordinates,
     /// Generalized applied force G.
-    pub force: Lift,
+    pub force: NaturalCoordinates,
     /// Resultant force and moment (F, T) about the centre of mass, inertial part of Q̈ᵖ included.
     pub wrench: [Vector3<f64>; 2],
     /// Inverse of the inertia used by the factorization.
@@ -97,12 +97,12 @@ pub struct Elimination {
 impl Elimination {
     /// Allocates for a system.
     pub fn new(system: &System) -> Self {
-        let sizes: Vec<usize> = system.groups.iter().map(|g| g.solver.len()).collect();
+        let sizes: Vec<usize> = system.constraints.iter().map(|g| g.solver.len()).collect();
         let edges = system.incidences_of_body.iter().flat_map(|incidences| {
             incidences.iter().enumerate().flat_map(move |(k, &p)| {
                 incidences[k + 1..]
                     .iter()
-                    .map(move |&q| (system.incidences[p].group, system.incidences[q].group))
+                    .map(move |&q| (system.incidences[p].constraint, system.incidences[q].constraint))
             })
         });
         let factor = BlockCholesky::new(&sizes, edges);
@@ -110,7 +110,7 @@ impl Elimination {
         for incidences in &system.incidences_of_body {
             for (k, &p) in incidences.iter().enumerate() {
                 for &q in &incidences[k..] {
-                    let slot = factor.slot(system.incidences[p].group, system.incidences[q].group);
+                    let slot = factor.slot(system.incidences[p].constraint, system.incidences[q].constraint);
                     let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
                     contributions.push(Contribution { slot, left, right });
                 }
@@ -122,7 +122,7 @@ impl Elimination {
             particular: vec![Vector3::zeros(); system.features.len()],
             forces: AppliedForces::none(system),
             jacobian: TwistJacobian::new(system),
-            b: vec![0.0; system.block_numbers],
+            b: vec![0.0; system.block_entries],
             factor,
             contributions,
             gamma: vec![0.0; rows],
@@ -146,8 +146,8 @@ impl Elimination {
         self.factor.set_dependent(rows);
     }
 
-    /// How firmly each joint holds at the positions that were factored last: see [`BlockCholesky::pivot_products`].
-    pub fn holds(&self) -> &[f64] {
+    /// The pivot products of the joints at the positions that were factored last: see [`BlockCholesky::pivot_products`].
+    pub fn pivot_products(&self) -> &[f64] {
         self.factor.pivot_products()
     }
 
@@ -250,7 +250,7 @@ impl Elimination {
         }
         for incidence in &system.incidences {
             let [v, w] = self.bodies[incidence.body].twist;
-            let first = system.groups[incidence.group].solver.start;
+            let first = system.constraints[incidence.constraint].solver.start;
             let block = &self.jacobian.a[incidence.offset..incidence.offset + 6 * incidence.rows];
             for (a, residual) in block.chunks_exact(6).zip(&mut self.residual[first..]) {
                 *residual +=
@@ -263,7 +263,7 @@ impl Elimination {
     fn apply_multipliers(&mut self, system: &System) {
         for incidence in &system.incidences {
             let [v, w] = &mut self.bodies[incidence.body].twist;
-            let first = system.groups[incidence.group].solver.start;
+            let first = system.constraints[incidence.constraint].solver.start;
             let block = &self.b[incidence.offset..incidence.offset + 6 * incidence.rows];
             for (b, lambda) in block.chunks_exact(6).zip(&self.residual[first..]) {
                 for c in 0..3 {
@@ -289,7 +289,7 @@ impl Elimination {
     }
 
     /// Q̈ = Q̈ᵖ + N ξ̇ (or a correction of Q) of a body from the last solution, which belongs to this state — eq. (7.2).
-    pub fn solution(&self, state: &State, body: usize) -> Lift {
+    pub fn solution(&self, state: &State, body: usize) -> NaturalCoordinates {
         natural_acceleration(&self.bodies[body], &state.bodies()[body].q)
     }
 
@@ -316,7 +316,7 @@ impl Elimination {
 }
 
 /// Q̈ = Q̈ᵖ + (v̇, ω̇ × e_k) of a body at position q.
-fn natural_acceleration(body: &BodySolve, q: &Lift) -> Lift {
+fn natural_acceleration(body: &BodySolve, q: &NaturalCoordinates) -> NaturalCoordinates {
     let e = [0, 1, 2].map(|k| body.particular.e[k] + body.twist[1].cross(&q.e[k]));
-    Lift { r: body.twist[0], e }
+    NaturalCoordinates { r: body.twist[0], e }
 }

@@ -69,9 +69,9 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     bundles: Vec<B>,
     slots: Vec<Slot<L>>,
     /// Position and velocity at the point of expansion, bundle by bundle.
-    state: Vec<[B::Lifted; 2]>,
+    state: Vec<[B::Natural; 2]>,
     /// Coefficients of Q and of the directors' forces p, `stride` for each bundle.
-    q: Vec<B::Lifted>,
+    q: Vec<B::Natural>,
     p: Vec<B::Directors>,
     /// C⁻¹ s̃ of all features.
     mobility: Vec<B::Mobility>,
@@ -218,9 +218,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     #[inline(always)]
-    fn values_of(&mut self, lifted: impl Fn(&[B::Lifted; 2], &B) -> B::Lifted) {
+    fn values_of(&mut self, natural: impl Fn(&[B::Natural; 2], &B) -> B::Natural) {
         for (bundle, state) in self.bundles.iter().zip(&self.state) {
-            let x = lifted(state, bundle);
+            let x = natural(state, bundle);
             for slot in bundle.slots() {
                 self.values[slot] = B::value(&self.slots[slot], &x);
             }

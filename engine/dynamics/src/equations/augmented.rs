@@ -14,7 +14,7 @@ use crate::scene::Coordinates;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
 use crate::system::body::Body;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use triad_linalg::{independent_rows, left_null_space};
 
@@ -23,7 +23,7 @@ pub const DEPENDENT: f64 = 1e-9;
 
 /// M, g, Φ, Φ_q and γ at one state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Literal {
+pub struct AugmentedSystem {
     /// Mass matrix M(q): diagonal and constant for full bodies, VᵀMV for reduced ones.
     pub mass: DMatrix<f64>,
     /// Generalized forces g, with −VᵀM V̇q̇ for reduced bodies.
@@ -38,14 +38,14 @@ pub struct Literal {
 
 /// Accelerations and multipliers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
+pub struct AugmentedSolution {
     /// q̈.
     pub acceleration: DVector<f64>,
     /// λ of all rows, of least norm where rows are redundant.
     pub multipliers: DVector<f64>,
 }
 
-impl Literal {
+impl AugmentedSystem {
     /// Writes the equations at a state.
     pub fn new(system: &System, at: &State) -> Self {
         let n = system.coordinates;
@@ -69,16 +69,16 @@ impl Literal {
     ///
     /// A largest set of independent rows is kept for the accelerations; the multipliers of all rows are then those of
     /// least norm that give the same constraint forces. `None` if a body without inertia is left free to turn.
-    pub fn solve(&self) -> Option<Solution> {
+    pub fn solve(&self) -> Option<AugmentedSolution> {
         let kept = independent_rows(&self.jacobian, DEPENDENT);
-        let Solution { acceleration, multipliers } = self.solve_with(&kept)?;
+        let AugmentedSolution { acceleration, multipliers } = self.solve_with(&kept)?;
         let null = left_null_space(&self.jacobian, DEPENDENT);
         let idle = &null * null.tr_mul(&multipliers);
-        Some(Solution { acceleration, multipliers: multipliers - idle })
+        Some(AugmentedSolution { acceleration, multipliers: multipliers - idle })
     }
 
     /// Solves the augmented system with the given rows alone; other rows get no multiplier.
-    pub fn solve_with(&self, kept: &[usize]) -> Option<Solution> {
+    pub fn solve_with(&self, kept: &[usize]) -> Option<AugmentedSolution> {
         let n = self.mass.nrows();
         let mut matrix = DMatrix::zeros(n + kept.len(), n + kept.len());
         matrix.view_mut((0, 0), (n, n)).copy_from(&self.mass);
@@ -96,7 +96,7 @@ impl Literal {
             multipliers[row] = solution[n + k];
         }
         let acceleration = solution.rows(0, n).into_owned();
-        acceleration.iter().all(|a| a.is_finite()).then_some(Solution { acceleration, multipliers })
+        acceleration.iter().all(|a| a.is_finite()).then_some(AugmentedSolution { acceleration, multipliers })
     }
 }
 
@@ -130,7 +130,7 @@ pub fn for_mass_entries(system: &System, at: &State, mut put: impl FnMut(usize, 
 }
 
 /// The blocks of u and v of VᵀMV, V having −ṽ and ũ in its rows of w.
-fn reduced_mass(body: &Body, q: &Lift) -> [[Matrix3<f64>; 2]; 2] {
+fn reduced_mass(body: &Body, q: &NaturalCoordinates) -> [[Matrix3<f64>; 2]; 2] {
     let [a, b, c] = [body.ibar[0], body.ibar[1], body.ibar[2]];
     let [u, v, _] = q.e;
     let across = |e: &Vector3<f64>| Matrix3::from_diagonal_element(e.norm_squared()) - e * e.transpose();
@@ -145,11 +145,11 @@ fn reduced_mass(body: &Body, q: &Lift) -> [[Matrix3<f64>; 2]; 2] {
 pub fn force(system: &System, at: &State) -> DVector<f64> {
     let mut out = DVector::zeros(system.coordinates);
     let applied = AppliedForces::new(system, at).bodies;
-    for ((body, state), mut lifted) in system.bodies.iter().zip(at.bodies()).zip(applied) {
+    for ((body, state), mut natural) in system.bodies.iter().zip(at.bodies()).zip(applied) {
         if body.coordinates == Coordinates::Reduced {
-            lifted.e[2] -= state.q_dot.e[0].cross(&state.q_dot.e[1]) * (2.0 * body.ibar[2]);
+            natural.e[2] -= state.q_dot.e[0].cross(&state.q_dot.e[1]) * (2.0 * body.ibar[2]);
         }
-        body.layout.pull_back(&state.q, &lifted, |column, value| out[column] += value);
+        body.layout.pull_back(&state.q, &natural, |column, value| out[column] += value);
     }
     out
 }

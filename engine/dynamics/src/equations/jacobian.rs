@@ -79,22 +79,22 @@ impl Jacobian {
 fn visit(system: &System, at: &State, source: Source, mut entry: impl FnMut(usize, f64, bool)) {
     // A director that two bodies share gets what both put on it: columns are collected before they are told.
     let mut numbers: Vec<(usize, f64, bool)> = Vec::with_capacity(24);
-    for part in equation(system, at, source).parts {
-        let layout = &system.bodies[part.body].layout;
+    for own in equation(system, at, source).gradients {
+        let layout = &system.bodies[own.body].layout;
         // In a reduced body what acts on w = u × v acts on u and v, and changes with them.
-        let through_w = part.touched[3] && layout.directors[2] == Director::Product;
+        let through_w = own.touched[3] && layout.directors[2] == Director::Product;
         let mut place = 0;
-        let mut touched = part.touched;
+        let mut touched = own.touched;
         if through_w {
             touched = [touched[0], true, true, false];
         }
         let blocks = std::iter::once(true).chain(layout.directors.iter().map(|d| d.column().is_some()));
         let blocks: Vec<usize> = blocks.enumerate().filter(|(_, has)| *has).map(|(block, _)| block).collect();
-        layout.pull_back(&at.bodies()[part.body].q, &part.gradient, |column, value| {
+        layout.pull_back(&at.bodies()[own.body].q, &own.gradient, |column, value| {
             let block = blocks[place / 3];
             place += 1;
             if touched[block] {
-                numbers.push((column, value, part.constant && !(through_w && block > 0)));
+                numbers.push((column, value, own.constant && !(through_w && block > 0)));
             }
         });
     }

@@ -20,7 +20,7 @@ pub struct ModelLoad {
 
 /// −stiffness (x − free) − damping ẋ + drive(t) − friction, along one freedom.
 #[derive(Clone, Debug)]
-pub struct Element {
+pub struct ForceLaw {
     /// Stiffness.
     pub stiffness: f64,
     /// x without force.
@@ -63,21 +63,21 @@ pub enum LoadKind {
         /// The two points.
         locals: [Vector3<f64>; 2],
         /// Its law.
-        element: Element,
+        law: ForceLaw,
     },
     /// About the axis of a joint; x is the angle.
     Torsion {
         /// The joint.
         joint: usize,
         /// Its law.
-        element: Element,
+        law: ForceLaw,
     },
     /// Along the axis of a joint; x is the displacement.
     Slider {
         /// The joint.
         joint: usize,
         /// Its law.
-        element: Element,
+        law: ForceLaw,
     },
 }
 
@@ -115,23 +115,23 @@ impl ModelLoad {
                 let ends = [0, 1].map(|side| reader.point_to_world(bodies[side], &locals[side]));
                 let free = free_length.unwrap_or_else(|| (ends[1] - ends[0]).norm());
                 let free = reader.number("free_length", free, 0.0, 1e9)?;
-                // A spring pulls its ends together; an element pushes along growing length.
+                // A spring pulls its ends together; a law pushes along growing length.
                 let drive = force.as_ref().map(|f| reader.curve("force", f)).transpose()?.map(negated);
-                let element = element(reader, *stiffness, free, *damping, drive, None)?;
-                LoadKind::Spring { bodies, locals, element }
+                let law = law(reader, *stiffness, free, *damping, drive, None)?;
+                LoadKind::Spring { bodies, locals, law }
             }
             Load::Torsion { joint, stiffness, free_angle, damping, torque, friction, .. } => {
                 let drive = torque.as_ref().map(|t| reader.curve("torque", t)).transpose()?;
                 LoadKind::Torsion {
                     joint: reader.joint(joint, &[JointKind::Revolute, JointKind::Cylindrical])?,
-                    element: element(reader, *stiffness, *free_angle, *damping, drive, *friction)?,
+                    law: law(reader, *stiffness, *free_angle, *damping, drive, *friction)?,
                 }
             }
             Load::Slider { joint, stiffness, free_length, damping, force, friction, .. } => {
                 let drive = force.as_ref().map(|f| reader.curve("force", f)).transpose()?;
                 LoadKind::Slider {
                     joint: reader.joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical])?,
-                    element: element(reader, *stiffness, *free_length, *damping, drive, *friction)?,
+                    law: law(reader, *stiffness, *free_length, *damping, drive, *friction)?,
                 }
             }
         };
@@ -151,14 +151,14 @@ fn negated(curve: Curve) -> Curve {
     curve.scaled(-1.0)
 }
 
-fn element(
+fn law(
     reader: &Reader,
     stiffness: f64,
     free: f64,
     damping: f64,
     drive: Option<Curve>,
     friction: Option<Friction>,
-) -> Result<Element, ModelError> {
+) -> Result<ForceLaw, ModelError> {
     reader.number("stiffness", stiffness, 0.0, GREATEST)?;
     reader.number("free", free, -1e9, 1e9)?;
     reader.number("damping", damping, 0.0, GREATEST)?;
@@ -167,5 +167,5 @@ fn element(
         reader.number("friction/coulomb", friction.coulomb, 0.0, GREATEST)?;
         reader.number("friction/smoothing", friction.smoothing, 1e-9, 1e9)?;
     }
-    Ok(Element { stiffness, free, damping, drive, friction })
+    Ok(ForceLaw { stiffness, free, damping, drive, friction })
 }

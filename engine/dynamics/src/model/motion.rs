@@ -2,7 +2,7 @@
 
 mod expansion;
 
-pub use expansion::{MOST_TERMS, sine_cosine};
+pub use expansion::{MAX_TERMS, sine_cosine};
 
 use crate::scene::{Motion, VectorMotion};
 use nalgebra::{Matrix3, Vector3};

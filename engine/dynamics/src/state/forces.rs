@@ -9,20 +9,20 @@ use crate::scene::LoadFrame;
 use crate::system::System;
 use crate::system::feature::FeatureId;
 use crate::system::load::Load;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
 /// Generalized applied forces of all bodies.
 #[derive(Clone, Debug, Default)]
 pub struct AppliedForces {
     /// G of each body.
-    pub bodies: Vec<Lift>,
+    pub bodies: Vec<NaturalCoordinates>,
 }
 
 impl AppliedForces {
     /// Room for the bodies of a system, without forces.
     pub fn none(system: &System) -> Self {
-        Self { bodies: vec![Lift::default(); system.bodies.len()] }
+        Self { bodies: vec![NaturalCoordinates::default(); system.bodies.len()] }
     }
 
     /// Weights and loads at a state.
@@ -36,7 +36,7 @@ impl AppliedForces {
     pub fn evaluate(&mut self, system: &System, state: &State) {
         state.require(Stage::Velocities);
         for (force, body) in self.bodies.iter_mut().zip(&system.bodies) {
-            *force = Lift { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] };
+            *force = NaturalCoordinates { r: system.model.gravity * body.mass, e: [Vector3::zeros(); 3] };
         }
         for load in &system.loads {
             load.apply(system, state, self);
@@ -67,7 +67,7 @@ impl AppliedForces {
     }
 
     /// ½ τ × e_k on each director of a body.
-    fn add_moment(&mut self, body: usize, moment: &Vector3<f64>, q: &Lift) {
+    fn add_moment(&mut self, body: usize, moment: &Vector3<f64>, q: &NaturalCoordinates) {
         for k in 0..3 {
             self.bodies[body].e[k] += moment.cross(&q.e[k]) * 0.5;
         }
@@ -87,9 +87,9 @@ impl Load {
                 let moment = in_world(at, *body, *frame, moment.at(t)[0]);
                 forces.add_moment(*body, &moment, &at.bodies[*body].q);
             }
-            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
+            Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => {
                 if let Some((x, rate)) = self.coordinate(at) {
-                    self.push(system, at, element.value(x, rate, t), forces);
+                    self.push(system, at, law.value(x, rate, t), forces);
                 }
             }
         }
@@ -149,14 +149,12 @@ impl Load {
     /// Adds the generalized force of a unit force or moment along its coordinate, and returns its stiffness −∂f/∂x and
     /// its damping −∂f/∂ẋ; `None` for a load without a law.
     pub fn linearized(&self, system: &System, at: &State, forces: &mut AppliedForces) -> Option<(f64, f64)> {
-        let (Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. }) =
-            self
-        else {
+        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
             return None;
         };
         let (_, rate) = self.coordinate(at)?;
         self.push(system, at, 1.0, forces);
-        Some((element.stiffness, element.slope(rate)))
+        Some((law.stiffness, law.slope(rate)))
     }
 
     /// Power of all that is not its spring, W.
@@ -172,37 +170,35 @@ impl Load {
                 let moment = in_world(at, *body, *frame, moment.at(t)[0]);
                 (0..3).map(|k| 0.5 * moment.cross(&state.q.e[k]).dot(&state.q_dot.e[k])).sum()
             }
-            Self::Spring { from, to, element } => {
+            Self::Spring { from, to, law } => {
                 let between = at.feature_value(*to) - at.feature_value(*from);
                 let rate = at.feature_rate(*to) - at.feature_rate(*from);
                 let speed = between.try_normalize(f64::MIN_POSITIVE).map_or(0.0, |d| d.dot(&rate));
-                element.without_spring(speed, t) * speed
+                law.without_spring(speed, t) * speed
             }
-            Self::Torsion { angle, element, .. } => {
+            Self::Torsion { angle, law, .. } => {
                 let speed = at.angles[*angle].rate;
-                element.without_spring(speed, t) * speed
+                law.without_spring(speed, t) * speed
             }
-            Self::Slider { axis, between, element } => {
+            Self::Slider { axis, between, law } => {
                 let (d, rate) = (between.of(|f| at.feature_value(f)), between.of(|f| at.feature_rate(f)));
                 let speed = at.feature_value(*axis).dot(&rate) + at.feature_rate(*axis).dot(&d);
-                element.without_spring(speed, t) * speed
+                law.without_spring(speed, t) * speed
             }
         }
     }
 
     /// Potential energy of its spring, J.
     pub fn potential(&self, at: &State) -> f64 {
-        let (element, value) = match self {
+        let (law, value) = match self {
             Self::Force { .. } | Self::Moment { .. } => return 0.0,
-            Self::Spring { from, to, element } => {
-                (element, (at.feature_value(*to) - at.feature_value(*from)).norm())
-            }
-            Self::Torsion { angle, element, .. } => (element, at.angles[*angle].value),
-            Self::Slider { axis, between, element } => {
-                (element, at.feature_value(*axis).dot(&between.of(|f| at.feature_value(f))))
+            Self::Spring { from, to, law } => (law, (at.feature_value(*to) - at.feature_value(*from)).norm()),
+            Self::Torsion { angle, law, .. } => (law, at.angles[*angle].value),
+            Self::Slider { axis, between, law } => {
+                (law, at.feature_value(*axis).dot(&between.of(|f| at.feature_value(f))))
             }
         };
-        0.5 * element.stiffness * (value - element.free).powi(2)
+        0.5 * law.stiffness * (value - law.free).powi(2)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A body at one state as pictures and tables show it.
 
 use super::BodyState;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -25,7 +25,7 @@ pub struct BodyFrame {
 
 impl BodyFrame {
     /// Of the natural coordinates Q and Q̇.
-    pub fn new(q: &Lift, q_dot: &Lift) -> Self {
+    pub fn new(q: &NaturalCoordinates, q_dot: &NaturalCoordinates) -> Self {
         let e = q.e;
         // ω = ½ Σ e_k × ė_k — eq. (6.4).
         let omega: Vector3<f64> = (0..3).map(|k| e[k].cross(&q_dot.e[k])).sum::<Vector3<f64>>() * 0.5;

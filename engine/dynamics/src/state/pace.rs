@@ -1,11 +1,11 @@
 //! How fast a state turns the rows of joints.
 
 use crate::system::System;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 
 /// How fast a body turns the rows of its joints, 1/s: its angular velocity, or its velocity by the length of the
 /// mechanism.
-pub fn pace(rate: &Lift, length: f64) -> f64 {
+pub fn pace(rate: &NaturalCoordinates, length: f64) -> f64 {
     let turning: f64 = rate.e.iter().map(nalgebra::Vector3::norm_squared).sum();
     (0.5 * turning).sqrt().max(rate.r.norm() / length)
 }

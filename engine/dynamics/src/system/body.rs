@@ -1,7 +1,7 @@
 //! A body as the equations of motion see it, in space and in a plane.
 
 use crate::scene::Coordinates;
-use crate::system::natural::{Layout, Lift};
+use crate::system::natural::{Layout, NaturalCoordinates};
 use nalgebra::{Matrix3, Vector3};
 
 /// A body as the equations of motion see it.
@@ -18,11 +18,11 @@ pub struct Body {
     pub regularizing_inertia: f64,
     /// Which coordinates describe it.
     pub coordinates: Coordinates,
-    /// How its lifted coordinates follow from q.
+    /// How its natural coordinates follow from q.
     pub layout: Layout,
     /// How it stands in the plane, in a system that has been reduced to one.
     pub planar_pose: Option<PlanarPose>,
-    /// The point by which it hangs on the ground, in a system that has been reduced to a plane: that joint's rows are
+    /// The point in which a hinge fixes it to the ground, in a system that has been reduced to a plane: that joint's rows are
     /// eliminated with the rigid-body rows — eq. (7.10).
     pub pivot: Option<GroundPivot>,
 }
@@ -37,8 +37,8 @@ pub struct GroundPivot {
 }
 
 impl Body {
-    /// What a force at the centre of mass moves it by: nothing if it hangs on the ground, where the moment about the pivot
-    /// tells all.
+    /// What a force at the centre of mass moves it by: nothing if it has a ground pivot, where the moment about the pivot
+    /// says all.
     pub fn free_inverse_mass(&self) -> f64 {
         if self.pivot.is_some() { 0.0 } else { 1.0 / self.mass }
     }
@@ -63,7 +63,7 @@ impl Default for PlanarPose {
 
 impl PlanarPose {
     /// (r, z) of a position or velocity in space.
-    pub fn lower(&self, lift: &Lift) -> ([f64; 2], [f64; 2]) {
+    pub fn lower(&self, lift: &NaturalCoordinates) -> ([f64; 2], [f64; 2]) {
         let r = self.frame.tr_mul(&lift.r);
         let mut z = [0.0; 2];
         for (e, d) in lift.e.iter().zip(self.directors.column_iter()) {
@@ -76,13 +76,13 @@ impl PlanarPose {
     }
 
     /// Position, or velocity or acceleration if `rate`, in space of (r, z).
-    pub fn raise(&self, r: [f64; 2], z: [f64; 2], rate: bool) -> Lift {
+    pub fn raise(&self, r: [f64; 2], z: [f64; 2], rate: bool) -> NaturalCoordinates {
         let constant = |x: f64| if rate { 0.0 } else { x };
         let e = [0, 1, 2].map(|k| {
             let d = self.directors.column(k);
             let (x, y) = (z[0] * d[0] - z[1] * d[1], z[0] * d[1] + z[1] * d[0]);
             self.frame * Vector3::new(x, y, constant(d[2]))
         });
-        Lift { r: self.frame * Vector3::new(r[0], r[1], constant(self.height)), e }
+        NaturalCoordinates { r: self.frame * Vector3::new(r[0], r[1], constant(self.height)), e }
     }
 }

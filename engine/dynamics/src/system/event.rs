@@ -2,25 +2,25 @@
 
 use crate::model::{BodyRef, EventQuantity, Model, ModelEvent};
 use crate::scene::Passing;
-use crate::system::row_builder::Writer;
+use crate::system::row_builder::RowBuilder;
 use nalgebra::Vector3;
 
 /// The number of an event in terms of the system.
 #[derive(Clone, Debug)]
-pub(crate) enum Number {
+pub(crate) enum EventMeasure {
     /// Of a point along a direction of the world.
-    Coordinate { point: Spot, direction: Vector3<f64> },
+    Coordinate { point: EventFeature, direction: Vector3<f64> },
     /// Between two points.
-    Distance([Spot; 2]),
+    Distance([EventFeature; 2]),
     /// Of a joint.
     Angle(usize),
     /// Of two points along an axis.
-    Slide { axis: Spot, points: [Spot; 2] },
+    Slide { axis: EventFeature, points: [EventFeature; 2] },
 }
 
 /// A point or vector of a body or of the ground.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spot {
+pub(crate) struct EventFeature {
     /// The body.
     pub body: BodyRef,
     /// The point or vector in it.
@@ -32,7 +32,7 @@ pub(crate) struct Spot {
 pub struct EventFunction {
     /// Name of the event.
     pub name: String,
-    pub(crate) number: Number,
+    pub(crate) measure: EventMeasure,
     /// The value.
     pub value: f64,
     /// In which direction it is to be passed.
@@ -43,25 +43,25 @@ pub struct EventFunction {
 
 impl EventFunction {
     /// Of a checked event; angles are written into the system.
-    pub fn new(model: &Model, event: &ModelEvent, writer: &mut Writer) -> Self {
-        let spot = |body, local| Spot { body, local };
-        let number = match &event.of {
+    pub fn new(model: &Model, event: &ModelEvent, builder: &mut RowBuilder) -> Self {
+        let feature = |body, local| EventFeature { body, local };
+        let measure = match &event.of {
             EventQuantity::Coordinate { body, local, direction } => {
-                Number::Coordinate { point: spot(*body, *local), direction: *direction }
+                EventMeasure::Coordinate { point: feature(*body, *local), direction: *direction }
             }
             EventQuantity::Distance { bodies, locals } => {
-                Number::Distance([0, 1].map(|side| spot(bodies[side], locals[side])))
+                EventMeasure::Distance([0, 1].map(|side| feature(bodies[side], locals[side])))
             }
-            EventQuantity::Angle { joint } => Number::Angle(writer.angle(&model.joints[*joint])),
+            EventQuantity::Angle { joint } => EventMeasure::Angle(builder.angle(&model.joints[*joint])),
             EventQuantity::Slide { joint } => {
                 let joint = &model.joints[*joint];
-                let points = [0, 1].map(|side| spot(joint.bodies[side], joint.points[side]));
-                Number::Slide { axis: spot(joint.bodies[0], joint.axes[0]), points }
+                let points = [0, 1].map(|side| feature(joint.bodies[side], joint.points[side]));
+                EventMeasure::Slide { axis: feature(joint.bodies[0], joint.axes[0]), points }
             }
         };
         Self {
             name: event.name.clone(),
-            number,
+            measure,
             value: event.value,
             passing: event.passing,
             stop: event.stop,

@@ -1,7 +1,7 @@
 //! Features: the points C^P Q and vectors C^s Q of bodies that rows and loads speak of, and prescribed numbers.
 
 use crate::model::BodyRef;
-use crate::model::motion::{Curve, Jet, MOST_TERMS, sine_cosine};
+use crate::model::motion::{Curve, Jet, MAX_TERMS, sine_cosine};
 use nalgebra::Vector3;
 
 /// A point (`point`) or a vector that is fixed in a body or in the ground, or moves in it as prescribed.
@@ -81,12 +81,12 @@ impl TargetCurve {
         [series[0], series[1], 2.0 * series[2]]
     }
 
-    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
+    /// Writes the coefficients of the series in τ about time t, at most [`MAX_TERMS`].
     pub fn expand(&self, t: f64, out: &mut [f64]) {
         self.curve.expand(t, out);
         if self.cosine {
-            let mut angle = [0.0; MOST_TERMS];
-            let (mut sin, terms) = (angle, out.len().min(MOST_TERMS));
+            let mut angle = [0.0; MAX_TERMS];
+            let (mut sin, terms) = (angle, out.len().min(MAX_TERMS));
             angle[..terms].copy_from_slice(&out[..terms]);
             sine_cosine(&angle[..terms], &mut sin, out);
         }

@@ -1,4 +1,4 @@
-//! A model in parts that nothing connects, without the bodies that cannot move — THEORY section 7.
+//! The islands of a model, which nothing connects, without the bodies that cannot move — THEORY section 7.
 //!
 //! Bodies that no joint, driver or load connects move each on its own: their series take steps of their own. A body
 //! that rigid connections tie to the ground is ground.
@@ -6,46 +6,46 @@
 use crate::model::{BodyRef, DriverKind, LoadKind, Model, ModelJoint};
 use crate::scene::JointKind;
 use crate::system::System;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
-/// A part as a system of its own, which speaks of the coordinates of the whole.
+/// An island as a system of its own, which speaks of the coordinates of the whole.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct Island {
     /// The system.
     pub system: System,
     /// Its bodies, as places in the whole.
     pub bodies: Vec<usize>,
 }
 
-/// What a model is made of.
+/// The islands of a model.
 #[derive(Clone, Debug)]
-pub struct Parts {
-    /// The parts; none where the whole is one part.
-    pub parts: Vec<Part>,
+pub struct Islands {
+    /// The islands; none where the whole is one.
+    pub islands: Vec<Island>,
     /// Bodies that cannot move.
     pub fixed: usize,
 }
 
 /// Where a body of the whole has gone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Fate {
+enum Assignment {
     /// It is ground, at its place.
-    Ground(Lift),
-    /// Body `index` of part `part`.
-    Moves { part: usize, index: usize },
+    Ground(NaturalCoordinates),
+    /// Body `index` of island `island`.
+    Moves { island: usize, index: usize },
 }
 
 /// Takes a system apart at positions q: into islands, and without fixed bodies, as far as asked for.
-pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Parts {
+pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Islands {
     let model = &system.model;
-    let held = if fixed { held(model) } else { vec![false; model.bodies.len()] };
+    let grounded = if fixed { tied_to_ground(model) } else { vec![false; model.bodies.len()] };
     let mut label: Vec<usize> = (0..model.bodies.len()).collect();
     if islands {
         for [i, j] in links(model) {
             if let (BodyRef::Moving(i), BodyRef::Moving(j)) = (i, j)
-                && !held[i]
-                && !held[j]
+                && !grounded[i]
+                && !grounded[j]
             {
                 join(&mut label, i, j);
             }
@@ -53,45 +53,45 @@ pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Parts {
     } else {
         label.fill(0);
     }
-    let (mut fates, mut bodies, mut part_of) =
+    let (mut assignments, mut bodies, mut island_of) =
         (Vec::new(), Vec::<Vec<usize>>::new(), vec![None; label.len()]);
     for body in 0..label.len() {
-        if held[body] {
-            fates.push(Fate::Ground(system.bodies[body].layout.position(q)));
+        if grounded[body] {
+            assignments.push(Assignment::Ground(system.bodies[body].layout.position(q)));
             continue;
         }
-        let part = *part_of[root(&mut label, body)].get_or_insert_with(|| {
+        let island = *island_of[root(&mut label, body)].get_or_insert_with(|| {
             bodies.push(Vec::new());
             bodies.len() - 1
         });
-        fates.push(Fate::Moves { part, index: bodies[part].len() });
-        bodies[part].push(body);
+        assignments.push(Assignment::Moves { island, index: bodies[island].len() });
+        bodies[island].push(body);
     }
-    let fixed = held.iter().filter(|held| **held).count();
+    let fixed = grounded.iter().filter(|grounded| **grounded).count();
     if bodies.len() < 2 && fixed == 0 {
-        return Parts { parts: Vec::new(), fixed };
+        return Islands { islands: Vec::new(), fixed };
     }
     let mut models: Vec<Model> = bodies.iter().map(|list| without_rows(model, list)).collect();
-    distribute(model, &fates, &mut models);
-    let parts = models.into_iter().zip(bodies).map(|(model, bodies)| {
-        let mut part = System::new(model);
-        part.coordinates = system.coordinates;
-        for (own, &body) in part.bodies.iter_mut().zip(&bodies) {
+    distribute(model, &assignments, &mut models);
+    let own = models.into_iter().zip(bodies).map(|(model, bodies)| {
+        let mut island = System::new(model);
+        island.coordinates = system.coordinates;
+        for (own, &body) in island.bodies.iter_mut().zip(&bodies) {
             own.layout = system.bodies[body].layout;
         }
-        Part { system: part, bodies }
+        Island { system: island, bodies }
     });
-    Parts { parts: parts.collect(), fixed }
+    Islands { islands: own.collect(), fixed }
 }
 
 /// Bodies that rigid connections tie to the ground. Scenes with gears, whose joints must stay, keep all bodies, and a
 /// driven body is never taken for fixed.
-fn held(model: &Model) -> Vec<bool> {
-    let mut held = vec![false; model.bodies.len()];
+fn tied_to_ground(model: &Model) -> Vec<bool> {
+    let mut grounded = vec![false; model.bodies.len()];
     if model.joints.iter().any(|joint| joint.gear.is_some()) {
-        return held;
+        return grounded;
     }
-    let mut driven = held.clone();
+    let mut driven = grounded.clone();
     for driver in &model.drivers {
         for body in driver_bodies(model, &driver.kind) {
             if let BodyRef::Moving(body) = body {
@@ -103,24 +103,24 @@ fn held(model: &Model) -> Vec<bool> {
     while changed {
         changed = false;
         for joint in model.joints.iter().filter(|joint| joint.kind == JointKind::Fixed) {
-            let is_held = |held: &[bool], body: BodyRef| match body {
+            let tied = |grounded: &[bool], body: BodyRef| match body {
                 BodyRef::Ground => true,
-                BodyRef::Moving(body) => held[body],
+                BodyRef::Moving(body) => grounded[body],
             };
             let [i, j] = joint.bodies;
             for (one, other) in [(i, j), (j, i)] {
                 if let BodyRef::Moving(body) = other
-                    && is_held(&held, one)
-                    && !held[body]
+                    && tied(&grounded, one)
+                    && !grounded[body]
                     && !driven[body]
                 {
-                    held[body] = true;
+                    grounded[body] = true;
                     changed = true;
                 }
             }
         }
     }
-    held
+    grounded
 }
 
 fn driver_bodies(model: &Model, kind: &DriverKind) -> [BodyRef; 2] {
@@ -206,28 +206,28 @@ fn without_rows(model: &Model, bodies: &[usize]) -> Model {
     }
 }
 
-impl Fate {
-    /// The body as it is called in its part, and that part.
-    fn of(fates: &[Self], body: BodyRef) -> (BodyRef, Option<usize>) {
+impl Assignment {
+    /// The body as it is called in its island, and that island.
+    fn of(assignments: &[Self], body: BodyRef) -> (BodyRef, Option<usize>) {
         match body {
             BodyRef::Ground => (BodyRef::Ground, None),
-            BodyRef::Moving(body) => match fates[body] {
+            BodyRef::Moving(body) => match assignments[body] {
                 Self::Ground(_) => (BodyRef::Ground, None),
-                Self::Moves { part, index } => (BodyRef::Moving(index), Some(part)),
+                Self::Moves { island, index } => (BodyRef::Moving(index), Some(island)),
             },
         }
     }
 
-    /// The part that two bodies belong to, if it is not the ground, and what they are called there.
-    fn pair(fates: &[Self], bodies: [BodyRef; 2]) -> Option<(usize, [BodyRef; 2])> {
-        let [(i, part_i), (j, part_j)] = bodies.map(|body| Self::of(fates, body));
-        Some((part_i.or(part_j)?, [i, j]))
+    /// The island that two bodies belong to, if it is not the ground, and what they are called there.
+    fn pair(assignments: &[Self], bodies: [BodyRef; 2]) -> Option<(usize, [BodyRef; 2])> {
+        let [(i, island_i), (j, island_j)] = bodies.map(|body| Self::of(assignments, body));
+        Some((island_i.or(island_j)?, [i, j]))
     }
 
-    /// A point or vector of a body in the frame in which its part speaks of it.
-    fn turned(fates: &[Self], body: BodyRef, local: &Vector3<f64>, point: bool) -> Vector3<f64> {
+    /// A point or vector of a body in the frame in which its island speaks of it.
+    fn turned(assignments: &[Self], body: BodyRef, local: &Vector3<f64>, point: bool) -> Vector3<f64> {
         match body {
-            BodyRef::Moving(body) => match &fates[body] {
+            BodyRef::Moving(body) => match &assignments[body] {
                 Self::Ground(place) if point => place.r + place.arm(local),
                 Self::Ground(place) => place.arm(local),
                 Self::Moves { .. } => *local,
@@ -237,25 +237,28 @@ impl Fate {
     }
 }
 
-/// Gives each joint, driver and load to the part that it belongs to. Those of the ground alone say nothing.
-fn distribute(model: &Model, fates: &[Fate], parts: &mut [Model]) {
+/// Gives each joint, driver and load to the island that it belongs to. Those of the ground alone say nothing.
+fn distribute(model: &Model, assignments: &[Assignment], islands: &mut [Model]) {
     let mut places = vec![usize::MAX; model.joints.len()];
     for (index, joint) in model.joints.iter().enumerate() {
-        let Some((part, bodies)) = Fate::pair(fates, joint.bodies) else { continue };
-        places[index] = parts[part].joints.len();
+        let Some((island, bodies)) = Assignment::pair(assignments, joint.bodies) else { continue };
+        places[index] = islands[island].joints.len();
         let mut own = ModelJoint { bodies, ..joint.clone() };
         for side in 0..2 {
-            let turned =
-                |local: &Vector3<f64>, point: bool| Fate::turned(fates, joint.bodies[side], local, point);
+            let turned = |local: &Vector3<f64>, point: bool| {
+                Assignment::turned(assignments, joint.bodies[side], local, point)
+            };
             own.points[side] = turned(&joint.points[side], true);
             own.axes[side] = turned(&joint.axes[side], false);
             own.cross[side] = joint.cross[side].map(|across| turned(&across, false));
         }
         own.gear = joint.gear.map(|(pair, ratio)| (pair.map(|joint| places[joint]), ratio));
-        parts[part].joints.push(own);
+        islands[island].joints.push(own);
     }
     for driver in &model.drivers {
-        let Some((part, pair)) = Fate::pair(fates, driver_bodies(model, &driver.kind)) else { continue };
+        let Some((island, pair)) = Assignment::pair(assignments, driver_bodies(model, &driver.kind)) else {
+            continue;
+        };
         let mut own = driver.clone();
         match &mut own.kind {
             DriverKind::Point { body, .. }
@@ -264,22 +267,24 @@ fn distribute(model: &Model, fates: &[Fate], parts: &mut [Model]) {
             DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => *joint = places[*joint],
             DriverKind::Cosine { bodies, .. } => *bodies = pair,
         }
-        parts[part].drivers.push(own);
+        islands[island].drivers.push(own);
     }
     for load in &model.loads {
-        let Some((part, pair)) = Fate::pair(fates, load_bodies(model, &load.kind)) else { continue };
+        let Some((island, pair)) = Assignment::pair(assignments, load_bodies(model, &load.kind)) else {
+            continue;
+        };
         let mut own = load.clone();
         match &mut own.kind {
             LoadKind::Force { body, .. } | LoadKind::Moment { body, .. } => rename(body, pair[1]),
             LoadKind::Spring { bodies, locals, .. } => {
                 for (side, local) in locals.iter_mut().enumerate() {
-                    *local = Fate::turned(fates, bodies[side], local, true);
+                    *local = Assignment::turned(assignments, bodies[side], local, true);
                 }
                 *bodies = pair;
             }
             LoadKind::Torsion { joint, .. } | LoadKind::Slider { joint, .. } => *joint = places[*joint],
         }
-        parts[part].loads.push(own);
+        islands[island].loads.push(own);
     }
 }
 

@@ -4,67 +4,67 @@ use crate::model::{Model, ModelJoint};
 use crate::scene::{AxisRows, JointKind};
 use crate::system::feature::{Difference, FeatureId, Target};
 use crate::system::row::Form;
-use crate::system::row_builder::{LabelledForm, Writer, WrittenGroup};
+use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
 
 /// Labels of perpendicularity rows (CAR) and of rows that keep a point on a line.
 const CAR: [&str; 3] = ["CAR1", "CAR2", "CAR3"];
 const LINE: [&str; 2] = ["LINE1", "LINE2"];
 
 /// Writes the rows of a joint.
-pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
+pub fn write(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
     let forms = match joint.kind {
-        JointKind::Spherical => vec![common_point(joint, writer)],
+        JointKind::Spherical => vec![common_point(joint, builder)],
         JointKind::Revolute => {
-            let mut forms = vec![common_point(joint, writer)];
+            let mut forms = vec![common_point(joint, builder)];
             match joint.rows {
                 AxisRows::Cv => {
-                    let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
+                    let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
                     forms.push(LabelledForm::new("CV", Form::CommonVector { a, b }));
                 }
                 AxisRows::Shared => {
-                    let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
+                    let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
                     let form = Form::CommonVector { a, b };
                     forms.push(LabelledForm { label: "CV (shared)", form, implied: true });
                 }
-                AxisRows::TwoCar => forms.extend(common_axis(joint, writer)),
+                AxisRows::TwoCar => forms.extend(common_axis(joint, builder)),
             }
             forms
         }
         JointKind::Universal => {
-            let [a, b] = [0, 1].map(|side| writer.vector(joint.bodies[side], joint.axes[side]));
-            vec![common_point(joint, writer), LabelledForm::new("CAR", perpendicular(a, b))]
+            let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
+            vec![common_point(joint, builder), LabelledForm::new("CAR", perpendicular(a, b))]
         }
-        JointKind::Cylindrical => on_line(joint, writer).chain(common_axis(joint, writer)).collect(),
+        JointKind::Cylindrical => on_line(joint, builder).chain(common_axis(joint, builder)).collect(),
         JointKind::Prismatic => {
-            let forms = on_line(joint, writer).chain(common_axis(joint, writer));
+            let forms = on_line(joint, builder).chain(common_axis(joint, builder));
             let mut forms: Vec<LabelledForm> = forms.collect();
-            forms.push(no_turn(joint, writer));
+            forms.push(no_turn(joint, builder));
             forms
         }
         JointKind::Planar => {
-            let mut forms = vec![in_plane(joint, writer)];
-            forms.extend(common_axis(joint, writer));
+            let mut forms = vec![in_plane(joint, builder)];
+            forms.extend(common_axis(joint, builder));
             forms
         }
         JointKind::Screw => {
             let mut forms: Vec<LabelledForm> =
-                on_line(joint, writer).chain(common_axis(joint, writer)).collect();
-            forms.push(LabelledForm::new("SCREW", thread(joint, writer)));
+                on_line(joint, builder).chain(common_axis(joint, builder)).collect();
+            forms.push(LabelledForm::new("SCREW", thread(joint, builder)));
             forms
         }
         JointKind::Fixed => {
-            let mut forms = vec![common_point(joint, writer)];
-            forms.extend(common_axis(joint, writer));
-            forms.push(no_turn(joint, writer));
+            let mut forms = vec![common_point(joint, builder)];
+            forms.extend(common_axis(joint, builder));
+            forms.push(no_turn(joint, builder));
             forms
         }
-        JointKind::Rod => vec![LabelledForm::new("DIST", distance(joint, writer))],
-        JointKind::PointOnLine => on_line(joint, writer).collect(),
-        JointKind::PointInPlane => vec![in_plane(joint, writer)],
+        JointKind::Rod => vec![LabelledForm::new("DIST", distance(joint, builder))],
+        JointKind::PointOnLine => on_line(joint, builder).collect(),
+        JointKind::PointInPlane => vec![in_plane(joint, builder)],
         JointKind::Gear => match joint.gear {
             Some(([first, second], ratio)) => {
-                let first = writer.angle(&model.joints[first]);
-                let second = writer.angle(&model.joints[second]);
+                let first = builder.angle(&model.joints[first]);
+                let second = builder.angle(&model.joints[second]);
                 let angles = [Some((first, -ratio)), Some((second, 1.0))];
                 let form = Form::Relation { angles, slide: None, constant: 0.0 };
                 vec![LabelledForm::new("GEAR", form)]
@@ -73,36 +73,38 @@ pub fn write(model: &Model, joint: &ModelJoint, writer: &mut Writer) {
         },
     };
     let (name, bodies, points) = (joint.name.clone(), joint.bodies, joint.points);
-    writer.groups.push(WrittenGroup { name, forms, bodies, points, driver: false });
+    builder.constraints.push(ConstraintBlock { name, forms, bodies, points, driver: false });
 }
 
 /// P_i = P_j (CP).
-fn common_point(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
-    let [a, b] = [0, 1].map(|side| writer.point(joint.bodies[side], joint.points[side]));
+fn common_point(joint: &ModelJoint, builder: &mut RowBuilder) -> LabelledForm {
+    let [a, b] = [0, 1].map(|side| builder.point(joint.bodies[side], joint.points[side]));
     LabelledForm::new("CP", Form::Coincidence { a, b })
 }
 
 /// The axis of body j is perpendicular to two vectors of body i (2 CAR) — eq. (5.1).
-fn common_axis(joint: &ModelJoint, writer: &mut Writer) -> Vec<LabelledForm> {
+fn common_axis(joint: &ModelJoint, builder: &mut RowBuilder) -> Vec<LabelledForm> {
     let [i, j] = joint.bodies;
-    let s = writer.vector(j, joint.axes[1]);
-    let across = joint.cross[0].map(|t| writer.vector(i, t));
+    let s = builder.vector(j, joint.axes[1]);
+    let across = joint.cross[0].map(|t| builder.vector(i, t));
     CAR.into_iter().zip(across).map(|(label, t)| LabelledForm::new(label, perpendicular(t, s))).collect()
 }
 
 /// Vectors across the axis that coincide at the start stay perpendicular in pairs (CAR).
-fn no_turn(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
+fn no_turn(joint: &ModelJoint, builder: &mut RowBuilder) -> LabelledForm {
     let [i, j] = joint.bodies;
-    let (a, b) = (writer.vector(i, joint.cross[0][0]), writer.vector(j, joint.cross[1][1]));
+    let (a, b) = (builder.vector(i, joint.cross[0][0]), builder.vector(j, joint.cross[1][1]));
     LabelledForm::new(CAR[2], perpendicular(a, b))
 }
 
 /// P_j lies on the line through P_i along the axis of body i.
-fn on_line(joint: &ModelJoint, writer: &mut Writer) -> impl Iterator<Item = LabelledForm> + use<> {
+fn on_line(joint: &ModelJoint, builder: &mut RowBuilder) -> impl Iterator<Item = LabelledForm> + use<> {
     let [i, j] = joint.bodies;
-    let between =
-        Difference { plus: writer.point(j, joint.points[1]), minus: Some(writer.point(i, joint.points[0])) };
-    let across = joint.cross[0].map(|t| writer.vector(i, t));
+    let between = Difference {
+        plus: builder.point(j, joint.points[1]),
+        minus: Some(builder.point(i, joint.points[0])),
+    };
+    let across = joint.cross[0].map(|t| builder.vector(i, t));
     LINE.into_iter().zip(across).map(move |(label, t)| {
         let form = Form::Product { a: Difference::one(t), b: between, target: Target::Constant(0.0) };
         LabelledForm::new(label, form)
@@ -110,23 +112,25 @@ fn on_line(joint: &ModelJoint, writer: &mut Writer) -> impl Iterator<Item = Labe
 }
 
 /// P_j lies in the plane through P_i normal to the axis of body i.
-fn in_plane(joint: &ModelJoint, writer: &mut Writer) -> LabelledForm {
-    let (a, b) = writer.slide(joint);
+fn in_plane(joint: &ModelJoint, builder: &mut RowBuilder) -> LabelledForm {
+    let (a, b) = builder.slide(joint);
     LabelledForm::new("PLANE", Form::Product { a, b, target: Target::Constant(0.0) })
 }
 
 /// |P_j − P_i|² = L².
-fn distance(joint: &ModelJoint, writer: &mut Writer) -> Form {
+fn distance(joint: &ModelJoint, builder: &mut RowBuilder) -> Form {
     let [i, j] = joint.bodies;
-    let between =
-        Difference { plus: writer.point(j, joint.points[1]), minus: Some(writer.point(i, joint.points[0])) };
+    let between = Difference {
+        plus: builder.point(j, joint.points[1]),
+        minus: Some(builder.point(i, joint.points[0])),
+    };
     Form::Product { a: between, b: between, target: Target::Constant(joint.length * joint.length) }
 }
 
 /// Displacement − pitch · angle = 0.
-fn thread(joint: &ModelJoint, writer: &mut Writer) -> Form {
-    let angle = writer.angle(joint);
-    let (a, b) = writer.slide(joint);
+fn thread(joint: &ModelJoint, builder: &mut RowBuilder) -> Form {
+    let angle = builder.angle(joint);
+    let (a, b) = builder.slide(joint);
     Form::Relation { angles: [Some((angle, -joint.pitch)), None], slide: Some((a, b, 1.0)), constant: 0.0 }
 }
 

@@ -1,10 +1,10 @@
 //! Loads, their geometry written in features — THEORY section 6.
 
 use crate::model::motion::VectorCurve;
-use crate::model::{BodyRef, Element, LoadKind, Model, ModelLoad};
+use crate::model::{BodyRef, ForceLaw, LoadKind, Model, ModelLoad};
 use crate::scene::LoadFrame;
 use crate::system::feature::{Difference, FeatureId};
-use crate::system::row_builder::Writer;
+use crate::system::row_builder::RowBuilder;
 use nalgebra::Vector3;
 
 /// A load, its geometry as features.
@@ -37,7 +37,7 @@ pub enum Load {
         /// Point on body j.
         to: FeatureId,
         /// Law of the length.
-        element: Element,
+        law: ForceLaw,
     },
     /// About the axis of a joint.
     Torsion {
@@ -48,7 +48,7 @@ pub enum Load {
         /// Bodies i and j.
         bodies: [BodyRef; 2],
         /// Law of the angle.
-        element: Element,
+        law: ForceLaw,
     },
     /// Along the axis of a joint.
     Slider {
@@ -57,13 +57,13 @@ pub enum Load {
         /// P_j − P_i.
         between: Difference,
         /// Law of the displacement.
-        element: Element,
+        law: ForceLaw,
     },
 }
 
 impl Load {
     /// Writes the features of a load.
-    pub fn new(model: &Model, load: &ModelLoad, writer: &mut Writer) -> Self {
+    pub fn new(model: &Model, load: &ModelLoad, builder: &mut RowBuilder) -> Self {
         match &load.kind {
             LoadKind::Force { body, local, force, frame } => {
                 Self::Force { body: *body, local: *local, force: force.clone(), frame: *frame }
@@ -71,19 +71,19 @@ impl Load {
             LoadKind::Moment { body, moment, frame } => {
                 Self::Moment { body: *body, moment: moment.clone(), frame: *frame }
             }
-            LoadKind::Spring { bodies, locals, element } => {
-                let [from, to] = [0, 1].map(|side| writer.point(bodies[side], locals[side]));
-                Self::Spring { from, to, element: element.clone() }
+            LoadKind::Spring { bodies, locals, law } => {
+                let [from, to] = [0, 1].map(|side| builder.point(bodies[side], locals[side]));
+                Self::Spring { from, to, law: law.clone() }
             }
-            LoadKind::Torsion { joint, element } => {
+            LoadKind::Torsion { joint, law } => {
                 let joint = &model.joints[*joint];
-                let angle = writer.angle(joint);
-                let axis = writer.angles[angle].axis;
-                Self::Torsion { angle, axis, bodies: joint.bodies, element: element.clone() }
+                let angle = builder.angle(joint);
+                let axis = builder.angles[angle].axis;
+                Self::Torsion { angle, axis, bodies: joint.bodies, law: law.clone() }
             }
-            LoadKind::Slider { joint, element } => {
-                let (axis, between) = writer.slide(&model.joints[*joint]);
-                Self::Slider { axis: axis.plus, between, element: element.clone() }
+            LoadKind::Slider { joint, law } => {
+                let (axis, between) = builder.slide(&model.joints[*joint]);
+                Self::Slider { axis: axis.plus, between, law: law.clone() }
             }
         }
     }
@@ -109,9 +109,7 @@ impl Load {
     pub fn steepest_damping(&self) -> f64 {
         match self {
             Self::Force { .. } | Self::Moment { .. } => 0.0,
-            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
-                element.slope(0.0)
-            }
+            Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => law.slope(0.0),
         }
     }
 
@@ -119,14 +117,14 @@ impl Load {
     pub fn is_conservative(&self) -> bool {
         match self {
             Self::Force { .. } | Self::Moment { .. } => false,
-            Self::Spring { element, .. } | Self::Torsion { element, .. } | Self::Slider { element, .. } => {
-                element.damping == 0.0 && element.drive.is_none() && element.friction.is_none()
+            Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => {
+                law.damping == 0.0 && law.drive.is_none() && law.friction.is_none()
             }
         }
     }
 }
 
-impl Element {
+impl ForceLaw {
     /// Force or moment in the direction of growing x — eq. (6.9).
     pub(crate) fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
         self.without_spring(rate, t) - self.stiffness * (x - self.free)

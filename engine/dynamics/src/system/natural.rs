@@ -1,28 +1,28 @@
 //! Coordinates of a body, full, reduced or shared with a neighbour, and the map between them — THEORY section 3.
 //!
-//! Constraints, loads and inertia are written in the *lifted* coordinates Q = (r, u, v, w) of a body. A full body has
+//! Constraints, loads and inertia are written in *natural coordinates* Q = (r, u, v, w) of a body. A full body has
 //! q = Q; a reduced body has q = (r, u, v), and w = u × v. Then Q̇ = V q̇ and Q̈ = V q̈ + V̇ q̇, where V is never built:
 //! each product with it is two cross products. Two bodies that share a director at a joint have its coordinates once.
 
 use crate::scene::Coordinates;
 use nalgebra::Vector3;
 
-/// A vector of the lifted coordinates (r, u, v, w) of one body: position, velocity, acceleration or force.
+/// A vector of the natural coordinates (r, u, v, w) of one body: position, velocity, acceleration or force.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lift {
+pub struct NaturalCoordinates {
     /// Part that belongs to the centre of mass r.
     pub r: Vector3<f64>,
     /// Parts that belong to the directors u, v, w.
     pub e: [Vector3<f64>; 3],
 }
 
-impl Default for Lift {
+impl Default for NaturalCoordinates {
     fn default() -> Self {
         Self { r: Vector3::zeros(), e: [Vector3::zeros(); 3] }
     }
 }
 
-impl Lift {
+impl NaturalCoordinates {
     /// Sum of products of all twelve components.
     pub fn dot(&self, other: &Self) -> f64 {
         self.r.dot(&other.r) + (0..3).map(|k| self.e[k].dot(&other.e[k])).sum::<f64>()
@@ -68,7 +68,7 @@ impl Director {
     }
 }
 
-/// How the lifted coordinates of a body follow from q.
+/// How the natural coordinates of a body follow from q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// First column of its own coordinates: those of r.
@@ -107,7 +107,7 @@ impl Layout {
     }
 
     /// Q of all generalized coordinates q; a reduced body has w = u × v — eq. (3.1).
-    pub fn position(&self, q: &[f64]) -> Lift {
+    pub fn position(&self, q: &[f64]) -> NaturalCoordinates {
         let read = |d: Director| match d {
             Director::Own(column) => vector(q, column),
             Director::Shared { column, sign } => vector(q, column) * sign,
@@ -118,11 +118,11 @@ impl Layout {
         if self.directors[2] == Director::Product {
             e[2] = e[0].cross(&e[1]);
         }
-        Lift { r: vector(q, self.first), e }
+        NaturalCoordinates { r: vector(q, self.first), e }
     }
 
     /// Q̇ = V q̇ — eq. (3.2).
-    pub fn velocity(&self, at: &Lift, q_dot: &[f64]) -> Lift {
+    pub fn velocity(&self, at: &NaturalCoordinates, q_dot: &[f64]) -> NaturalCoordinates {
         let read = |d: Director| match d.column() {
             Some((column, sign)) => vector(q_dot, column) * sign,
             None => Vector3::zeros(),
@@ -131,15 +131,15 @@ impl Layout {
         if self.directors[2] == Director::Product {
             e[2] = e[0].cross(&at.e[1]) + at.e[0].cross(&e[1]);
         }
-        Lift { r: vector(q_dot, self.first), e }
+        NaturalCoordinates { r: vector(q_dot, self.first), e }
     }
 
-    /// Calls `put(column, value)` for each of the body's own coordinates in a lifted vector.
-    pub fn own_numbers(&self, lifted: &Lift, mut put: impl FnMut(usize, f64)) {
+    /// Calls `put(column, value)` for each of the body's own coordinates in a vector of natural coordinates.
+    pub fn own_numbers(&self, natural: &NaturalCoordinates, mut put: impl FnMut(usize, f64)) {
         for axis in 0..3 {
-            put(self.first + axis, lifted.r[axis]);
+            put(self.first + axis, natural.r[axis]);
         }
-        for (director, e) in self.directors.iter().zip(&lifted.e) {
+        for (director, e) in self.directors.iter().zip(&natural.e) {
             if let Director::Own(column) = *director {
                 for axis in 0..3 {
                     put(column + axis, e[axis]);
@@ -148,13 +148,18 @@ impl Layout {
         }
     }
 
-    /// Writes the body's own coordinates of a lifted vector into q.
-    pub fn store(&self, lifted: &Lift, q: &mut [f64]) {
-        self.own_numbers(lifted, |column, value| q[column] = value);
+    /// Writes the body's own coordinates of a vector of natural coordinates into q.
+    pub fn store(&self, natural: &NaturalCoordinates, q: &mut [f64]) {
+        self.own_numbers(natural, |column, value| q[column] = value);
     }
 
-    /// Calls `put(column, value)` for each number of Vᵀ p, p a generalized force of the lifted coordinates — eq. (3.4).
-    pub fn pull_back(&self, at: &Lift, p: &Lift, mut put: impl FnMut(usize, f64)) {
+    /// Calls `put(column, value)` for each number of Vᵀ p, p a generalized force of the natural coordinates — eq. (3.4).
+    pub fn pull_back(
+        &self,
+        at: &NaturalCoordinates,
+        p: &NaturalCoordinates,
+        mut put: impl FnMut(usize, f64),
+    ) {
         let mut e = p.e;
         if self.directors[2] == Director::Product {
             e[0] += at.e[1].cross(&p.e[2]);

@@ -1,6 +1,6 @@
 //! Motion in a plane: how it is recognised, and the system with the rows of the plane alone — THEORY section 7, eq. (7.9).
 //!
-//! If every body hangs on the ground by joints that keep a common direction n and the heights along it (hinges about
+//! If every body is connected to the ground by joints that keep a common direction n and the heights along it (hinges about
 //! n, slides across n, planar joints, rigid connections), the joints themselves keep the motion in planes across n,
 //! whatever acts. By d'Alembert's principle the motion then follows from the virtual displacements in the plane: three
 //! components of a body's twist, and the part of each row in the plane. What the other rows carry is a matter of
@@ -12,7 +12,7 @@ use crate::scene::{JointKind, LoadFrame};
 use crate::system::body::{Body, GroundPivot, PlanarPose};
 use crate::system::feature::{Difference, Target};
 use crate::system::load::Load;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::{Row, System};
 use nalgebra::{Matrix3, Vector3};
@@ -54,7 +54,7 @@ pub enum Spatial {
 
 /// The plane in which a system moves from the consistent positions q on.
 pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
-    let places: Vec<Lift> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
+    let places: Vec<NaturalCoordinates> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
     let axis = |joint: &ModelJoint| {
         let (side, place) = match joint.bodies {
             [BodyRef::Moving(body), _] => (0, &places[body]),
@@ -67,13 +67,13 @@ pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
     let normal = system.model.joints.iter().find(tells).map(axis).ok_or(Spatial::NoNormal)?;
     let plane = Plane { frame: frame(&normal.normalize()) };
     let normal = plane.frame.column(2).into_owned();
-    let holds = |joint: &ModelJoint| match joint.kind {
+    let keeps_plane = |joint: &ModelJoint| match joint.kind {
         JointKind::Revolute | JointKind::Planar => axis(joint).cross(&normal).amax() < ALIKE,
         JointKind::Prismatic => axis(joint).dot(&normal).abs() < ALIKE,
         JointKind::Fixed => true,
         _ => false,
     };
-    if let Some(body) = loose_body(system, holds) {
+    if let Some(body) = loose_body(system, keeps_plane) {
         return Err(Spatial::Loose { body: system.model.bodies[body].name.clone() });
     }
     Ok(plane)
@@ -91,26 +91,26 @@ fn frame(normal: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// A body that no chain of such joints connects with the ground.
-fn loose_body(system: &System, holds: impl Fn(&ModelJoint) -> bool) -> Option<usize> {
+fn loose_body(system: &System, keeps_plane: impl Fn(&ModelJoint) -> bool) -> Option<usize> {
     // Node 0 is the ground.
     let node = |body: BodyRef| match body {
         BodyRef::Ground => 0,
         BodyRef::Moving(body) => body + 1,
     };
     let mut links = vec![Vec::new(); system.bodies.len() + 1];
-    for joint in system.model.joints.iter().filter(|joint| holds(joint)) {
+    for joint in system.model.joints.iter().filter(|joint| keeps_plane(joint)) {
         let [i, j] = joint.bodies.map(node);
         links[i].push(j);
         links[j].push(i);
     }
-    let mut held = vec![false; links.len()];
+    let mut connected = vec![false; links.len()];
     let mut next = vec![0];
     while let Some(node) = next.pop() {
-        if !std::mem::replace(&mut held[node], true) {
+        if !std::mem::replace(&mut connected[node], true) {
             next.extend(&links[node]);
         }
     }
-    held.iter().position(|held| !held).map(|node| node - 1)
+    connected.iter().position(|connected| !connected).map(|node| node - 1)
 }
 
 impl Plane {
@@ -155,12 +155,12 @@ fn set_inertia(flat: &mut System) {
 /// Leaves of each joint the rows of the plane, and numbers them anew.
 fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
     let rows = std::mem::take(&mut flat.rows);
-    let mut groups = std::mem::take(&mut flat.groups);
-    (flat.solver_rows, flat.block_numbers) = (0, 0);
-    for group in &mut groups {
+    let mut constraints = std::mem::take(&mut flat.constraints);
+    (flat.solver_rows, flat.block_entries) = (0, 0);
+    for constraint in &mut constraints {
         let first = flat.rows.len();
         let mut size = 0;
-        for mut row in kept(flat, &rows[group.forms.clone()], &group.name)? {
+        for mut row in kept(flat, &rows[constraint.forms.clone()], &constraint.name)? {
             if set_pivot(flat, &row.form) {
                 continue;
             }
@@ -169,19 +169,19 @@ fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
             size += independent(&row.form);
             flat.rows.push(row);
         }
-        group.forms = first..flat.rows.len();
-        group.solver = flat.solver_rows..flat.solver_rows + size;
+        constraint.forms = first..flat.rows.len();
+        constraint.solver = flat.solver_rows..flat.solver_rows + size;
         flat.solver_rows += size;
-        for incidence in &mut flat.incidences[group.incidences.clone()] {
-            (incidence.rows, incidence.offset) = (size, flat.block_numbers);
-            flat.block_numbers += 6 * size;
+        for incidence in &mut flat.incidences[constraint.incidences.clone()] {
+            (incidence.rows, incidence.offset) = (size, flat.block_entries);
+            flat.block_entries += 6 * size;
         }
     }
-    flat.groups = groups;
+    flat.constraints = constraints;
     Ok(())
 }
 
-/// Hangs a body on the ground by a point that is held there: one point each, and fixed ones only.
+/// Makes a hinge on the ground the pivot of its body: one for each body, and only between fixed points.
 fn set_pivot(flat: &mut System, form: &Form) -> bool {
     let &Form::Coincidence { a, b } = form else { return false };
     let [a, b] = [a, b].map(|f| flat.features[f]);

@@ -1,6 +1,6 @@
 //! Constraint rows — THEORY section 4.
 //!
-//! Every constraint of every joint is one of four forms; three are polynomials of degree at most two in the lifted
+//! Every constraint of every joint is one of four forms; three are polynomials of degree at most two in the natural
 //! coordinates of the bodies that they touch, the fourth relates joint angles. A form is a statement about *features*: points C^P Q and vectors C^s Q
 //! with constant local coordinates, or points and vectors of the ground. Φ, Φ_q, ν and γ all follow from that one
 //! statement, so they cannot disagree.

@@ -28,7 +28,7 @@ impl LabelledForm {
 
 /// The rows of one joint or driver.
 #[derive(Clone, Debug)]
-pub struct WrittenGroup {
+pub struct ConstraintBlock {
     /// Its name.
     pub name: String,
     /// Its rows.
@@ -46,7 +46,7 @@ type FeatureKey = (BodyRef, bool, [u64; 3], Option<usize>);
 
 /// What has been written so far.
 #[derive(Debug, Default)]
-pub struct Writer {
+pub struct RowBuilder {
     /// Features in the order of their first use.
     pub features: Vec<Feature>,
     /// Curves of features.
@@ -56,14 +56,14 @@ pub struct Writer {
     /// Angles.
     pub angles: Vec<Angle>,
     /// Joints and drivers.
-    pub groups: Vec<WrittenGroup>,
+    pub constraints: Vec<ConstraintBlock>,
     /// The joint of each angle.
     pub angle_joints: Vec<String>,
     known: HashMap<FeatureKey, FeatureId>,
     angle_of_joint: HashMap<String, usize>,
 }
 
-impl Writer {
+impl RowBuilder {
     fn feature(&mut self, feature: Feature) -> FeatureId {
         let bits = [0, 1, 2].map(|k| feature.local[k].to_bits());
         let key = (feature.body, feature.point, bits, feature.curve);
@@ -130,7 +130,7 @@ impl Writer {
             place[old] = new;
         }
         self.features = order.iter().map(|&old| self.features[old]).collect();
-        for written in self.groups.iter_mut().flat_map(|g| &mut g.forms) {
+        for written in self.constraints.iter_mut().flat_map(|g| &mut g.forms) {
             written.form.rename(&place);
         }
         for angle in &mut self.angles {

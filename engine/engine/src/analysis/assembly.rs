@@ -43,7 +43,8 @@ pub struct Assembly {
     /// Newton steps.
     pub iterations: usize,
     /// Largest violation of positions at the given start, m.
-    pub opening: f64,
+    #[serde(rename = "opening")]
+    pub violation: f64,
     /// Largest violation that is left, m.
     pub left: f64,
 }
@@ -69,11 +70,11 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
     let (q, q_dot) = y.split_at_mut(n);
     mechanism.system.start(q, q_dot);
     mechanism.set_state(0.0, &y);
-    let (opening, iterations, left) = close(&mut mechanism, &mut y[..n]);
+    let (violation, iterations, left) = close(&mut mechanism, &mut y[..n]);
     // A comparison that is false for NaN as well.
     let closed = left <= 1e-9 * mechanism.system.length.max(1.0);
     if !closed {
-        let open = triad_dynamics::constraints::violation::opening(&mechanism.system, &mechanism.state);
+        let open = triad_dynamics::constraints::violation::measure(&mechanism.system, &mechanism.state);
         let violation = open.relative;
         if let Some(body) = pinned.first() {
             let reason = format!("then the joints stay open by {violation:.3e}");
@@ -86,7 +87,7 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
             EngineError::from(ConstraintError::Assembly { joint, with, pointer, violation, moved }).into()
         );
     }
-    Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, opening, left })
+    Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, violation, left })
 }
 
 /// Makes the velocities of consistent positions fit; pinned bodies weigh so much that they hardly yield.
@@ -109,11 +110,11 @@ fn velocities(scene: &Scene, pinned: &[String], mut y: Vec<f64>) -> Result<Vec<P
     Ok(placements(&mechanism, &y))
 }
 
-/// Newton's method with steps no longer than the mechanism. Returns the opening, the steps taken and what is left.
+/// Newton's method with steps no longer than the mechanism. Returns the violation at the start, the steps taken and what is left.
 fn close(mechanism: &mut Mechanism, q: &mut [f64]) -> (f64, usize, f64) {
     let Mechanism { system, state, elimination, .. } = mechanism;
     elimination.set_redundant(true);
-    let opening = state.position_violation(system);
+    let violation = state.position_violation(system);
     let mut steps = 0;
     while steps < STEPS {
         elimination.linearize(system, state);
@@ -130,7 +131,7 @@ fn close(mechanism: &mut Mechanism, q: &mut [f64]) -> (f64, usize, f64) {
             break;
         }
     }
-    (opening, steps, state.position_violation(system))
+    (violation, steps, state.position_violation(system))
 }
 
 fn placements(mechanism: &Mechanism, y: &[f64]) -> Vec<Placement> {

@@ -44,7 +44,7 @@ pub struct RedundantRows {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DependentSet {
     /// The joint or driver, as an index.
-    pub group: usize,
+    pub constraint: usize,
     /// The row form, as an index.
     pub row: usize,
     /// Its equations among all rows, those of rigid bodies first.
@@ -56,7 +56,7 @@ pub struct DependentSet {
 /// The equations that say again what others say.
 pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
     let mut sets = Vec::new();
-    for (group, joint) in system.groups.iter().enumerate() {
+    for (constraint, joint) in system.constraints.iter().enumerate() {
         for index in joint.forms.clone().filter(|&index| !system.rows[index].implied) {
             let row = &system.rows[index];
             let dropped = (row.solver..row.solver + row.form.independent())
@@ -67,7 +67,7 @@ pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
             if dependent > 0 {
                 let first = system.rigid_rows + row.equation;
                 let equations = first..first + row.form.equations();
-                sets.push(DependentSet { group, row: index, equations, dependent });
+                sets.push(DependentSet { constraint, row: index, equations, dependent });
             }
         }
     }
@@ -96,7 +96,7 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
         let label = system.rows[set.row].label;
         let words =
             if set.dependent == 1 { label.to_owned() } else { format!("{} of {label}", set.dependent) };
-        let joint = &system.groups[set.group].name;
+        let joint = &system.constraints[set.constraint].name;
         match redundant.last_mut().filter(|last| last.joint == *joint) {
             Some(last) => last.rows.push(words),
             None => redundant.push(RedundantRows { joint: joint.clone(), rows: vec![words] }),

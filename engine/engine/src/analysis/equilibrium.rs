@@ -104,7 +104,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         let size = step.norm();
         let scale = if size > LARGEST * length { LARGEST * length / size } else { 1.0 };
         let there = stage.moved(&(basis * step), scale);
-        let open = stage.hold(there);
+        let open = stage.assemble(there);
         if open.is_nan() || open > 1e-6 {
             break;
         }

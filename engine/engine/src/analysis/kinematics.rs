@@ -113,8 +113,8 @@ fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
         let step = elimination.correct_positions(system, state, &mut stage.q);
         state.set_positions(system, &stage.q);
         steps += 1;
-        let settled = step <= 1e-9 * system.length && step >= 0.5 * smallest;
-        if step <= 1e-14 * system.length || settled || step.is_nan() {
+        let stalled = step <= 1e-9 * system.length && step >= 0.5 * smallest;
+        if step <= 1e-14 * system.length || stalled || step.is_nan() {
             break;
         }
         smallest = step.min(smallest);
@@ -123,9 +123,10 @@ fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
     // A comparison that is false for NaN as well.
     let closed = open <= OPEN * system.length.max(1.0);
     if !closed {
-        let open = triad_dynamics::constraints::violation::opening(system, state);
-        let (index, violation) = open.groups.first().copied().unwrap_or((0, open.relative));
-        let origin = system.groups.get(index).map_or_else(String::new, |group| group.name.clone());
+        let open = triad_dynamics::constraints::violation::measure(system, state);
+        let (index, violation) = open.constraints.first().copied().unwrap_or((0, open.relative));
+        let origin =
+            system.constraints.get(index).map_or_else(String::new, |constraint| constraint.name.clone());
         return Err(AnalysisError::Unreachable { time, origin, violation });
     }
     state.commit_revolutions();

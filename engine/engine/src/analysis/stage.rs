@@ -9,7 +9,7 @@ use triad_dynamics::dynamics::elimination::Accelerations;
 use triad_dynamics::model::Model;
 use triad_dynamics::state::{AppliedForces, BodyFrame};
 use triad_dynamics::system::System;
-use triad_dynamics::system::natural::Lift;
+use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// A mechanism held at one position.
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ impl Stage {
         let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
         elimination.linearize(system, state);
         for (index, incidence) in system.incidences.iter().enumerate() {
-            let first = system.groups[incidence.group].solver.start;
+            let first = system.constraints[incidence.constraint].solver.start;
             let rows = elimination.jacobian().rows_on(system, index).chunks_exact(6);
             for (row, lambda) in rows.zip(&multipliers[first..]) {
                 for c in 0..6 {
@@ -104,7 +104,7 @@ impl Stage {
             let at = body.layout.position(&self.q);
             let part = |k: usize| Vector3::new(twist[k], twist[k + 1], twist[k + 2]) * size;
             let turn = Rotation3::from_scaled_axis(part(6 * index + 3));
-            let there = Lift { r: at.r + part(6 * index), e: at.e.map(|e| turn * e) };
+            let there = NaturalCoordinates { r: at.r + part(6 * index), e: at.e.map(|e| turn * e) };
             body.layout.store(&there, &mut q);
         }
         q
@@ -117,7 +117,7 @@ impl Stage {
             let at = body.layout.position(&self.q);
             let part = |k: usize| Vector3::new(twist[k], twist[k + 1], twist[k + 2]);
             let omega = part(6 * index + 3);
-            let rate = Lift { r: part(6 * index), e: at.e.map(|e| omega.cross(&e)) };
+            let rate = NaturalCoordinates { r: part(6 * index), e: at.e.map(|e| omega.cross(&e)) };
             body.layout.store(&rate, &mut q_dot);
         }
         q_dot
@@ -130,7 +130,7 @@ impl Stage {
     }
 
     /// Takes over a position after closing the joints. Returns the violation that is left.
-    pub fn hold(&mut self, mut q: Vec<f64>) -> f64 {
+    pub fn assemble(&mut self, mut q: Vec<f64>) -> f64 {
         let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
         state.set_time(system, self.time);
         state.set_positions(system, &q);

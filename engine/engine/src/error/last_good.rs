@@ -29,14 +29,14 @@ pub enum Cause {
         /// The joint or driver.
         joint: String,
         /// The product of its relative pivots beside that at the start.
-        hold: f64,
+        pivot_product: f64,
     },
     /// The rows of a joint or driver nearly depend on others since the start.
     Weak {
         /// The joint or driver.
         joint: String,
         /// The product of its relative pivots.
-        hold: f64,
+        pivot_product: f64,
     },
 }
 
@@ -49,13 +49,13 @@ impl fmt::Display for Cause {
                 quoted(drivers),
                 if open.is_empty() { "all of them".to_owned() } else { quoted(open) }
             ),
-            Self::Losing { joint, hold } => {
-                write!(f, "\"{joint}\" is about to lose its hold, of which {hold:.0e} is left")
+            Self::Losing { joint, pivot_product } => {
+                write!(f, "\"{joint}\" is about to lose its hold, of which {pivot_product:.0e} is left")
             }
-            Self::Weak { joint, hold } => {
+            Self::Weak { joint, pivot_product } => {
                 write!(
                     f,
-                    "\"{joint}\" hardly holds since the start, where others leave it {hold:.0e} of a firm hold"
+                    "\"{joint}\" hardly holds since the start, where others leave it {pivot_product:.0e} of a firm hold"
                 )
             }
         }

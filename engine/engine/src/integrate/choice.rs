@@ -3,7 +3,7 @@
 mod stiffness;
 
 use super::taylor::Taylor;
-use crate::scene::{IntegratorKind, Stabilization};
+use crate::scene::{ConstraintMethod, IntegratorKind};
 use stiffness::stiffness;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::system::System;
@@ -16,17 +16,17 @@ const LOOSE_TOLERANCE: f64 = 1e-5;
 /// y is the state at time 0.
 pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) {
     let settings = &mechanism.system.model.settings;
-    let treatment = settings.stabilization;
+    let method = settings.constraint_method;
     let free_choice = settings.integrator == IntegratorKind::Auto && settings.step.is_none();
     if free_choice
-        && matches!(treatment, Stabilization::Projection | Stabilization::Partitioning)
+        && matches!(method, ConstraintMethod::Projection | ConstraintMethod::Partitioning)
         && let Some(why) = stiffness(mechanism, 0.0, y)
     {
         return (IntegratorKind::Radau, why);
     }
     mechanism.set_state(0.0, y);
     let settings = &mechanism.system.model.settings;
-    if let Stabilization::AugmentedLagrangian { .. } = treatment {
+    if let ConstraintMethod::AugmentedLagrangian { .. } = method {
         let why = match settings.integrator {
             IntegratorKind::Auto | IntegratorKind::Trapezoidal => String::new(),
             asked => format!("{asked} was asked for, but "),
@@ -34,10 +34,10 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
     }
-    let obstacle = if treatment == Stabilization::Projection {
+    let obstacle = if method == ConstraintMethod::Projection {
         settings.step.map(|_| "its steps have no fixed size".to_owned())
     } else {
-        Some(format!("{treatment} belongs to Runge-Kutta methods"))
+        Some(format!("{method} belongs to Runge-Kutta methods"))
     };
     match (settings.integrator, obstacle) {
         (IntegratorKind::Auto, None) => series_or_dop853(mechanism, y),
@@ -48,7 +48,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
         (IntegratorKind::Taylor, Some(obstacle)) => {
             (IntegratorKind::Dop853, format!("taylor was asked for, but {obstacle}"))
         }
-        (asked, _) => match conflict(asked, treatment) {
+        (asked, _) => match conflict(asked, method) {
             Some(why) => (IntegratorKind::Dop853, format!("{asked} was asked for, but {why}")),
             None => (asked, "the scene asks for it".to_owned()),
         },
@@ -77,9 +77,9 @@ fn series_or_dop853(mechanism: &Mechanism, y: &[f64]) -> (IntegratorKind, String
 }
 
 /// Why an integrator that satisfies the constraints in its own way cannot be combined with a constraint method.
-fn conflict(asked: IntegratorKind, treatment: Stabilization) -> Option<&'static str> {
-    use Stabilization::{Partitioning, Projection};
-    match (asked, treatment) {
+fn conflict(asked: IntegratorKind, method: ConstraintMethod) -> Option<&'static str> {
+    use ConstraintMethod::{Partitioning, Projection};
+    match (asked, method) {
         (IntegratorKind::Radau, Projection | Partitioning) | (IntegratorKind::Rattle, Projection) => None,
         (IntegratorKind::Radau | IntegratorKind::Rattle, _) => Some(
             "it satisfies the constraints at each step by itself, and leaves nothing for another treatment",

@@ -324,7 +324,7 @@ impl Stepper for Explicit {
     fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
         let StepRecord { t, y, h, .. } = &self.last;
         // The last evaluation was at the end of the step.
-        let pivot_products = Some(mechanism.elimination.holds());
+        let pivot_products = Some(mechanism.elimination.pivot_products());
         let pace = state::fastest(&mechanism.system, y);
         Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products, pace })
     }

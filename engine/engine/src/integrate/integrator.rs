@@ -11,7 +11,7 @@ use super::rattle::Rattle;
 use super::step::{StepRecord, StopReason};
 use super::stepper::{OdeMethod, Stepper};
 use super::taylor::Taylor;
-use crate::scene::{IntegratorKind, Stabilization};
+use crate::scene::{ConstraintMethod, IntegratorKind};
 use progress::Progress;
 use std::ops::{Deref, DerefMut};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -110,9 +110,9 @@ fn start(
 ) -> Result<Box<dyn Stepper>, StopReason> {
     let settings = &mechanism.system.model.settings;
     let (tolerance, end, step) = (settings.tolerance, settings.duration, settings.step);
-    let treatment = settings.stabilization;
-    let tolerance = match treatment {
-        Stabilization::Penalty { alpha, omega, mu } => {
+    let method = settings.constraint_method;
+    let tolerance = match method {
+        ConstraintMethod::Penalty { alpha, omega, mu } => {
             tolerance.max(PenaltyParameters { alpha, omega, mu }.min_tolerance())
         }
         _ => tolerance,
@@ -130,18 +130,20 @@ fn start(
         None => Radau::new(&mut system, t, x, tolerance),
     };
     let (tangent, partition) = (IndependentCoordinates::Tangent, IndependentCoordinates::Partition);
-    Ok(match (kind, treatment) {
+    Ok(match (kind, method) {
         (IntegratorKind::Taylor | IntegratorKind::Auto, _) => {
             Box::new(Taylor::new(mechanism, t, y, tolerance))
         }
         (IntegratorKind::Rattle, _) => Box::new(Rattle::new(mechanism, t, y, step)),
-        (_, Stabilization::AugmentedLagrangian { alpha }) => {
+        (_, ConstraintMethod::AugmentedLagrangian { alpha }) => {
             Box::new(Augmented::new(mechanism, t, y, alpha, step))
         }
-        (IntegratorKind::Radau, Stabilization::Partitioning) => in_chart(partition, mechanism, t, y, radau)?,
+        (IntegratorKind::Radau, ConstraintMethod::Partitioning) => {
+            in_chart(partition, mechanism, t, y, radau)?
+        }
         (IntegratorKind::Radau, _) => in_chart(tangent, mechanism, t, y, radau)?,
-        (_, Stabilization::Partitioning) => in_chart(partition, mechanism, t, y, explicit)?,
-        (_, Stabilization::Penalty { alpha, omega, mu }) => {
+        (_, ConstraintMethod::Partitioning) => in_chart(partition, mechanism, t, y, explicit)?,
+        (_, ConstraintMethod::Penalty { alpha, omega, mu }) => {
             let parameters = PenaltyParameters { alpha, omega, mu };
             Box::new(Penalty::new(mechanism, t, y, parameters, explicit))
         }

@@ -2,7 +2,7 @@
 //! velocity satisfied at the end of each step — eq. (10.6)
 //! (Hairer, Lubich, Wanner, Geometric Numerical Integration, sections V.3, VII.1.4).
 //!
-//! It works in the lifted coordinates of all bodies, where the mass matrix is constant. Steps have one size: energy
+//! It works in the natural coordinates of all bodies, where the mass matrix is constant. Steps have one size: energy
 //! then oscillates within bounds and does not drift, however long the run.
 
 #![allow(clippy::excessive_precision, reason = "the numbers stand as they were published")]
@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state::{Residual, State};
-use triad_dynamics::system::natural::Lift;
+use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// Substeps of the composition by Kahan and Li (1997), in parts of a step; the first five, the others mirror them.
 const PARTS: [f64; 5] = [
@@ -53,22 +53,22 @@ pub struct Rattle {
     last: StepRecord,
     /// Size of the steps.
     h: f64,
-    position: Vec<Lift>,
-    velocity: Vec<Lift>,
+    position: Vec<NaturalCoordinates>,
+    velocity: Vec<NaturalCoordinates>,
     /// Both at the start of the step.
-    kept: (Vec<Lift>, Vec<Lift>),
+    kept: (Vec<NaturalCoordinates>, Vec<NaturalCoordinates>),
     y_old: Vec<f64>,
     /// Rates at both ends of the last step, for dense output.
     rates: [Vec<f64>; 2],
     dense_ready: bool,
     /// Where the constraints are evaluated while the factor stays at the start of a substep.
     other: State,
-    there: Vec<Lift>,
+    there: Vec<NaturalCoordinates>,
     /// Q₁ − Q₀ − h Q̇₀ of the substep.
-    change: Vec<Lift>,
-    half: Vec<Lift>,
-    forces: Vec<Lift>,
-    pushed: Vec<Lift>,
+    change: Vec<NaturalCoordinates>,
+    half: Vec<NaturalCoordinates>,
+    forces: Vec<NaturalCoordinates>,
+    pushed: Vec<NaturalCoordinates>,
     residuals: Vec<Residual>,
     /// Whether loads act: their forces may depend on the velocity.
     loaded: bool,
@@ -89,9 +89,9 @@ impl Rattle {
         let h = left / (left / h).ceil().max(1.0);
         let system = &mechanism.system;
         let bodies = system.bodies.len();
-        let zero = vec![Lift::default(); bodies];
+        let zero = vec![NaturalCoordinates::default(); bodies];
         let (q, q_dot) = y.split_at(system.coordinates);
-        let position: Vec<Lift> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
+        let position: Vec<NaturalCoordinates> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
         let velocity =
             system.bodies.iter().zip(&position).map(|(b, q)| b.layout.velocity(q, q_dot)).collect();
         let rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
@@ -133,7 +133,7 @@ impl Rattle {
         elimination.set_forces(system, here);
         for (index, q) in self.position.iter().enumerate() {
             self.there[index] = combined(q, h, &self.velocity[index]);
-            self.change[index] = Lift::default();
+            self.change[index] = NaturalCoordinates::default();
             self.pushed[index] = elimination.bodies()[index].force;
             self.forces[index] = scaled(0.5 * h * h, &self.pushed[index]);
         }
@@ -149,7 +149,7 @@ impl Rattle {
                 step = step.max(largest(&change));
                 *there = combined(there, 1.0, &change);
                 self.change[index] = combined(&self.change[index], 1.0, &change);
-                self.forces[index] = Lift::default();
+                self.forces[index] = NaturalCoordinates::default();
             }
             if !step.is_finite() {
                 return false;
@@ -303,16 +303,16 @@ fn trial_step(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end:
 }
 
 /// a + factor b.
-fn combined(a: &Lift, factor: f64, b: &Lift) -> Lift {
-    Lift { r: a.r + b.r * factor, e: [0, 1, 2].map(|k| a.e[k] + b.e[k] * factor) }
+fn combined(a: &NaturalCoordinates, factor: f64, b: &NaturalCoordinates) -> NaturalCoordinates {
+    NaturalCoordinates { r: a.r + b.r * factor, e: [0, 1, 2].map(|k| a.e[k] + b.e[k] * factor) }
 }
 
-fn scaled(factor: f64, a: &Lift) -> Lift {
-    Lift { r: a.r * factor, e: a.e.map(|e| e * factor) }
+fn scaled(factor: f64, a: &NaturalCoordinates) -> NaturalCoordinates {
+    NaturalCoordinates { r: a.r * factor, e: a.e.map(|e| e * factor) }
 }
 
 /// Largest component; NaN is larger than any.
-fn largest(a: &Lift) -> f64 {
+fn largest(a: &NaturalCoordinates) -> f64 {
     let amax = |v: &Vector3<f64>| if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
     let all = [amax(&a.r), amax(&a.e[0]), amax(&a.e[1]), amax(&a.e[2])];
     all.into_iter().fold(0.0, |a: f64, b| if a > b || a.is_nan() { a } else { b })

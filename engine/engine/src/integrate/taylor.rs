@@ -8,17 +8,17 @@ mod island;
 
 use super::step::{StepRecord, StopReason};
 use super::stepper::{IslandStep, SkippedWork, Stepper};
-use island::Island;
+use island::IslandStepper;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
-use triad_dynamics::system::islands;
+use triad_dynamics::system::islands::{self, Island};
 
 /// The integrator and its last step.
 #[derive(Clone, Debug)]
 pub struct Taylor {
-    islands: Vec<Island>,
+    islands: Vec<IslandStepper>,
     last: StepRecord,
     /// The island that took the last step.
     stepped: usize,
@@ -39,15 +39,15 @@ impl Taylor {
         let split = islands::split(system, q, skip.islands, skip.fixed);
         let turns: Vec<f64> = state.angles().iter().map(|angle| angle.value).collect();
         let redundant = elimination.is_redundant();
-        let islands: Vec<Island> = if split.parts.is_empty() && split.fixed == 0 {
-            vec![Island::new(system, None, redundant, &turns, t, y, tolerance)]
+        let islands: Vec<IslandStepper> = if split.islands.is_empty() && split.fixed == 0 {
+            vec![IslandStepper::new(system, None, redundant, &turns, t, y, tolerance)]
         } else {
-            let island = |part: islands::Part| {
+            let island = |of: Island| {
                 let turns: Vec<f64> =
-                    part.system.angle_joints.iter().map(|joint| turn(system, &turns, joint)).collect();
-                Island::new(system, Some(part), redundant, &turns, t, y, tolerance)
+                    of.system.angle_joints.iter().map(|joint| turn(system, &turns, joint)).collect();
+                IslandStepper::new(system, Some(of), redundant, &turns, t, y, tolerance)
             };
-            split.parts.into_iter().map(island).collect()
+            split.islands.into_iter().map(island).collect()
         };
         let mut skipped = SkippedWork {
             islands: islands.len(),
@@ -86,7 +86,7 @@ impl Stepper for Taylor {
             steps.accepted += 1;
             steps.rejected += rejected;
             self.projections += 1;
-            let reached = self.islands.iter().map(Island::time).fold(f64::INFINITY, f64::min);
+            let reached = self.islands.iter().map(IslandStepper::time).fold(f64::INFINITY, f64::min);
             (*t_old, *t) = (*t, reached);
             if self.islands.len() > 1 {
                 self.islands.iter().for_each(|island| island.interpolate(system, reached, y));
@@ -150,7 +150,7 @@ impl Stepper for Taylor {
 
     fn skipped(&self) -> Option<SkippedWork> {
         let mut skipped = self.skipped;
-        let most = self.islands.iter().map(Island::steps).max().unwrap_or(0);
+        let most = self.islands.iter().map(IslandStepper::steps).max().unwrap_or(0);
         for island in &self.islands {
             skipped.body_steps += island.steps() * island.bodies() as u64;
             skipped.body_steps_together += most * island.bodies() as u64;

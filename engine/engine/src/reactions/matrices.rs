@@ -17,7 +17,7 @@ use triad_dynamics::system::System;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 #[schemars(rename = "MatrixPart")]
-pub enum Part {
+pub enum EntryKind {
     /// A number of M or S.
     Own,
     /// A number of Φ_q that never changes.
@@ -38,7 +38,7 @@ pub struct Place {
     /// Value at this state; zero for fill.
     pub value: f64,
     /// What it is.
-    pub part: Part,
+    pub part: EntryKind,
 }
 
 /// A symmetric matrix whose rows, and columns alike, have names.
@@ -53,7 +53,7 @@ pub struct Symmetric {
 impl Symmetric {
     /// How many places a factorization fills on or below the diagonal.
     pub fn fill(&self) -> usize {
-        self.places.iter().filter(|place| place.part == Part::Fill).count()
+        self.places.iter().filter(|place| place.part == EntryKind::Fill).count()
     }
 }
 
@@ -69,11 +69,11 @@ pub fn augmented(system: &System, at: &State) -> Symmetric {
             *mass.entry((row, column)).or_default() += value;
         }
     });
-    let mut places: BTreeMap<(usize, usize), (f64, Part)> =
-        mass.into_iter().map(|(at, value)| (at, (value, Part::Own))).collect();
+    let mut places: BTreeMap<(usize, usize), (f64, EntryKind)> =
+        mass.into_iter().map(|(at, value)| (at, (value, EntryKind::Own))).collect();
     let jacobian = Jacobian::new(system, at);
     for entry in &jacobian.entries {
-        let part = if entry.constant { Part::Constant } else { Part::Changing };
+        let part = if entry.constant { EntryKind::Constant } else { EntryKind::Changing };
         places.insert((n + entry.row, entry.column), (entry.value, part));
     }
     // Rows of Φ_q that act on the same body meet once its coordinates are eliminated.
@@ -85,7 +85,7 @@ pub fn augmented(system: &System, at: &State) -> Symmetric {
     for rows in acting {
         for &i in &rows {
             for &j in rows.range(..=i) {
-                places.entry((n + i, n + j)).or_insert((0.0, Part::Fill));
+                places.entry((n + i, n + j)).or_insert((0.0, EntryKind::Fill));
             }
         }
     }
@@ -113,18 +113,18 @@ fn columns_by_body(system: &System) -> Vec<usize> {
 pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric {
     at.linearize(system, state);
     let order = at.elimination_order();
-    let mut first = vec![0; system.groups.len()];
+    let mut first = vec![0; system.constraints.len()];
     let mut names = Vec::with_capacity(system.solver_rows);
-    for &group in &order {
-        first[group] = names.len();
-        names.extend(solver_names(system, group));
+    for &constraint in &order {
+        first[constraint] = names.len();
+        names.extend(solver_names(system, constraint));
     }
     let mut values = BTreeMap::<(usize, usize), f64>::new();
     let mut joined: BTreeSet<(usize, usize)> = BTreeSet::new();
     for incidences in &system.incidences_of_body {
         for &p in incidences {
             for &q in incidences {
-                let [gp, gq] = [p, q].map(|k| system.incidences[k].group);
+                let [gp, gq] = [p, q].map(|k| system.incidences[k].constraint);
                 if first[gp] < first[gq] {
                     continue;
                 }
@@ -141,12 +141,12 @@ pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric 
             }
         }
     }
-    let mut places: BTreeMap<(usize, usize), (f64, Part)> =
-        values.into_iter().map(|(at, value)| (at, (value, Part::Own))).collect();
+    let mut places: BTreeMap<(usize, usize), (f64, EntryKind)> =
+        values.into_iter().map(|(at, value)| (at, (value, EntryKind::Own))).collect();
     for (i, j) in filled(&order, &joined) {
-        for row in first[i]..first[i] + system.groups[i].solver.len() {
-            for column in first[j]..first[j] + system.groups[j].solver.len() {
-                places.entry((row, column)).or_insert((0.0, Part::Fill));
+        for row in first[i]..first[i] + system.constraints[i].solver.len() {
+            for column in first[j]..first[j] + system.constraints[j].solver.len() {
+                places.entry((row, column)).or_insert((0.0, EntryKind::Fill));
             }
         }
     }
@@ -154,14 +154,14 @@ pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric 
 }
 
 /// Names of a joint's rows in the solver: two for a common vector, one for each equation of the other forms.
-fn solver_names(system: &System, group: usize) -> Vec<String> {
-    let group = &system.groups[group];
-    let rows = system.rows[group.forms.clone()].iter();
+fn solver_names(system: &System, constraint: usize) -> Vec<String> {
+    let constraint = &system.constraints[constraint];
+    let rows = system.rows[constraint.forms.clone()].iter();
     rows.flat_map(|row| {
         let count = row.form.independent();
         (1..=count).map(move |k| match count {
-            1 => format!("{}: {}", group.name, row.label),
-            _ => format!("{}: {}.{k}", group.name, row.label),
+            1 => format!("{}: {}", constraint.name, row.label),
+            _ => format!("{}: {}.{k}", constraint.name, row.label),
         })
     })
     .collect()
@@ -194,7 +194,7 @@ fn filled(order: &[usize], joined: &BTreeSet<(usize, usize)>) -> Vec<(usize, usi
     fill
 }
 
-fn listed(places: BTreeMap<(usize, usize), (f64, Part)>) -> Vec<Place> {
+fn listed(places: BTreeMap<(usize, usize), (f64, EntryKind)>) -> Vec<Place> {
     places.into_iter().map(|((row, column), (value, part))| Place { row, column, value, part }).collect()
 }
 
@@ -205,7 +205,7 @@ mod tests {
     use crate::catalogue;
     use nalgebra::DMatrix;
     use triad_dynamics::constraints::mechanism::Mechanism;
-    use triad_dynamics::equations::augmented::Literal;
+    use triad_dynamics::equations::augmented::AugmentedSystem;
     use triad_dynamics::model::Model;
 
     fn mechanism(name: &str) -> Mechanism {
@@ -244,14 +244,14 @@ mod tests {
     }
 
     #[test]
-    fn the_augmented_matrix_is_that_of_the_literal_equations() {
+    fn the_augmented_matrix_is_that_of_the_augmented_system() {
         let mechanism = mechanism("n-four-bar:3");
         let matrix = dense(&augmented(&mechanism.system, &mechanism.state));
-        let literal = Literal::new(&mechanism.system, &mechanism.state);
+        let augmented = AugmentedSystem::new(&mechanism.system, &mechanism.state);
         let n = mechanism.system.coordinates;
-        let rows = literal.jacobian.nrows();
-        assert_eq!(matrix.view((0, 0), (n, n)), literal.mass);
-        assert_eq!(matrix.view((n, 0), (rows, n)), literal.jacobian);
+        let rows = augmented.jacobian.nrows();
+        assert_eq!(matrix.view((0, 0), (n, n)), augmented.mass);
+        assert_eq!(matrix.view((n, 0), (rows, n)), augmented.jacobian);
         assert!(matrix.view((n, n), (rows, rows)).iter().all(|x| *x == 0.0), "fill is no number");
     }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::model::{BodyRef, DriverKind, ModelJoint};
 use triad_dynamics::state::State;
-use triad_dynamics::system::{Group, System};
+use triad_dynamics::system::{Constraint, System};
 use triad_linalg::orthonormal_basis;
 
 /// Which of the two bodies of a joint.
@@ -114,8 +114,8 @@ pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport
     let system = at.system;
     let null = NullSpace::new(system, at.jacobian)?;
     let multipliers = null.smallest(at.solver_rows());
-    let tell = |group| reaction(at, group, convention, &null, &multipliers);
-    let reactions = system.groups.iter().map(tell).collect();
+    let tell = |constraint| reaction(at, constraint, convention, &null, &multipliers);
+    let reactions = system.constraints.iter().map(tell).collect();
     Ok(ReactionReport {
         time: at.state.time(),
         reactions,
@@ -127,28 +127,28 @@ pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport
 
 fn reaction(
     at: &Multipliers,
-    group: &Group,
+    constraint: &Constraint,
     convention: Convention,
     null: &NullSpace,
     multipliers: &[f64],
 ) -> Reaction {
     let (system, state) = (at.system, at.state);
     let side = usize::from(convention.on == Side::J);
-    let body = group.bodies[side];
-    let (about, point) = about(system, state, group, side, convention.about);
-    let (expressed_in, axes) = frame(system, state, group, body, convention.expressed_in);
-    let map = wrench_map(at, group, body, &point);
-    let lambda = DVector::from_column_slice(&multipliers[group.solver.clone()]);
+    let body = constraint.bodies[side];
+    let (about, point) = about(system, state, constraint, side, convention.about);
+    let (expressed_in, axes) = frame(system, state, constraint, body, convention.expressed_in);
+    let map = wrench_map(at, constraint, body, &point);
+    let lambda = DVector::from_column_slice(&multipliers[constraint.solver.clone()]);
     let component = |row: usize| {
         let turned = axes.column(row % 3).transpose() * map.rows(row / 3 * 3, 3);
         let weights: Vec<f64> = turned.iter().copied().collect();
-        Component { value: (turned * &lambda)[0], unique: null.is_unique(group.solver.start, &weights) }
+        Component { value: (turned * &lambda)[0], unique: null.is_unique(constraint.solver.start, &weights) }
     };
     Reaction {
-        joint: group.name.clone(),
-        driver: group.driver,
+        joint: constraint.name.clone(),
+        driver: constraint.driver,
         on: body_name(system, body),
-        by: body_name(system, group.bodies[1 - side]),
+        by: body_name(system, constraint.bodies[1 - side]),
         about,
         about_at: point.into(),
         expressed_in,
@@ -165,8 +165,14 @@ fn body_name(system: &System, body: BodyRef) -> String {
     }
 }
 
-fn about(system: &System, at: &State, group: &Group, side: usize, about: About) -> (String, Vector3<f64>) {
-    let body = group.bodies[side];
+fn about(
+    system: &System,
+    at: &State,
+    constraint: &Constraint,
+    side: usize,
+    about: About,
+) -> (String, Vector3<f64>) {
+    let body = constraint.bodies[side];
     let name = body_name(system, body);
     match (about, body) {
         (About::WorldPoint(point), _) => ("the stated point".to_owned(), point.into()),
@@ -175,11 +181,14 @@ fn about(system: &System, at: &State, group: &Group, side: usize, about: About) 
             (format!("the centre of mass of \"{name}\""), at.bodies()[index].q.r)
         }
         (About::JointPoint, BodyRef::Ground) => {
-            (format!("the point of \"{}\" on \"{name}\"", group.name), group.points[side])
+            (format!("the point of \"{}\" on \"{name}\"", constraint.name), constraint.points[side])
         }
         (About::JointPoint, BodyRef::Moving(index)) => {
             let q = &at.bodies()[index].q;
-            (format!("the point of \"{}\" on \"{name}\"", group.name), q.r + q.arm(&group.points[side]))
+            (
+                format!("the point of \"{}\" on \"{name}\"", constraint.name),
+                q.r + q.arm(&constraint.points[side]),
+            )
         }
     }
 }
@@ -188,7 +197,7 @@ fn about(system: &System, at: &State, group: &Group, side: usize, about: About) 
 fn frame(
     system: &System,
     at: &State,
-    group: &Group,
+    constraint: &Constraint,
     body: BodyRef,
     expressed_in: ExpressedIn,
 ) -> (String, Matrix3<f64>) {
@@ -200,7 +209,7 @@ fn frame(
             let axes = directors * system.model.bodies[index].principal_axes.transpose();
             (format!("frame of \"{}\"", body_name(system, body)), axes)
         }
-        (ExpressedIn::Joint, _) => match joint_of(system, group) {
+        (ExpressedIn::Joint, _) => match joint_of(system, constraint) {
             Some(joint) if joint.axes[0] != Vector3::zeros() => {
                 let turn = |local: &Vector3<f64>| match joint.bodies[0] {
                     BodyRef::Ground => *local,
@@ -217,27 +226,32 @@ fn frame(
     }
 }
 
-/// The joint that a group of rows belongs to, or that its driver moves.
-fn joint_of<'a>(system: &'a System, group: &Group) -> Option<&'a ModelJoint> {
+/// The joint that a constraint belongs to, or that its driver moves.
+fn joint_of<'a>(system: &'a System, constraint: &Constraint) -> Option<&'a ModelJoint> {
     let model = &system.model;
-    if !group.driver {
-        return model.joints.iter().find(|joint| joint.name == group.name);
+    if !constraint.driver {
+        return model.joints.iter().find(|joint| joint.name == constraint.name);
     }
-    let driver = model.drivers.iter().find(|driver| driver.name == group.name)?;
+    let driver = model.drivers.iter().find(|driver| driver.name == constraint.name)?;
     match driver.kind {
         DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => model.joints.get(joint),
         _ => None,
     }
 }
 
-/// The 6 × m map from a group's solver multipliers to force and moment about `point` on one of its bodies.
+/// The 6 × m map from a constraint's solver multipliers to force and moment about `point` on one of its bodies.
 ///
 /// On a moving body it is −A_bᵀ, moved from the centre of mass to the point. On the ground it is the opposite of all
-/// that the group does to moving bodies, since a joint has no mass.
-fn wrench_map(at: &Multipliers, group: &Group, body: BodyRef, point: &Vector3<f64>) -> DMatrix<f64> {
+/// that the constraint does to moving bodies, since a joint has no mass.
+fn wrench_map(
+    at: &Multipliers,
+    constraint: &Constraint,
+    body: BodyRef,
+    point: &Vector3<f64>,
+) -> DMatrix<f64> {
     let system = at.system;
-    let mut map = DMatrix::zeros(6, group.solver.len());
-    for index in group.incidences.clone() {
+    let mut map = DMatrix::zeros(6, constraint.solver.len());
+    for index in constraint.incidences.clone() {
         let incidence = &system.incidences[index];
         let sign = match body {
             BodyRef::Ground => 1.0,

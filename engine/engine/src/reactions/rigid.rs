@@ -9,7 +9,7 @@ use triad_dynamics::dynamics::elimination::Accelerations;
 use triad_dynamics::equations;
 use triad_dynamics::equations::augmented::{for_mass_entries, force};
 use triad_dynamics::equations::jacobian::Jacobian;
-use triad_dynamics::system::natural::Lift;
+use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// Multipliers of a body's rigid-body rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,7 +60,7 @@ pub fn rigid_multipliers(accelerations: &Accelerations) -> Vec<RigidMultipliers>
 }
 
 /// In the order uu, vv, ww, uv, uw, vw, or uu, vv, uv.
-fn of_body(coordinates: Coordinates, q: &Lift, p: &Lift) -> Vec<f64> {
+fn of_body(coordinates: Coordinates, q: &NaturalCoordinates, p: &NaturalCoordinates) -> Vec<f64> {
     let [u, v, w] = q.e;
     let volume = u.dot(&v.cross(&w));
     let dual = [v.cross(&w) / volume, w.cross(&u) / volume, u.cross(&v) / volume];

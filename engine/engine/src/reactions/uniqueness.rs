@@ -89,7 +89,7 @@ impl NullSpace {
         }
         let mut a = DMatrix::zeros(rows, 6 * system.bodies.len());
         for (index, incidence) in system.incidences.iter().enumerate() {
-            let first = system.groups[incidence.group].solver.start;
+            let first = system.constraints[incidence.constraint].solver.start;
             for (k, row) in jacobian.rows_on(system, index).chunks_exact(6).enumerate() {
                 for c in 0..6 {
                     let scale = if c < 3 { 1.0 } else { 1.0 / system.length };
@@ -132,7 +132,7 @@ impl NullSpace {
         multipliers.iter().zip(idle.iter()).map(|(lambda, idle)| lambda - idle).collect()
     }
 
-    /// Whether a quantity Σ wₖ λₖ of a group of solver rows is unique — eq. (9.2).
+    /// Whether a quantity Σ wₖ λₖ of the solver rows of a constraint is unique — eq. (9.2).
     pub fn is_unique(&self, first: usize, weights: &[f64]) -> bool {
         let size: f64 =
             weights.iter().zip(&self.lengths[first..]).map(|(w, l)| (w / l.max(1e-300)).powi(2)).sum();
@@ -148,11 +148,11 @@ impl NullSpace {
         let mut sets: Vec<Vec<usize>> = Vec::new();
         let projector = &self.scaled * self.scaled.transpose();
         let coupled = |i: usize, j: usize| {
-            let (p, q) = (&system.groups[i].solver, &system.groups[j].solver);
+            let (p, q) = (&system.constraints[i].solver, &system.constraints[j].solver);
             projector.view((p.start, q.start), (p.len(), q.len())).iter().any(|x| x.abs() > TOLERANCE)
         };
-        let mut seen = vec![false; system.groups.len()];
-        for start in 0..system.groups.len() {
+        let mut seen = vec![false; system.constraints.len()];
+        for start in 0..system.constraints.len() {
             if seen[start] || !coupled(start, start) {
                 continue;
             }
@@ -160,7 +160,7 @@ impl NullSpace {
             seen[start] = true;
             let mut next = 0;
             while next < set.len() {
-                for other in 0..system.groups.len() {
+                for other in 0..system.constraints.len() {
                     if !seen[other] && coupled(set[next], other) {
                         seen[other] = true;
                         set.push(other);
@@ -173,13 +173,14 @@ impl NullSpace {
         }
         sets.into_iter()
             .map(|set| {
-                let rows: Vec<usize> = set.iter().flat_map(|&g| system.groups[g].solver.clone()).collect();
+                let rows: Vec<usize> =
+                    set.iter().flat_map(|&g| system.constraints[g].solver.clone()).collect();
                 let trace: f64 = rows.iter().map(|&row| projector[(row, row)]).sum();
                 Redundancy {
                     rows: (0..=rows.len())
                         .min_by(|a, b| distance(*a, trace).total_cmp(&distance(*b, trace)))
                         .unwrap_or(0),
-                    joints: set.iter().map(|&g| system.groups[g].name.clone()).collect(),
+                    joints: set.iter().map(|&g| system.constraints[g].name.clone()).collect(),
                     remedies: remedy::find(system, at, &set, &self.within(&rows)),
                 }
             })

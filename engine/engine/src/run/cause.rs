@@ -9,21 +9,25 @@ use triad_dynamics::system::islands;
 
 /// How far ahead a position is looked for: so many radians of the body that turns fastest.
 const AHEAD: [f64; 2] = [0.1, 0.01];
-/// A joint is told if so much is left of its hold at the start, or if it holds no more than this at the start.
+/// A joint is told if so much is left of its hold at the start, or if it products no more than this at the start.
 const LOSING: f64 = 1e-4;
 const WEAK: f64 = 1e-7;
 
 impl Simulation {
     /// Why no way leads on from the shown state, if it can be told.
     pub(super) fn cause(&self) -> Option<Cause> {
-        self.out_of_reach().or_else(|| self.hardly_held())
+        self.out_of_reach().or_else(|| self.nearly_dependent())
     }
 
     /// Whether drivers ask for positions that the joints do not allow: then none is found a little ahead.
     fn out_of_reach(&self) -> Option<Cause> {
         let system = &self.mechanism.system;
-        let drivers: Vec<String> =
-            system.groups.iter().filter(|group| group.driver).map(|group| group.name.clone()).collect();
+        let drivers: Vec<String> = system
+            .constraints
+            .iter()
+            .filter(|constraint| constraint.driver)
+            .map(|constraint| constraint.name.clone())
+            .collect();
         if drivers.is_empty() {
             return None;
         }
@@ -53,30 +57,30 @@ impl Simulation {
     }
 
     /// The joint whose rows are nearest to depending on others. Those of a tree never are, whatever their pivots say.
-    fn hardly_held(&self) -> Option<Cause> {
+    fn nearly_dependent(&self) -> Option<Cause> {
         if !islands::has_loops(self.model()) {
             return None;
         }
-        let start = self.holds_at(0.0, &self.start);
-        let here = self.holds_at(self.time, &self.shown);
-        let groups = &self.mechanism.system.groups;
-        let named = |index: usize| groups[index].name.clone();
-        let least = |holds: &[f64]| {
-            holds.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 1.0))
+        let start = self.pivot_products_at(0.0, &self.start);
+        let here = self.pivot_products_at(self.time, &self.shown);
+        let constraints = &self.mechanism.system.constraints;
+        let named = |index: usize| constraints[index].name.clone();
+        let least = |products: &[f64]| {
+            products.iter().copied().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 1.0))
         };
         let left: Vec<f64> = here.iter().zip(&start).map(|(here, start)| here / start).collect();
         let (lost, weak) = (least(&left), least(&start));
         if weak.1 < WEAK {
-            return Some(Cause::Weak { joint: named(weak.0), hold: weak.1.max(0.0) });
+            return Some(Cause::Weak { joint: named(weak.0), pivot_product: weak.1.max(0.0) });
         }
-        (lost.1 < LOSING).then(|| Cause::Losing { joint: named(lost.0), hold: lost.1.max(0.0) })
+        (lost.1 < LOSING).then(|| Cause::Losing { joint: named(lost.0), pivot_product: lost.1.max(0.0) })
     }
 
-    fn holds_at(&self, time: f64, y: &[f64]) -> Vec<f64> {
+    fn pivot_products_at(&self, time: f64, y: &[f64]) -> Vec<f64> {
         let Mechanism { system, elimination, .. } = &self.mechanism;
         let (q, q_dot) = y.split_at(system.coordinates);
         let mut solver = elimination.clone();
-        solver.keep_holds();
-        solver.holds_at(system, &State::at(system, time, q, q_dot)).to_vec()
+        solver.keep_pivot_products();
+        solver.pivot_products_at(system, &State::at(system, time, q, q_dot)).to_vec()
     }
 }

@@ -25,8 +25,8 @@ pub fn power(at: &Multipliers) -> f64 {
 fn driver_power(at: &Multipliers) -> f64 {
     let system = at.system;
     let mut power = 0.0;
-    for group in system.groups.iter().filter(|group| group.driver) {
-        for row in group.forms.clone() {
+    for constraint in system.constraints.iter().filter(|constraint| constraint.driver) {
+        for row in constraint.forms.clone() {
             for (component, lambda) in at.of_row(row).into_iter().enumerate() {
                 power -= lambda * equation(system, at.state, Source::Joint { row, component }).nu;
             }

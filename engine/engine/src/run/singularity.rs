@@ -12,7 +12,7 @@ mod search;
 pub use found::SingularConfiguration;
 
 use crate::integrate::{Integrator, IslandStep};
-use crate::scene::Stabilization;
+use crate::scene::ConstraintMethod;
 use found::Found;
 use history::IslandHistory;
 use probe::Probe;
@@ -52,17 +52,17 @@ impl SingularityMonitor {
     pub fn new(mechanism: &mut Mechanism, rank: &Rank) -> Self {
         let Mechanism { system, state, elimination, .. } = mechanism;
         let probe = has_loops(&system.model).then(|| Probe::new(system, state, elimination, &rank.dependent));
-        let groups = if probe.is_some() { system.groups.len() } else { 0 };
+        let constraints = if probe.is_some() { system.constraints.len() } else { 0 };
         let settings = &system.model.settings;
         Self {
             probe,
             tolerance: settings.tolerance,
-            violated: settings.stabilization != Stabilization::Projection,
+            violated: settings.constraint_method != ConstraintMethod::Projection,
             zero: zero(settings.tolerance, 0.0),
             islands: Vec::new(),
-            found: Found::new(groups),
-            samples: (0..SAMPLES).map(|_| Vec::with_capacity(groups)).collect(),
-            at_found: Vec::with_capacity(groups),
+            found: Found::new(constraints),
+            samples: (0..SAMPLES).map(|_| Vec::with_capacity(constraints)).collect(),
+            at_found: Vec::with_capacity(constraints),
         }
     }
 

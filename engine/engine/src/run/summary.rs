@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::integrate::PenaltyParameters;
 use crate::run::singularity::SingularConfiguration;
-use crate::scene::{IntegratorKind, Stabilization};
+use crate::scene::{ConstraintMethod, IntegratorKind};
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
 use triad_dynamics::system::System;
@@ -55,15 +55,17 @@ pub struct Summary {
 
 /// Part of the lightest mass that is lost in the rounding of penalties.
 fn swallowed(system: &System) -> f64 {
-    let Stabilization::Penalty { alpha, omega, mu } = system.model.settings.stabilization else { return 0.0 };
+    let ConstraintMethod::Penalty { alpha, omega, mu } = system.model.settings.constraint_method else {
+        return 0.0;
+    };
     let lightest = system.bodies.iter().fold(f64::INFINITY, |least, body| least.min(body.mass));
     (PenaltyParameters { alpha, omega, mu }.min_tolerance() / lightest).min(1.0)
 }
 
 impl Simulation {
     /// How far the shown state is from its constraints, each row relative to its size.
-    pub fn opening(&self) -> violation::Opening {
-        violation::opening(self.system(), &self.current)
+    pub fn violation(&self) -> violation::ConstraintViolation {
+        violation::measure(self.system(), &self.current)
     }
 
     /// Cost and trust at the shown state.

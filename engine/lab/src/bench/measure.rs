@@ -93,7 +93,7 @@ fn prepare(
         for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(case, method, t)) {
             scene.coordinates = method.coordinates;
             scene.simulation.integrator = method.integrator;
-            scene.simulation.stabilization = method.treatment;
+            scene.simulation.constraint_method = method.constraint_method;
             scene.simulation.tolerance = tolerance;
             let error = reference::positions(&scene, compared).ok().map(|run| distance(&run, &truth));
             let mut simulation = Simulation::new(&scene)?;

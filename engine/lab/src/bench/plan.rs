@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use triad_scene::{Coordinates, IntegratorKind, Stabilization};
+use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind};
 
 /// A scene to be measured and how its error is known.
 #[derive(Clone, Copy, Debug)]
@@ -41,8 +41,8 @@ pub enum Truth {
 pub struct Method {
     /// The integrator.
     pub integrator: IntegratorKind,
-    /// The constraint treatment.
-    pub treatment: Stabilization,
+    /// The constraint method.
+    pub constraint_method: ConstraintMethod,
     /// The kind of all bodies.
     pub coordinates: Coordinates,
 }
@@ -51,8 +51,8 @@ impl fmt::Display for Method {
     /// The integrator, and whatever else is not the default.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.integrator)?;
-        if self.treatment != Stabilization::default() {
-            write!(f, " {}", self.treatment)?;
+        if self.constraint_method != ConstraintMethod::default() {
+            write!(f, " {}", self.constraint_method)?;
         }
         if self.coordinates != Coordinates::default() {
             write!(f, " {}", self.coordinates)?;
@@ -83,8 +83,8 @@ pub struct Wish {
     pub scenes: Vec<String>,
     /// Integrators.
     pub integrators: Vec<IntegratorKind>,
-    /// Constraint treatments.
-    pub treatments: Vec<Stabilization>,
+    /// Constraint methods.
+    pub constraint_methods: Vec<ConstraintMethod>,
     /// Kinds of bodies.
     pub coordinates: Vec<Coordinates>,
     /// Tolerances.
@@ -108,20 +108,20 @@ fn converged(scene: &'static str, duration: f64) -> Case {
 }
 
 fn method(integrator: IntegratorKind) -> Method {
-    Method { integrator, treatment: Stabilization::default(), coordinates: Coordinates::default() }
+    Method { integrator, constraint_method: ConstraintMethod::default(), coordinates: Coordinates::default() }
 }
 
 impl Plan {
-    /// The whole sweep: all integrators, the other treatments with one of them, and the other kinds of bodies with the
+    /// The whole sweep: all integrators, the other constraint methods with one of them, and the other kinds of bodies with the
     /// two best.
     pub fn full() -> Self {
         use IntegratorKind::{Auto, Dop853, Taylor, Trapezoidal};
         let pendulum =
             Truth::Angle { kappa: GRAVITY, start: -std::f64::consts::FRAC_PI_2, rate: 0.0, arm: 1.0 };
         // The augmented Lagrangian brings its own integrator along.
-        let treatments = Stabilization::ALL.into_iter().skip(1).map(|treatment| Method {
-            treatment,
-            ..method(if matches!(treatment, Stabilization::AugmentedLagrangian { .. }) {
+        let constraint_methods = ConstraintMethod::ALL.into_iter().skip(1).map(|constraint_method| Method {
+            constraint_method,
+            ..method(if matches!(constraint_method, ConstraintMethod::AugmentedLagrangian { .. }) {
                 Trapezoidal
             } else {
                 Dop853
@@ -147,7 +147,7 @@ impl Plan {
                 .into_iter()
                 .chain(IntegratorKind::ALL)
                 .map(method)
-                .chain(treatments)
+                .chain(constraint_methods)
                 .chain(others)
                 .collect(),
             tolerances: vec![1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11],
@@ -173,14 +173,14 @@ impl Plan {
     /// The plan with what the user wants instead; what is wanted is crossed, each with each.
     #[must_use]
     pub fn with(mut self, wish: Wish) -> Self {
-        let Wish { scenes, integrators, treatments, coordinates, tolerances } = wish;
+        let Wish { scenes, integrators, constraint_methods, coordinates, tolerances } = wish;
         if !scenes.is_empty() {
             self.cases.retain(|case| scenes.iter().any(|part| case.scene.contains(part.as_str())));
         }
         if !tolerances.is_empty() {
             self.tolerances = tolerances;
         }
-        if integrators.is_empty() && treatments.is_empty() && coordinates.is_empty() {
+        if integrators.is_empty() && constraint_methods.is_empty() && coordinates.is_empty() {
             return self;
         }
         let or = |list: Vec<IntegratorKind>, own| if list.is_empty() { own } else { list };
@@ -190,13 +190,17 @@ impl Plan {
                 own.push(method.integrator);
             }
         }
-        let treatments = if treatments.is_empty() { vec![Stabilization::default()] } else { treatments };
+        let constraint_methods = if constraint_methods.is_empty() {
+            vec![ConstraintMethod::default()]
+        } else {
+            constraint_methods
+        };
         let coordinates = if coordinates.is_empty() { vec![Coordinates::default()] } else { coordinates };
         self.methods.clear();
         for integrator in or(integrators, own) {
-            for &treatment in &treatments {
+            for &constraint_method in &constraint_methods {
                 for &coordinates in &coordinates {
-                    self.methods.push(Method { integrator, treatment, coordinates });
+                    self.methods.push(Method { integrator, constraint_method, coordinates });
                 }
             }
         }
@@ -213,7 +217,7 @@ impl Plan {
             Radau | Rattle => (false, 1e-9),
             Trapezoidal => (false, 1e-5),
         };
-        let linear = linear && method.treatment == Stabilization::default();
+        let linear = linear && method.constraint_method == ConstraintMethod::default();
         tolerance > 0.99 * tightest && (linear || !case.large)
     }
 }

@@ -95,7 +95,7 @@ pub fn csv(runs: &[Measured]) -> String {
             "{},{},{},{},{:e},{},{:.9},{:.9},{:.3},{},{},{},{},{},{}",
             run.scene,
             run.method.integrator,
-            run.method.treatment,
+            run.method.constraint_method,
             run.method.coordinates,
             run.tolerance,
             run.error.map_or_else(String::new, |e| format!("{e:.3e}")),

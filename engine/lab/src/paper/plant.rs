@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use triad_engine::EngineError;
 use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations;
-use triad_engine::equations::augmented::{DEPENDENT, Literal, for_mass_entries, force};
+use triad_engine::equations::augmented::{AugmentedSystem, DEPENDENT, for_mass_entries, force};
 use triad_engine::equations::jacobian::Jacobian;
 use triad_engine::model::Model;
 use triad_engine::ode::OdeSystem;
@@ -56,7 +56,7 @@ impl PaperPlant {
         system.start(q, q_dot);
         let state = State::at(&system, 0.0, q, q_dot);
         let jacobian = Jacobian::new(&system, &state);
-        let kept = independent_rows(&Literal::new(&system, &state).jacobian, DEPENDENT);
+        let kept = independent_rows(&AugmentedSystem::new(&system, &state).jacobian, DEPENDENT);
         elimination.set_redundant(kept.len() < system.rigid_rows + system.equations);
         let mut place = vec![None; system.rigid_rows + system.equations];
         for (k, &row) in kept.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use triad_scene::{JointKind, Scene};
 
 const FAMILY: &str = "large";
@@ -50,19 +50,19 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-fn chain(treatment: &Treatment, quick: bool) -> Outcome {
+fn chain(method: &TrialMethod, quick: bool) -> Outcome {
     let (rods, seconds) = if quick { (200, 0.5) } else { (2000, 1.0) };
     match triad_scene::catalogue::scene(&format!("spatial-chain:{rods}")) {
         Ok(mut scene) => {
             scene.simulation.duration = seconds;
             scene.simulation.tolerance = 1e-8;
-            Trial::new(scene, treatment).conserving((1e-6, 1e-3)).sampled(5).run()
+            Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
         }
         Err(error) => Outcome::nothing(Verdict::Wrong, error.to_string()),
     }
 }
 
-fn tree(treatment: &Treatment, quick: bool) -> Outcome {
+fn tree(method: &TrialMethod, quick: bool) -> Outcome {
     let levels = if quick { 6 } else { 10 };
     let mut scene = scene("tree", DOWN, 1.0, 1e-8);
     for i in 1..(1usize << levels) {
@@ -77,10 +77,10 @@ fn tree(treatment: &Treatment, quick: bool) -> Outcome {
         let axis = [angle.cos(), 0.3, angle.sin()];
         scene.joints.push(hinged(&format!("hinge-{i}"), JointKind::Revolute, &above, &name, top, axis));
     }
-    Trial::new(scene, treatment).conserving((1e-6, 1e-3)).sampled(5).run()
+    Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
 }
 
-fn net(treatment: &Treatment, quick: bool) -> Outcome {
+fn net(method: &TrialMethod, quick: bool) -> Outcome {
     let side = if quick { 6 } else { 20 };
     let mut scene = scene("net", [0.0, 0.0, -9.81], 0.5, 1e-8);
     let name = |i: usize, j: usize| format!("ball-{i}-{j}");
@@ -114,10 +114,10 @@ fn net(treatment: &Treatment, quick: bool) -> Outcome {
         let at = place(&scene, i, j);
         scene.joints.push(joint(hook, JointKind::Spherical, GROUND, &name(i, j), at));
     }
-    Trial::new(scene, treatment).conserving((1e-6, 1e-3)).sampled(5).run()
+    Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
 }
 
-fn four_bar(treatment: &Treatment, quick: bool) -> Outcome {
+fn four_bar(method: &TrialMethod, quick: bool) -> Outcome {
     let windows = if quick { 99 } else { 999 };
     let n = f64::from(windows);
     let k = 9.81 * 0.5 * (3.0 * n + 1.0) / ((4.0 * n + 1.0) / 3.0);
@@ -126,7 +126,7 @@ fn four_bar(treatment: &Treatment, quick: bool) -> Outcome {
         Ok(mut scene) => {
             scene.simulation.duration = 1.5;
             scene.simulation.tolerance = 1e-9;
-            Trial::new(scene, treatment)
+            Trial::new(scene, method)
                 .against("exact motion of one degree of freedom", (1e-5, 1e-2), move |run| {
                     let (angle, _) = exact.at(run.time());
                     distance(&run.frame(), 0, [0.5 * angle.sin(), 0.5 * angle.cos(), 0.0])
@@ -141,7 +141,7 @@ fn four_bar(treatment: &Treatment, quick: bool) -> Outcome {
 
 /// All pendulums hang on a free hub that only turns about its axle: with all of them alike, each moves like one on a
 /// hub of which it has its share.
-fn hub(treatment: &Treatment, quick: bool) -> Outcome {
+fn hub(method: &TrialMethod, quick: bool) -> Outcome {
     let count = if quick { 60 } else { 200 };
     let mut scene = scene("hub", [0.0; 3], 2.0, 1e-9);
     let mut hub = body("hub", 10.0, [5.0; 3], [0.0; 3]);
@@ -157,7 +157,7 @@ fn hub(treatment: &Treatment, quick: bool) -> Outcome {
         scene.joints.push(pin(&format!("pin-{i}"), "hub", &name, [c, s]));
     }
     // By symmetry all arms keep the same angle to the hub's radius, whose pattern must not break.
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("the symmetry of its arms", (1e-6, 1e-3), move |run| {
             let frame = run.frame();
             let radii = frame.bodies[1..].iter().map(|b| b.position[0].hypot(b.position[1]));

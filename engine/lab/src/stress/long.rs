@@ -2,7 +2,7 @@
 
 use super::build::{DOWN, GROUND, body, distance, pin, rod, scene};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use nalgebra::Vector3;
 use triad_engine::run::Simulation;
 
@@ -23,7 +23,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A free asymmetric body turns about a general axis 1e5 times; quick: a thousand times",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, quick| free_body([1.0, 2.0, 0.5], quick, treatment),
+        run: |method, quick| free_body([1.0, 2.0, 0.5], quick, method),
     },
     Case {
         name: "intermediate-axis-turns",
@@ -31,7 +31,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "The same about its intermediate axis: it flips over and over",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, quick| free_body([1e-3, 2.0, 1e-3], quick, treatment),
+        run: |method, quick| free_body([1e-3, 2.0, 1e-3], quick, method),
     },
     Case {
         name: "chain-of-ten",
@@ -43,14 +43,14 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-fn pendulum(treatment: &Treatment, quick: bool) -> Outcome {
+fn pendulum(method: &TrialMethod, quick: bool) -> Outcome {
     let seconds = if quick { 100.0 } else { 2000.0 };
     let start = 2.0f64;
     let mut scene = scene("pendulum", DOWN, seconds, 1e-10);
     scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));
     scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
     let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * a.sin());
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of a physical pendulum", (1e-8 * seconds, 1e-2), move |run| {
             let (angle, _) = exact.at(run.time());
             distance(&run.frame(), 0, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
@@ -60,7 +60,7 @@ fn pendulum(treatment: &Treatment, quick: bool) -> Outcome {
         .run()
 }
 
-fn free_body(omega: [f64; 3], quick: bool, treatment: &Treatment) -> Outcome {
+fn free_body(omega: [f64; 3], quick: bool, method: &TrialMethod) -> Outcome {
     let turns = if quick { 1e3 } else { 1e5 };
     let speed = Vector3::from(omega).norm();
     let mut scene = scene("free-body", [0.0; 3], turns * std::f64::consts::TAU / speed, 1e-10);
@@ -82,7 +82,7 @@ fn free_body(omega: [f64; 3], quick: bool, treatment: &Treatment) -> Outcome {
             })
             .sum()
     };
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("angular momentum in the world", (1e-9 * turns, 1e-2), move |run| {
             let now = momentum(run);
             let start = start.get_or_insert(now);
@@ -93,7 +93,7 @@ fn free_body(omega: [f64; 3], quick: bool, treatment: &Treatment) -> Outcome {
         .run()
 }
 
-fn chain(treatment: &Treatment, quick: bool) -> Outcome {
+fn chain(method: &TrialMethod, quick: bool) -> Outcome {
     let seconds = if quick { 5.0 } else { 1000.0 };
     let mut scene = scene("chain", DOWN, seconds, 1e-9);
     for i in 0..10 {
@@ -104,5 +104,5 @@ fn chain(treatment: &Treatment, quick: bool) -> Outcome {
         scene.joints.push(pin(&format!("pin-{i}"), &above, &name, [x, 0.0]));
     }
     // Chaotic: no two solutions agree for long. Energy and closure are what remains.
-    Trial::new(scene, treatment).conserving((1e-8 * seconds.max(10.0), 1e-2)).within(3_000_000).run()
+    Trial::new(scene, method).conserving((1e-8 * seconds.max(10.0), 1e-2)).within(3_000_000).run()
 }

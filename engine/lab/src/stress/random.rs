@@ -9,16 +9,16 @@ mod invariants;
 pub use draw::scene;
 pub use invariants::judge;
 
-use super::{Entry, Outcome, Treatment, Verdict};
+use super::{Entry, Outcome, TrialMethod, Verdict};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Family of all random mechanisms.
 pub(super) const FAMILY: &str = "random";
 
 /// Draws, runs and judges the mechanism of a seed. A panic is caught and counts as wrong.
-pub fn run(seed: u64, treatment: &Treatment) -> Entry {
+pub fn run(seed: u64, method: &TrialMethod) -> Entry {
     let scene = scene(seed);
-    let outcome = catch_unwind(AssertUnwindSafe(|| judge(&scene, treatment))).unwrap_or_else(|panic| {
+    let outcome = catch_unwind(AssertUnwindSafe(|| judge(&scene, method))).unwrap_or_else(|panic| {
         Outcome::nothing(Verdict::Wrong, format!("panicked: {}", super::words_of(&*panic)))
     });
     Entry {

@@ -3,7 +3,7 @@
 use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
 use super::oracle::OneDegree;
 use super::trial::must_be_refused;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use triad_scene::{AxisRows, Driver, JointKind, Motion, Scene, VectorMotion};
 
 const FAMILY: &str = "redundant";
@@ -76,9 +76,9 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 /// A uniform rod of 1 m and 1 kg on a hinge: θ̈ = −(3/2) g sin θ from the downward vertical.
-pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, treatment: &Treatment) -> Outcome {
+pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, method: &TrialMethod) -> Outcome {
     let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * a.sin());
-    Trial::new(run_scene, treatment)
+    Trial::new(run_scene, method)
         .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
             let (angle, _) = exact.at(run.time());
             distance(&run.frame(), body, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
@@ -87,18 +87,18 @@ pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, treatment: &Tr
         .run()
 }
 
-fn bricard(treatment: &Treatment, _: bool) -> Outcome {
+fn bricard(method: &TrialMethod, _: bool) -> Outcome {
     match triad_scene::catalogue::scene("bricard") {
         // The loop starts at rest in a closed form; energy and closure are its invariants, and it must move.
         Ok(mut scene) => {
             scene.simulation.duration = 10.0;
-            Trial::new(scene, treatment).conserving((1e-6, 1e-3)).run()
+            Trial::new(scene, method).conserving((1e-6, 1e-3)).run()
         }
         Err(error) => Outcome::nothing(Verdict::Wrong, error.to_string()),
     }
 }
 
-fn coaxial(treatment: &Treatment, _: bool) -> Outcome {
+fn coaxial(method: &TrialMethod, _: bool) -> Outcome {
     let start = 1.0f64;
     [1usize, 2, 3, 12]
         .into_iter()
@@ -118,12 +118,12 @@ fn coaxial(treatment: &Treatment, _: bool) -> Outcome {
                 hinge.rows = Some(if i % 2 == 0 { AxisRows::TwoCar } else { AxisRows::Cv });
                 scene.joints.push(hinge);
             }
-            swinging(scene, 0, start, treatment)
+            swinging(scene, 0, start, method)
         })
         .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
 }
 
-fn bookshelf(treatment: &Treatment, _: bool) -> Outcome {
+fn bookshelf(method: &TrialMethod, _: bool) -> Outcome {
     let (count, start) = (9usize, 0.3f64);
     let mut scene = scene("bookshelf", DOWN, 10.0, 1e-9);
     let (s, c) = (start.sin(), start.cos());
@@ -140,7 +140,7 @@ fn bookshelf(treatment: &Treatment, _: bool) -> Outcome {
     let n = count as f64;
     let k = 9.81 * (0.5 * n + 2.0) / (n / 3.0 + 2.0);
     let mut exact = OneDegree::new(start, 0.0, move |a: f64, _| -k * a.sin());
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (1e-6, 1e-3), move |run| {
             let (angle, _) = exact.at(run.time());
             distance(&run.frame(), count, [4.0 + angle.sin(), -angle.cos(), 0.0])
@@ -150,7 +150,7 @@ fn bookshelf(treatment: &Treatment, _: bool) -> Outcome {
 }
 
 /// The same double pendulum with each joint once, in reduced coordinates, is the reference.
-fn twice(treatment: &Treatment, _: bool) -> Outcome {
+fn twice(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = scene("twice", DOWN, 3.0, 1e-10);
     scene.bodies.push(rod("upper", 1.0, [0.0; 2], [1.0, 0.0], [0.0; 2], 0.0));
     scene.bodies.push(rod("lower", 1.0, [1.0, 0.0], [2.0, 0.0], [0.0; 2], 0.0));
@@ -169,7 +169,7 @@ fn twice(treatment: &Treatment, _: bool) -> Outcome {
     let Ok(mut other) = triad_engine::run::Simulation::new(&once) else {
         return Outcome::nothing(Verdict::Wrong, "the reference does not start".to_owned());
     };
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("the same with each joint once, in reduced coordinates", (1e-6, 1e-3), move |run| {
             if other.advance_to(run.time()).is_err() {
                 return f64::NAN;
@@ -181,7 +181,7 @@ fn twice(treatment: &Treatment, _: bool) -> Outcome {
         .run()
 }
 
-fn contradiction(treatment: &Treatment, _: bool) -> Outcome {
+fn contradiction(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = scene("contradiction", DOWN, 1.0, 1e-9);
     scene.bodies.push(body("bar", 1.0, [0.1, 0.1, 0.1], [0.5, 0.0, 0.0]));
     let mut left = joint("left", JointKind::Spherical, GROUND, "bar", [0.0; 3]);
@@ -191,10 +191,10 @@ fn contradiction(treatment: &Treatment, _: bool) -> Outcome {
     right.point = None;
     (right.point_i, right.point_j) = (Some([1.1, 0.0, 0.0]), Some([0.5, 0.0, 0.0]));
     scene.joints = vec![left, right];
-    must_be_refused(&scene, treatment, "assembly-failed", &["\"left\"", "\"right\""])
+    must_be_refused(&scene, method, "assembly-failed", &["\"left\"", "\"right\""])
 }
 
-fn open_loop(treatment: &Treatment, _: bool) -> Outcome {
+fn open_loop(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = scene("open-loop", DOWN, 1.0, 1e-9);
     for k in 0..3 {
         let x = f64::from(k);
@@ -208,10 +208,10 @@ fn open_loop(treatment: &Treatment, _: bool) -> Outcome {
     (last.point_i, last.point_j) = (Some([0.5, 0.0, 0.0]), Some([3.3, 0.0, 0.0]));
     last.axis = Some([0.0, 0.0, 1.0]);
     scene.joints.push(last);
-    must_be_refused(&scene, treatment, "assembly-failed", &["\"A\"", "\"D\""])
+    must_be_refused(&scene, method, "assembly-failed", &["\"A\"", "\"D\""])
 }
 
-fn drivers(treatment: &Treatment, _: bool) -> Outcome {
+fn drivers(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = scene("drivers", DOWN, 1.0, 1e-9);
     scene.bodies.push(rod("bar", 1.0, [0.0; 2], [1.0, 0.0], [0.0; 2], 0.0));
     scene.joints.push(pin("A", GROUND, "bar", [0.0; 2]));
@@ -222,10 +222,10 @@ fn drivers(treatment: &Treatment, _: bool) -> Outcome {
             motion: Motion::Ramp { start: 0.0, rate },
         });
     }
-    must_be_refused(&scene, treatment, "motion-impossible", &["\"slow\"", "\"fast\""])
+    must_be_refused(&scene, method, "motion-impossible", &["\"slow\"", "\"fast\""])
 }
 
-fn past_reach(treatment: &Treatment, _: bool) -> Outcome {
+fn past_reach(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = scene("past-reach", [0.0; 3], 2.0, 1e-9);
     let bend = [0.6, 0.8];
     scene.bodies.push(rod("upper", 1.0, [0.0; 2], bend, [0.0; 2], 0.0));
@@ -244,7 +244,7 @@ fn past_reach(treatment: &Treatment, _: bool) -> Outcome {
         },
     });
     let codes = "motion-impossible|constraints-lost|step-too-small|stalled|no-convergence";
-    let mut outcome = must_be_refused(&scene, treatment, codes, &["driver \"hand\" asks for"]);
+    let mut outcome = must_be_refused(&scene, method, codes, &["driver \"hand\" asks for"]);
     // At t = 1 s the arm is straight; feedback stretches it a little.
     if outcome.verdict == Verdict::Refused && !(0.99..1.3).contains(&outcome.reached) {
         outcome.verdict = Verdict::Wrong;

@@ -3,7 +3,7 @@
 use super::build::{DOWN, GROUND, body, distance, joint, pin, rod, scene};
 use super::oracle::OneDegree;
 use super::redundant::swinging;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use triad_scene::{Inertia, JointKind};
 
 const FAMILY: &str = "scales";
@@ -15,7 +15,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A chain of ten, each body a hundred times lighter than the one above: 1 to 1e-18 kg",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| chain(1e-2, treatment),
+        run: |method, _| chain(1e-2, method),
     },
     Case {
         name: "mass-ratios-up",
@@ -24,7 +24,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A chain of ten, each body a hundred times heavier than the one above: 1e-9 to 1e9 kg",
         expected: Verdict::Refused,
         quick: true,
-        run: |treatment, _| chain(1e2, treatment),
+        run: |method, _| chain(1e2, method),
     },
     Case {
         name: "micrometre",
@@ -32,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A pendulum of one micrometre and one picogram",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| pendulum(1e-6, 1e-15, treatment),
+        run: |method, _| pendulum(1e-6, 1e-15, method),
     },
     Case {
         name: "kilometre",
@@ -40,7 +40,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A pendulum of ten kilometres and a million tonnes",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| pendulum(1e4, 1e9, treatment),
+        run: |method, _| pendulum(1e4, 1e9, method),
     },
     Case {
         name: "all-sizes",
@@ -72,7 +72,7 @@ pub(super) const CASES: &[Case] = &[
 ///
 /// Half a second: later the whip of light tails is chaotic. At 0.8 s runs still agree to a thousand tolerances, at 1 s
 /// two integrators at a tolerance of 1e-13 differ by metres at the tip.
-fn chain(ratio: f64, treatment: &Treatment) -> Outcome {
+fn chain(ratio: f64, method: &TrialMethod) -> Outcome {
     let mut scene = scene("chain", DOWN, 0.5, 1e-9);
     let first = if ratio > 1.0 { 1e-9 } else { 1.0 };
     for i in 0..10 {
@@ -88,7 +88,7 @@ fn chain(ratio: f64, treatment: &Treatment) -> Outcome {
     // The series lift both forms alike: only another integrator makes the comparison mean something.
     reduced.simulation.integrator = triad_scene::IntegratorKind::Dop853;
     let mut other = triad_engine::run::Simulation::new(&reduced).ok();
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("the same in reduced coordinates by another integrator", (1e-5, 1e-2), move |run| {
             let Some(other) = other.as_mut() else { return f64::NAN };
             other.set_step_limit(200_000);
@@ -103,7 +103,7 @@ fn chain(ratio: f64, treatment: &Treatment) -> Outcome {
 }
 
 /// A uniform rod on a hinge: θ̈ = −(3 g / 2 l) sin θ; for two periods of about 2π √(2 l / 3 g).
-fn pendulum(length: f64, mass: f64, treatment: &Treatment) -> Outcome {
+fn pendulum(length: f64, mass: f64, method: &TrialMethod) -> Outcome {
     let start = 1.0f64;
     let pace = (1.5 * 9.81 / length).sqrt();
     let mut scene = scene("pendulum", DOWN, 15.0 / pace, 1e-9);
@@ -112,7 +112,7 @@ fn pendulum(length: f64, mass: f64, treatment: &Treatment) -> Outcome {
     scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
     // In the time pace · t.
     let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -a.sin());
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
             let (angle, _) = exact.at(pace * run.time());
             let center = [0.5 * length * angle.sin(), -0.5 * length * angle.cos(), 0.0];
@@ -122,7 +122,7 @@ fn pendulum(length: f64, mass: f64, treatment: &Treatment) -> Outcome {
         .run()
 }
 
-fn all_sizes(treatment: &Treatment, _: bool) -> Outcome {
+fn all_sizes(method: &TrialMethod, _: bool) -> Outcome {
     let lengths = [1e-6, 1e-3, 1.0, 1e3];
     let start = 1.0f64;
     let mut scene = scene("all-sizes", DOWN, 0.02, 1e-9);
@@ -136,7 +136,7 @@ fn all_sizes(treatment: &Treatment, _: bool) -> Outcome {
     }
     let mut exact: Vec<_> =
         lengths.iter().map(|_| OneDegree::new(start, 0.0, |a: f64, _| -a.sin())).collect();
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of each pendulum", (1e-5, 1e-1), move |run| {
             let frame = run.frame();
             let mut error = 0.0;
@@ -150,7 +150,7 @@ fn all_sizes(treatment: &Treatment, _: bool) -> Outcome {
         .run()
 }
 
-fn thin(treatment: &Treatment, _: bool) -> Outcome {
+fn thin(method: &TrialMethod, _: bool) -> Outcome {
     let start = 1.0f64;
     let moment = 1.0 / 12.0;
     let shapes = [
@@ -168,10 +168,10 @@ fn thin(treatment: &Treatment, _: bool) -> Outcome {
             scene.joints.push(pin("pin", GROUND, "bob", [0.0; 2]));
             let k = 0.5 * 9.81 / (0.25 + about_z);
             if name == "rod" {
-                return swinging(scene, 0, start, treatment);
+                return swinging(scene, 0, start, method);
             }
             let mut exact = OneDegree::new(start, 0.0, move |a: f64, _| -k * a.sin());
-            Trial::new(scene, treatment)
+            Trial::new(scene, method)
                 .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
                     let (angle, _) = exact.at(run.time());
                     distance(&run.frame(), 0, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
@@ -182,7 +182,7 @@ fn thin(treatment: &Treatment, _: bool) -> Outcome {
         .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
 }
 
-fn triangle(treatment: &Treatment, _: bool) -> Outcome {
+fn triangle(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = scene("triangle", [0.0; 3], 10.0, 1e-10);
     let inertias = [[1.0, 1.0, 1e-9], [1.0, 1.0, 2.0], [1.0, 1e-6, 1.0], [3.0, 1.0, 2.0]];
     for (i, principal) in inertias.into_iter().enumerate() {
@@ -208,7 +208,7 @@ fn triangle(treatment: &Treatment, _: bool) -> Outcome {
         moments.collect()
     };
     let mut start = None;
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("angular momentum of each free body, in the world", (1e-7, 1e-3), move |run| {
             let now = momentum(run);
             let start = start.get_or_insert_with(|| now.clone());

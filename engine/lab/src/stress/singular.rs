@@ -2,7 +2,7 @@
 
 use super::build::{DOWN, GROUND, distance, hinged, joint, pin, rod, scene};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use triad_scene::{JointKind, Scene};
 
@@ -85,7 +85,7 @@ fn against_pendulum(
     count: usize,
     start: (f64, f64),
     seconds: f64,
-    treatment: &Treatment,
+    method: &TrialMethod,
 ) -> Outcome {
     scene.simulation.duration = seconds;
     let k = kappa(count);
@@ -93,7 +93,7 @@ fn against_pendulum(
     // It passes the upright slowly, where its energy is a hundredth of that at the bottom: an error of energy counts a
     // hundredfold in the phase, and adds up from turn to turn.
     let good = 1e-6 * seconds.max(10.0);
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (good, 1e-2), move |run| {
             let (angle, _) = exact.at(run.time());
             let frame = run.frame();
@@ -109,29 +109,29 @@ fn against_pendulum(
         .run()
 }
 
-fn four_bars(treatment: &Treatment, quick: bool) -> Outcome {
+fn four_bars(method: &TrialMethod, quick: bool) -> Outcome {
     let (counts, seconds): (Vec<usize>, f64) =
         if quick { (vec![1, 2, 5, 12], 10.0) } else { ((1..=40).collect(), 100.0) };
     counts
         .into_iter()
-        .map(|n| against_windows(n, seconds, treatment))
+        .map(|n| against_windows(n, seconds, method))
         .reduce(Outcome::and)
         .unwrap_or_else(|| Outcome::nothing(Verdict::Wrong, "nothing was run".to_owned()))
 }
 
 /// So many windows from the upright for so long.
-pub(super) fn against_windows(count: usize, seconds: f64, treatment: &Treatment) -> Outcome {
-    against_pendulum(windows(count, 0.0, 1.0), count, (0.0, 1.0), seconds, treatment)
+pub(super) fn against_windows(count: usize, seconds: f64, method: &TrialMethod) -> Outcome {
+    against_pendulum(windows(count, 0.0, 1.0), count, (0.0, 1.0), seconds, method)
 }
 
-fn horizontal(treatment: &Treatment, _: bool) -> Outcome {
+fn horizontal(method: &TrialMethod, _: bool) -> Outcome {
     let start = (FRAC_PI_2, 3.0);
-    against_pendulum(windows(3, start.0, start.1), 3, start, 10.0, treatment)
+    against_pendulum(windows(3, start.0, start.1), 3, start, 10.0, method)
 }
 
 /// Levers turn together by θ; arm k of lever k and lever k + 1 stands at the angle β_k and has the length a_k, and a
 /// massive coupler joins the two. Singular where θ + β_k is 0 or π.
-fn unequal(treatment: &Treatment, _: bool) -> Outcome {
+fn unequal(method: &TrialMethod, _: bool) -> Outcome {
     let arms = [(1.0, 0.0), (0.7, 0.8), (1.3, 1.9), (0.5, 2.7)];
     let (start, rate) = (0.4, 1.5);
     let mut scene = scene("unequal-windows", DOWN, 20.0, 1e-9);
@@ -159,7 +159,7 @@ fn unequal(treatment: &Treatment, _: bool) -> Outcome {
     let mut exact = OneDegree::new(start, rate, move |angle: f64, _| {
         -9.81 * arms.iter().map(|(a, beta)| a * (angle + beta).cos()).sum::<f64>() / inertia
     });
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (1e-5, 1e-2), move |run| {
             let (angle, _) = exact.at(run.time());
             let frame = run.frame();
@@ -178,7 +178,7 @@ fn unequal(treatment: &Treatment, _: bool) -> Outcome {
 
 /// Crank at θ, rod back to the axis, slider at 2 cos θ: ½ M(θ) θ̇² + g sin θ with
 /// M = 1/3 + 1/12 + ¼ cos² θ + 9/4 sin² θ + 4 sin² θ, all masses and lengths one.
-fn slider_crank(treatment: &Treatment, _: bool) -> Outcome {
+fn slider_crank(method: &TrialMethod, _: bool) -> Outcome {
     let (start, rate): (f64, f64) = (0.5, 4.0);
     let mut scene = scene("slider-crank", DOWN, 20.0, 1e-9);
     let (c, s) = (start.cos(), start.sin());
@@ -198,7 +198,7 @@ fn slider_crank(treatment: &Treatment, _: bool) -> Outcome {
         let slope = 12.0 * s * c;
         (-0.5 * slope * r * r - 9.81 * c) / inertia
     });
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (1e-5, 1e-2), move |run| {
             let (angle, _) = exact.at(run.time());
             distance(&run.frame(), 2, [2.0 * angle.cos(), 0.0, 0.0])
@@ -209,12 +209,12 @@ fn slider_crank(treatment: &Treatment, _: bool) -> Outcome {
 
 /// At rest in the horizontal position several branches begin. Any of them is a solution; the result must be one, and
 /// the author must be told.
-fn at_rest(treatment: &Treatment, _: bool) -> Outcome {
+fn at_rest(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = windows(1, FRAC_PI_2, 0.0);
     scene.simulation.duration = 3.0;
     let told = triad_engine::run::Simulation::new(&scene)
         .is_ok_and(|run| run.notes().iter().any(|note| note.contains("singular")));
-    let mut outcome = Trial::new(scene, treatment)
+    let mut outcome = Trial::new(scene, method)
         .against("a branch: parallel or crossed", (1e-6, 1e-3), |run| {
             let frame = run.frame();
             let angle = |k: usize| frame.bodies[k].u[1].atan2(frame.bodies[k].u[0]);

@@ -2,7 +2,7 @@
 
 use super::build::{DOWN, GROUND, distance, pin, rod, scene};
 use super::trial::must_be_refused;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use triad_engine::run::Simulation;
 use triad_scene::{Orientation, Scene};
 
@@ -76,11 +76,11 @@ fn double_pendulum() -> Scene {
 }
 
 /// The corrected start must be told in a note, be consistent, and stay near what was given; from there energy holds.
-fn corrected(scene: Scene, far: f64, word: &str, treatment: &Treatment) -> Outcome {
+fn corrected(scene: Scene, far: f64, word: &str, method: &TrialMethod) -> Outcome {
     let given: Vec<_> = scene.bodies.iter().map(|b| b.position).collect();
     let told = Simulation::new(&scene).is_ok_and(|run| run.notes().iter().any(|note| note.contains(word)));
     let mut first = true;
-    let mut outcome = Trial::new(scene, treatment)
+    let mut outcome = Trial::new(scene, method)
         .against("the start stays near the given one", (0.0, 0.0), move |run| {
             let frame = run.frame();
             let moved = (0..given.len()).map(|k| distance(&frame, k, given[k])).fold(0.0, f64::max);
@@ -96,7 +96,7 @@ fn corrected(scene: Scene, far: f64, word: &str, treatment: &Treatment) -> Outco
     outcome
 }
 
-fn points_off(treatment: &Treatment, _: bool) -> Outcome {
+fn points_off(method: &TrialMethod, _: bool) -> Outcome {
     [0.01, 0.1, 0.2]
         .into_iter()
         .map(|by| {
@@ -104,43 +104,43 @@ fn points_off(treatment: &Treatment, _: bool) -> Outcome {
             scene.bodies[0].position[0] += by;
             scene.bodies[1].position[1] -= by;
             scene.bodies[1].position[2] += 0.5 * by;
-            corrected(scene, 2.0 * by, "positions", treatment)
+            corrected(scene, 2.0 * by, "positions", method)
         })
         .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
 }
 
-fn velocities_off(treatment: &Treatment, _: bool) -> Outcome {
+fn velocities_off(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = double_pendulum();
     scene.bodies[0].velocity = [3.0, -1.0, 2.0];
     scene.bodies[0].angular_velocity = [1.0, -1.0, 2.0];
     scene.bodies[1].velocity = [-3.0, 1.0, 0.5];
-    corrected(scene, 1e-9, "velocities", treatment)
+    corrected(scene, 1e-9, "velocities", method)
 }
 
-fn not_orthonormal(treatment: &Treatment, _: bool) -> Outcome {
+fn not_orthonormal(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = double_pendulum();
     scene.bodies[1].orientation = Some(Orientation::directors([1.1, 0.05, 0.0], [-0.05, 0.93, 0.02]));
-    corrected(scene, 0.2, "orthonormal", treatment)
+    corrected(scene, 0.2, "orthonormal", method)
 }
 
-fn left_handed(treatment: &Treatment, _: bool) -> Outcome {
+fn left_handed(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = double_pendulum();
     let (u, v) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     scene.bodies[1].orientation = Some(Orientation::Directors { u, v, w: Some([0.0, 0.0, -1.0]) });
-    must_be_refused(&scene, treatment, "orientation-invalid", &["\"lower\""])
+    must_be_refused(&scene, method, "orientation-invalid", &["\"lower\""])
 }
 
-fn parallel(treatment: &Treatment, _: bool) -> Outcome {
+fn parallel(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = double_pendulum();
     scene.bodies[0].orientation = Some(Orientation::directors([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
-    must_be_refused(&scene, treatment, "orientation-invalid", &["\"upper\""])
+    must_be_refused(&scene, method, "orientation-invalid", &["\"upper\""])
 }
 
-fn unreachable(treatment: &Treatment, _: bool) -> Outcome {
+fn unreachable(method: &TrialMethod, _: bool) -> Outcome {
     let mut scene = double_pendulum();
     let mut hand = pin("hand", GROUND, "lower", [0.0; 2]);
     hand.point = None;
     (hand.point_i, hand.point_j) = (Some([4.0, 0.0, 0.0]), Some([0.5, 0.0, 0.0]));
     scene.joints.push(hand);
-    must_be_refused(&scene, treatment, "assembly-failed|start-too-far", &["\"hand\""])
+    must_be_refused(&scene, method, "assembly-failed|start-too-far", &["\"hand\""])
 }

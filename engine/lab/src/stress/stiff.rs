@@ -2,7 +2,7 @@
 
 use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene, spring};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Treatment, Trial, Verdict};
+use super::{Case, Outcome, Trial, TrialMethod, Verdict};
 use triad_scene::{Driver, Friction, JointKind, Load, Motion};
 
 const FAMILY: &str = "stiff and fast";
@@ -14,7 +14,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A mass of 1 kg on a spring of 1e6 N/m for 160 periods",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| oscillator(1e6, 0.0, 1.0, treatment),
+        run: |method, _| oscillator(1e6, 0.0, 1.0, method),
     },
     Case {
         name: "spring-1e10",
@@ -22,7 +22,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "A mass of 1 kg on a spring of 1e10 N/m for 160 periods",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| oscillator(1e10, 0.0, 0.01, treatment),
+        run: |method, _| oscillator(1e10, 0.0, 0.01, method),
     },
     Case {
         name: "spring-damped",
@@ -30,7 +30,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "1e8 N/m and 4e5 N s/m on 1 kg: twenty times overdamped, as in a governor",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| oscillator(1e8, 4e5, 0.1, treatment),
+        run: |method, _| oscillator(1e8, 4e5, 0.1, method),
     },
     Case {
         name: "top",
@@ -59,7 +59,7 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 /// x = x₀ of a damped oscillator along x, exactly.
-fn oscillator(stiffness: f64, damping: f64, seconds: f64, treatment: &Treatment) -> Outcome {
+fn oscillator(stiffness: f64, damping: f64, seconds: f64, method: &TrialMethod) -> Outcome {
     let (amplitude, rest) = (0.01, 1.0);
     let mut scene = scene("oscillator", [0.0; 3], seconds, 1e-9);
     scene.bodies.push(body("mass", 1.0, [0.1; 3], [rest + amplitude, 0.0, 0.0]));
@@ -67,7 +67,7 @@ fn oscillator(stiffness: f64, damping: f64, seconds: f64, treatment: &Treatment)
     scene.loads.push(spring("spring", [0.0; 3], "mass", stiffness, rest, damping));
     let half = 0.5 * damping;
     let square = stiffness - half * half;
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion of a linear oscillator", (1e-4, 1e-1), move |run| {
             let t = run.time();
             let x = if square > 0.0 {
@@ -85,7 +85,7 @@ fn oscillator(stiffness: f64, damping: f64, seconds: f64, treatment: &Treatment)
 }
 
 /// With its axis horizontal, a symmetric top precesses steadily at exactly Ω = m g l / (C n).
-fn top(treatment: &Treatment, quick: bool) -> Outcome {
+fn top(method: &TrialMethod, quick: bool) -> Outcome {
     let (spin, arm, axial, across) = (1e5, 0.1, 1e-3, 1e-3);
     let precession = 9.81 * arm / (axial * spin);
     let seconds = if quick { 0.02 } else { 0.2 };
@@ -95,7 +95,7 @@ fn top(treatment: &Treatment, quick: bool) -> Outcome {
     wheel.velocity = [0.0, precession * arm, 0.0];
     scene.bodies.push(wheel);
     scene.joints.push(joint("tip", JointKind::Spherical, GROUND, "wheel", [0.0; 3]));
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("steady precession at m g l / (C n)", (1e-7, 1e-3), move |run| {
             let (sin, cos) = (precession * run.time()).sin_cos();
             distance(&run.frame(), 0, [arm * cos, arm * sin, 0.0]) / arm
@@ -105,7 +105,7 @@ fn top(treatment: &Treatment, quick: bool) -> Outcome {
 }
 
 /// A rod on a pivot at y = a sin Ω t: θ̈ = (3 / 2 l)(g − a Ω² sin Ω t) sin θ from the upward vertical.
-fn kapitza(treatment: &Treatment, _: bool) -> Outcome {
+fn kapitza(method: &TrialMethod, _: bool) -> Outcome {
     let (amplitude, frequency) = (0.01, 2.0 * std::f64::consts::PI * 1000.0);
     let start = 0.1f64;
     let mut scene = scene("kapitza", DOWN, 0.3, 1e-10);
@@ -124,7 +124,7 @@ fn kapitza(treatment: &Treatment, _: bool) -> Outcome {
     let mut exact = OneDegree::driven(start, 0.0, 1e-6, move |t: f64, a: f64, _| {
         1.5 * (9.81 - amplitude * frequency * frequency * (frequency * t).sin()) * a.sin()
     });
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("exact motion on a shaken pivot", (1e-5, 1e-2), move |run| {
             let t = run.time();
             let (angle, _) = exact.at(t);
@@ -135,7 +135,7 @@ fn kapitza(treatment: &Treatment, _: bool) -> Outcome {
 }
 
 /// A block of 1 kg at 1 m/s against 2 N: it stands after 0.5 s and 0.25 m, and stays.
-fn friction(treatment: &Treatment, quick: bool) -> Outcome {
+fn friction(method: &TrialMethod, quick: bool) -> Outcome {
     let mut scene = scene("friction", [0.0; 3], if quick { 0.505 } else { 1.0 }, 1e-8);
     let mut block = body("block", 1.0, [0.1; 3], [0.0; 3]);
     block.velocity = [1.0, 0.0, 0.0];
@@ -151,7 +151,7 @@ fn friction(treatment: &Treatment, quick: bool) -> Outcome {
         friction: Some(Friction { viscous: 0.0, coulomb: 2.0, smoothing: 1e-6 }),
     });
     // tanh is one but for the last micrometres a second: their effect on the path is 1e-12 m.
-    Trial::new(scene, treatment)
+    Trial::new(scene, method)
         .against("uniform deceleration, then rest", (1e-5, 1e-2), |run| {
             let t = run.time().min(0.5);
             distance(&run.frame(), 0, [t - t * t, 0.0, 0.0]) / 0.25

@@ -1,6 +1,6 @@
 //! One run of one scene, and the judgement on it.
 
-use super::{Outcome, Treatment, Verdict};
+use super::{Outcome, TrialMethod, Verdict};
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
 use triad_scene::Scene;
@@ -22,15 +22,15 @@ pub struct Trial<'a> {
     poor: f64,
     samples: u32,
     steps: u64,
-    most_steps: u64,
-    most_bodies: usize,
+    max_steps: u64,
+    max_bodies: usize,
     conserves: Option<(f64, f64)>,
 }
 
 impl<'a> Trial<'a> {
-    /// A scene that is to be run under a treatment.
-    pub fn new(mut scene: Scene, treatment: &Treatment) -> Self {
-        treatment.apply(&mut scene);
+    /// A scene that is to be run under a method.
+    pub fn new(mut scene: Scene, method: &TrialMethod) -> Self {
+        method.apply(&mut scene);
         Self {
             scene,
             reference: String::new(),
@@ -39,8 +39,8 @@ impl<'a> Trial<'a> {
             poor: 0.0,
             samples: 40,
             steps: STEPS,
-            most_steps: treatment.most_steps.unwrap_or(u64::MAX),
-            most_bodies: treatment.most_bodies.unwrap_or(usize::MAX),
+            max_steps: method.max_steps.unwrap_or(u64::MAX),
+            max_bodies: method.max_bodies.unwrap_or(usize::MAX),
             conserves: None,
         }
     }
@@ -88,10 +88,10 @@ impl<'a> Trial<'a> {
     pub fn run(self) -> Outcome {
         let refused =
             |why: String, reference: String| Outcome { reference, ..Outcome::nothing(Verdict::Refused, why) };
-        if self.scene.bodies.len() > self.most_bodies {
+        if self.scene.bodies.len() > self.max_bodies {
             let why = format!(
                 "not tried: its matrices are full, and more than {} bodies too many",
-                self.most_bodies
+                self.max_bodies
             );
             return refused(why, self.reference);
         }
@@ -102,7 +102,7 @@ impl<'a> Trial<'a> {
     }
 
     fn watch(mut self, mut simulation: Simulation) -> Outcome {
-        simulation.set_step_limit(self.steps.min(self.most_steps));
+        simulation.set_step_limit(self.steps.min(self.max_steps));
         let mut outcome = Outcome::nothing(Verdict::Survived, String::new());
         outcome.reference = std::mem::take(&mut self.reference);
         let (mut drift, mut kinetic) = (0.0f64, f64::MIN_POSITIVE);
@@ -119,7 +119,7 @@ impl<'a> Trial<'a> {
             let summary = simulation.summary();
             drift = larger(drift, summary.energy_drift.abs());
             kinetic = kinetic.max(kinetic_energy(&mut simulation));
-            let open = simulation.opening().relative;
+            let open = simulation.violation().relative;
             outcome.violation = Some(larger(outcome.violation.unwrap_or(0.0), open));
         }
         let summary = simulation.summary();
@@ -177,9 +177,9 @@ impl<'a> Trial<'a> {
 }
 
 /// A scene that must be refused with an error of one of the given codes (`a|b`) that names all of `names`.
-pub fn must_be_refused(scene: &Scene, treatment: &Treatment, code: &str, names: &[&str]) -> Outcome {
+pub fn must_be_refused(scene: &Scene, method: &TrialMethod, code: &str, names: &[&str]) -> Outcome {
     let mut scene = scene.clone();
-    treatment.apply(&mut scene);
+    method.apply(&mut scene);
     let reference = format!("must be refused as {code}, naming {}", names.join(" and "));
     let mut outcome = Outcome::nothing(Verdict::Wrong, "it ran to its end".to_owned());
     let error = match Simulation::new(&scene) {

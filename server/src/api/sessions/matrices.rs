@@ -5,7 +5,7 @@ use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_engine::analysis::check::dependent_sets;
-use triad_engine::reactions::matrices::{Part, Symmetric};
+use triad_engine::reactions::matrices::{EntryKind, Symmetric};
 use triad_engine::run::Simulation;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -110,7 +110,7 @@ pub(in crate::api) struct SymmetricView {
     /// What each row is, and each column alike.
     names: Vec<String>,
     /// Row, column, value, and what it is: `own`, `constant`, `changing` or `fill`.
-    places: Vec<(usize, usize, f64, Part)>,
+    places: Vec<(usize, usize, f64, EntryKind)>,
     /// Places on or below the diagonal that a factorization fills.
     fill: usize,
 }

@@ -12,7 +12,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use triad_engine::scene::{Scene, Stabilization};
+use triad_engine::scene::{ConstraintMethod, Scene};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -75,7 +75,7 @@ struct Overrides {
     /// Tolerance of the integrator.
     tolerance: Option<f64>,
     /// How the constraints are kept.
-    stabilization: Option<Stabilization>,
+    stabilization: Option<ConstraintMethod>,
 }
 
 impl Overrides {
@@ -84,7 +84,7 @@ impl Overrides {
         simulation.duration = self.duration.unwrap_or(simulation.duration);
         simulation.every = self.every.unwrap_or(simulation.every);
         simulation.tolerance = self.tolerance.unwrap_or(simulation.tolerance);
-        simulation.stabilization = self.stabilization.unwrap_or(simulation.stabilization);
+        simulation.constraint_method = self.stabilization.unwrap_or(simulation.constraint_method);
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use axum::http::StatusCode;
 use clap::Args;
-use triad_engine::scene::{Coordinates, IntegratorKind, Stabilization};
+use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind};
 use triad_lab::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
 
 use super::raster::{RasterError, png};
@@ -27,7 +27,7 @@ pub(in crate::cli) struct Bench {
     /// A constraint treatment, as in a scene: a word, or `{"kind": "baumgarte", "alpha": 5, "beta": 5}`; may be
     /// given more than once.
     #[arg(long, value_name = "TREATMENT", value_parser = treatment)]
-    treatment: Vec<Stabilization>,
+    treatment: Vec<ConstraintMethod>,
     /// Kinds of bodies: full, reduced, shared.
     #[arg(long, value_name = "WORDS", value_delimiter = ',')]
     coordinates: Vec<Coordinates>,
@@ -41,7 +41,7 @@ pub(in crate::cli) struct Bench {
 }
 
 /// Reads a treatment: a word that needs no numbers, or JSON.
-fn treatment(text: &str) -> Result<Stabilization, String> {
+fn treatment(text: &str) -> Result<ConstraintMethod, String> {
     let value = if text.trim_start().starts_with('{') {
         serde_json::from_str(text).map_err(|error| error.to_string())?
     } else {
@@ -54,7 +54,8 @@ fn treatment(text: &str) -> Result<Stabilization, String> {
 pub(in crate::cli) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
     let Bench { quick, scenes, integrators, treatment, coordinates, tolerances, out: folder } = options;
     let plan = if quick { Plan::quick() } else { Plan::full() };
-    let plan = plan.with(Wish { scenes, integrators, treatments: treatment, coordinates, tolerances });
+    let plan =
+        plan.with(Wish { scenes, integrators, constraint_methods: treatment, coordinates, tolerances });
     if plan.cases.is_empty() {
         return Err(Problem::new(
             StatusCode::BAD_REQUEST,

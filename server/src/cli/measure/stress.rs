@@ -11,7 +11,7 @@ use clap::Args;
 use serde::Serialize;
 use triad_engine::VERSION;
 use triad_engine::scene::Scene;
-use triad_lab::stress::{self, Case, Entry, Treatment, Verdict};
+use triad_lab::stress::{self, Case, Entry, TrialMethod, Verdict};
 
 use crate::cli::output::{make_room, write};
 use crate::cli::terminal::{Outcome, print_json, print_line, progress};
@@ -64,15 +64,16 @@ struct Report {
     /// Cases that did not go as they have to.
     unexpected: Vec<String>,
     entries: Vec<Entry>,
-    /// Which treatment survives what.
+    /// Which method survives what.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     comparison: Vec<Column>,
 }
 
-/// All cases under one treatment.
+/// All cases under one method.
 #[derive(Debug, Serialize)]
 struct Column {
-    treatment: String,
+    #[serde(rename = "treatment")]
+    method: String,
     entries: Vec<Entry>,
 }
 
@@ -88,14 +89,14 @@ pub(in crate::cli) fn stress(options: &Stress, json: bool) -> Result<Outcome, Pr
     let seeds = seeds(options);
     let bar = progress("stress", (cases.len() as u64 + seeds.1 - seeds.0) as f64, json);
     let mut entries = Vec::new();
-    let treatment = Treatment::default();
+    let method = TrialMethod::default();
     for case in &cases {
-        let entry = stress::run(case, &treatment, options.quick);
+        let entry = stress::run(case, &method, options.quick);
         add(&mut entries, entry, json);
         bar.reached(entries.len() as f64);
     }
     for seed in seeds.0..seeds.1 {
-        let entry = stress::random::run(seed, &treatment);
+        let entry = stress::random::run(seed, &method);
         add(&mut entries, entry, json);
         bar.reached(entries.len() as f64);
     }
@@ -142,7 +143,7 @@ fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
             let verdict = outcome.verdict;
             print_line(&format!(
                 "{verdict:9} {:30} {:22} {error:>8} {:>7} steps  {}",
-                column.treatment, entry.case, outcome.steps, outcome.reason
+                column.method, entry.case, outcome.steps, outcome.reason
             ));
         }
     }
@@ -186,8 +187,8 @@ fn add(entries: &mut Vec<Entry>, entry: Entry, json: bool) {
 
 /// The smallest scene that still goes as wrong as that of a seed.
 pub(in crate::cli) fn smallest(seed: u64) -> Scene {
-    let treatment = Treatment::default();
-    let wrong = |scene: &Scene| stress::random::judge(scene, &treatment).verdict == Verdict::Wrong;
+    let method = TrialMethod::default();
+    let wrong = |scene: &Scene| stress::random::judge(scene, &method).verdict == Verdict::Wrong;
     stress::shrink::shrink(&stress::random::scene(seed), &wrong)
 }
 
@@ -196,14 +197,14 @@ fn compare(cases: &[Case], json: bool) -> Vec<Column> {
     let bar = progress("compare", (cases.len() * treatments.len()) as f64, json);
     let mut done = 0.0;
     let mut columns = Vec::new();
-    for (treatment, how) in treatments {
+    for (method, how) in treatments {
         let mut entries = Vec::new();
         for case in cases {
             entries.push(stress::run(case, &how, true));
             done += 1.0;
             bar.reached(done);
         }
-        columns.push(Column { treatment, entries });
+        columns.push(Column { method, entries });
     }
     columns
 }

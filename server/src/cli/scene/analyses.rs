@@ -238,7 +238,7 @@ pub(in crate::cli) fn assemble(spec: &str, keep: &[String], json: bool) -> Resul
     }
     print_line(&format!(
         "{}: closed after {} steps; open by {:.3e} at the start, {:.3e} now",
-        scene.name, found.iterations, found.opening, found.left
+        scene.name, found.iterations, found.violation, found.left
     ));
     for body in &found.bodies {
         let q = body.quaternion;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use triad_engine::scene::{IntegratorKind, Stabilization};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind};
 
 use crate::cli::choice;
 
@@ -32,7 +32,7 @@ pub(in crate::cli) struct Run {
     /// What keeps the constraints, instead of the scene's: projection, baumgarte, partitioning, penalty,
     /// augmented-lagrangian; each with its usual strength.
     #[arg(long, value_name = "NAME", value_parser = choice::treatment)]
-    pub(super) treatment: Option<Stabilization>,
+    pub(super) treatment: Option<ConstraintMethod>,
     /// Steps of one size, in seconds, instead of steps by the tolerance.
     #[arg(long, value_name = "S")]
     pub(super) step: Option<f64>,

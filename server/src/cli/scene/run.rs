@@ -65,7 +65,7 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
         }
     }
     simulation.integrator = options.integrator.unwrap_or(simulation.integrator);
-    simulation.stabilization = options.treatment.unwrap_or(simulation.stabilization);
+    simulation.constraint_method = options.treatment.unwrap_or(simulation.constraint_method);
     simulation.step = options.step.or(simulation.step);
     let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;

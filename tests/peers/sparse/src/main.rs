@@ -68,7 +68,7 @@ fn matrix(name: &str) -> (Vec<(usize, usize, f64)>, Vec<usize>) {
             entries.push((place.row, place.column, place.value * shift));
         }
     }
-    (entries, mechanism.system.groups.iter().map(|group| group.solver.len()).collect())
+    (entries, mechanism.system.constraints.iter().map(|constraint| constraint.solver.len()).collect())
 }
 
 fn compare(name: &str) {

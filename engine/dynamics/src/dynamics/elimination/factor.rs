@@ -3,7 +3,7 @@
 use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
 use crate::state::State;
 use crate::system::System;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use triad_linalg::block_cholesky::stride;
 
@@ -33,14 +33,14 @@ impl Elimination {
         self.factor.relative_pivots().iter().copied().enumerate().collect()
     }
 
-    /// From now on keeps how firmly joints hold.
-    pub fn keep_holds(&mut self) {
+    /// From now on each factorization keeps its pivot products.
+    pub fn keep_pivot_products(&mut self) {
         self.factor.keep_pivot_products();
     }
 
-    /// How firmly each joint holds at the positions of a state: see [`triad_linalg::BlockCholesky::pivot_products`]. The factor is
+    /// The pivot products of the joints at the positions of a state: see [`triad_linalg::BlockCholesky::pivot_products`]. The factor is
     /// none to solve with.
-    pub fn holds_at(&mut self, system: &System, state: &State) -> &[f64] {
+    pub fn pivot_products_at(&mut self, system: &System, state: &State) -> &[f64] {
         self.set_up(system, state);
         self.assemble(system);
         self.factor.factor(0.0, 0.0);
@@ -92,7 +92,7 @@ impl Elimination {
 }
 
 /// Inverse of I_g = Σ Ī_k (|e_k|² I − e_k e_kᵀ), with `regularization` added to its diagonal.
-fn inverse_inertia(q: &Lift, ibar: &Vector3<f64>, regularization: f64) -> Matrix3<f64> {
+fn inverse_inertia(q: &NaturalCoordinates, ibar: &Vector3<f64>, regularization: f64) -> Matrix3<f64> {
     let mut inertia = Matrix3::from_diagonal_element(regularization);
     for k in 0..3 {
         let e = q.e[k];

@@ -1,4 +1,4 @@
-//! Increments of lifted coordinates under the constraints of one position, with residuals taken at another: what
+//! Increments of natural coordinates under the constraints of one position, with residuals taken at another: what
 //! discretizations need that multiply Φ_Qᵀ of the start of a step and close Φ at its end — eq. (10.6).
 
 use super::Elimination;
@@ -7,7 +7,7 @@ use crate::model::BodyRef;
 use crate::scene::Coordinates;
 use crate::state::{Residual, State};
 use crate::system::System;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,7 +20,7 @@ impl Elimination {
         &mut self,
         system: &System,
         state: &State,
-        forces: &[Lift],
+        forces: &[NaturalCoordinates],
         other: &State,
         of_rates: bool,
         rows: &[Residual],
@@ -36,7 +36,7 @@ impl Elimination {
                 }
             });
             let particular = particular_directors(Coordinates::Full, &at.q, &open, |_, _| {}, &at.q_dot);
-            solve.particular = Lift { r: Vector3::zeros(), e: particular };
+            solve.particular = NaturalCoordinates { r: Vector3::zeros(), e: particular };
             let force = &forces[index];
             let moment: Vector3<f64> =
                 (0..3).map(|k| at.q.e[k].cross(&(force.e[k] - particular[k] * body.ibar[k]))).sum();
@@ -76,7 +76,7 @@ impl Elimination {
     /// Puts the generalized force of a unit force along a load's coordinate in place of all applied forces. Returns the
     /// stiffness and damping of its law, or `None` for a load without one.
     pub fn set_unit_load(&mut self, system: &System, state: &State, load: usize) -> Option<(f64, f64)> {
-        self.forces.bodies.fill(Lift::default());
+        self.forces.bodies.fill(NaturalCoordinates::default());
         let law = system.loads[load].linearized(system, state, &mut self.forces);
         for (solve, force) in self.bodies.iter_mut().zip(&self.forces.bodies) {
             solve.force = *force;
@@ -87,11 +87,11 @@ impl Elimination {
     /// Acceleration of a load's coordinate under a unit force along it, 1/kg or 1/(kg m²), with the factor at hand.
     pub fn mobility(&mut self, system: &System, state: &State, load: usize) -> Option<f64> {
         self.set_unit_load(system, state, load)?;
-        let forces: Vec<Lift> = self.bodies.iter().map(|solve| solve.force).collect();
+        let forces: Vec<NaturalCoordinates> = self.bodies.iter().map(|solve| solve.force).collect();
         self.set_particular(system, state, false, |_, _| Matrix3::zeros());
         self.gamma.fill(0.0);
         self.solve(system);
-        let along = |(body, force): (usize, &Lift)| force.dot(&self.solution(state, body));
+        let along = |(body, force): (usize, &NaturalCoordinates)| force.dot(&self.solution(state, body));
         Some(forces.iter().enumerate().map(along).sum())
     }
 }

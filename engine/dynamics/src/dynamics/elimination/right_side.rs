@@ -6,7 +6,7 @@ use crate::scene::Coordinates;
 use crate::state::{BodyState, State};
 use crate::system::System;
 use crate::system::feature::Difference;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,7 +19,7 @@ impl Elimination {
         system: &System,
         state: &State,
         velocity_terms: bool,
-        gamma: impl Fn(&Lift, &Lift) -> Matrix3<f64>,
+        gamma: impl Fn(&NaturalCoordinates, &NaturalCoordinates) -> Matrix3<f64>,
     ) {
         let bodies = system.bodies.iter().zip(state.bodies());
         for (solve, (body, at)) in self.bodies.iter_mut().zip(bodies) {
@@ -35,7 +35,7 @@ impl Elimination {
                 },
                 &at.q_dot,
             );
-            solve.particular = Lift { r: Vector3::zeros(), e: particular };
+            solve.particular = NaturalCoordinates { r: Vector3::zeros(), e: particular };
             let mut moment = Vector3::zeros();
             for k in 0..3 {
                 let p = solve.force.e[k] - particular[k] * body.ibar[k];
@@ -147,7 +147,7 @@ impl Elimination {
 
     pub(super) fn clear_forces(&mut self) {
         for solve in &mut self.bodies {
-            solve.force = Lift::default();
+            solve.force = NaturalCoordinates::default();
         }
     }
 }
@@ -162,10 +162,10 @@ pub(super) fn gram(entry: impl Fn(usize, usize) -> f64) -> Matrix3<f64> {
 /// rows, and ẅ follows from w = u × v; `extra` adds its velocity term.
 pub(super) fn particular_directors(
     coordinates: Coordinates,
-    q: &Lift,
+    q: &NaturalCoordinates,
     gamma: &Matrix3<f64>,
-    extra: impl Fn(&mut Vector3<f64>, &Lift),
-    q_dot: &Lift,
+    extra: impl Fn(&mut Vector3<f64>, &NaturalCoordinates),
+    q_dot: &NaturalCoordinates,
 ) -> [Vector3<f64>; 3] {
     let [u, v, w] = q.e;
     let dual = [v.cross(&w), w.cross(&u), u.cross(&v)];

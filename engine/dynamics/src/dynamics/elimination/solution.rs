@@ -4,7 +4,7 @@
 use super::{BodySolve, TwistJacobian, natural_acceleration};
 use crate::state::State;
 use crate::system::System;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use nalgebra::Vector3;
 
@@ -47,8 +47,8 @@ impl<'a> Multipliers<'a> {
 
     /// Force and moment about the centre of mass, −A_bᵀ λ, of a joint on a body — eq. (9.1).
     pub fn wrench_on(&self, incidence: usize) -> [Vector3<f64>; 2] {
-        let group = self.system.incidences[incidence].group;
-        let lambda = &self.lambda[self.system.groups[group].solver.clone()];
+        let constraint = self.system.incidences[incidence].constraint;
+        let lambda = &self.lambda[self.system.constraints[constraint].solver.clone()];
         let mut wrench = [Vector3::zeros(); 2];
         let rows = self.jacobian.rows_on(self.system, incidence);
         for (a, lambda) in rows.chunks_exact(6).zip(lambda) {
@@ -73,12 +73,12 @@ impl<'a> Accelerations<'a> {
     }
 
     /// Q̈ of a body.
-    pub fn of_body(&self, body: usize) -> Lift {
+    pub fn of_body(&self, body: usize) -> NaturalCoordinates {
         natural_acceleration(&self.bodies[body], &self.multipliers.state.bodies()[body].q)
     }
 
     /// G of a body, its generalized applied force.
-    pub fn force_on(&self, body: usize) -> &'a Lift {
+    pub fn force_on(&self, body: usize) -> &'a NaturalCoordinates {
         &self.bodies[body].force
     }
 

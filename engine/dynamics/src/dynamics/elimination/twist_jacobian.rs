@@ -18,7 +18,7 @@ impl TwistJacobian {
     /// Allocates for a system.
     pub fn new(system: &System) -> Self {
         Self {
-            a: vec![0.0; system.block_numbers],
+            a: vec![0.0; system.block_entries],
             transverse: vec![[Vector3::zeros(); 2]; system.rows.len()],
         }
     }

@@ -4,7 +4,7 @@ use super::lanes::{Lane, Triple};
 use super::slot::Slot;
 use crate::system::System;
 use crate::system::body::Body;
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use std::fmt::Debug;
 use std::ops::Range;
@@ -15,7 +15,7 @@ use std::ops::Range;
 /// components along two directions in the plane and along its normal; the last never changes.
 pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     /// Coordinates of the bodies, or anything that lives on them.
-    type Lifted: Copy + Debug;
+    type Natural: Copy + Debug;
     /// Right-hand sides of the rigid-body rows.
     type Rigid: Copy;
     /// Moments about the centres of mass.
@@ -41,36 +41,36 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     fn slots(&self) -> Range<usize>;
 
     /// Zero.
-    fn zero() -> Self::Lifted;
+    fn zero() -> Self::Natural;
     /// Bodies at rest.
-    fn at_rest() -> Self::Lifted;
+    fn at_rest() -> Self::Natural;
     /// Zero.
     fn no_directors() -> Self::Directors;
     /// Zero.
     fn no_mobility() -> Self::Mobility;
     /// All components.
-    fn lanes(x: &Self::Lifted) -> &[Lane<L>];
+    fn lanes(x: &Self::Natural) -> &[Lane<L>];
     /// All components.
-    fn lanes_mut(x: &mut Self::Lifted) -> &mut [Lane<L>];
+    fn lanes_mut(x: &mut Self::Natural) -> &mut [Lane<L>];
 
     /// Takes over the position or velocity of a body.
-    fn read(&self, lane: usize, lift: &Lift, out: &mut Self::Lifted);
+    fn read(&self, lane: usize, lift: &NaturalCoordinates, out: &mut Self::Natural);
     /// Position (`rate` false), velocity or acceleration of a body.
-    fn write(&self, lane: usize, x: &Self::Lifted, rate: bool) -> Lift;
+    fn write(&self, lane: usize, x: &Self::Natural, rate: bool) -> NaturalCoordinates;
 
     /// Value of a feature of the bodies at x, without what never changes.
-    fn value(slot: &Slot<L>, x: &Self::Lifted) -> Triple<L>;
+    fn value(slot: &Slot<L>, x: &Self::Natural) -> Triple<L>;
     /// Adds to the value of a feature what never changes.
     fn add_constant(&self, slot: &Slot<L>, value: &mut Triple<L>);
     /// Adds the generalized force of a force on a feature.
-    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Self::Lifted);
+    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Self::Natural);
 
     /// Coefficient of a vector with the given local coordinates that the bodies' coefficient q of an order makes.
-    fn arm(local: &Vector3<f64>, q: &Self::Lifted, lane: usize, order: usize) -> Vector3<f64>;
+    fn arm(local: &Vector3<f64>, q: &Self::Natural, lane: usize, order: usize) -> Vector3<f64>;
     /// The part of the centre of mass.
-    fn center(q: &Self::Lifted, lane: usize) -> Vector3<f64>;
+    fn center(q: &Self::Natural, lane: usize) -> Vector3<f64>;
     /// ½ Σ e_k × f_k: ω for e = Q and f = Q̇ — eq. (6.4).
-    fn spin(e: &Self::Lifted, f: &Self::Lifted, lane: usize) -> Vector3<f64>;
+    fn spin(e: &Self::Natural, f: &Self::Natural, lane: usize) -> Vector3<f64>;
     /// Adds a force at a point of a body.
     fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>);
     /// Adds a force on a vector of a body.
@@ -79,9 +79,9 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>);
 
     /// Dual basis and inertia at the position q.
-    fn linearize(&mut self, q: &Self::Lifted);
+    fn linearize(&mut self, q: &Self::Natural);
     /// C⁻¹ s̃ of a feature's arm s.
-    fn half_mobility(&self, slot: &Slot<L>, q: &Self::Lifted) -> Self::Mobility;
+    fn half_mobility(&self, slot: &Slot<L>, q: &Self::Natural) -> Self::Mobility;
     /// Adds to a row of H its part of the translation: the gradient g with respect to a feature times ±1/√m, or 0 for
     /// vectors.
     fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]);
@@ -98,26 +98,26 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     /// Adds the weight.
     fn add_weight(&mut self);
     /// The generalized force at hand.
-    fn force_mut(&mut self) -> &mut Self::Lifted;
+    fn force_mut(&mut self) -> &mut Self::Natural;
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
-    fn begin(&mut self, q: &Self::Lifted, gamma: &Self::Rigid, moment: Self::Moment);
+    fn begin(&mut self, q: &Self::Natural, gamma: &Self::Rigid, moment: Self::Moment);
     /// Adds what further generalized forces do.
-    fn apply(&mut self, q: &Self::Lifted, force: &Self::Lifted);
+    fn apply(&mut self, q: &Self::Natural, force: &Self::Natural);
     /// One proximal step for bodies whose inertia is regularized.
-    fn remove_regularization(&mut self, q: &Self::Lifted);
+    fn remove_regularization(&mut self, q: &Self::Natural);
     /// The solution.
-    fn solution(&self) -> &Self::Lifted;
+    fn solution(&self) -> &Self::Natural;
     /// p_k = P_k − Ī_k ë_k of the solution.
     fn director_forces(&self) -> Self::Directors;
 
     /// κ times −Σ e_k(i) · e_l(n−i) over 0 < i < n for the rigid-body rows, from the series q.
-    fn gram(q: &[Self::Lifted], n: usize, kappa: f64) -> Self::Rigid;
+    fn gram(q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
     /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
-    fn moment(q: &[Self::Lifted], p: &[Self::Directors], n: usize) -> Self::Moment;
+    fn moment(q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
     /// No moment.
     fn no_moment() -> Self::Moment;
     /// Right-hand sides that correct positions.
-    fn position_correction(&self, q: &Self::Lifted) -> Self::Rigid;
+    fn position_correction(&self, q: &Self::Natural) -> Self::Rigid;
     /// Right-hand sides that correct velocities.
-    fn velocity_correction(&self, q: &Self::Lifted, q_dot: &Self::Lifted) -> Self::Rigid;
+    fn velocity_correction(&self, q: &Self::Natural, q_dot: &Self::Natural) -> Self::Rigid;
 }

@@ -4,11 +4,11 @@ use super::bodies::Bodies;
 use super::convolution::{gram, moment, symmetric};
 use super::inertia::{invert_inertia, products_of_inertia};
 use super::lanes::{
-    Lane, Lifted, Triple, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus, scaled,
+    Lane, Natural, Triple, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus, scaled,
     sum, times, zero,
 };
 use super::slot::Slot;
-use crate::system::{System, body::Body, natural::Lift};
+use crate::system::{System, body::Body, natural::NaturalCoordinates};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -34,23 +34,23 @@ pub struct Bundle<const L: usize> {
     /// Lower triangle (00, 10, 11, 20, 21, 22) of C⁻¹, I_g = C Cᵀ.
     lower: [Lane<L>; 6],
     /// Generalized force that acts, less the known convolutions.
-    force: Lifted<L>,
+    force: Natural<L>,
     /// Moment about the centre of mass that acts besides.
     moment: Triple<L>,
     /// The unknown: κ Q_(n+2), or a correction of Q.
-    solution: Lifted<L>,
+    solution: Natural<L>,
     /// Its twist part ω̇, and the part for which the effect of δ has been taken out.
     omega: Triple<L>,
     taken_out: Triple<L>,
 }
 
 impl<const L: usize> Bundle<L> {
-    fn vector(x: &Lifted<L>, k: usize, lane: usize) -> Vector3<f64> {
+    fn vector(x: &Natural<L>, k: usize, lane: usize) -> Vector3<f64> {
         Vector3::from_fn(|c, _| x[k][c][lane])
     }
 
     #[inline(always)]
-    fn turn(&mut self, q: &Lifted<L>, moment: &Triple<L>) {
+    fn turn(&mut self, q: &Natural<L>, moment: &Triple<L>) {
         let omega = multiply(&self.inverse, moment);
         for c in 0..3 {
             self.omega[c] = sum(&self.omega[c], &omega[c]);
@@ -62,7 +62,7 @@ impl<const L: usize> Bundle<L> {
 }
 
 impl<const L: usize> Bodies<L> for Bundle<L> {
-    type Lifted = Lifted<L>;
+    type Natural = Natural<L>;
     type Rigid = [Lane<L>; 6];
     type Moment = Triple<L>;
     type Directors = [Triple<L>; 3];
@@ -109,11 +109,11 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn zero() -> Lifted<L> {
+    fn zero() -> Natural<L> {
         zero()
     }
 
-    fn at_rest() -> Lifted<L> {
+    fn at_rest() -> Natural<L> {
         let mut q = zero();
         for k in 0..3 {
             q[1 + k][k] = [1.0; L];
@@ -132,16 +132,16 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn lanes(x: &Lifted<L>) -> &[Lane<L>] {
+    fn lanes(x: &Natural<L>) -> &[Lane<L>] {
         x.as_flattened()
     }
 
     #[inline(always)]
-    fn lanes_mut(x: &mut Lifted<L>) -> &mut [Lane<L>] {
+    fn lanes_mut(x: &mut Natural<L>) -> &mut [Lane<L>] {
         x.as_flattened_mut()
     }
 
-    fn read(&self, lane: usize, lift: &Lift, out: &mut Lifted<L>) {
+    fn read(&self, lane: usize, lift: &NaturalCoordinates, out: &mut Natural<L>) {
         for (out, vector) in out.iter_mut().zip([lift.r, lift.e[0], lift.e[1], lift.e[2]]) {
             for c in 0..3 {
                 out[c][lane] = vector[c];
@@ -149,13 +149,13 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         }
     }
 
-    fn write(&self, lane: usize, x: &Lifted<L>, _rate: bool) -> Lift {
+    fn write(&self, lane: usize, x: &Natural<L>, _rate: bool) -> NaturalCoordinates {
         let [r, u, v, w] = [0, 1, 2, 3].map(|k| Self::vector(x, k, lane));
-        Lift { r, e: [u, v, w] }
+        NaturalCoordinates { r, e: [u, v, w] }
     }
 
     #[inline(always)]
-    fn value(slot: &Slot<L>, x: &Lifted<L>) -> Triple<L> {
+    fn value(slot: &Slot<L>, x: &Natural<L>) -> Triple<L> {
         let mut value = scaled(&slot.point, &x[0]);
         for k in 0..3 {
             add_scaled(&mut value, &slot.local[k], &x[1 + k]);
@@ -167,22 +167,22 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     fn add_constant(&self, _: &Slot<L>, _: &mut Triple<L>) {}
 
     #[inline(always)]
-    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Lifted<L>) {
+    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Natural<L>) {
         add_scaled(&mut sum[0], &slot.point, f);
         for k in 0..3 {
             add_scaled(&mut sum[1 + k], &slot.local[k], f);
         }
     }
 
-    fn arm(local: &Vector3<f64>, q: &Lifted<L>, lane: usize, _order: usize) -> Vector3<f64> {
+    fn arm(local: &Vector3<f64>, q: &Natural<L>, lane: usize, _order: usize) -> Vector3<f64> {
         Vector3::from_fn(|c, _| (0..3).map(|k| local[k] * q[1 + k][c][lane]).sum())
     }
 
-    fn center(q: &Lifted<L>, lane: usize) -> Vector3<f64> {
+    fn center(q: &Natural<L>, lane: usize) -> Vector3<f64> {
         Self::vector(q, 0, lane)
     }
 
-    fn spin(e: &Lifted<L>, f: &Lifted<L>, lane: usize) -> Vector3<f64> {
+    fn spin(e: &Natural<L>, f: &Natural<L>, lane: usize) -> Vector3<f64> {
         let cross = |k: usize| Self::vector(e, k, lane).cross(&Self::vector(f, k, lane));
         (1..4).map(cross).sum::<Vector3<f64>>() * 0.5
     }
@@ -210,7 +210,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// Dual basis and inertia at the position q.
     #[inline(always)]
-    fn linearize(&mut self, q: &Lifted<L>) {
+    fn linearize(&mut self, q: &Natural<L>) {
         let [_, u, v, w] = q;
         let dual = [cross(v, w), cross(w, u), cross(u, v)];
         let half = dot(u, &dual[0]).map(|volume| 0.5 / volume);
@@ -221,7 +221,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// C⁻¹ s̃ of a feature's arm s: three rows.
     #[inline(always)]
-    fn half_mobility(&self, slot: &Slot<L>, q: &Lifted<L>) -> [Triple<L>; 3] {
+    fn half_mobility(&self, slot: &Slot<L>, q: &Natural<L>) -> [Triple<L>; 3] {
         let mut arm = [[0.0; L]; 3];
         for k in 0..3 {
             add_scaled(&mut arm, &slot.local[k], &q[1 + k]);
@@ -286,22 +286,22 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn force_mut(&mut self) -> &mut Lifted<L> {
+    fn force_mut(&mut self) -> &mut Natural<L> {
         &mut self.force
     }
 
     #[inline(always)]
-    fn solution(&self) -> &Lifted<L> {
+    fn solution(&self) -> &Natural<L> {
         &self.solution
     }
 
     #[inline(always)]
-    fn gram(q: &[Lifted<L>], n: usize, kappa: f64) -> [Lane<L>; 6] {
+    fn gram(q: &[Natural<L>], n: usize, kappa: f64) -> [Lane<L>; 6] {
         gram(q, n).map(|entry| entry.map(|x| kappa * x))
     }
 
     #[inline(always)]
-    fn moment(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+    fn moment(q: &[Natural<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
         moment(q, p, n)
     }
 
@@ -311,7 +311,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn position_correction(&self, q: &Lifted<L>) -> [Lane<L>; 6] {
+    fn position_correction(&self, q: &Natural<L>) -> [Lane<L>; 6] {
         let mut gamma = symmetric(q, q);
         for (k, entry) in gamma.iter_mut().enumerate() {
             for x in entry {
@@ -322,13 +322,13 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn velocity_correction(&self, q: &Lifted<L>, q_dot: &Lifted<L>) -> [Lane<L>; 6] {
+    fn velocity_correction(&self, q: &Natural<L>, q_dot: &Natural<L>) -> [Lane<L>; 6] {
         symmetric(q, q_dot).map(|entry| entry.map(|x| -x))
     }
 
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
     #[inline(always)]
-    fn begin(&mut self, q: &Lifted<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
+    fn begin(&mut self, q: &Natural<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
         let mut moment = known;
         for c in 0..3 {
             moment[c] = sum(&moment[c], &self.moment[c]);
@@ -359,7 +359,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// Adds what further generalized forces do.
     #[inline(always)]
-    fn apply(&mut self, q: &Lifted<L>, force: &Lifted<L>) {
+    fn apply(&mut self, q: &Natural<L>, force: &Natural<L>) {
         let mut moment = [[0.0; L]; 3];
         for k in 0..3 {
             add_cross(&mut moment, &q[1 + k], &force[1 + k]);
@@ -373,7 +373,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// One proximal step for bodies whose inertia is regularized.
     #[inline(always)]
-    fn remove_regularization(&mut self, q: &Lifted<L>) {
+    fn remove_regularization(&mut self, q: &Natural<L>) {
         let mut moment = [[0.0; L]; 3];
         for c in 0..3 {
             for l in 0..L {

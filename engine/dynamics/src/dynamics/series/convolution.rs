@@ -1,10 +1,10 @@
 //! What bodies in space know of an order from all orders before it: sums over products of coefficients.
 
-use super::lanes::{Lane, Lifted, Triple, add_cross, negative, plus, sum};
+use super::lanes::{Lane, Natural, Triple, add_cross, negative, plus, sum};
 
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]
-pub fn gram<const L: usize>(q: &[Lifted<L>], n: usize) -> [Lane<L>; 6] {
+pub fn gram<const L: usize>(q: &[Natural<L>], n: usize) -> [Lane<L>; 6] {
     let mut sums = Products::default();
     let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
     for (a, b) in heads.zip(tails).take((n - 1) / 2) {
@@ -39,7 +39,7 @@ impl<const L: usize> Default for Products<L> {
 
 impl<const L: usize> Products<L> {
     #[inline(always)]
-    fn add(&mut self, [_, u, v, w]: &Lifted<L>, [_, x, y, z]: &Lifted<L>) {
+    fn add(&mut self, [_, u, v, w]: &Natural<L>, [_, x, y, z]: &Natural<L>) {
         let [[uv, uw, vw], [vu, wu, wv]] = &mut self.other;
         let [uu, vv, ww] = &mut self.same;
         for c in 0..3 {
@@ -66,7 +66,7 @@ impl<const L: usize> Products<L> {
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
 #[inline(always)]
-pub fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+pub fn moment<const L: usize>(q: &[Natural<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
     // For each director on its own, so that no sum waits for another.
     let mut sums = [[[0.0; L]; 3]; 3];
     for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
@@ -83,7 +83,7 @@ pub fn moment<const L: usize>(q: &[Lifted<L>], p: &[[Triple<L>; 3]], n: usize) -
 
 /// Entries e_k · f_l + e_l · f_k for the six rigid-body rows.
 #[inline(always)]
-pub fn symmetric<const L: usize>(e: &Lifted<L>, f: &Lifted<L>) -> [Lane<L>; 6] {
+pub fn symmetric<const L: usize>(e: &Natural<L>, f: &Natural<L>) -> [Lane<L>; 6] {
     let mut products = Products::default();
     products.add(e, f);
     products.symmetric()

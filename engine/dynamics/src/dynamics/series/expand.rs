@@ -166,7 +166,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
 /// Value and derivative of a polynomial Σ Q_k τᵏ — eq. (11.1).
 #[inline(always)]
-fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Lifted], tau: f64) -> [B::Lifted; 2] {
+fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> [B::Natural; 2] {
     let mut state = [B::zero(); 2];
     let [value, rate] = &mut state;
     let (value, rate) = (B::lanes_mut(value), B::lanes_mut(rate));
@@ -183,15 +183,15 @@ fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Lifted], tau: f64) ->
 
 /// The same on its own, to be compiled for each set of vector instructions.
 pub(super) struct Value<'a, const L: usize, B: Bodies<L>> {
-    pub coefficients: &'a [B::Lifted],
+    pub coefficients: &'a [B::Natural],
     pub tau: f64,
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Value<'_, L, B> {
-    type Output = [B::Lifted; 2];
+    type Output = [B::Natural; 2];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [B::Lifted; 2] {
+    fn with_simd<S: Simd>(self, _: S) -> [B::Natural; 2] {
         horner::<L, B>(self.coefficients, self.tau)
     }
 }

@@ -9,11 +9,11 @@ use pulp::Simd;
 pub type Lane<const L: usize> = [f64; L];
 /// A vector of three components for each lane.
 pub type Triple<const L: usize> = [Lane<L>; 3];
-/// Lifted coordinates (r, u, v, w), or anything that lives on them.
-pub type Lifted<const L: usize> = [Triple<L>; 4];
+/// Natural coordinates (r, u, v, w), or anything that lives on them.
+pub type Natural<const L: usize> = [Triple<L>; 4];
 
-/// Zero of a lifted vector.
-pub const fn zero<const L: usize>() -> Lifted<L> {
+/// The zero vector of natural coordinates.
+pub const fn zero<const L: usize>() -> Natural<L> {
     [[[0.0; L]; 3]; 4]
 }
 

@@ -32,7 +32,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
-    fn store_bundle(&self, system: &System, b: usize, state: &[B::Lifted; 2], y: &mut [f64]) {
+    fn store_bundle(&self, system: &System, b: usize, state: &[B::Natural; 2], y: &mut [f64]) {
         let bundle = &self.bundles[b];
         let (q, q_dot) = y.split_at_mut(system.coordinates);
         for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {

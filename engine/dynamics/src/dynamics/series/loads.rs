@@ -8,7 +8,7 @@ use super::recurrence::{
 };
 use super::rows::Place;
 use crate::model::motion::VectorCurve;
-use crate::model::{BodyRef, Element};
+use crate::model::{BodyRef, ForceLaw};
 use crate::scene::LoadFrame;
 use crate::system::System;
 use crate::system::feature::FeatureId;
@@ -38,17 +38,17 @@ enum Load {
         speed: Vectors,
     },
     /// Along the line between two points.
-    Spring { from: Place, to: Place, between: Vectors, square: Vec<f64>, over_length: Vec<f64>, element: Law },
+    Spring { from: Place, to: Place, between: Vectors, square: Vec<f64>, over_length: Vec<f64>, law: Law },
     /// About the axis of a joint.
-    Torsion { angle: usize, axis: Place, seats: [Option<Seat>; 2], direction: Vectors, element: Law },
+    Torsion { angle: usize, axis: Place, seats: [Option<Seat>; 2], direction: Vectors, law: Law },
     /// Along the axis of a joint.
-    Slider { axis: Place, ends: [Option<Place>; 2], direction: Vectors, between: Vectors, element: Law },
+    Slider { axis: Place, ends: [Option<Place>; 2], direction: Vectors, between: Vectors, law: Law },
 }
 
 /// −k (x − x₀) − d ẋ + f*(t) − friction, as a series of x.
 #[derive(Clone, Debug)]
 struct Law {
-    element: Element,
+    law: ForceLaw,
     x: Vec<f64>,
     drive: Vec<f64>,
     /// ẋ over the smoothing of friction, its tanh and 1 − tanh².
@@ -61,10 +61,10 @@ struct Law {
 }
 
 impl Law {
-    fn new(element: &Element, stride: usize) -> Self {
+    fn new(law: &ForceLaw, stride: usize) -> Self {
         let zeros = || vec![0.0; stride];
         Self {
-            element: element.clone(),
+            law: law.clone(),
             x: zeros(),
             drive: zeros(),
             slip: zeros(),
@@ -78,7 +78,7 @@ impl Law {
     /// The force of order n; x must be known to order n + 1.
     #[inline(always)]
     fn find(&mut self, n: usize) {
-        let Element { stiffness, free, damping, friction, .. } = self.element;
+        let ForceLaw { stiffness, free, damping, friction, .. } = self.law;
         let speed = rate(&self.x, n);
         let mut other = self.drive[n] - damping * speed;
         if let Some(friction) = friction {
@@ -107,7 +107,7 @@ impl Law {
 
     /// Whether it is the spring −k x, for which the length as such need not be known.
     fn is_linear(&self) -> bool {
-        let Element { free, damping, drive, friction, .. } = &self.element;
+        let ForceLaw { free, damping, drive, friction, .. } = &self.law;
         *free == 0.0 && *damping == 0.0 && drive.is_none() && friction.is_none()
     }
 
@@ -117,20 +117,20 @@ impl Law {
     }
 
     fn expand(&mut self, t: f64) {
-        if let Some(drive) = &self.element.drive {
+        if let Some(drive) = &self.law.drive {
             drive.expand(t, &mut self.drive);
         }
     }
 
     fn next_break(&self, t: f64) -> f64 {
-        self.element.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
+        self.law.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
     }
 
     /// The part of h within which friction is near its series. Far from rest tanh is constant to rounding
     /// and its series cannot foresee that it turns: there a step ends where the velocity comes near rest; within that
     /// range it keeps away from the poles of tanh.
     fn limit(&self, mut h: f64, order: usize) -> f64 {
-        if self.element.friction.is_none_or(|f| f.coulomb == 0.0) {
+        if self.law.friction.is_none_or(|f| f.coulomb == 0.0) {
             return h;
         }
         let start = self.slip[0].abs();
@@ -172,15 +172,15 @@ impl Loads {
         let list = system.loads.iter().map(|load| match load {
             load::Load::Force { body, local, force, frame } => given(*body, Some(*local), force, *frame),
             load::Load::Moment { body, moment, frame } => given(*body, None, moment, *frame),
-            load::Load::Spring { from, to, element } => Load::Spring {
+            load::Load::Spring { from, to, law } => Load::Spring {
                 from: at(*from),
                 to: at(*to),
                 between: vectors(),
                 square: vec![0.0; stride],
                 over_length: vec![0.0; stride],
-                element: Law::new(element, stride),
+                law: Law::new(law, stride),
             },
-            load::Load::Torsion { angle, bodies, element, .. } => Load::Torsion {
+            load::Load::Torsion { angle, bodies, law, .. } => Load::Torsion {
                 angle: *angle,
                 axis: at(system.angles[*angle].axis),
                 seats: bodies.map(|body| match body {
@@ -188,14 +188,14 @@ impl Loads {
                     BodyRef::Moving(body) => Some(seat(body)),
                 }),
                 direction: vectors(),
-                element: Law::new(element, stride),
+                law: Law::new(law, stride),
             },
-            load::Load::Slider { axis, between, element } => Load::Slider {
+            load::Load::Slider { axis, between, law } => Load::Slider {
                 axis: at(*axis),
                 ends: [Some(at(between.plus)), between.minus.map(at)],
                 direction: vectors(),
                 between: vectors(),
-                element: Law::new(element, stride),
+                law: Law::new(law, stride),
             },
         });
         Self { list: list.collect() }
@@ -210,8 +210,8 @@ impl Loads {
     pub fn next_break(&self, t: f64) -> f64 {
         let breaks = self.list.iter().map(|load| match load {
             Load::Given { curve, .. } => curve.next_break(t),
-            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
-                element.next_break(t)
+            Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
+                law.next_break(t)
             }
         });
         breaks.fold(f64::INFINITY, f64::min)
@@ -222,9 +222,9 @@ impl Loads {
         for load in &mut self.list {
             match load {
                 Load::Given { curve, local, .. } => curve.expand(t, local),
-                Load::Spring { element, .. }
-                | Load::Torsion { element, .. }
-                | Load::Slider { element, .. } => element.expand(t),
+                Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
+                    law.expand(t)
+                }
             }
         }
     }
@@ -237,10 +237,10 @@ impl Loads {
                 let exact = curve.at(time)[0];
                 (exact - vector_value(local, h)).amax() <= error * (1.0 + exact.amax())
             }
-            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
-                element.element.drive.as_ref().is_none_or(|drive| {
+            Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
+                law.law.drive.as_ref().is_none_or(|drive| {
                     let exact = drive.at(time)[0];
-                    (exact - value(&element.drive, h)).abs() <= error * (1.0 + exact.abs())
+                    (exact - value(&law.drive, h)).abs() <= error * (1.0 + exact.abs())
                 })
             }
         })
@@ -252,19 +252,19 @@ impl Loads {
         for load in &mut self.list {
             match load {
                 Load::Given { .. } => {}
-                Load::Spring { from, to, between, square, element, .. } => {
+                Load::Spring { from, to, between, square, law, .. } => {
                     between[m] = difference([Some(*to), Some(*from)], values);
                     square[m] = dot(between, between, m);
-                    element.x[m] = root(square[m], &element.x, m);
+                    law.x[m] = root(square[m], &law.x, m);
                 }
-                Load::Torsion { angle, axis, direction, element, .. } => {
+                Load::Torsion { angle, axis, direction, law, .. } => {
                     direction[m] = axis.get(values).into();
-                    element.x[m] = angles[*angle].theta[m];
+                    law.x[m] = angles[*angle].theta[m];
                 }
-                Load::Slider { axis, ends, direction, between, element } => {
+                Load::Slider { axis, ends, direction, between, law } => {
                     direction[m] = axis.get(values).into();
                     between[m] = difference(*ends, values);
-                    element.x[m] = dot(direction, between, m);
+                    law.x[m] = dot(direction, between, m);
                 }
             }
         }
@@ -275,7 +275,7 @@ impl Loads {
     pub fn apply<'a, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
         n: usize,
-        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
+        coefficient: impl Fn(usize, usize) -> &'a B::Natural,
         forces: &mut [Triple<L>],
         bundles: &mut [B],
     ) {
@@ -293,29 +293,29 @@ impl Loads {
                         None => bundles[bundle].add_moment(lane, &world[n]),
                     }
                 }
-                Load::Spring { from, to, between, over_length, element, .. } => {
-                    let force = spring_force(n, between, over_length, element);
+                Load::Spring { from, to, between, over_length, law, .. } => {
+                    let force = spring_force(n, between, over_length, law);
                     to.add(forces, force.into());
                     from.add(forces, (-force).into());
                 }
-                Load::Torsion { seats, direction, element, .. } => {
-                    element.find(n);
-                    let moment = scaled(&element.force, direction, n);
+                Load::Torsion { seats, direction, law, .. } => {
+                    law.find(n);
+                    let moment = scaled(&law.force, direction, n);
                     for (seat, sign) in seats.iter().zip([-1.0, 1.0]) {
                         if let Some([bundle, lane]) = *seat {
                             bundles[bundle].add_moment(lane, &(moment * sign));
                         }
                     }
                 }
-                Load::Slider { axis, ends, direction, between, element } => {
-                    element.find(n);
-                    let force = scaled(&element.force, direction, n);
+                Load::Slider { axis, ends, direction, between, law } => {
+                    law.find(n);
+                    let force = scaled(&law.force, direction, n);
                     for (place, sign) in ends.iter().zip([1.0, -1.0]) {
                         if let Some(place) = place {
                             place.add(forces, (force * sign).into());
                         }
                     }
-                    axis.add(forces, scaled(&element.force, between, n).into());
+                    axis.add(forces, scaled(&law.force, between, n).into());
                 }
             }
         }
@@ -325,7 +325,7 @@ impl Loads {
     pub fn power<'a, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
         n: usize,
-        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
+        coefficient: impl Fn(usize, usize) -> &'a B::Natural,
     ) -> f64 {
         let power = |load: &mut Load| match load {
             Load::Given { seat: [bundle, lane], at, world, speed, .. } => {
@@ -338,9 +338,9 @@ impl Loads {
                 };
                 dot(world, speed, n)
             }
-            Load::Spring { element, .. } if element.without_direction() => 0.0,
-            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
-                product_with_rate(&element.other, &element.x, n)
+            Load::Spring { law, .. } if law.without_direction() => 0.0,
+            Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
+                product_with_rate(&law.other, &law.x, n)
             }
         };
         self.list.iter_mut().map(power).sum()
@@ -350,8 +350,8 @@ impl Loads {
     pub fn limit(&self, h: f64, order: usize) -> f64 {
         self.list.iter().fold(h, |h, load| match load {
             Load::Given { .. } => h,
-            Load::Spring { element, .. } | Load::Torsion { element, .. } | Load::Slider { element, .. } => {
-                element.limit(h, order)
+            Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
+                law.limit(h, order)
             }
         })
     }
@@ -360,7 +360,7 @@ impl Loads {
 /// The force on the second point of a spring: f / l times the way between its points.
 fn spring_force(n: usize, between: &[Vector3<f64>], over_length: &mut [f64], law: &mut Law) -> Vector3<f64> {
     if law.is_linear() {
-        return between[n] * -law.element.stiffness;
+        return between[n] * -law.law.stiffness;
     }
     // A spring of no length has no direction to pull in.
     if law.without_direction() {

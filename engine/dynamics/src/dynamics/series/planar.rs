@@ -9,7 +9,7 @@ use super::pair::{Pair, cross, each, gram, moment, turned};
 use super::slot::Slot;
 use crate::system::System;
 use crate::system::body::{Body, PlanarPose};
-use crate::system::natural::Lift;
+use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -64,7 +64,7 @@ impl<const L: usize> Planar<L> {
 }
 
 impl<const L: usize> Bodies<L> for Planar<L> {
-    type Lifted = [Pair<L>; 2];
+    type Natural = [Pair<L>; 2];
     /// Of z · z = 1, and of what holds a pivot.
     type Rigid = (Lane<L>, Pair<L>);
     type Moment = Lane<L>;
@@ -158,14 +158,14 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         x.as_flattened_mut()
     }
 
-    fn read(&self, lane: usize, lift: &Lift, out: &mut [Pair<L>; 2]) {
+    fn read(&self, lane: usize, lift: &NaturalCoordinates, out: &mut [Pair<L>; 2]) {
         let ([x, y], [c, s]) = self.poses[lane].lower(lift);
         for (out, value) in out.as_flattened_mut().iter_mut().zip([x, y, c, s]) {
             out[lane] = value;
         }
     }
 
-    fn write(&self, lane: usize, x: &[Pair<L>; 2], rate: bool) -> Lift {
+    fn write(&self, lane: usize, x: &[Pair<L>; 2], rate: bool) -> NaturalCoordinates {
         let [r, z] = x.map(|v| [v[0][lane], v[1][lane]]);
         self.poses[lane].raise(r, z, rate)
     }
@@ -308,7 +308,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn begin(&mut self, q: &[Pair<L>; 2], (gamma, held): &Self::Rigid, mut moment: Lane<L>) {
+    fn begin(&mut self, q: &[Pair<L>; 2], (gamma, radial): &Self::Rigid, mut moment: Lane<L>) {
         let z = &q[1];
         for l in 0..L {
             self.particular[0][l] = gamma[l] * self.dual[0][l];
@@ -320,7 +320,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         }
         // The pivot stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the pivot.
         let particular = turned(&self.pivot, &self.particular);
-        self.solution[0] = [0, 1].map(|c| each(|l| held[c][l] - particular[c][l]));
+        self.solution[0] = [0, 1].map(|c| each(|l| radial[c][l] - particular[c][l]));
         let force: Pair<L> =
             [0, 1].map(|c| each(|l| self.force[0][c][l] - self.mass[l] * self.solution[0][c][l]));
         self.turn(z, &force, &moment);
@@ -353,13 +353,13 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn director_forces(&self) -> Pair<L> {
-        let held: Pair<L> =
+        let radial: Pair<L> =
             [0, 1].map(|c| each(|l| self.mass[l] * self.solution[0][c][l] - self.force[0][c][l]));
         // Along z and J z, as in [`Bodies::pull_back`].
         let [a, b] = &self.pivot;
         let pulled: Pair<L> = [
-            each(|l| a[l] * held[0][l] + b[l] * held[1][l]),
-            each(|l| a[l] * held[1][l] - b[l] * held[0][l]),
+            each(|l| a[l] * radial[0][l] + b[l] * radial[1][l]),
+            each(|l| a[l] * radial[1][l] - b[l] * radial[0][l]),
         ];
         [0, 1]
             .map(|c| each(|l| self.force[1][c][l] + pulled[c][l] - self.inertia[l] * self.solution[1][c][l]))

@@ -32,7 +32,7 @@ struct Driven {
 
 /// A prescribed number of a product row.
 #[derive(Clone, Debug)]
-struct Number {
+struct PrescribedNumber {
     row: usize,
     curve: TargetCurve,
     series: Vec<f64>,
@@ -42,7 +42,7 @@ struct Number {
 #[derive(Clone, Debug)]
 pub struct Prescribed {
     features: Vec<Driven>,
-    numbers: Vec<Number>,
+    numbers: Vec<PrescribedNumber>,
 }
 
 impl Prescribed {
@@ -65,7 +65,7 @@ impl Prescribed {
         let numbers = system.rows.iter().filter_map(|row| match row.form {
             Form::Product { target: Target::Driven(k), .. } => {
                 let curve = system.targets[k].clone();
-                Some(Number { row: row.solver, curve, series: vec![0.0; stride] })
+                Some(PrescribedNumber { row: row.solver, curve, series: vec![0.0; stride] })
             }
             _ => None,
         });
@@ -119,7 +119,7 @@ impl Prescribed {
         &mut self,
         m: usize,
         factor: f64,
-        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
+        coefficient: impl Fn(usize, usize) -> &'a B::Natural,
     ) {
         for feature in &mut self.features {
             feature.known = match feature.body {
@@ -132,7 +132,7 @@ impl Prescribed {
     }
 
     /// Makes features move with their bodies alone.
-    pub fn hold(&mut self) {
+    pub fn clear_known(&mut self) {
         for feature in &mut self.features {
             feature.known = Vector3::zeros();
         }
@@ -189,7 +189,7 @@ impl Prescribed {
     pub fn power<'a, const L: usize, B: Bodies<L> + 'a>(
         &self,
         n: usize,
-        coefficient: impl Fn(usize, usize) -> &'a B::Lifted,
+        coefficient: impl Fn(usize, usize) -> &'a B::Natural,
         multiplier: impl Fn(usize, usize) -> f64,
     ) -> f64 {
         let mut power = 0.0;
@@ -206,7 +206,7 @@ impl Prescribed {
             power -= (0..=n).map(|i| feature.force[i].dot(&rate(n - i))).sum::<f64>();
         }
         for number in &self.numbers {
-            let lambda: [f64; crate::model::motion::MOST_TERMS] =
+            let lambda: [f64; crate::model::motion::MAX_TERMS] =
                 std::array::from_fn(|i| if i <= n { multiplier(i, number.row) } else { 0.0 });
             power -= product_with_rate(&lambda, &number.series, n);
         }

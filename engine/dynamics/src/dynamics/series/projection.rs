@@ -57,7 +57,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             };
             bundle.begin(&state[0], &gamma, B::no_moment());
         }
-        self.prescribed.hold();
+        self.prescribed.clear_known();
         // The multipliers of a correction mean nothing; the highest order has room for them.
         self.solve(self.stride - 1);
         let mut moved: f64 = 0.0;

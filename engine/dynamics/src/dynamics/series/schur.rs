@@ -36,7 +36,7 @@ struct Target {
     lane: usize,
     sign: f64,
     offset: usize,
-    /// σ/m, which is the same at every state; zero for a body that hangs on the ground.
+    /// σ/m, which is the same at every state; zero for a body with a ground pivot.
     constant: f64,
 }
 
@@ -65,7 +65,7 @@ pub struct Schur {
 impl Schur {
     /// Writes the program of S for twists of so many components.
     pub fn new(system: &System, place: &[Place], lanes: usize, twist: usize) -> Self {
-        let sizes: Vec<usize> = system.groups.iter().map(|g| g.solver.len()).collect();
+        let sizes: Vec<usize> = system.constraints.iter().map(|g| g.solver.len()).collect();
         // A joint without rows (in the plane) meets nobody.
         let touching: Vec<Vec<usize>> = system
             .incidences_of_body
@@ -74,8 +74,8 @@ impl Schur {
             .collect();
         let edges = touching.iter().flat_map(|incidences: &Vec<usize>| {
             incidences.iter().enumerate().flat_map(move |(k, &p)| {
-                let group = |i: usize| system.incidences[i].group;
-                incidences[k + 1..].iter().map(move |&q| (group(p), group(q)))
+                let constraint = |i: usize| system.incidences[i].constraint;
+                incidences[k + 1..].iter().map(move |&q| (constraint(p), constraint(q)))
             })
         });
         let factor = BlockCholesky::new(&sizes, edges);
@@ -85,7 +85,7 @@ impl Schur {
         for (body, incidences) in touching.iter().enumerate() {
             for (k, &p) in incidences.iter().enumerate() {
                 for &q in &incidences[k..] {
-                    let slot = factor.slot(system.incidences[p].group, system.incidences[q].group);
+                    let slot = factor.slot(system.incidences[p].constraint, system.incidences[q].constraint);
                     let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
                     let offset = slot.offset;
                     if let (Some(a), Some(b)) = (ends[left], ends[right]) {
@@ -108,7 +108,7 @@ impl Schur {
         }
         // In the order of memory, so that the sums run through the store once.
         contributions.sort_by_key(|c| c.offset);
-        let h = vec![0.0; system.block_numbers / 6 * twist];
+        let h = vec![0.0; system.block_entries / 6 * twist];
         let (units, terms): (Vec<Term>, Vec<Term>) = terms(system, place, lanes, twist)
             .into_iter()
             .partition(|t| matches!(t.gradient, Gradient::Unit));

@@ -40,8 +40,8 @@ pub struct End {
 /// For each incidence its point, if its joint is nothing but a common point.
 pub fn ends(system: &System, place: &[Place]) -> Vec<Option<End>> {
     let mut ends = vec![None; system.incidences.len()];
-    for group in &system.groups {
-        let [row] = &system.rows[group.forms.clone()] else { continue };
+    for constraint in &system.constraints {
+        let [row] = &system.rows[constraint.forms.clone()] else { continue };
         let Form::Coincidence { a, b } = row.form else { continue };
         for (order, feature, sign) in [(0, a, 1.0), (1, b, -1.0)] {
             let incidence = row.incidence[order];

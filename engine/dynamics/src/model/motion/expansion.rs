@@ -6,10 +6,10 @@ use super::{Curve, VectorCurve};
 use nalgebra::Vector3;
 
 /// Most coefficients that an expansion has.
-pub const MOST_TERMS: usize = 32;
+pub const MAX_TERMS: usize = 32;
 
 impl Curve {
-    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
+    /// Writes the coefficients of the series in τ about time t, at most [`MAX_TERMS`].
     pub fn expand(&self, t: f64, out: &mut [f64]) {
         match self {
             Self::Polynomial(coefficients) => shift(coefficients, t, out),
@@ -45,10 +45,10 @@ impl Curve {
 }
 
 impl VectorCurve {
-    /// Writes the coefficients of the series in τ about time t, at most [`MOST_TERMS`].
+    /// Writes the coefficients of the series in τ about time t, at most [`MAX_TERMS`].
     pub fn expand(&self, t: f64, out: &mut [Vector3<f64>]) {
-        let terms = out.len().min(MOST_TERMS);
-        let mut series = [0.0; MOST_TERMS];
+        let terms = out.len().min(MAX_TERMS);
+        let mut series = [0.0; MAX_TERMS];
         match self {
             Self::Components(components) | Self::Rotated(_, components) => {
                 for (c, component) in components.iter().enumerate() {
@@ -65,7 +65,7 @@ impl VectorCurve {
             }
             Self::Turning { along, across, turned, angle } => {
                 angle.expand(t, &mut series[..terms]);
-                let (mut sin, mut cos) = ([0.0; MOST_TERMS], [0.0; MOST_TERMS]);
+                let (mut sin, mut cos) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
                 sine_cosine(&series[..terms], &mut sin, &mut cos);
                 for (k, out) in out.iter_mut().enumerate().take(terms) {
                     *out = across * cos[k] + turned * sin[k];

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank;
 use triad_dynamics::constraints::tangent;
-use triad_dynamics::system::natural::Lift;
+use triad_dynamics::system::natural::NaturalCoordinates;
 use triad_linalg::independent_rows;
 
 /// Corrections of positions, in lengths of the mechanism, and of velocities, relative to the fastest, below which the state is
@@ -313,7 +313,7 @@ fn allowed_motions(mechanism: &mut Mechanism, t: f64, y: &[f64], f: usize) -> Op
         for k in 0..f {
             let part = |at: usize| Vector3::new(twists[(at, k)], twists[(at + 1, k)], twists[(at + 2, k)]);
             let omega = part(6 * index + 3);
-            let rate = Lift { r: part(6 * index), e: state.q.e.map(|e| omega.cross(&e)) };
+            let rate = NaturalCoordinates { r: part(6 * index), e: state.q.e.map(|e| omega.cross(&e)) };
             body.layout.own_numbers(&rate, |column, value| basis[(column, k)] = value * weights[column]);
         }
     }

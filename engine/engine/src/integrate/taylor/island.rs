@@ -6,7 +6,7 @@ use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, Plan};
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
-use triad_dynamics::system::islands::{self, Part};
+use triad_dynamics::system::islands::{self, Island};
 use triad_dynamics::system::planar;
 
 /// Highest order of the series.
@@ -23,9 +23,9 @@ const MANY_HALVINGS: u64 = 3;
 
 /// An island and its last step.
 #[derive(Clone, Debug)]
-pub struct Island {
+pub struct IslandStepper {
     /// Its bodies, if it is not the whole.
-    part: Option<Box<System>>,
+    own: Option<Box<System>>,
     tolerance: f64,
     order: usize,
     length: f64,
@@ -43,19 +43,19 @@ pub struct Island {
     steps: u64,
 }
 
-impl Island {
+impl IslandStepper {
     /// Starts an island of a system, or the whole, at (t, y).
     pub fn new(
         whole: &System,
-        part: Option<Part>,
+        own: Option<Island>,
         redundant: bool,
         turns: &[f64],
         t: f64,
         y: &[f64],
         tolerance: f64,
     ) -> Self {
-        let part = part.map(|part| Box::new(part.system));
-        let system = part.as_deref().unwrap_or(whole);
+        let own = own.map(|island| Box::new(island.system));
+        let system = own.as_deref().unwrap_or(whole);
         let skip = whole.model.settings.skip;
         let q = &y[..whole.coordinates];
         let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
@@ -78,7 +78,7 @@ impl Island {
         let (length, bodies) = (system.length, system.bodies.len());
         Self {
             loops,
-            part,
+            own,
             tolerance,
             order,
             length,
@@ -120,7 +120,7 @@ impl Island {
 
     /// Its last step, if it may hide a singular configuration; `island` is its own place among all.
     pub fn last_step(&self, whole: &System, island: usize) -> Option<IslandStep<'_>> {
-        let system = self.part.as_deref().unwrap_or(whole);
+        let system = self.own.as_deref().unwrap_or(whole);
         let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(system));
         self.loops.then_some(IslandStep { island, start: self.t_old, end: self.t, pivot_products, pace })
     }
@@ -146,7 +146,7 @@ impl Island {
     pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), StopReason> {
         let plan =
             Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, dry_run: false };
-        let system = self.part.as_deref().unwrap_or(whole);
+        let system = self.own.as_deref().unwrap_or(whole);
         let taken = self.series.step(plan);
         if taken.finite {
             self.series.store(system, y);
@@ -184,7 +184,7 @@ impl Island {
     pub fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
         let tau = state.time() - self.t_old;
         let inside = self.h_old > 0.0 && (0.0..=self.h_old).contains(&tau);
-        if self.part.is_some() || self.is_planar() || !inside {
+        if self.own.is_some() || self.is_planar() || !inside {
             return None;
         }
         self.series.multipliers(system, tau, self.order_old, jacobian)
@@ -197,7 +197,7 @@ impl Island {
 
     /// Writes its own coordinates at time t within its last step.
     pub fn interpolate(&self, whole: &System, t: f64, y: &mut [f64]) {
-        let system = self.part.as_deref().unwrap_or(whole);
+        let system = self.own.as_deref().unwrap_or(whole);
         if t >= self.t || self.h_old == 0.0 {
             self.series.store(system, y);
             return;

@@ -34,17 +34,17 @@ struct Relaxation {
 }
 
 /// Greedy: at each turn the change that drops most without taking more than is redundant. Empty if some rows remain.
-pub fn find(system: &System, at: &State, groups: &[usize], basis: &DMatrix<f64>) -> Vec<Remedy> {
+pub fn find(system: &System, at: &State, constraints: &[usize], basis: &DMatrix<f64>) -> Vec<Remedy> {
     let mut basis = basis.clone();
     let mut remedies = Vec::new();
-    let mut changed = vec![false; groups.len()];
+    let mut changed = vec![false; constraints.len()];
     while basis.ncols() > 0 {
         let mut best: Option<(usize, Relaxation, DMatrix<f64>)> = None;
-        for (k, &group) in groups.iter().enumerate() {
+        for (k, &constraint) in constraints.iter().enumerate() {
             if changed[k] {
                 continue;
             }
-            for relaxation in relaxations(system, at, group) {
+            for relaxation in relaxations(system, at, constraint) {
                 let better =
                     best.as_ref().is_none_or(|(_, old, _)| relaxation.dropped.len() > old.dropped.len());
                 if better && let Some(rest) = without(&basis, &relaxation.dropped) {
@@ -56,7 +56,7 @@ pub fn find(system: &System, at: &State, groups: &[usize], basis: &DMatrix<f64>)
         changed[k] = true;
         basis = rest;
         remedies.push(Remedy {
-            joint: system.groups[groups[k]].name.clone(),
+            joint: system.constraints[constraints[k]].name.clone(),
             becomes: relaxation.becomes,
             gives_up: relaxation.gives_up,
         });
@@ -94,11 +94,12 @@ fn without(basis: &DMatrix<f64>, dropped: &[Vec<(usize, f64)>]) -> Option<DMatri
 }
 
 /// The usual kinds of joint that a joint can be weakened to.
-fn relaxations(system: &System, at: &State, group: usize) -> Vec<Relaxation> {
-    let Some(joint) = system.model.joints.iter().find(|j| j.name == system.groups[group].name) else {
+fn relaxations(system: &System, at: &State, constraint: usize) -> Vec<Relaxation> {
+    let Some(joint) = system.model.joints.iter().find(|j| j.name == system.constraints[constraint].name)
+    else {
         return Vec::new();
     };
-    let rows = &system.rows[system.groups[group].forms.clone()];
+    let rows = &system.rows[system.constraints[constraint].forms.clone()];
     let of = |from: usize| -> Vec<Vec<(usize, f64)>> {
         rows.iter()
             .skip(from)

@@ -39,8 +39,8 @@ pub(super) struct Found {
 
 impl Found {
     /// For so many constraints.
-    pub(super) fn new(groups: usize) -> Self {
-        Self { entries: Vec::with_capacity(USUAL), joints: Vec::with_capacity(USUAL * groups) }
+    pub(super) fn new(constraints: usize) -> Self {
+        Self { entries: Vec::with_capacity(USUAL), joints: Vec::with_capacity(USUAL * constraints) }
     }
 
     pub(super) fn clear(&mut self) {
@@ -53,7 +53,7 @@ impl Found {
     }
 
     pub(super) fn list(&self, system: &System) -> Vec<SingularConfiguration> {
-        let name = |&joint: &usize| system.groups[joint].name.clone();
+        let name = |&joint: &usize| system.constraints[joint].name.clone();
         let named = |entry: &Entry| SingularConfiguration {
             time: entry.time,
             joints: self.joints[entry.joints.clone()].iter().map(name).collect(),

@@ -24,7 +24,7 @@ impl Probe {
         elimination: &mut Elimination,
         dependent: &[usize],
     ) -> Self {
-        elimination.keep_holds();
+        elimination.keep_pivot_products();
         let mut elimination = elimination.clone();
         elimination.set_dependent(dependent);
         Self { state: state.clone(), elimination, y: vec![0.0; 2 * system.coordinates], count: 0 }
@@ -56,7 +56,7 @@ impl Probe {
         let system = &mechanism.system;
         self.state.set_time(system, t);
         self.state.set_positions(system, &self.y[..system.coordinates]);
-        self.elimination.holds_at(system, &self.state)
+        self.elimination.pivot_products_at(system, &self.state)
     }
 }
 

@@ -33,7 +33,7 @@ const MAX_FAILURES: usize = 3;
 const SAME: f64 = 20.0;
 
 /// A time and the pivot product of a joint there.
-type Spot = (f64, f64);
+type Sample = (f64, f64);
 
 /// The search for zeros of pivot products inside a step.
 pub(super) struct Search<'a> {
@@ -107,13 +107,13 @@ impl Search<'_> {
         let part = if from + to > 0.0 { (from / (from + to)).clamp(0.1, 0.9) } else { 0.5 };
         let time = a.0 + part * apart;
         self.sample(time, place);
-        let spot = |search: &Self, (t, place): (f64, usize)| (t, search.samples[place][joint]);
+        let sample = |search: &Self, (t, place): (f64, usize)| (t, search.samples[place][joint]);
         let middle = (time, place);
-        let near = (spot(self, middle).1 / self.history.largest[joint]).max(0.0).sqrt();
+        let near = (sample(self, middle).1 / self.history.largest[joint]).max(0.0).sqrt();
         let finest = apart * self.pace < FINEST;
         if near < CONVERGING * from.max(to) || finest {
-            let spots = (spot(self, a), spot(self, middle), spot(self, b));
-            if let Some(zero) = self.root(joint, spots.0, spots.1, spots.2) {
+            let three = (sample(self, a), sample(self, middle), sample(self, b));
+            if let Some(zero) = self.root(joint, three.0, three.1, three.2) {
                 self.keep(joint, zero);
             }
         }
@@ -126,8 +126,8 @@ impl Search<'_> {
 
     /// The time of a zero near `m`, by the secant: the root of the pivot product is a number that changes its sign there, of
     /// which only the size is known. Of the two zeros that two sizes allow, the slope selects one.
-    fn root(&mut self, joint: usize, a: Spot, m: Spot, b: Spot) -> Option<f64> {
-        let root = |(t, product): Spot| (t, product.max(0.0).sqrt());
+    fn root(&mut self, joint: usize, a: Sample, m: Sample, b: Sample) -> Option<f64> {
+        let root = |(t, product): Sample| (t, product.max(0.0).sqrt());
         let place = self.samples.len() - 1;
         let (mut last, mut now) = (root(a), root(m));
         let mut slope = (last.1 + root(b).1) / (b.0 - a.0);

@@ -1,11 +1,11 @@
 //! What holds for every mechanism, however it was drawn.
 
 use crate::stress::trial::{kinetic_energy, larger};
-use crate::stress::{Outcome, Treatment, Verdict};
+use crate::stress::{Outcome, TrialMethod, Verdict};
 use nalgebra::Vector3;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_scene::{Coordinates, IntegratorKind, Load, LoadFrame, Scene, Stabilization};
+use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind, Load, LoadFrame, Scene};
 
 /// Steps of a random mechanism of half a second.
 const STEPS: u64 = 20_000;
@@ -22,9 +22,9 @@ const LOOKS: u32 = 10;
 
 /// Runs a mechanism and compares: balance of energy and work; full, reduced and mixed coordinates; another integrator; the way
 /// back in time, where the mechanism is reversible; no NaN; bounded steps.
-pub fn judge(scene: &Scene, treatment: &Treatment) -> Outcome {
+pub fn judge(scene: &Scene, method: &TrialMethod) -> Outcome {
     let mut scene = scene.clone();
-    treatment.apply(&mut scene);
+    method.apply(&mut scene);
     let mut outcome = Outcome::nothing(Verdict::Survived, String::new());
     "balance of energy and work; other coordinates; another integrator; back in time"
         .clone_into(&mut outcome.reference);
@@ -87,7 +87,7 @@ fn watched(scene: &Scene, outcome: &mut Outcome, findings: &mut Findings) -> Res
         drift = larger(drift, summary.energy_drift.abs());
         // Structures that cannot move have no kinetic energy, but springs whose force times a tolerance is energy too.
         kinetic = larger(larger(kinetic, kinetic_energy(&mut run)), STANDING * summary.energy.abs());
-        violation = larger(violation, run.opening().relative);
+        violation = larger(violation, run.violation().relative);
     }
     outcome.energy_drift = Some(drift / kinetic);
     outcome.violation = Some(violation);
@@ -107,7 +107,7 @@ fn compare(scene: &Scene, run: &mut Simulation, findings: &mut Findings) {
         ("reduced", all(Coordinates::Reduced)),
         ("shared", all(Coordinates::Shared)),
     ];
-    if scene.simulation.stabilization == Stabilization::Projection {
+    if scene.simulation.constraint_method == ConstraintMethod::Projection {
         let mut other = scene.clone();
         let by_default = run.summary().integrator == IntegratorKind::Dop853;
         let integrator = if by_default { IntegratorKind::Dopri5 } else { IntegratorKind::Dop853 };
@@ -140,7 +140,7 @@ fn compare(scene: &Scene, run: &mut Simulation, findings: &mut Findings) {
 /// Nothing drives, damps, or depends on the direction of time.
 fn reversible(scene: &Scene) -> bool {
     scene.drivers.is_empty()
-        && scene.simulation.stabilization == Stabilization::Projection
+        && scene.simulation.constraint_method == ConstraintMethod::Projection
         && scene.loads.iter().all(|load| match load {
             Load::Force { frame, .. } | Load::Moment { frame, .. } => *frame == LoadFrame::World,
             Load::Spring { damping, .. } | Load::Torsion { damping, .. } | Load::Slider { damping, .. } => {

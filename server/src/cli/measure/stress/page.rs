@@ -117,7 +117,7 @@ fn comparison(page: &mut String, report: &Report) {
     let Some(first) = report.comparison.first() else { return };
     page.push_str("<h2>Which treatment survives what</h2><div class=scroll><table><tr><th>Case");
     for column in &report.comparison {
-        let _ = write!(page, "<th>{}", escaped(&column.treatment));
+        let _ = write!(page, "<th>{}", escaped(&column.method));
     }
     for (index, entry) in first.entries.iter().enumerate() {
         let _ = write!(page, "<tr><td>{}", escaped(&entry.case));

@@ -47,7 +47,7 @@ pub(super) fn svg(columns: &[Column]) -> String {
         let _ = writeln!(
             out,
             "<text x=\"{x}\" y=\"{y}\" transform=\"rotate(-50 {x} {y})\">{}</text>",
-            super::page::escaped(&column.treatment)
+            super::page::escaped(&column.method)
         );
         for (row, entry) in column.entries.iter().enumerate() {
             let (fill, mark) = look(entry.outcome.verdict);
@@ -110,12 +110,12 @@ pub(super) fn markdown(columns: &[Column], picture: &str) -> String {
             let error = error.map_or_else(String::new, |error| format!(" {error:.0e},"));
             format!("{}{error} {}", look(outcome.verdict).1, outcome.steps)
         });
-        let _ = writeln!(out, "| {} | {} |", column.treatment, cells.collect::<Vec<_>>().join(" | "));
+        let _ = writeln!(out, "| {} | {} |", column.method, cells.collect::<Vec<_>>().join(" | "));
     }
     out.push_str("\n## Why\n\n");
     for column in columns {
         for entry in column.entries.iter().filter(|entry| entry.outcome.verdict >= Verdict::Refused) {
-            let _ = writeln!(out, "- {}, {}: {}", column.treatment, entry.case, entry.outcome.reason);
+            let _ = writeln!(out, "- {}, {}: {}", column.method, entry.case, entry.outcome.reason);
         }
     }
     out.push_str("\n## The cases\n\n");

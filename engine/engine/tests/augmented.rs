@@ -1,11 +1,11 @@
-//! The literal equations of motion and the elimination of the rigid-body rows give the same accelerations.
+//! The augmented system and the elimination of the rigid-body rows give the same accelerations.
 
 mod common;
 
 use common::{Random, random_scene, start};
 use nalgebra::DVector;
 use triad_engine::dynamics::elimination::Elimination;
-use triad_engine::equations::augmented::Literal;
+use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::reactions::rigid_multipliers;
 use triad_engine::state::State;
 
@@ -16,7 +16,7 @@ const KINDS: [fn(usize) -> &'static str; 3] =
 /// The elimination is exact at any state, also where the directors are not orthonormal and the velocities break every
 /// constraint; a common vector is not, since the solver leaves out a row that depends on the others only where it holds.
 #[test]
-fn the_elimination_agrees_with_the_literal_equations_at_any_state() {
+fn the_elimination_agrees_with_the_augmented_system_at_any_state() {
     for (seed, bodies) in (0..12).zip([2, 3, 4, 5, 6].into_iter().cycle()) {
         for kind in KINDS {
             let mut scene = random_scene(seed, bodies, kind);
@@ -34,7 +34,7 @@ fn the_elimination_agrees_with_the_literal_equations_at_any_state() {
             let mut acceleration = vec![0.0; q.len()];
             let state = State::at(&system, 0.0, &q, &q_dot);
             Elimination::new(&system).accelerate(&system, &state, (0.0, 0.0)).write(&mut acceleration);
-            let solution = Literal::new(&system, &state).solve().unwrap();
+            let solution = AugmentedSystem::new(&system, &state).solve().unwrap();
             let scale = 1.0 + solution.acceleration.amax();
             for (a, b) in acceleration.iter().zip(&solution.acceleration) {
                 assert!((a - b).abs() < 1e-10 * scale, "seed {seed}: {a} {b}");
@@ -45,7 +45,7 @@ fn the_elimination_agrees_with_the_literal_equations_at_any_state() {
 
 /// With common vectors the two agree on the manifold, and so do the multipliers of all unique rows.
 #[test]
-fn the_elimination_agrees_with_the_literal_equations_on_the_manifold() {
+fn the_elimination_agrees_with_the_augmented_system_on_the_manifold() {
     for (seed, bodies) in (0..12).zip([2, 3, 4, 5, 6].into_iter().cycle()) {
         for kind in KINDS {
             let scene = random_scene(seed, bodies, kind);
@@ -56,8 +56,8 @@ fn the_elimination_agrees_with_the_literal_equations_on_the_manifold() {
             let state = State::at(&system, 0.0, &q, &q_dot);
             let mut elimination = Elimination::new(&system);
             let found = elimination.accelerate(&system, &state, (0.0, 0.0));
-            let literal = Literal::new(&system, &state);
-            let solution = literal.solve().unwrap();
+            let augmented = AugmentedSystem::new(&system, &state);
+            let solution = augmented.solve().unwrap();
             let scale = 1.0 + solution.acceleration.amax();
             for (a, b) in acceleration.iter().zip(&solution.acceleration) {
                 assert!((a - b).abs() < 1e-10 * scale, "seed {seed}: {a} {b}");
@@ -68,8 +68,8 @@ fn the_elimination_agrees_with_the_literal_equations_on_the_manifold() {
                 }
                 let index = system.rows.iter().position(|r| r.equation == row.equation).unwrap();
                 for (k, lambda) in found.multipliers.of_row(index).iter().enumerate() {
-                    let literal = solution.multipliers[system.rigid_rows + row.equation + k];
-                    assert!((lambda - literal).abs() < 1e-8 * scale, "seed {seed}: {lambda} {literal}");
+                    let augmented = solution.multipliers[system.rigid_rows + row.equation + k];
+                    assert!((lambda - augmented).abs() < 1e-8 * scale, "seed {seed}: {lambda} {augmented}");
                 }
             }
         }
@@ -89,16 +89,16 @@ fn rigid_body_multipliers_close_the_equations_of_motion() {
             let state = State::at(&system, 0.0, &q, &q_dot);
             let mut elimination = Elimination::new(&system);
             let found = elimination.accelerate(&system, &state, (0.0, 0.0));
-            let literal = Literal::new(&system, &state);
+            let augmented = AugmentedSystem::new(&system, &state);
             let rigid = rigid_multipliers(&found);
             let mut all: Vec<f64> = rigid.iter().flat_map(|body| body.rows.iter().map(|r| r.value)).collect();
             assert_eq!(all.len(), system.rigid_rows);
             for index in 0..system.rows.len() {
                 all.extend(found.multipliers.of_row(index));
             }
-            let residual = &literal.mass * DVector::from(acceleration)
-                + literal.jacobian.tr_mul(&DVector::from(all))
-                - &literal.force;
+            let residual = &augmented.mass * DVector::from(acceleration)
+                + augmented.jacobian.tr_mul(&DVector::from(all))
+                - &augmented.force;
             assert!(residual.amax() < 1e-9, "seed {seed}: {}", residual.amax());
         }
     }

@@ -1,16 +1,16 @@
-//! The treatments that are compared with each other, and the cases on which they are.
+//! The methods that are compared with each other, and the cases on which they are.
 
 use super::build::{DOWN, GROUND, pin, rod, scene};
 use super::redundant::swinging;
 use super::singular::against_windows;
-use super::{Case, Outcome, Treatment, Verdict};
-use triad_scene::{IntegratorKind, Stabilization};
+use super::{Case, Outcome, TrialMethod, Verdict};
+use triad_scene::{ConstraintMethod, IntegratorKind};
 
 const FAMILY: &str = "treatments";
-/// Steps of a compared run, and of one whose steps are dear: more is no use of a treatment.
+/// Steps of a compared run, and of one whose steps are dear: more is no use of a method.
 const STEPS: u64 = 60_000;
 const DEAR_STEPS: u64 = 12_000;
-/// Bodies of a treatment whose matrices are full: the cube of more takes hours.
+/// Bodies of a method whose matrices are full: the cube of more takes hours.
 const BODIES: usize = 50;
 
 pub(super) const CASES: &[Case] = &[
@@ -28,7 +28,7 @@ pub(super) const CASES: &[Case] = &[
         summary: "Two four-bar windows through ten singular positions",
         expected: Verdict::Survived,
         quick: true,
-        run: |treatment, _| against_windows(2, 10.0, treatment),
+        run: |method, _| against_windows(2, 10.0, method),
     },
 ];
 
@@ -48,16 +48,16 @@ pub const COMPARED: [&str; 12] = [
     "friction-smooth",
 ];
 
-fn pendulum(treatment: &Treatment, _: bool) -> Outcome {
+fn pendulum(method: &TrialMethod, _: bool) -> Outcome {
     let start = 1.0f64;
     let mut scene = scene("pendulum", DOWN, 100.0, 1e-9);
     scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));
     scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
-    swinging(scene, 0, start, treatment)
+    swinging(scene, 0, start, method)
 }
 
-/// Every integrator with projection, then every other treatment, feedback from weak to strong.
-pub fn all() -> Vec<(String, Treatment)> {
+/// Every integrator with projection, then every other method, feedback from weak to strong.
+pub fn all() -> Vec<(String, TrialMethod)> {
     let projected = [
         IntegratorKind::Taylor,
         IntegratorKind::Dop853,
@@ -66,35 +66,36 @@ pub fn all() -> Vec<(String, Treatment)> {
         IntegratorKind::Radau,
         IntegratorKind::Rattle,
     ];
-    let mut list: Vec<(String, Treatment)> = projected
+    let mut list: Vec<(String, TrialMethod)> = projected
         .into_iter()
-        .map(|kind| (format!("{kind}, projection"), with(kind, Stabilization::Projection, STEPS)))
+        .map(|kind| (format!("{kind}, projection"), with(kind, ConstraintMethod::Projection, STEPS)))
         .collect();
     let explicit = IntegratorKind::Dop853;
     for strength in [0.0, 1.0, 5.0, 20.0, 100.0] {
-        let feedback = Stabilization::Baumgarte { alpha: strength, beta: strength };
+        let feedback = ConstraintMethod::Baumgarte { alpha: strength, beta: strength };
         list.push((format!("Baumgarte α = β = {strength}/s"), with(explicit, feedback, STEPS)));
     }
-    let overdamped = Stabilization::Baumgarte { alpha: 20.0, beta: 5.0 };
+    let overdamped = ConstraintMethod::Baumgarte { alpha: 20.0, beta: 5.0 };
     list.push(("Baumgarte α = 20/s, β = 5/s".to_owned(), with(explicit, overdamped, STEPS)));
     for alpha in [1e4, 1e7] {
-        let penalty = Stabilization::Penalty { alpha, omega: 10.0, mu: 1.0 };
+        let penalty = ConstraintMethod::Penalty { alpha, omega: 10.0, mu: 1.0 };
         list.push((format!("penalty α = {alpha:.0e} kg"), with(explicit, penalty, DEAR_STEPS)));
     }
-    let augmented = Stabilization::AugmentedLagrangian { alpha: 1e9 };
+    let augmented = ConstraintMethod::AugmentedLagrangian { alpha: 1e9 };
     list.push(("augmented Lagrangian".to_owned(), with(IntegratorKind::Trapezoidal, augmented, STEPS)));
-    let partitioning = Stabilization::Partitioning;
+    let partitioning = ConstraintMethod::Partitioning;
     list.push(("partitioning, dop853".to_owned(), with(explicit, partitioning, STEPS)));
     list.push(("partitioning, radau".to_owned(), with(IntegratorKind::Radau, partitioning, STEPS)));
     list
 }
 
-fn with(integrator: IntegratorKind, stabilization: Stabilization, steps: u64) -> Treatment {
-    let sparse = matches!(stabilization, Stabilization::Projection | Stabilization::Baumgarte { .. });
-    Treatment {
+fn with(integrator: IntegratorKind, constraint_method: ConstraintMethod, steps: u64) -> TrialMethod {
+    let sparse =
+        matches!(constraint_method, ConstraintMethod::Projection | ConstraintMethod::Baumgarte { .. });
+    TrialMethod {
         integrator: Some(integrator),
-        stabilization: Some(stabilization),
-        most_steps: Some(steps),
-        most_bodies: (!sparse || integrator == IntegratorKind::Radau).then_some(BODIES),
+        constraint_method: Some(constraint_method),
+        max_steps: Some(steps),
+        max_bodies: (!sparse || integrator == IntegratorKind::Radau).then_some(BODIES),
     }
 }
