@@ -2,9 +2,9 @@
 
 /// A 64-bit linear congruential generator (Knuth's MMIX), seeded by a text.
 #[derive(Debug, Clone)]
-pub(crate) struct Random(u64);
+pub(crate) struct SeededRandom(u64);
 
-impl Random {
+impl SeededRandom {
     /// The generator of this text.
     pub(crate) fn new(seed: &str) -> Self {
         let hash = seed
@@ -32,7 +32,7 @@ mod tests {
     /// ParsedNumber down once: a change would give every student other numbers.
     #[test]
     fn the_numbers_stay_for_ever() {
-        let mut random = Random::new("ada");
+        let mut random = SeededRandom::new("ada");
         let first: Vec<String> = (0..3).map(|_| format!("{:.6}", random.unit())).collect();
         assert_eq!(first, ["0.219776", "0.602817", "0.481085"]);
     }
@@ -41,7 +41,7 @@ mod tests {
     fn they_fill_the_interval_evenly() {
         let mut bins = [0; 10];
         for seed in 0..2000 {
-            let x = Random::new(&format!("student-{seed}")).unit();
+            let x = SeededRandom::new(&format!("student-{seed}")).unit();
             let bin = (0..10).rfind(|k| f64::from(*k) / 10.0 <= x).unwrap_or(0);
             bins[usize::try_from(bin).unwrap()] += 1;
         }

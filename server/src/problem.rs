@@ -13,7 +13,8 @@ use serde::Serialize;
 
 /// One place in the input that is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Fault {
+#[schemars(rename = "Fault")]
+pub struct InputFault {
     /// Where: a JSON pointer into the request body, as a URI fragment.
     #[schemars(example = "#/scene/joints/0/axis")]
     pub pointer: String,
@@ -28,7 +29,7 @@ pub struct Problem {
     code: &'static str,
     detail: String,
     hint: String,
-    errors: Vec<Fault>,
+    errors: Vec<InputFault>,
 }
 
 /// The members of a problem document as they go over the wire.
@@ -51,7 +52,7 @@ pub struct ProblemDocument {
     /// What to try.
     pub hint: String,
     /// The places in the input that are wrong; empty if the problem is not about the input.
-    pub errors: Vec<Fault>,
+    pub errors: Vec<InputFault>,
     /// Names this one occurrence, to be quoted in a report; the server's log has the same.
     pub trace_id: String,
 }
@@ -71,7 +72,7 @@ impl Problem {
     #[must_use]
     pub fn at(mut self, pointer: impl AsRef<str>, detail: impl Into<String>) -> Self {
         let pointer = format!("#{}", pointer.as_ref());
-        self.errors.push(Fault { pointer, detail: detail.into() });
+        self.errors.push(InputFault { pointer, detail: detail.into() });
         self
     }
 

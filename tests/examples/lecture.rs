@@ -9,7 +9,7 @@
 
 use serde_json::json;
 use std::time::{Duration, Instant};
-use triad_tests::lecture::{Follower, Lecture, Seen, follow};
+use triad_tests::lecture::{FollowerPage, LectureRun, Seen, follow};
 use triad_tests::program::Server;
 
 fn main() {
@@ -26,10 +26,10 @@ fn main() {
 fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
     let folder = tempfile::tempdir().unwrap();
     let server = Server::start(folder.path());
-    let lecture = Lecture::open(&server, scene);
+    let lecture = LectureRun::open(&server, scene);
     let (start, joined) = (Instant::now(), Instant::now());
-    let crowd: Vec<Follower> =
-        (0..followers).map(|_| Follower::join(&server.address, &lecture.code, recording)).collect();
+    let crowd: Vec<FollowerPage> =
+        (0..followers).map(|_| FollowerPage::join(&server.address, &lecture.code, recording)).collect();
     let joining = joined.elapsed();
     let end = Instant::now() + length;
     let watching: Vec<_> = crowd

@@ -19,7 +19,7 @@ const MARK: &str = "<!-- from tests/data/accuracy.toml -->\n";
 
 /// One benchmark, solved in one way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
+pub struct AccuracyEntry {
     /// The benchmark, with its duration.
     pub benchmark: String,
     /// Unit of the error; empty for a relative one.
@@ -40,18 +40,18 @@ pub struct Entry {
 
 /// The whole table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Table {
+pub struct AccuracyTable {
     /// Its entries, in README's order.
-    pub run: Vec<Entry>,
+    pub run: Vec<AccuracyEntry>,
 }
 
-impl Table {
+impl AccuracyTable {
     /// Reads the kept table.
     pub fn read() -> Self {
         toml::from_str(&fs::read_to_string(root().join("tests/data/accuracy.toml")).unwrap()).unwrap()
     }
 
-    fn place(&self, new: &Entry) -> Option<usize> {
+    fn place(&self, new: &AccuracyEntry) -> Option<usize> {
         self.run.iter().position(|kept| {
             (&kept.benchmark, kept.coordinates, kept.integrator)
                 == (&new.benchmark, new.coordinates, new.integrator)
@@ -72,8 +72,8 @@ impl Table {
             let unit = if entry.unit.is_empty() { "relative" } else { &entry.unit };
             write!(text, "| {} |", entry.benchmark).unwrap();
             for integrator in [IntegratorKind::Auto, IntegratorKind::Dop853] {
-                let alike = |e: &&Entry| e.benchmark == entry.benchmark && e.integrator == integrator;
-                let cells = |cell: &dyn Fn(&Entry) -> String| {
+                let alike = |e: &&AccuracyEntry| e.benchmark == entry.benchmark && e.integrator == integrator;
+                let cells = |cell: &dyn Fn(&AccuracyEntry) -> String| {
                     self.run.iter().filter(alike).map(cell).collect::<Vec<_>>().join(" / ")
                 };
                 let (errors, work) =
@@ -94,7 +94,7 @@ pub fn hold(
     error: f64,
     summary: &Summary,
 ) {
-    let new = Entry {
+    let new = AccuracyEntry {
         benchmark: benchmark.to_owned(),
         unit: unit.to_owned(),
         coordinates: scene.0,
@@ -109,7 +109,7 @@ pub fn hold(
         renew(new);
         return;
     }
-    let table = Table::read();
+    let table = AccuracyTable::read();
     let place =
         table.place(&new).unwrap_or_else(|| panic!("tests/data/accuracy.toml has no entry for {new:?}"));
     let kept = &table.run[place];
@@ -118,7 +118,7 @@ pub fn hold(
         "{benchmark}: error {error:e}, the table says {:e}: {kept:?}",
         kept.error
     );
-    let work = |e: &Entry| [e.evaluations, e.factorizations, e.steps];
+    let work = |e: &AccuracyEntry| [e.evaluations, e.factorizations, e.steps];
     for (found, known) in work(&new).into_iter().zip(work(kept)) {
         let allowed = if scene.1 == IntegratorKind::Auto { 0.0 } else { OTHER_WORK * known as f64 };
         assert!(
@@ -129,10 +129,10 @@ pub fn hold(
 }
 
 /// Puts an entry into the table, and the table into README.
-fn renew(new: Entry) {
+fn renew(new: AccuracyEntry) {
     static TURN: Mutex<()> = Mutex::new(());
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut table = Table::read();
+    let mut table = AccuracyTable::read();
     match table.place(&new) {
         Some(place) => table.run[place] = new,
         None => table.run.push(new),

@@ -21,13 +21,13 @@ pub enum Message {
 
 /// As little of a WebSocket client as a follower needs.
 #[derive(Debug)]
-pub struct Follower {
+pub struct FollowerPage {
     reader: BufReader<TcpStream>,
     /// Bytes received, heads of messages included.
     pub bytes: usize,
 }
 
-impl Follower {
+impl FollowerPage {
     /// Joins a room.
     pub fn join(address: &str, code: &str, recording: bool) -> Self {
         let mut socket = TcpStream::connect(address).unwrap();
@@ -92,7 +92,7 @@ impl Follower {
 
 /// A lecture of a built-in scene.
 #[derive(Debug)]
-pub struct Lecture {
+pub struct LectureRun {
     /// The session that is shown.
     pub session: String,
     /// What followers type.
@@ -101,7 +101,7 @@ pub struct Lecture {
     pub key: String,
 }
 
-impl Lecture {
+impl LectureRun {
     /// Opens a room for a scene.
     pub fn open(server: &Server, scene: &str) -> Self {
         let session = server.post("/api/v1/sessions", &json!({ "builtin": scene })).json();
@@ -135,7 +135,7 @@ pub struct Seen {
 }
 
 /// Follows until it is enough; marks carry the time at which they were set, counted from `start`.
-pub fn follow(mut follower: Follower, start: Instant, enough: impl Fn(&Seen) -> bool) -> Seen {
+pub fn follow(mut follower: FollowerPage, start: Instant, enough: impl Fn(&Seen) -> bool) -> Seen {
     let mut seen = Seen::default();
     while !enough(&seen) {
         match follower.read() {

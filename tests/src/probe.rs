@@ -12,14 +12,14 @@ use triad_engine::scene::Coordinates;
 use triad_engine::system::System;
 
 /// A mechanism and the state y = (q, q̇) given in its scene, not yet moved onto the constraints.
-pub struct Probe {
+pub struct TestMechanism {
     /// The mechanism.
     pub mechanism: Mechanism,
     /// The state.
     pub y: Vec<f64>,
 }
 
-impl Probe {
+impl TestMechanism {
     /// Reads a scene and takes its start as it stands.
     pub fn new(scene: &Scene) -> Self {
         let system = System::new(Model::new(scene).unwrap());

@@ -11,7 +11,7 @@ use triad_engine::catalogue;
 use triad_engine::run::{Simulation, Summary};
 use triad_engine::scene::{Coordinates, IntegratorKind, Scene};
 use triad_engine::state::BodyFrame;
-use triad_tests::accuracy::{self, Table};
+use triad_tests::accuracy::{self, AccuracyTable};
 use triad_tests::reference::{Reference, distance};
 
 /// The ways in which each benchmark is solved.
@@ -290,6 +290,6 @@ fn b01_spatial_slider_crank_in_three_variants() {
 #[test]
 fn readme_shows_the_table() {
     if std::env::var_os("TRIAD_WRITE_GOLDEN").is_none() {
-        assert_eq!(accuracy::in_readme(), Table::read().markdown());
+        assert_eq!(accuracy::in_readme(), AccuracyTable::read().markdown());
     }
 }

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use triad_engine::run::Simulation;
 use triad_engine::scene::IntegratorKind;
 use triad_engine::state::BodyFrame;
-use triad_tests::probe::Probe;
+use triad_tests::probe::TestMechanism;
 use triad_tests::random::{Choice, scenes};
 use triad_tests::reference::distance;
 
@@ -37,7 +37,7 @@ proptest! {
         scene in scenes(),
         shift in prop::collection::vec(-0.5..0.5f64, 96),
     ) {
-        let mut probe = Probe::new(&scene.scene(Choice::default()));
+        let mut probe = TestMechanism::new(&scene.scene(Choice::default()));
         let y = probe.along(&shift[..probe.y.len()], 1.0);
         probe.y.clone_from(&y);
         let phi_q = probe.jacobian(&y);
@@ -56,7 +56,7 @@ proptest! {
         scene in scenes(),
         shift in prop::collection::vec(-0.5..0.5f64, 96),
     ) {
-        let mut probe = Probe::new(&scene.scene(Choice::default()));
+        let mut probe = TestMechanism::new(&scene.scene(Choice::default()));
         let y = probe.along(&shift[..probe.y.len()], 1.0);
         probe.y.clone_from(&y);
         let velocity = probe.velocity();
@@ -71,7 +71,7 @@ proptest! {
     /// The elimination of section 7 gives the accelerations of the augmented system of section 6.
     #[test]
     fn the_elimination_solves_the_augmented_system(scene in scenes()) {
-        let mut probe = Probe::new(&scene.scene(Choice::default())).assembled();
+        let mut probe = TestMechanism::new(&scene.scene(Choice::default())).assembled();
         let y = probe.y.clone();
         let (ours, (dense, condition)) = (probe.accelerations(&y), probe.augmented(&y));
         let error = (&ours - &dense).amax();
@@ -89,7 +89,7 @@ proptest! {
         shift in prop::collection::vec(-0.1..0.1f64, 96),
     ) {
         let choice = Choice { coordinates: Some("full"), revolute: Some("cp-2car"), tree: true, free: false };
-        let mut probe = Probe::new(&scene.scene(choice));
+        let mut probe = TestMechanism::new(&scene.scene(choice));
         let y = probe.along(&shift[..probe.y.len()], 1.0);
         let (ours, (dense, condition)) = (probe.accelerations(&y), probe.augmented(&y));
         let error = (&ours - &dense).amax();
@@ -100,7 +100,7 @@ proptest! {
     /// Joints do no work: dE/dt = 0 under gravity alone.
     #[test]
     fn power_is_balanced(scene in scenes()) {
-        let mut probe = Probe::new(&scene.scene(Choice::default())).assembled();
+        let mut probe = TestMechanism::new(&scene.scene(Choice::default())).assembled();
         let y = probe.y.clone();
         let mut rate = probe.velocity().as_slice().to_vec();
         rate.extend_from_slice(probe.accelerations(&y).as_slice());
@@ -117,7 +117,7 @@ proptest! {
     #[test]
     fn momentum_and_angular_momentum_are_balanced(scene in scenes()) {
         let scene = scene.scene(Choice { free: true, ..Choice::default() });
-        let mut probe = Probe::new(&scene).assembled();
+        let mut probe = TestMechanism::new(&scene).assembled();
         let y = probe.y.clone();
         let accelerations = probe.accelerations(&y);
         let mut rate = probe.velocity().as_slice().to_vec();

@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 use std::time::Instant;
-use triad_tests::lecture::{Follower, Lecture, Seen, follow};
+use triad_tests::lecture::{FollowerPage, LectureRun, Seen, follow};
 use triad_tests::program::Server;
 
 fn time(state: &Value) -> f64 {
@@ -15,13 +15,13 @@ fn time(state: &Value) -> f64 {
 fn many_follow_one_simulation_and_one_who_stalls_harms_nobody_and_catches_up() {
     let folder = tempfile::tempdir().unwrap();
     let server = Server::start(folder.path());
-    let lecture = Lecture::open(&server, "spatial-double-pendulum");
+    let lecture = LectureRun::open(&server, "spatial-double-pendulum");
     let session = format!("/api/v1/sessions/{}", lecture.session);
     // One reads nothing at all, one leaves at once, the others follow.
-    let mut stalled = Follower::join(&server.address, &lecture.code, true);
-    drop(Follower::join(&server.address, &lecture.code, true));
-    let crowd: Vec<Follower> =
-        (0..40).map(|_| Follower::join(&server.address, &lecture.code, true)).collect();
+    let mut stalled = FollowerPage::join(&server.address, &lecture.code, true);
+    drop(FollowerPage::join(&server.address, &lecture.code, true));
+    let crowd: Vec<FollowerPage> =
+        (0..40).map(|_| FollowerPage::join(&server.address, &lecture.code, true)).collect();
     server.post(&format!("{session}/play"), &json!({"speed": 2}));
     // However long it takes: a follower who is told nothing more ends with an error.
     let start = Instant::now();
@@ -37,7 +37,7 @@ fn many_follow_one_simulation_and_one_who_stalls_harms_nobody_and_catches_up() {
     // The one who stalled, and one who comes again, are told the newest state.
     let newest = time(&paused);
     stalled.until("state", |state| time(state) == newest);
-    let mut again = Follower::join(&server.address, &lecture.code, false);
+    let mut again = FollowerPage::join(&server.address, &lecture.code, false);
     let state = again.until("state", |state| time(state) == newest);
     assert!(!state.to_string().contains(&lecture.session), "the session's own name stays with the presenter");
     // What the presenter looks at travels.
@@ -56,7 +56,7 @@ fn many_follow_one_simulation_and_one_who_stalls_harms_nobody_and_catches_up() {
 fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal() {
     let folder = tempfile::tempdir().unwrap();
     let server = Server::start(folder.path());
-    let lecture = Lecture::open(&server, "simple-pendulum");
+    let lecture = LectureRun::open(&server, "simple-pendulum");
     let room = format!("/api/v1/rooms/{}", lecture.code);
     let refused = server.post(&format!("{room}/reveal"), &json!({}));
     assert_eq!((refused.status, refused.json()["code"].as_str()), (403, Some("not-the-presenter")));
@@ -66,7 +66,7 @@ fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal()
         403
     );
     assert_eq!(lecture.lead(&server, "PUT", "question", &question).status, 204);
-    let mut follower = Follower::join(&server.address, &lecture.code, false);
+    let mut follower = FollowerPage::join(&server.address, &lecture.code, false);
     let asked = follower.until("room", |board| board["question"].is_object());
     for (voter, choice) in [("a", 0), ("b", 1), ("a", 1), ("c", 0)] {
         let vote = json!({"question": asked["question"]["number"], "voter": voter, "choice": choice});

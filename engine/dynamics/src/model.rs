@@ -24,7 +24,7 @@ pub use load::{ForceLaw, LoadKind, ModelLoad};
 
 use crate::scene::{ConstraintMethod, Scene, Settings};
 use nalgebra::Vector3;
-use reader::Reader;
+use reader::ModelReader;
 use std::collections::HashMap;
 
 /// A body by its place in the model, or the ground.
@@ -80,12 +80,18 @@ impl Model {
         for (index, written) in scene.joints.iter().enumerate() {
             unique_name(&mut row_names, "joints", index, &written.name)?;
             let (list, name) = ("joints", written.name.as_str());
-            let reader = Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
+            let reader = ModelReader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
             let joint = ModelJoint::new(written, &reader, &mut notes)?;
             joints.push(joint);
         }
-        let reader =
-            |list, index, name| Reader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
+        let reader = |list, index, name| ModelReader {
+            list,
+            index,
+            name,
+            names: &names,
+            bodies: &bodies,
+            joints: &joints,
+        };
         let mut drivers = Vec::with_capacity(scene.drivers.len());
         for (index, written) in scene.drivers.iter().enumerate() {
             unique_name(&mut row_names, "drivers", index, written.name())?;

@@ -29,10 +29,10 @@ pub mod planar;
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, Model, ModelBody};
 use crate::system::angle::Angle;
-use crate::system::body::Body;
+use crate::system::body::RigidBody;
 use crate::system::event::EventFunction;
 use crate::system::feature::{Feature, TargetCurve};
-use crate::system::load::Load;
+use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
@@ -109,7 +109,7 @@ pub struct System {
     /// The model it was assembled from.
     pub model: Model,
     /// The moving bodies.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<RigidBody>,
     /// All features: first those fixed in moving bodies, then those that move as prescribed, then those fixed in
     /// the ground.
     pub features: Vec<Feature>,
@@ -126,7 +126,7 @@ pub struct System {
     /// The joint of each angle.
     pub angle_joints: Vec<String>,
     /// Loads besides gravity.
-    pub loads: Vec<Load>,
+    pub loads: Vec<SystemLoad>,
     /// Numbers whose passing of a value is an event.
     pub event_functions: Arc<[EventFunction]>,
     /// The rows.
@@ -161,7 +161,8 @@ impl System {
         for driver in &model.drivers {
             driver::write(&model, driver, &mut builder);
         }
-        let mut loads: Vec<Load> = model.loads.iter().map(|l| Load::new(&model, l, &mut builder)).collect();
+        let mut loads: Vec<SystemLoad> =
+            model.loads.iter().map(|l| SystemLoad::new(&model, l, &mut builder)).collect();
         let event_functions =
             model.events.iter().map(|event| EventFunction::new(&model, event, &mut builder)).collect();
         let place = builder.sort_features();
@@ -233,7 +234,7 @@ impl System {
             let lacks = j.min() < LACKING * scale || (j.min() == 0.0 && scale == 0.0);
             let scale = if scale == 0.0 { j.max().max(body.mass * self.length * self.length) } else { scale };
             let regularizing_inertia = if lacks { REGULARIZING_INERTIA * scale } else { 0.0 };
-            self.bodies.push(Body {
+            self.bodies.push(RigidBody {
                 mass: body.mass,
                 principal: j,
                 ibar,
@@ -311,7 +312,7 @@ impl System {
     /// Whether nothing but weight and springs acts: then the energy stays what it is.
     pub fn is_conservative(&self) -> bool {
         !self.constraints.iter().any(|constraint| constraint.driver)
-            && self.loads.iter().all(Load::is_conservative)
+            && self.loads.iter().all(SystemLoad::is_conservative)
     }
 
     /// Whether any body has no inertia about some axis.

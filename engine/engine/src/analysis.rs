@@ -15,7 +15,7 @@ mod stage;
 pub use assembly::{Assembly, Placement, assemble};
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use kinematics::{KinematicState, Kinematics, kinematics};
-pub use modes::{About, Mode, Modes, Motion, modes};
+pub use modes::{Mode, ModeShape, Modes, ModesAbout, modes};
 pub use stage::Stage;
 
 use crate::error::EngineError;

@@ -13,7 +13,7 @@ mod snapshot;
 mod summary;
 
 pub use events::EventOccurrence;
-pub use explain::LeftOut;
+pub use explain::SkippedItem;
 pub use frame::Frame;
 pub use snapshot::Snapshot;
 pub use summary::Summary;

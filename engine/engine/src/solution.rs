@@ -11,7 +11,7 @@
 //! # Ok::<(), EngineError>(())
 //! ```
 
-mod marks;
+mod checkpoints;
 mod state;
 
 pub use state::SolutionState;
@@ -20,7 +20,7 @@ use crate::error::EngineError;
 use crate::reactions::report::{Convention, Reaction as ReportedReaction, ReactionReport};
 use crate::run::{EventOccurrence, Simulation, Summary};
 use crate::scene::{DriverHandle, EventHandle, JointHandle, Scene, Triple};
-use marks::{Mark, Marks};
+use checkpoints::{Checkpoint, Checkpoints};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -67,7 +67,7 @@ impl Simulate for Scene {
 #[derive(Debug)]
 pub struct Solution {
     start: f64,
-    marks: Marks,
+    checkpoints: Checkpoints,
     cursor: Mutex<Cursor>,
     summary: Summary,
     events: Vec<EventOccurrence>,
@@ -77,7 +77,7 @@ pub struct Solution {
 #[derive(Clone, Debug)]
 struct Cursor {
     /// A run whose last step covers it.
-    covering: Mark,
+    covering: Checkpoint,
     /// The same, at that place.
     shown: Simulation,
 }
@@ -122,18 +122,18 @@ impl Solution {
     pub fn new(mut run: Simulation) -> Result<Self, EngineError> {
         run.interpolate_outputs();
         let start = run.time();
-        let (duration, mut marks) = (run.duration(), Marks::new(&run));
+        let (duration, mut checkpoints) = (run.duration(), Checkpoints::new(&run));
         loop {
             let from = run.reached();
             let done = run.advance_towards(duration, 1)?;
             if done {
                 break;
             }
-            marks.keep(from, &run);
+            checkpoints.keep(from, &run);
         }
         let (summary, events) = (run.summary(), run.events().to_vec());
-        let cursor = Cursor { covering: marks.before(start).clone(), shown: run };
-        Ok(Self { start, marks, cursor: Mutex::new(cursor), summary, events })
+        let cursor = Cursor { covering: checkpoints.before(start).clone(), shown: run };
+        Ok(Self { start, checkpoints, cursor: Mutex::new(cursor), summary, events })
     }
 
     /// First time, s.
@@ -181,7 +181,7 @@ impl Solution {
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn at(&self, t: f64) -> Result<SolutionState<'_>, EngineError> {
-        let model = self.marks.model();
+        let model = self.checkpoints.model();
         self.asked(t, |run| SolutionState::of(model, run))
     }
 
@@ -275,9 +275,9 @@ impl Solution {
     /// ```
     pub fn times_of(&self, event: impl Into<EventHandle>) -> Result<Vec<f64>, EngineError> {
         let event = event.into();
-        let mut known = self.marks.model().events.iter().map(|known| known.name.as_str());
+        let mut known = self.checkpoints.model().events.iter().map(|known| known.name.as_str());
         if known.all(|known| known != event.name()) {
-            let known = self.marks.model().events.iter().map(|known| known.name.as_str());
+            let known = self.checkpoints.model().events.iter().map(|known| known.name.as_str());
             return Err(EngineError::unknown("event", event.name(), known));
         }
         let times = self.events.iter().filter(|found| found.name == event.name()).map(|found| found.time);
@@ -323,9 +323,9 @@ impl Solution {
         }
         let mut cursor = self.cursor();
         if cursor.shown.time() != t {
-            let mark = self.marks.before(t);
-            if mark.is_nearer(&cursor.covering, t) {
-                cursor.covering = mark.clone();
+            let checkpoint = self.checkpoints.before(t);
+            if checkpoint.is_nearer(&cursor.covering, t) {
+                cursor.covering = checkpoint.clone();
             }
             cursor.covering.cover(t)?;
             // A state that is shown may start from the one before it, as near as rounding: this one never does.
@@ -336,7 +336,7 @@ impl Solution {
     }
 
     fn cursor(&self) -> MutexGuard<'_, Cursor> {
-        // What a question that panicked has left is a run at some mark, or at some time.
+        // What a question that panicked has left is a run at some checkpoint, or at some time.
         self.cursor.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -345,7 +345,7 @@ impl Clone for Solution {
     fn clone(&self) -> Self {
         Self {
             start: self.start,
-            marks: self.marks.clone(),
+            checkpoints: self.checkpoints.clone(),
             cursor: Mutex::new(self.cursor().clone()),
             summary: self.summary.clone(),
             events: self.events.clone(),

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use nalgebra::{Matrix2, Vector3};
-use triad_engine::analysis::{About, AnalysisError, assemble, equilibrium, kinematics, modes};
+use triad_engine::analysis::{AnalysisError, ModesAbout, assemble, equilibrium, kinematics, modes};
 use triad_engine::catalogue;
 use triad_engine::reactions::report::{Convention, ExpressedIn};
 use triad_engine::scene::{Coordinates, Driver, Motion, Scene};
@@ -23,7 +23,7 @@ fn a_pendulum_comes_to_rest_below_its_pin() {
         // m g / L of a point on a circle; the turn of 1 rad for each metre counts as much as the metre.
         near(found.least_stiffness, 9.81 / 2.0, 1e-6, "stiffness");
         near(found.reactions.reactions[0].force[1].value, 9.81, 1e-9, "pull of the pin");
-        let found = modes(&scene, About::Equilibrium).unwrap();
+        let found = modes(&scene, ModesAbout::Equilibrium).unwrap();
         assert_eq!((found.freedoms, found.modes.len()), (1, 1));
         near(found.modes[0].frequency, 9.81f64.sqrt() / std::f64::consts::TAU, 1e-8, "frequency");
         assert_eq!(found.modes[0].kind, "oscillates");
@@ -43,7 +43,7 @@ fn a_falling_body_has_no_equilibrium() {
 #[test]
 fn a_double_pendulum_swings_in_its_two_modes() {
     let scene = catalogue::scene("spatial-double-pendulum").unwrap();
-    let found = modes(&scene, About::Equilibrium).unwrap();
+    let found = modes(&scene, ModesAbout::Equilibrium).unwrap();
     let (m, l, i, g) = (1.0, 1.0, 0.083_958_333_333_333_33, 9.81);
     let mass =
         Matrix2::new(i + m * l * l / 4.0 + m * l * l, m * l * l / 2.0, m * l * l / 2.0, i + m * l * l / 4.0);
@@ -63,7 +63,7 @@ fn a_double_pendulum_swings_in_its_two_modes() {
 #[test]
 fn the_upright_four_bar_falls_at_its_known_rate() {
     let scene = catalogue::scene("n-four-bar:2").unwrap();
-    let found = modes(&scene, About::Start).unwrap();
+    let found = modes(&scene, ModesAbout::Start).unwrap();
     assert_eq!((found.freedoms, found.modes[0].kind), (1, "grows"));
     near(found.modes[0].growth, 11.445f64.sqrt(), 1e-7, "rate");
     assert_eq!(found.notes.len(), 1);
@@ -106,7 +106,7 @@ fn a_damped_pendulum_has_its_known_eigenvalue() {
     let (inertia, weight) = (0.2 + 2.0 * 0.75 * 0.75, 2.0 * 9.81 * 0.75);
     let natural = f64::sqrt(weight / inertia);
     for damping in [0.9, 30.0] {
-        let found = modes(&Scene::from_json(&text(damping)).unwrap(), About::Equilibrium).unwrap();
+        let found = modes(&Scene::from_json(&text(damping)).unwrap(), ModesAbout::Equilibrium).unwrap();
         let half = damping / (2.0 * inertia);
         if half < natural {
             let [mode] = found.modes.as_slice() else { panic!("{:?}", found.modes) };
@@ -256,7 +256,7 @@ fn a_mechanism_that_its_drivers_hold_rests_where_it_is_and_has_no_modes() {
     let scene = driven("spatial-slider-crank", "A", Motion::Ramp { start: 0.0, rate: 0.0 });
     let rest = equilibrium(&scene).unwrap();
     assert_eq!((rest.iterations, rest.stable), (0, Some(true)));
-    let held = modes(&scene, About::Equilibrium).unwrap();
+    let held = modes(&scene, ModesAbout::Equilibrium).unwrap();
     assert_eq!((held.freedoms, held.modes.len()), (0, 0));
     assert!(held.notes.iter().any(|note| note.contains("nothing can vibrate")), "{:?}", held.notes);
 }

@@ -10,14 +10,14 @@ use triad_engine::catalogue;
 use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::model::BodyRef;
 use triad_engine::reactions::report::{
-    About, Component, Convention, ExpressedIn, Reaction, ReactionReport, Side,
+    Convention, ExpressedIn, MomentReference, Reaction, ReactionComponent, ReactionReport, Side,
 };
 use triad_engine::run::Simulation;
 use triad_engine::scene::{AxisRows, Joint, JointKind, Orientation, Scene};
 use triad_engine::state::State;
 use triad_linalg::left_null_space;
 
-fn on(side: Side, about: About) -> Convention {
+fn on(side: Side, about: MomentReference) -> Convention {
     Convention { on: side, about, ..Convention::default() }
 }
 
@@ -25,7 +25,7 @@ fn of<'a>(report: &'a ReactionReport, joint: &str) -> &'a Reaction {
     report.reactions.iter().find(|r| r.joint == joint).unwrap()
 }
 
-fn values(components: [Component; 3]) -> Vector3<f64> {
+fn values(components: [ReactionComponent; 3]) -> Vector3<f64> {
     Vector3::from(components.map(|c| c.value))
 }
 
@@ -71,8 +71,8 @@ fn the_pins_of_the_double_four_bar_match_their_reference() {
     let (mut compared, mut largest) = (0, 0.0f64);
     for row in rows.iter().filter(|row| row[1].cos().abs() > 0.2) {
         let simulation = Simulation::new(&four_bar_at(row[1])).unwrap();
-        let reports =
-            [Side::I, Side::J].map(|side| simulation.reactions(on(side, About::JointPoint)).unwrap());
+        let reports = [Side::I, Side::J]
+            .map(|side| simulation.reactions(on(side, MomentReference::JointPoint)).unwrap());
         let scale = row[2..16].iter().fold(1.0f64, |a, x| a.max(x.abs()));
         for (column, joint, side) in pins {
             let found = of(&reports[usize::from(side == Side::J)], joint);
@@ -102,9 +102,9 @@ fn the_seventeen_reactions_of_the_slider_crank_match_their_reference() {
     let mut largest = 0.0f64;
     for row in &rows {
         simulation.advance_to(row[0]).unwrap();
-        let on_i = simulation.reactions(on(Side::I, About::JointPoint)).unwrap();
-        let on_j = simulation.reactions(on(Side::J, About::JointPoint)).unwrap();
-        let at_block = simulation.reactions(on(Side::J, About::CenterOfMass)).unwrap();
+        let on_i = simulation.reactions(on(Side::I, MomentReference::JointPoint)).unwrap();
+        let on_j = simulation.reactions(on(Side::J, MomentReference::JointPoint)).unwrap();
+        let at_block = simulation.reactions(on(Side::J, MomentReference::CenterOfMass)).unwrap();
         assert!(on_i.redundancies.is_empty());
         assert!(on_i.reactions.iter().all(|r| r.force.iter().chain(&r.moment).all(|c| c.unique)));
         let (a, b, c, d) = (of(&on_j, "A"), of(&on_i, "B"), of(&on_i, "C"), of(&at_block, "D"));
@@ -162,12 +162,12 @@ fn every_body_is_in_equilibrium_with_its_reactions() {
         let mut moment = vec![Vector3::zeros(); bodies];
         for expressed_in in [ExpressedIn::World, ExpressedIn::Joint, ExpressedIn::Body] {
             for side in [Side::I, Side::J] {
-                let convention = Convention { on: side, about: About::CenterOfMass, expressed_in };
+                let convention = Convention { on: side, about: MomentReference::CenterOfMass, expressed_in };
                 for reaction in simulation.reactions(convention).unwrap().reactions {
                     let Some(body) = scene.bodies.iter().position(|b| b.name == reaction.on) else {
                         continue;
                     };
-                    let turn = |v: [Component; 3]| {
+                    let turn = |v: [ReactionComponent; 3]| {
                         (0..3).map(|k| Vector3::from(reaction.axes[k]) * v[k].value).sum::<Vector3<f64>>()
                     };
                     force[body] += turn(reaction.force) / 3.0;
@@ -201,7 +201,7 @@ fn action_is_opposite_to_reaction() {
     for name in ["bricard", "spatial-slider-crank", "spatial-double-pendulum"] {
         let mut simulation = Simulation::new(&catalogue::scene(name).unwrap()).unwrap();
         simulation.advance_to(0.3).unwrap();
-        let about = About::WorldPoint([0.3, -0.2, 0.7]);
+        let about = MomentReference::WorldPoint([0.3, -0.2, 0.7]);
         let [i, j] = [Side::I, Side::J].map(|side| simulation.reactions(on(side, about)).unwrap());
         for (a, b) in i.reactions.iter().zip(&j.reactions) {
             assert_eq!((&a.on, &a.by), (&b.by, &b.on));
@@ -227,7 +227,7 @@ fn door() -> Scene {
 #[test]
 fn a_door_on_two_hinges_has_a_resultant_but_no_split() {
     let simulation = Simulation::new(&door()).unwrap();
-    let report = simulation.reactions(on(Side::J, About::WorldPoint([0.0, 0.0, 1.0]))).unwrap();
+    let report = simulation.reactions(on(Side::J, MomentReference::WorldPoint([0.0, 0.0, 1.0]))).unwrap();
     assert_eq!(report.redundancies.len(), 1);
     assert_eq!((report.redundancies[0].rows, report.redundancies[0].joints.len()), (5, 2));
     for hinge in &report.reactions {
@@ -235,7 +235,7 @@ fn a_door_on_two_hinges_has_a_resultant_but_no_split() {
         assert_eq!(hinge.moment.map(|c| c.unique), [false, false, true]);
     }
     // The leaf's centre of mass circles at 0.4 m: its resultant is known.
-    let total = |of: fn(&Reaction) -> [Component; 3]| {
+    let total = |of: fn(&Reaction) -> [ReactionComponent; 3]| {
         report.reactions.iter().map(|r| values(of(r))).sum::<Vector3<f64>>()
     };
     let (force, moment) = (total(|r| r.force), total(|r| r.moment));
@@ -297,7 +297,7 @@ fn all_rows_and_the_solver_rows_mark_the_same() {
             joint.rows = Some(AxisRows::Cv);
         }
         let simulation = Simulation::new(&scene).unwrap();
-        let report = simulation.reactions(on(Side::J, About::WorldPoint([0.0; 3]))).unwrap();
+        let report = simulation.reactions(on(Side::J, MomentReference::WorldPoint([0.0; 3]))).unwrap();
         let (system, ..) = start(&scene);
         let at = State::at(&system, 0.0, simulation.q(), simulation.q_dot());
         let jacobian = AugmentedSystem::new(&system, &at).jacobian;

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use triad_engine::catalogue;
-use triad_engine::run::{LeftOut, Simulation};
+use triad_engine::run::{Simulation, SkippedItem};
 use triad_engine::scene::{Ground, IntegratorKind, Joint, Orientation, Scene, Skip};
 
 fn scene(name: &str) -> Scene {
@@ -15,7 +15,7 @@ fn scene(name: &str) -> Scene {
 }
 
 /// Runs to the end; all positions and directors at ten times, and what was left out.
-fn run(scene: &Scene) -> (Vec<f64>, Vec<LeftOut>) {
+fn run(scene: &Scene) -> (Vec<f64>, Vec<SkippedItem>) {
     let mut simulation = Simulation::new(scene).unwrap();
     let mut numbers = Vec::new();
     for k in 1..=10 {
@@ -31,7 +31,7 @@ fn run(scene: &Scene) -> (Vec<f64>, Vec<LeftOut>) {
     (numbers, simulation.left_out())
 }
 
-fn saved(left: &[LeftOut], word: &str) -> u64 {
+fn saved(left: &[SkippedItem], word: &str) -> u64 {
     left.iter().find(|l| l.word == word).unwrap().saved
 }
 

@@ -11,6 +11,6 @@ mod reference;
 mod report;
 
 pub use measure::{Measured, measure};
-pub use plan::{Case, Method, Plan, Wish};
+pub use plan::{BenchCase, BenchPlan, Method, Wish};
 pub use plot::svg;
 pub use report::{by_scene, csv, html, table};

@@ -12,7 +12,7 @@ mod cases;
 mod correlation;
 mod plant;
 
-pub use cases::{CASES, Case, Published};
+pub use cases::{CASES, PaperCase, Published};
 pub use correlation::{Correlation, correlation};
 pub use plant::{LinearAlgebra, PaperPlant};
 
@@ -96,7 +96,7 @@ pub struct Run {
 }
 
 /// Runs an example with the given coordinates in every body.
-pub fn run(case: &Case, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<Run, PaperError> {
+pub fn run(case: &PaperCase, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<Run, PaperError> {
     let mut plant = PaperPlant::new(case, coordinates, algebra)?;
     let start = plant.start().to_vec();
     let end = case.duration;
@@ -152,7 +152,7 @@ fn sample(old: (f64, f64, f64), now: (f64, f64, f64), out: &mut Vec<f64>) {
 }
 
 /// The same coordinate from the engine's own solver, as the reference of an example.
-pub fn reference(case: &Case) -> Result<Vec<f64>, PaperError> {
+pub fn reference(case: &PaperCase) -> Result<Vec<f64>, PaperError> {
     let mut scene = scene(case, Coordinates::Full)?;
     scene.simulation = Settings {
         duration: case.duration,
@@ -175,7 +175,7 @@ pub fn reference(case: &Case) -> Result<Vec<f64>, PaperError> {
 }
 
 /// The scene of an example, all bodies with the given coordinates.
-pub fn scene(case: &Case, coordinates: Coordinates) -> Result<Scene, PaperError> {
+pub fn scene(case: &PaperCase, coordinates: Coordinates) -> Result<Scene, PaperError> {
     let mut scene = (case.scene)().map_err(EngineError::from)?;
     scene.coordinates = coordinates;
     for body in &mut scene.bodies {

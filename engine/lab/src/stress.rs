@@ -29,7 +29,7 @@ use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 /// What became of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum StressVerdict {
     /// It ran, and agrees with its reference within what its tolerance promises.
     Survived,
     /// It ran, but less precisely than its tolerance promises.
@@ -42,7 +42,7 @@ pub enum Verdict {
     Wrong,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for StressVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Survived => "survived",
@@ -78,9 +78,9 @@ impl TrialMethod {
 
 /// What is measured of a case; what does not apply is left out.
 #[derive(Clone, Debug, Serialize)]
-pub struct Outcome {
+pub struct StressOutcome {
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: StressVerdict,
     /// Why, in words.
     pub reason: String,
     /// What it was compared with, in words.
@@ -106,7 +106,7 @@ pub struct Outcome {
 
 /// A case of the suite.
 #[derive(Clone, Copy)]
-pub struct Case {
+pub struct StressCase {
     /// Unique name.
     pub name: &'static str,
     /// What kind of trouble it makes.
@@ -114,16 +114,16 @@ pub struct Case {
     /// What it is, in one line.
     pub summary: &'static str,
     /// What has to become of it.
-    pub expected: Verdict,
+    pub expected: StressVerdict,
     /// Whether it is part of the quick form.
     pub quick: bool,
     /// Runs it; the flag asks for the quick form.
-    run: fn(&TrialMethod, bool) -> Outcome,
+    run: fn(&TrialMethod, bool) -> StressOutcome,
 }
 
 /// A case with what became of it.
 #[derive(Clone, Debug, Serialize)]
-pub struct Entry {
+pub struct CaseReport {
     /// Name of the case.
     pub case: String,
     /// Kind of trouble.
@@ -131,24 +131,26 @@ pub struct Entry {
     /// What it is.
     pub summary: String,
     /// What has to become of it.
-    pub expected: Verdict,
+    pub expected: StressVerdict,
     /// What became of it.
     #[serde(flatten)]
-    pub outcome: Outcome,
+    pub outcome: StressOutcome,
 }
 
-impl Entry {
+impl CaseReport {
     /// Whether the case went as it has to, or better.
     pub fn as_expected(&self) -> bool {
         match self.expected {
-            Verdict::Refused if self.family != random::FAMILY => self.outcome.verdict == Verdict::Refused,
+            StressVerdict::Refused if self.family != random::FAMILY => {
+                self.outcome.verdict == StressVerdict::Refused
+            }
             expected => self.outcome.verdict <= expected,
         }
     }
 }
 
 /// All cases, in the order of the report.
-pub fn cases() -> Vec<Case> {
+pub fn cases() -> Vec<StressCase> {
     [
         singular::CASES,
         redundant::CASES,
@@ -168,17 +170,18 @@ pub fn comparison() -> Vec<(String, TrialMethod)> {
 }
 
 /// The cases on which methods are compared.
-pub fn compared() -> Vec<Case> {
+pub fn compared() -> Vec<StressCase> {
     let all = cases();
     let named = |name: &&str| all.iter().find(|case| case.name == *name).copied();
     methods::COMPARED.iter().filter_map(named).collect()
 }
 
 /// Runs a case. A panic is caught and counts as wrong.
-pub fn run(case: &Case, method: &TrialMethod, quick: bool) -> Entry {
-    let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(method, quick)))
-        .unwrap_or_else(|panic| Outcome::nothing(Verdict::Wrong, format!("panicked: {}", words_of(&*panic))));
-    Entry {
+pub fn run(case: &StressCase, method: &TrialMethod, quick: bool) -> CaseReport {
+    let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(method, quick))).unwrap_or_else(|panic| {
+        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {}", words_of(&*panic)))
+    });
+    CaseReport {
         case: case.name.to_owned(),
         family: case.family.to_owned(),
         summary: case.summary.to_owned(),
@@ -192,9 +195,9 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
-impl Outcome {
+impl StressOutcome {
     /// An outcome without numbers.
-    fn nothing(verdict: Verdict, reason: String) -> Self {
+    fn nothing(verdict: StressVerdict, reason: String) -> Self {
         Self {
             verdict,
             reason,

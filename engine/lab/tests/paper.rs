@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
-use triad_lab::paper::{CASES, Case, LinearAlgebra, PaperPlant, correlation, reference, run};
+use triad_lab::paper::{CASES, LinearAlgebra, PaperCase, PaperPlant, correlation, reference, run};
 use triad_scene::Coordinates::{Full, Reduced};
 
-fn case(bodies: usize, withheld: bool) -> &'static Case {
+fn case(bodies: usize, withheld: bool) -> &'static PaperCase {
     CASES.iter().find(|c| c.bodies == bodies && c.withheld.is_some() == withheld).unwrap()
 }
 

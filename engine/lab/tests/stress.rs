@@ -1,7 +1,7 @@
 //! The stress suite in its quick form: verdicts are as they have to be, the same seed
 //! gives the same bits, and random mechanisms keep their invariants.
 
-use triad_lab::stress::{self, TrialMethod, Verdict};
+use triad_lab::stress::{self, StressVerdict, TrialMethod};
 
 #[test]
 fn every_case_goes_as_it_has_to() {
@@ -33,7 +33,12 @@ fn random_mechanisms_are_never_silently_wrong() {
     for seed in 0..seeds {
         let entry = stress::random::run(seed, &TrialMethod::default());
         let outcome = entry.outcome;
-        assert!(outcome.verdict < Verdict::Wrong, "seed {seed} ({}): {}", entry.summary, outcome.reason);
+        assert!(
+            outcome.verdict < StressVerdict::Wrong,
+            "seed {seed} ({}): {}",
+            entry.summary,
+            outcome.reason
+        );
     }
 }
 
@@ -44,7 +49,7 @@ fn no_treatment_is_silently_wrong() {
         let case = cases.iter().find(|case| case.name == name).unwrap();
         for (method, how) in stress::comparison() {
             let outcome = stress::run(case, &how, true).outcome;
-            assert!(outcome.verdict < Verdict::Wrong, "{name}, {method}: {}", outcome.reason);
+            assert!(outcome.verdict < StressVerdict::Wrong, "{name}, {method}: {}", outcome.reason);
         }
     }
 }

@@ -20,7 +20,7 @@ use std::ops::Range;
 
 /// Where a block of S is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Slot {
+pub struct BlockSlot {
     /// Offset of its first number; rows are contiguous.
     pub offset: usize,
     /// Whether the stored block is the transpose of the one asked for.
@@ -196,10 +196,10 @@ impl BlockCholesky {
 
     /// Where the block of joints i and j is stored, with rows of [`stride`] numbers. The pair must be an edge that was
     /// announced, or i = j.
-    pub fn slot(&self, i: usize, j: usize) -> Slot {
+    pub fn slot(&self, i: usize, j: usize) -> BlockSlot {
         let transposed = self.rank[i] > self.rank[j];
         let (earlier, later) = if transposed { (j, i) } else { (i, j) };
-        Slot { offset: self.offset(earlier, later), transposed }
+        BlockSlot { offset: self.offset(earlier, later), transposed }
     }
 
     /// Sets all entries to zero.

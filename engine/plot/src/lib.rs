@@ -64,7 +64,7 @@ impl Axis {
 
 /// The frame of a plot on its paper, lengths in units of the drawing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
+pub struct PlotFrame {
     /// Width and height of the paper.
     pub size: (f64, f64),
     /// Margins: left, right, top, bottom.
@@ -77,7 +77,7 @@ pub struct Frame {
     pub grid: &'static str,
 }
 
-impl Frame {
+impl PlotFrame {
     /// Where a point of two positive values stands.
     pub fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let [left, right, top, bottom] = self.margins;

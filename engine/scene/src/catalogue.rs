@@ -8,7 +8,7 @@ use crate::{Inertia, Scene};
 
 /// A built-in scene, or a family of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Entry {
+pub struct SceneEntry {
     /// Name, with `:N` where a number belongs.
     pub name: &'static str,
     /// What it is, in one line.
@@ -16,43 +16,49 @@ pub struct Entry {
 }
 
 /// All built-in scenes.
-pub const ENTRIES: &[Entry] = &[
-    Entry {
+pub const ENTRIES: &[SceneEntry] = &[
+    SceneEntry {
         name: "simple-pendulum",
         summary: "A point mass of 1 kg on a rod of 1 m, released horizontally (A01)",
     },
-    Entry {
+    SceneEntry {
         name: "n-four-bar:N",
         summary: "N four-bar windows in a row, through their singular positions (A02); N from 1 to 1000",
     },
-    Entry {
+    SceneEntry {
         name: "spatial-chain:N",
         summary: "N rods on spherical joints swinging in space, for measuring; N from 1 to 5000",
     },
-    Entry {
+    SceneEntry {
         name: "spatial-double-pendulum",
         summary: "Two cylinders on spherical joints in non-planar motion (C04)",
     },
-    Entry { name: "free-body", summary: "A torque-free body with three different moments of inertia (C01)" },
-    Entry { name: "free-body-flip", summary: "The same body turning about its middle axis: it flips (C01)" },
-    Entry { name: "free-fall", summary: "A body thrown and tumbling (C03)" },
-    Entry {
+    SceneEntry {
+        name: "free-body",
+        summary: "A torque-free body with three different moments of inertia (C01)",
+    },
+    SceneEntry {
+        name: "free-body-flip",
+        summary: "The same body turning about its middle axis: it flips (C01)",
+    },
+    SceneEntry { name: "free-fall", summary: "A body thrown and tumbling (C03)" },
+    SceneEntry {
         name: "heavy-top",
         summary: "Lagrange's top, let go with a spin: it nods to cusps and goes round",
     },
-    Entry {
+    SceneEntry {
         name: "bricard",
         summary: "Six revolute joints in a loop that moves although its rows leave no freedom (A04)",
     },
-    Entry {
+    SceneEntry {
         name: "spatial-slider-crank",
         summary: "Revolute, spherical, universal and prismatic joint in a spatial loop (IFToMM library)",
     },
-    Entry {
+    SceneEntry {
         name: "spatial-slider-crank:slender",
         summary: "The same with a slender rod, as later authors read the printed data",
     },
-    Entry {
+    SceneEntry {
         name: "spatial-slider-crank:mbdyn",
         summary: "The same with a slender rod and the crank balanced on its axis",
     },

@@ -9,7 +9,7 @@ use triad_scene::{
     AxisRows, Body, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
 };
 
-use super::read::{Geometry, Kind, Link, Robot, UrdfJoint, Visual};
+use super::read::{Geometry, JointType, Link, Robot, UrdfJoint, Visual};
 use super::{LeftOut, Root, SideCar, UrdfError};
 
 /// Friction reaches three quarters at this speed, m/s or rad/s.
@@ -161,9 +161,9 @@ fn moved<'a>(
     let at = |values: &BTreeMap<String, f64>| values.get(&joint.name).copied().unwrap_or(0.0);
     let (position, rate) = (at(&side_car.positions), at(&side_car.velocities));
     let motion = match joint.kind {
-        Kind::Revolute => Isometry3::rotation(joint.axis * position),
-        Kind::Prismatic => Isometry3::translation_from(joint.axis * position),
-        Kind::Fixed | Kind::Floating | Kind::Planar => Isometry3::identity(),
+        JointType::Revolute => Isometry3::rotation(joint.axis * position),
+        JointType::Prismatic => Isometry3::translation_from(joint.axis * position),
+        JointType::Fixed | JointType::Floating | JointType::Planar => Isometry3::identity(),
     };
     let local = joint.origin * motion;
     let pose = parent.pose * local;
@@ -172,11 +172,11 @@ fn moved<'a>(
     let mut velocity = parent.velocity + parent.spin.cross(&arm);
     let mut spin = parent.spin;
     match joint.kind {
-        Kind::Revolute => spin += axis * rate,
-        Kind::Prismatic => velocity += axis * rate,
-        Kind::Fixed | Kind::Floating | Kind::Planar => {}
+        JointType::Revolute => spin += axis * rate,
+        JointType::Prismatic => velocity += axis * rate,
+        JointType::Fixed | JointType::Floating | JointType::Planar => {}
     }
-    let fixed = joint.kind == Kind::Fixed;
+    let fixed = joint.kind == JointType::Fixed;
     let carrier = if fixed && (parent.carrier.name == GROUND || !has_mass(link)) {
         Carrier { name: parent.carrier.name.clone(), frame: parent.carrier.frame * local }
     } else if has_mass(link) {
@@ -276,11 +276,11 @@ fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut 
         return;
     }
     let kind = match joint.kind {
-        Kind::Revolute => JointKind::Revolute,
-        Kind::Prismatic => JointKind::Prismatic,
-        Kind::Fixed => JointKind::Fixed,
-        Kind::Planar => JointKind::Planar,
-        Kind::Floating => return,
+        JointType::Revolute => JointKind::Revolute,
+        JointType::Prismatic => JointKind::Prismatic,
+        JointType::Fixed => JointKind::Fixed,
+        JointType::Planar => JointKind::Planar,
+        JointType::Floating => return,
     };
     let on_parent = parent.carrier.frame * joint.origin;
     let mut written = Joint::new(&joint.name, kind, &parent.carrier.name, &placed.carrier.name)
@@ -304,9 +304,9 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<LeftOut
     let friction = Friction { viscous: joint.damping, coulomb: joint.friction, smoothing: SMOOTHING };
     let of = joint.name.clone();
     let load = match joint.kind {
-        Kind::Revolute => Load::turning_friction(name, &of, friction),
-        Kind::Prismatic => Load::sliding_friction(name, &of, friction),
-        Kind::Fixed | Kind::Floating | Kind::Planar => {
+        JointType::Revolute => Load::turning_friction(name, &of, friction),
+        JointType::Prismatic => Load::sliding_friction(name, &of, friction),
+        JointType::Fixed | JointType::Floating | JointType::Planar => {
             let what = "<dynamics>: friction has a word only for turning and sliding joints".to_owned();
             left_out.push(LeftOut { line: joint.line, of: format!("joint {of}"), what });
             return;

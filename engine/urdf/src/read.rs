@@ -46,7 +46,7 @@ pub(super) enum Geometry {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum JointType {
     Revolute,
     Prismatic,
     Fixed,
@@ -58,7 +58,7 @@ pub(super) enum Kind {
 pub(super) struct UrdfJoint {
     pub line: u32,
     pub name: String,
-    pub kind: Kind,
+    pub kind: JointType,
     pub origin: Isometry3<f64>,
     pub axis: Vector3<f64>,
     pub parent: String,
@@ -166,11 +166,11 @@ fn joint(node: Node, left_out: &mut Vec<LeftOut>) -> Result<UrdfJoint, UrdfError
     let name = attribute(node, "name")?.to_owned();
     let of = format!("joint {name}");
     let kind = match attribute(node, "type")? {
-        "revolute" | "continuous" => Kind::Revolute,
-        "prismatic" => Kind::Prismatic,
-        "fixed" => Kind::Fixed,
-        "floating" => Kind::Floating,
-        "planar" => Kind::Planar,
+        "revolute" | "continuous" => JointType::Revolute,
+        "prismatic" => JointType::Prismatic,
+        "fixed" => JointType::Fixed,
+        "floating" => JointType::Floating,
+        "planar" => JointType::Planar,
         other => {
             let what = format!("{of} is of type \"{other}\"");
             return Err(wrong(node, what, "use revolute, continuous, prismatic, fixed, floating or planar"));
@@ -193,12 +193,12 @@ fn joint(node: Node, left_out: &mut Vec<LeftOut>) -> Result<UrdfJoint, UrdfError
                 let factor = optional(part, "multiplier", 1.0)?;
                 mimic = Some((attribute(part, "joint")?.to_owned(), factor, optional(part, "offset", 0.0)?));
             }
-            "limit" if kind == Kind::Fixed => {}
+            "limit" if kind == JointType::Fixed => {}
             "limit" => leave("<limit>: the joint moves beyond its limits, and its effort is not bounded"),
             other => leave(&format!("<{other}> has no meaning for a scene")),
         }
     }
-    if !matches!(kind, Kind::Fixed | Kind::Floating) && axis.norm() < 1e-9 {
+    if !matches!(kind, JointType::Fixed | JointType::Floating) && axis.norm() < 1e-9 {
         return Err(wrong(
             node,
             format!("the axis of {of} has no direction"),

@@ -2,7 +2,7 @@
 
 use super::findings::Findings;
 use crate::answers::tolerance::norm;
-use crate::exercise::{Formula, Quantity, Question, QuestionBody};
+use crate::exercise::{Formula, QuantityQuestion, Question, QuestionBody};
 use crate::files::ProvenanceKind;
 use crate::grading::formula::same;
 
@@ -38,7 +38,7 @@ pub(super) fn itself(question: &Question, found: &mut Findings) {
 }
 
 /// A number, vector or matrix.
-fn quantity(question: &Question, q: &Quantity, found: &mut Findings) {
+fn quantity(question: &Question, q: &QuantityQuestion, found: &mut Findings) {
     let id = &question.id;
     if question.provenance == ProvenanceKind::Argument && !q.tolerance.is_exact() {
         found.question(id, "an argument is no source for a measured number", "derive, cite or compute it");

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::answers::tolerance::ValueShape;
 use crate::answers::{Answer, Submission, TypedValue};
-use crate::exercise::{Quantity, Question, QuestionBody};
+use crate::exercise::{QuantityQuestion, Question, QuestionBody};
 use crate::files::EquationPart;
 use crate::grading::judge;
 use crate::lesson::Lesson;
@@ -43,7 +43,7 @@ pub(super) fn reference_answer(lesson: &Lesson, question: &Question) -> Answer {
 }
 
 /// Values of a question's size as a student would send them, with all their digits.
-fn typed_values(question: &Quantity, values: &[f64]) -> TypedValue {
+fn typed_values(question: &QuantityQuestion, values: &[f64]) -> TypedValue {
     let number = |x: &f64| TypedValue::Text(format!("{x:.15e}"));
     let list = |values: &[f64]| TypedValue::List(values.iter().map(number).collect());
     match question.shape {
@@ -54,7 +54,7 @@ fn typed_values(question: &Quantity, values: &[f64]) -> TypedValue {
 }
 
 /// Values in the question's unit as an answer.
-pub(super) fn quantity_answer(question: &Quantity, values: &[f64]) -> Answer {
+pub(super) fn quantity_answer(question: &QuantityQuestion, values: &[f64]) -> Answer {
     let unit = Some(question.unit.text().to_owned());
     Answer { value: Some(typed_values(question, values)), unit, ..Answer::default() }
 }

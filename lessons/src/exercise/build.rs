@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::context::{BuildContext, BuildError, QuestionError, build_error, refuse};
-use super::question::{Exercise, Quantity, Question, QuestionBody};
+use super::question::{Exercise, QuantityQuestion, Question, QuestionBody};
 use super::{closed, quantity, tasks};
 use crate::answers::tolerance::ValueShape;
 use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile};
@@ -99,7 +99,7 @@ fn build_question(
 /// What is carried through comes from an earlier number.
 fn follows_earlier(questions: &[Question]) -> Result<(), QuestionError> {
     for (at, question) in questions.iter().enumerate() {
-        let QuestionBody::Quantity(Quantity { follows: Some(follows), .. }) = &question.body else {
+        let QuestionBody::Quantity(QuantityQuestion { follows: Some(follows), .. }) = &question.body else {
             continue;
         };
         for earlier in follows.from.values() {

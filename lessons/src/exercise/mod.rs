@@ -15,6 +15,6 @@ pub use context::QuestionError;
 pub use parameters::Parameters;
 pub(crate) use quantity::numbers;
 pub use question::{
-    ChoiceOption, Exercise, Formula, Implement, Misconception, ModelTask, Quantity, Question, QuestionBody,
-    Trajectory, Tuning,
+    ChoiceOption, Exercise, Formula, Implement, Misconception, ModelTask, QuantityQuestion, Question,
+    QuestionBody, Trajectory, Tuning,
 };

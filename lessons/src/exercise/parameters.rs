@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::answers::expression::{Expression, ExpressionError};
 use crate::files::ParameterFile;
-use crate::random::Random;
+use crate::random::SeededRandom;
 use crate::text::plain;
 
 /// Named numbers of a lesson.
@@ -50,7 +50,7 @@ impl Parameters {
     }
 
     /// Values drawn from the ranges, in the order of the names.
-    pub(crate) fn draw(files: &BTreeMap<String, ParameterFile>, random: &mut Random) -> Self {
+    pub(crate) fn draw(files: &BTreeMap<String, ParameterFile>, random: &mut SeededRandom) -> Self {
         let values = files.values().map(|p| {
             let steps = ((p.to - p.from) / p.step + 1e-9).floor() + 1.0;
             let value = p.from + p.step * (random.unit() * steps).floor();

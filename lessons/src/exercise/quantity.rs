@@ -2,7 +2,7 @@
 
 use super::context::{BuildContext, BuildError, build_error, refuse};
 use super::parameters::Parameters;
-use super::question::{Misconception, Quantity, QuestionBody};
+use super::question::{Misconception, QuantityQuestion, QuestionBody};
 use crate::answers::TypedValue;
 use crate::answers::tolerance::{Tolerance, ValueShape};
 use crate::answers::units::Unit;
@@ -32,7 +32,7 @@ pub(super) fn quantity(
         .iter()
         .map(|m| form.misconception(m, reference, values.size))
         .collect::<Result<_, _>>()?;
-    Ok(QuestionBody::Quantity(Quantity {
+    Ok(QuestionBody::Quantity(QuantityQuestion {
         shape,
         size: values.size,
         unit,

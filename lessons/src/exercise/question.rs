@@ -75,7 +75,7 @@ impl Question {
 #[derive(Debug, Clone, PartialEq)]
 pub enum QuestionBody {
     /// A number, a vector or a matrix.
-    Quantity(Quantity),
+    Quantity(QuantityQuestion),
     /// One of several options.
     Choice {
         /// Options in the order they are shown.
@@ -97,7 +97,7 @@ pub enum QuestionBody {
 
 /// Numbers with a unit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
+pub struct QuantityQuestion {
     /// Number, vector or matrix.
     pub shape: ValueShape,
     /// Rows and columns; a number is 1 × 1, a vector n × 1.

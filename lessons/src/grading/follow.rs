@@ -2,7 +2,7 @@
 
 use super::quantity;
 use crate::answers::{Answer, Submission};
-use crate::exercise::{Quantity, QuestionBody, numbers};
+use crate::exercise::{QuantityQuestion, QuestionBody, numbers};
 use crate::lesson::Lesson;
 use crate::verdict::Mark;
 use crate::verdict::feedback::{Feedback, Judgement};
@@ -10,7 +10,7 @@ use crate::verdict::feedback::{Feedback, Judgement};
 /// Judges a wrong answer again with the student's own earlier values; `None` if these were right, or do not lead to it.
 pub(super) fn judge(
     lesson: &Lesson,
-    question: &Quantity,
+    question: &QuantityQuestion,
     earlier: &[Judgement],
     submission: &Submission,
     answer: &Answer,

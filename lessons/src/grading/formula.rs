@@ -3,7 +3,7 @@
 use crate::answers::expression::Expression;
 use crate::answers::{Answer, TypedValue};
 use crate::exercise::Formula;
-use crate::random::Random;
+use crate::random::SeededRandom;
 use crate::verdict::feedback::{Feedback, FormulaFinding, Judgement};
 use crate::verdict::invalid::InvalidClosed;
 
@@ -45,7 +45,7 @@ pub(super) fn judge(
 
 /// Whether `a` equals `factor` times `b` at all points where `b` is defined.
 pub(crate) fn same(a: &Expression, b: &Expression, ranges: &[[f64; 2]], seed: &str, factor: f64) -> bool {
-    let mut random = Random::new(seed);
+    let mut random = SeededRandom::new(seed);
     let mut defined = 0;
     for _ in 0..POINTS {
         let point: Vec<f64> = ranges.iter().map(|[low, high]| low + (high - low) * random.unit()).collect();

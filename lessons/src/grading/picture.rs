@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use triad_plot::{Axis, DASHES, Frame, Style};
+use triad_plot::{Axis, DASHES, PlotFrame, Style};
 
 use crate::rendering::html::escape;
 
@@ -87,13 +87,13 @@ impl Picture {
     }
 
     /// Decades that hold every point, and the goal with some space about it.
-    fn frame(&self) -> Frame {
+    fn frame(&self) -> PlotFrame {
         let (budget, error) = (self.budget as f64, self.error);
         let goal = [(budget / 3.0, error / 30.0), (budget * 2.0, error * 30.0)];
         let points = self.curves.iter().flat_map(|(_, p)| p).chain(self.own.iter().map(|(_, p)| p));
         let all: Vec<(f64, f64)> = goal.map(drawable).into_iter().chain(points.map(Point::drawn)).collect();
         let label = |exponent: f64| format!("10<tspan dy=\"-4\" font-size=\"8\">{exponent}</tspan>");
-        Frame {
+        PlotFrame {
             size: SIZE,
             margins: MARGINS,
             x: Axis::around(all.iter().map(|(work, _)| *work), label),
@@ -103,7 +103,7 @@ impl Picture {
     }
 
     /// The corner of runs that are cheap and exact enough.
-    fn draw_goal(&self, frame: &Frame, svg: &mut String) {
+    fn draw_goal(&self, frame: &PlotFrame, svg: &mut String) {
         let ((x, y), [left, _, _, bottom]) = (frame.place((self.budget as f64, self.error)), MARGINS);
         let foot = SIZE.1 - bottom;
         let _ = write!(

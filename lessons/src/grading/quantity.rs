@@ -5,7 +5,7 @@ use crate::answers::number::{self, ParsedNumber};
 use crate::answers::tolerance::{ValueShape, distance, norm};
 use crate::answers::units::{Dimension, Unit, is_millinewton_for_newton_metre};
 use crate::answers::{Answer, TypedValue};
-use crate::exercise::Quantity;
+use crate::exercise::QuantityQuestion;
 use crate::text::shorten;
 use crate::verdict::feedback::{Feedback, Judgement, NumberFinding, QuantityFeedback, UnitFinding};
 use crate::verdict::invalid::InvalidQuantity;
@@ -16,7 +16,11 @@ const UNIT_SHARE: f64 = 0.25;
 const PREFIX_POWERS: [i32; 8] = [-6, -3, -2, -1, 1, 2, 3, 6];
 
 /// Judges an answer; `note` is said when it is right.
-pub(super) fn judge(question: &Quantity, note: &str, answer: &Answer) -> Result<Judgement, InvalidQuantity> {
+pub(super) fn judge(
+    question: &QuantityQuestion,
+    note: &str,
+    answer: &Answer,
+) -> Result<Judgement, InvalidQuantity> {
     let (numbers, unit) = read(question, answer)?;
     if is_millinewton_for_newton_metre(&unit, &question.unit) {
         return Err(InvalidQuantity::Millinewton);
@@ -53,14 +57,17 @@ pub(super) fn judge(question: &Quantity, note: &str, answer: &Answer) -> Result<
 }
 
 /// The numbers of an answer in the question's unit, if they can be read and their dimension is right.
-pub(super) fn values(question: &Quantity, answer: &Answer) -> Option<Vec<f64>> {
+pub(super) fn values(question: &QuantityQuestion, answer: &Answer) -> Option<Vec<f64>> {
     let (numbers, unit) = read(question, answer).ok()?;
     let factor = unit.factor / question.unit.factor;
     (unit.dimension == question.unit.dimension).then(|| numbers.iter().map(|n| n.value * factor).collect())
 }
 
 /// The cells of an answer, row by row.
-fn cells<'a>(question: &Quantity, value: &'a TypedValue) -> Result<Vec<&'a TypedValue>, InvalidQuantity> {
+fn cells<'a>(
+    question: &QuantityQuestion,
+    value: &'a TypedValue,
+) -> Result<Vec<&'a TypedValue>, InvalidQuantity> {
     let [rows, columns] = question.size;
     match (question.shape, value) {
         (ValueShape::Number, TypedValue::List(_)) => Err(InvalidQuantity::List),
@@ -82,7 +89,7 @@ fn cells<'a>(question: &Quantity, value: &'a TypedValue) -> Result<Vec<&'a Typed
 }
 
 /// The numbers row by row, and the unit they are in.
-fn read(question: &Quantity, answer: &Answer) -> Result<(Vec<ParsedNumber>, Unit), InvalidQuantity> {
+fn read(question: &QuantityQuestion, answer: &Answer) -> Result<(Vec<ParsedNumber>, Unit), InvalidQuantity> {
     let value = answer.value.as_ref().ok_or(InvalidQuantity::NoValue)?;
     let mut numbers = Vec::new();
     let mut behind = String::new();
@@ -111,7 +118,7 @@ fn read(question: &Quantity, answer: &Answer) -> Result<(Vec<ParsedNumber>, Unit
 }
 
 /// The unit of an answer: behind its numbers, in its own field, or the question's.
-fn unit(question: &Quantity, answer: &Answer, behind: &str) -> Result<Unit, InvalidQuantity> {
+fn unit(question: &QuantityQuestion, answer: &Answer, behind: &str) -> Result<Unit, InvalidQuantity> {
     let field = answer.unit.as_deref().map_or("", str::trim);
     if !behind.is_empty() && !field.is_empty() && behind != normalise(field) {
         return Err(InvalidQuantity::TwoUnits { behind: shorten(behind), field: shorten(field) });
@@ -127,7 +134,7 @@ fn unit(question: &Quantity, answer: &Answer, behind: &str) -> Result<Unit, Inva
 }
 
 /// The misconception that leads to these values: the author's own first, then those that any question can have.
-fn misconception<'a>(question: &'a Quantity, values: &[f64]) -> Option<(&'a str, NumberFinding)> {
+fn misconception<'a>(question: &'a QuantityQuestion, values: &[f64]) -> Option<(&'a str, NumberFinding)> {
     let accepts = |wanted: &[f64]| question.tolerance.accepts(values, wanted);
     let own = question.misconceptions.iter().filter(|m| accepts(&m.value));
     if let Some(m) = own.min_by(|a, b| distance(values, &a.value).total_cmp(&distance(values, &b.value))) {

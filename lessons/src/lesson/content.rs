@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use triad_engine::scene::{Scene, SceneError};
 
-use super::reader::{LessonError, Reader, fingerprint, line_of, named};
+use super::reader::{LessonError, LessonReader, fingerprint, line_of, named};
 use crate::exercise::{self, BuildContext, Exercise, Parameters, Question};
 use crate::files::{ExerciseFile, Files, LessonFile, ReferenceFile, WrongFile};
 use crate::rendering::markdown::{self, Rendered};
@@ -57,7 +57,7 @@ impl Lesson {
             let problem = "a lesson's folder is named NN-slug, for example 02-simple-pendulum".to_owned();
             return Err(LessonError::Unreadable { file: folder.to_owned(), line: 1, problem });
         };
-        let reader = Reader { folder, files: &files };
+        let reader = LessonReader { folder, files: &files };
         let about = reader.toml("lesson.toml", "it holds title, summary, minutes and objectives")?;
         let mut figures = BTreeMap::new();
         for name in named(&files, "figures/", "svg") {
@@ -111,7 +111,7 @@ impl Lesson {
 
 /// The scenario as JSON. It is also read as a scene here, so that a fault is reported with its own file and line and not by
 /// the first question.
-fn scene(reader: &Reader) -> Result<serde_json::Value, LessonError> {
+fn scene(reader: &LessonReader) -> Result<serde_json::Value, LessonError> {
     let text = reader.text("scene.json", "it holds the scenario; start from a built-in one")?;
     let unreadable = |line, problem| LessonError::Unreadable {
         file: format!("{}/scene.json", reader.folder),
@@ -128,7 +128,7 @@ fn scene(reader: &Reader) -> Result<serde_json::Value, LessonError> {
 
 /// The questions with their answers; an error is reported with the line of its question.
 fn questions(
-    reader: &Reader,
+    reader: &LessonReader,
     sources: &QuestionSources,
     parameters: &Parameters,
     scene: &serde_json::Value,

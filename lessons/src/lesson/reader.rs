@@ -64,12 +64,12 @@ pub(super) fn named<'a>(
 }
 
 /// Reads the files of one folder and names the place of every error.
-pub(super) struct Reader<'a> {
+pub(super) struct LessonReader<'a> {
     pub(super) folder: &'a str,
     pub(super) files: &'a Files,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> LessonReader<'a> {
     /// A file as text; `remedy` says what it is for if it is missing.
     pub(super) fn text(&self, name: &str, remedy: &'static str) -> Result<&'a str, LessonError> {
         let file = format!("{}/{name}", self.folder);
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-impl Reader<'_> {
+impl LessonReader<'_> {
     /// An answer `file = "@wrong/name.json"` stands for the content of that file.
     pub(super) fn fetch_files(&self, name: &str, wrong: &mut WrongFile) -> Result<Vec<String>, LessonError> {
         let mut fetched = Vec::new();

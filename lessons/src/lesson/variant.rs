@@ -9,7 +9,7 @@ use super::content::Lesson;
 use crate::answers::tolerance::{distance, norm};
 use crate::exercise::{self, BuildContext, Exercise, Parameters, QuestionBody};
 use crate::files::ParameterFile;
-use crate::random::Random;
+use crate::random::SeededRandom;
 
 /// Draws after which a lesson is given up.
 const MAX_DRAWS: usize = 64;
@@ -66,7 +66,7 @@ impl Lesson {
             // Instances are the student's own even where the numbers are everybody's.
             return Ok(Self { seed: seed.to_owned(), ..self.clone() });
         }
-        let mut random = Random::new(&format!("{}/{seed}", self.slug));
+        let mut random = SeededRandom::new(&format!("{}/{seed}", self.slug));
         let mut reason = String::new();
         for _ in 0..MAX_DRAWS {
             // A draw for which the scene does not start or a wrong model has no answer is a bad draw, not a bad lesson.

@@ -15,7 +15,7 @@ use super::grid::Grid;
 use crate::exercise::{Implement, QuestionBody};
 use crate::files::EquationPart;
 use crate::lesson::Lesson;
-use crate::random::Random;
+use crate::random::SeededRandom;
 use crate::scenario::equations::augmented_at;
 
 /// Draws after which a consistent state is given up.
@@ -94,7 +94,7 @@ impl Instances {
         if !mechanism.system.bodies.iter().all(|body| body.layout.directors.iter().all(own)) {
             return Err(InstanceError::SharedDirectors);
         }
-        let mut random = Random::new(seed);
+        let mut random = SeededRandom::new(seed);
         let mut states = Vec::with_capacity(task.states);
         for _ in 0..task.states {
             states.push(if task.consistent {
@@ -163,7 +163,7 @@ pub(crate) fn part_of(augmented: &AugmentedSystem, part: EquationPart) -> Result
 }
 
 /// A number between −size and size.
-fn within(random: &mut Random, size: f64) -> f64 {
+fn within(random: &mut SeededRandom, size: f64) -> f64 {
     (random.unit() * 2.0 - 1.0) * size
 }
 
@@ -173,13 +173,13 @@ fn rounded(x: f64) -> f64 {
 }
 
 /// A time that matters only where something depends on it, s.
-fn time(scene: &Scene, random: &mut Random) -> f64 {
+fn time(scene: &Scene, random: &mut SeededRandom) -> f64 {
     let moment = rounded(random.unit());
     if scene.drivers.is_empty() && scene.loads.is_empty() { 0.0 } else { moment }
 }
 
 /// Numbers that satisfy nothing.
-fn anything(mechanism: &Mechanism, scene: &Scene, random: &mut Random) -> Instance {
+fn anything(mechanism: &Mechanism, scene: &Scene, random: &mut SeededRandom) -> Instance {
     let n = mechanism.system.coordinates;
     let t = time(scene, random);
     let q = (0..n).map(|_| rounded(within(random, FREE_POSITION))).collect();
@@ -191,7 +191,7 @@ fn anything(mechanism: &Mechanism, scene: &Scene, random: &mut Random) -> Instan
 fn consistent(
     mechanism: &mut Mechanism,
     scene: &Scene,
-    random: &mut Random,
+    random: &mut SeededRandom,
 ) -> Result<Instance, InstanceError> {
     let n = mechanism.system.coordinates;
     let length = mechanism.system.length;

@@ -146,14 +146,15 @@ impl InstanceState {
 }
 
 fn bodies(system: &System) -> Vec<InstanceBody> {
-    let body =
-        |(body, model): (&triad_engine::system::body::Body, &triad_engine::model::ModelBody)| InstanceBody {
+    let body = |(body, model): (&triad_engine::system::body::RigidBody, &triad_engine::model::ModelBody)| {
+        InstanceBody {
             name: model.name.clone(),
             coordinates: if body.layout.directors.contains(&Director::Product) { "reduced" } else { "full" },
             first_column: body.layout.first,
             mass: body.mass,
             inertia: body.principal.into(),
-        };
+        }
+    };
     system.bodies.iter().zip(&system.model.bodies).map(body).collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::sent::Verdict;
 use crate::answers::tolerance::ValueShape;
-use crate::exercise::{Quantity, Question, QuestionBody};
+use crate::exercise::{QuantityQuestion, Question, QuestionBody};
 use crate::lesson::Lesson;
 use crate::rendering::html::escape;
 use crate::rendering::markdown::render_short;
@@ -37,7 +37,7 @@ fn reference(question: &Question) -> Option<String> {
     Some(format!("{answer}{why}<p>Source: {}</p>", escape(&question.source)))
 }
 
-fn written(q: &Quantity) -> String {
+fn written(q: &QuantityQuestion) -> String {
     let list = |values: &[f64]| {
         let values: Vec<String> = values.iter().map(|x| plain(*x)).collect();
         format!("({})", values.join(", "))

@@ -33,28 +33,28 @@ pub(super) fn error_word() -> &'static str {
 }
 
 /// A bar that fills from 0 to `end` seconds of simulated time; hidden where nobody would see it.
-pub(super) fn progress(name: &str, end: f64, hidden: bool) -> Progress {
+pub(super) fn progress(name: &str, end: f64, hidden: bool) -> TimeBar {
     if hidden || !std::io::stderr().is_terminal() {
-        return Progress { bar: ProgressBar::hidden(), end };
+        return TimeBar { bar: ProgressBar::hidden(), end };
     }
     let bar = ProgressBar::new(SCALE);
     if let Ok(style) = ProgressStyle::with_template("{prefix} [{bar:40}] {msg} · {eta} left") {
         bar.set_style(style.progress_chars("━╸ "));
     }
     bar.set_prefix(name.to_owned());
-    Progress { bar, end }
+    TimeBar { bar, end }
 }
 
 /// Resolution of the bar.
 const SCALE: u64 = 10_000;
 
 /// A bar of simulated time.
-pub(super) struct Progress {
+pub(super) struct TimeBar {
     bar: ProgressBar,
     end: f64,
 }
 
-impl Progress {
+impl TimeBar {
     /// Shows that the run has reached `time`.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub(super) fn reached(&self, time: f64) {
@@ -67,7 +67,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for TimeBar {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

@@ -12,7 +12,7 @@
 mod question;
 mod registry;
 
-pub use question::{NewQuestion, QuestionView, Tally, Vote};
+pub use question::{LectureQuestion, NewQuestion, Tally, Vote};
 pub use registry::Lectures;
 
 use std::collections::HashMap;
@@ -29,7 +29,7 @@ use tokio::sync::watch;
 
 use crate::problem::Problem;
 use crate::session::{Links, SceneSource, Session, SessionState};
-use question::Question;
+use question::PosedQuestion;
 
 /// Between two states that followers are sent.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
@@ -71,7 +71,7 @@ pub enum LiveView {
 #[derive(Debug)]
 struct Presentation {
     view: Value,
-    question: Option<Question>,
+    question: Option<PosedQuestion>,
     asked: u64,
     touched: Instant,
 }
@@ -89,7 +89,7 @@ pub struct PublicState {
     /// What the presenter looks at, in the page's own words.
     pub view: Value,
     /// The question that is asked.
-    pub question: Option<QuestionView>,
+    pub question: Option<LectureQuestion>,
 }
 
 /// What only the presenter sees.
@@ -151,7 +151,7 @@ impl Lecture {
             title: state.as_ref().map(|state| state.title.clone()),
             source: state.map(|state| state.source.clone()),
             view: presentation.view.clone(),
-            question: presentation.question.as_ref().map(Question::view),
+            question: presentation.question.as_ref().map(PosedQuestion::view),
         }
     }
 
@@ -159,7 +159,7 @@ impl Lecture {
     pub fn presenter_state(&self) -> PresenterState {
         PresenterState {
             followers: self.followers.load(Ordering::Relaxed),
-            tally: self.presentation().question.as_ref().map(Question::tally),
+            tally: self.presentation().question.as_ref().map(PosedQuestion::tally),
         }
     }
 
@@ -188,7 +188,7 @@ impl Lecture {
     /// Asks a question; the one before is forgotten.
     pub fn ask(&self, new: NewQuestion) -> Result<(), Problem> {
         let mut presentation = self.presentation();
-        let question = Question::new(presentation.asked + 1, new, 4 * self.max_followers)?;
+        let question = PosedQuestion::new(presentation.asked + 1, new, 4 * self.max_followers)?;
         presentation.asked += 1;
         presentation.question = Some(question);
         drop(presentation);

@@ -45,8 +45,7 @@ pub struct Vote {
 
 /// A question as everybody sees it.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-#[schemars(rename = "LectureQuestion")]
-pub struct QuestionView {
+pub struct LectureQuestion {
     /// Its number.
     pub number: u64,
     /// What is asked.
@@ -73,7 +72,7 @@ pub struct Tally {
 }
 
 #[derive(Debug)]
-pub(super) struct Question {
+pub(super) struct PosedQuestion {
     number: u64,
     asked: NewQuestion,
     votes: HashMap<String, usize>,
@@ -81,7 +80,7 @@ pub(super) struct Question {
     revealed: bool,
 }
 
-impl Question {
+impl PosedQuestion {
     pub(super) fn new(number: u64, asked: NewQuestion, max_votes: usize) -> Result<Self, Problem> {
         let wrong = |pointer: &str, detail: String| Err(refused(pointer, detail));
         if asked.text.trim().is_empty() || asked.text.chars().count() > MAX_TEXT {
@@ -142,8 +141,8 @@ impl Question {
         Tally { number: self.number, counts, right: self.asked.right, revealed: self.revealed }
     }
 
-    pub(super) fn view(&self) -> QuestionView {
-        QuestionView {
+    pub(super) fn view(&self) -> LectureQuestion {
+        LectureQuestion {
             number: self.number,
             text: self.asked.text.clone(),
             choices: self.asked.choices.clone(),
@@ -171,13 +170,13 @@ pub(super) fn none() -> Problem {
 mod tests {
     use super::*;
 
-    fn question() -> Question {
+    fn question() -> PosedQuestion {
         let asked = NewQuestion {
             text: "Which sign has Fx?".into(),
             choices: vec!["+".into(), "−".into(), "zero".into()],
             right: Some(1),
         };
-        Question::new(7, asked, 3).expect("a question")
+        PosedQuestion::new(7, asked, 3).expect("a question")
     }
 
     fn vote(voter: &str, choice: usize) -> Vote {

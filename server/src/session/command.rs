@@ -14,33 +14,33 @@ use crate::stream::{Arrows, Camera};
 /// What a caller may ask for; the answer comes back through the sender.
 pub(super) enum Command {
     /// Take integrator steps.
-    Steps(u32, Reply<Arc<SessionState>>),
+    Steps(u32, ReplySender<Arc<SessionState>>),
     /// Let simulated seconds pass.
-    Seconds(f64, Reply<Arc<SessionState>>),
+    Seconds(f64, ReplySender<Arc<SessionState>>),
     /// Let time run at so many simulated seconds a second.
-    Play(f64, Reply<Arc<SessionState>>),
+    Play(f64, ReplySender<Arc<SessionState>>),
     /// Stop time.
-    Pause(Reply<Arc<SessionState>>),
+    Pause(ReplySender<Arc<SessionState>>),
     /// Go back to the start.
-    Reset(Reply<Arc<SessionState>>),
+    Reset(ReplySender<Arc<SessionState>>),
     /// Change numbers of the scene.
-    Change(SceneChange, Reply<Arc<SessionState>>),
+    Change(SceneChange, ReplySender<Arc<SessionState>>),
     /// Drag a body by a spring, or let it go.
-    Drag(Option<Drag>, Reply<Arc<SessionState>>),
+    Drag(Option<Drag>, ReplySender<Arc<SessionState>>),
     /// Give the scene.
-    Scene(Reply<SessionScene>),
+    Scene(ReplySender<SessionScene>),
     /// Show the run as it is, or as it was at a time, to a function that reads from it what is wanted.
     Look(Option<f64>, Teller),
     /// Draw forces in another way; take their scale from the recording.
-    Draw(Option<Arrows>, bool, Reply<Arc<SessionState>>),
+    Draw(Option<Arrows>, bool, ReplySender<Arc<SessionState>>),
     /// Look at the mechanism from another side.
-    LookFrom(Camera, Reply<Arc<SessionState>>),
+    LookFrom(Camera, ReplySender<Arc<SessionState>>),
     /// Somebody has come to watch.
     Watched,
 }
 
 /// Where an answer goes; the caller may have left.
-pub(super) type Reply<T> = oneshot::Sender<Result<T, Problem>>;
+pub(super) type ReplySender<T> = oneshot::Sender<Result<T, Problem>>;
 
 /// Reads from the run at the time that was asked for.
 pub(super) type Teller = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;

@@ -11,7 +11,7 @@ mod worker;
 pub use change::{AfterChange, Drag, SceneChange, SessionParameter, SessionScene};
 pub(crate) use recording::{describe, sample};
 pub use registry::{Registry, bounded};
-pub use state::{BodyState, Drawing, Links, SceneSource, SessionState};
+pub use state::{Drawing, Links, SceneSource, SessionBody, SessionState};
 
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -29,7 +29,7 @@ use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::stream::{Arrows, Camera, Hub, Watcher};
 use change::as_it_runs;
-use command::{Command, Reply, Signals};
+use command::{Command, ReplySender, Signals};
 use history::History;
 use recording::Recording;
 use worker::Worker;
@@ -181,7 +181,7 @@ impl Session {
         watcher
     }
 
-    async fn ask<T>(&self, command: impl FnOnce(Reply<T>) -> Command) -> Result<T, Problem> {
+    async fn ask<T>(&self, command: impl FnOnce(ReplySender<T>) -> Command) -> Result<T, Problem> {
         self.touch();
         let (reply, answer) = oneshot::channel();
         self.commands.try_send(command(reply)).map_err(|refused| match refused {

@@ -12,7 +12,7 @@ use triad_engine::scene::Scene;
 
 use crate::problem::Problem;
 use crate::stream::{
-    Arrows, Camera, Hub, JointVisual, Pattern, Pose, Reaction, RecordError, Recorder, Sample, Scale,
+    Arrows, Camera, Hub, JointVisual, Pattern, Pose, RecordError, Recorder, Sample, SampledReaction, Scale,
     SceneDescription,
 };
 
@@ -263,7 +263,7 @@ pub(crate) fn sample(simulation: &mut Simulation) -> Sample {
     let weights = model.bodies.iter().map(|body| (model.gravity * body.mass).into()).collect();
     let inertia =
         model.bodies.iter().zip(accelerations).map(|(body, a)| a.map(|part| part * body.mass)).collect();
-    let reactions = simulation.multipliers_between_steps().into_iter().map(|joint| Reaction {
+    let reactions = simulation.multipliers_between_steps().into_iter().map(|joint| SampledReaction {
         at: joint.about,
         force: joint.force,
         moment: joint.moment,

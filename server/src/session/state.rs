@@ -23,7 +23,8 @@ pub enum SceneSource {
 
 /// A body at the session's time.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct BodyState {
+#[schemars(rename = "BodyState")]
+pub struct SessionBody {
     /// Name.
     pub name: String,
     /// Centre of mass in the world, m.
@@ -186,7 +187,7 @@ pub struct SessionState {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<ProblemDocument>,
     /// The bodies, in the scene's order.
-    pub bodies: Vec<BodyState>,
+    pub bodies: Vec<SessionBody>,
     /// Forces in joints and drivers; empty for scenes of more than 64 of them.
     pub forces: Vec<JointForce>,
     /// Acceleration of gravity, m/s².
@@ -241,7 +242,7 @@ impl SessionState {
         let forces = forces(simulation);
         let poses = frame.bodies.iter().zip(&accelerations);
         let bodies =
-            simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| BodyState {
+            simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| SessionBody {
                 name: body.name.clone(),
                 position: pose.position,
                 u: pose.u,

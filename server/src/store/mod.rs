@@ -66,7 +66,7 @@ impl From<StoreError> for Problem {
 
 /// A submission as it is kept.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Submission {
+pub struct StoredSubmission {
     /// Its name.
     pub id: String,
     /// Slug of the lesson.
@@ -129,7 +129,7 @@ impl Store {
     }
 
     /// Keeps a submission for good.
-    pub fn add(&self, submission: &Submission) -> Result<(), StoreError> {
+    pub fn add(&self, submission: &StoredSubmission) -> Result<(), StoreError> {
         self.lock().execute(
             "INSERT INTO submission (id, lesson, student, submitted_at, answers, verdict) \
              VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
@@ -155,7 +155,7 @@ impl Store {
     }
 
     /// Lists submissions, newest first.
-    pub fn list(&self, query: &Query) -> Result<Vec<Submission>, StoreError> {
+    pub fn list(&self, query: &Query) -> Result<Vec<StoredSubmission>, StoreError> {
         let connection = self.lock();
         let mut statement = connection.prepare_cached(
             "SELECT id, lesson, student, submitted_at, answers, verdict FROM submission \
@@ -174,7 +174,7 @@ impl Store {
                 serde_json::from_str(text).map_err(|cause| StoreError::Damaged { id: id.clone(), cause })
             };
             let (answers, verdict) = (parse(&answers)?, parse(&verdict)?);
-            found.push(Submission { id, lesson, student, submitted_at, answers, verdict });
+            found.push(StoredSubmission { id, lesson, student, submitted_at, answers, verdict });
         }
         Ok(found)
     }
@@ -185,8 +185,8 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn submission(id: &str, student: &str) -> Submission {
-        Submission {
+    fn submission(id: &str, student: &str) -> StoredSubmission {
+        StoredSubmission {
             id: id.into(),
             lesson: "pendulum".into(),
             student: student.into(),

@@ -54,7 +54,7 @@ pub enum DrawnForces {
 
 /// What an arrow stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ArrowKind {
     /// A joint's force.
     Reaction,
     /// A joint's moment: the head of its circle.
@@ -69,7 +69,7 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// What it stands for.
-    pub kind: Kind,
+    pub kind: ArrowKind,
     /// Where it starts, m.
     pub from: [f64; 3],
     /// To where, from there, m.
@@ -134,7 +134,7 @@ impl Arrows {
         }
         arrow(
             &mut glyphs.pieces,
-            Kind::Reaction,
+            ArrowKind::Reaction,
             at,
             times(force, description.scale.force),
             description.scale.longest,
@@ -179,7 +179,7 @@ impl Arrows {
         let mut pieces = Vec::new();
         arrow(
             &mut pieces,
-            Kind::Weight,
+            ArrowKind::Weight,
             at,
             times(weight, description.scale.force),
             description.scale.longest,
@@ -187,7 +187,7 @@ impl Arrows {
         if sample.reactions.len() == description.joints.len() && norm(rest) > 1e-6 * largest {
             arrow(
                 &mut pieces,
-                Kind::Load,
+                ArrowKind::Load,
                 at,
                 times(rest, description.scale.force),
                 description.scale.longest,
@@ -223,11 +223,11 @@ fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], description: &Sce
     }
     let forward = minus(times(b, end.cos()), times(a, end.sin()));
     let vector = times(forward, 0.1 * description.size);
-    glyphs.pieces.push(Piece { kind: Kind::Moment, from: on(radius, end), vector });
+    glyphs.pieces.push(Piece { kind: ArrowKind::Moment, from: on(radius, end), vector });
 }
 
 /// An arrow in pieces: two in a row where it would be too long.
-fn arrow(pieces: &mut Vec<Piece>, kind: Kind, from: [f64; 3], vector: [f64; 3], longest: f64) {
+fn arrow(pieces: &mut Vec<Piece>, kind: ArrowKind, from: [f64; 3], vector: [f64; 3], longest: f64) {
     let length = norm(vector);
     if !length.is_finite() || length < 1e-3 * longest {
         return;
@@ -244,7 +244,7 @@ fn arrow(pieces: &mut Vec<Piece>, kind: Kind, from: [f64; 3], vector: [f64; 3], 
 #[cfg(test)]
 mod tests {
     use super::super::description::BodyVisual;
-    use super::super::sample::{Pose, Reaction};
+    use super::super::sample::{Pose, SampledReaction};
     use super::super::scale::Scale;
     use super::*;
 
@@ -284,7 +284,7 @@ mod tests {
             reach: 1.0,
             scale: Scale { force: 0.01, moment: 0.1, longest: 0.8 },
         };
-        let reaction = Reaction {
+        let reaction = SampledReaction {
             at: [0.0; 3],
             force: [0.0, 25.0, 0.0],
             moment: [0.0, 0.0, 2.0],
@@ -308,7 +308,10 @@ mod tests {
         let (description, sample) = hanging();
         let mut arrows = Arrows::default();
         let on_j = arrows.of_joint(&description, 0, &sample);
-        assert_eq!(on_j.pieces[0], Piece { kind: Kind::Reaction, from: [0.0; 3], vector: [0.0, 0.25, 0.0] });
+        assert_eq!(
+            on_j.pieces[0],
+            Piece { kind: ArrowKind::Reaction, from: [0.0; 3], vector: [0.0, 0.25, 0.0] }
+        );
         assert_eq!((on_j.pieces.len(), on_j.circles.len()), (2, 1), "an arrow, a circle and its head");
         assert!(on_j.circles[0].iter().all(|p| (norm(*p) - 0.2).abs() < 1e-12 && p[2] == 0.0));
         // It turns as the moment does: counter-clockwise about +z.
@@ -343,10 +346,16 @@ mod tests {
         let arrows = Arrows { drawn: DrawnForces::Body("bob".into()), ..Arrows::default() };
         // m a = 25 N − 20 N: nothing is left for loads.
         let pieces = arrows.of_body(&description, &sample);
-        assert_eq!(pieces, [Piece { kind: Kind::Weight, from: [1.0, 0.0, 0.0], vector: [0.0, -0.2, 0.0] }]);
+        assert_eq!(
+            pieces,
+            [Piece { kind: ArrowKind::Weight, from: [1.0, 0.0, 0.0], vector: [0.0, -0.2, 0.0] }]
+        );
         sample.inertia[0] = [2.0, 5.0, 0.0];
         let pieces = arrows.of_body(&description, &sample);
-        assert_eq!(pieces[1], Piece { kind: Kind::Load, from: [1.0, 0.0, 0.0], vector: [0.02, 0.0, 0.0] });
+        assert_eq!(
+            pieces[1],
+            Piece { kind: ArrowKind::Load, from: [1.0, 0.0, 0.0], vector: [0.02, 0.0, 0.0] }
+        );
     }
 
     #[test]

@@ -8,7 +8,7 @@ use re_sdk_types::datatypes::Quaternion;
 use rerun::{EntityPath, EntityPathPart, RecordingStream, RecordingStreamResult};
 use triad_engine::scene::Shape;
 
-use super::arrows::Kind;
+use super::arrows::ArrowKind;
 use super::description::{BodyVisual, Pattern, SceneDescription};
 
 /// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
@@ -53,7 +53,7 @@ pub(super) fn log_static(
             .with_show_labels(false);
         recording.log_static(path(&["world", "joints", &joint.name]), &arrow)?;
         let circle = LineStrips3D::update_fields()
-            .with_colors([color_of(Kind::Moment)])
+            .with_colors([color_of(ArrowKind::Moment)])
             .with_radii([narrow(0.01 * description.size)]);
         recording.log_static(path(&["world", "joints", &joint.name, "moment"]), &circle)?;
         let names = joint.rows.iter().map(|row| format!("{} {row}", joint.name));
@@ -182,12 +182,12 @@ fn picture(pattern: &Pattern) -> Image {
 }
 
 /// Reactions are vermilion everywhere, moments purple, weights blue, loads green.
-pub(super) fn color_of(kind: Kind) -> Color {
+pub(super) fn color_of(kind: ArrowKind) -> Color {
     color(match kind {
-        Kind::Reaction => [213, 94, 0],
-        Kind::Moment => [204, 121, 167],
-        Kind::Weight => [0, 114, 178],
-        Kind::Load => [0, 158, 115],
+        ArrowKind::Reaction => [213, 94, 0],
+        ArrowKind::Moment => [204, 121, 167],
+        ArrowKind::Weight => [0, 114, 178],
+        ArrowKind::Load => [0, 158, 115],
     })
 }
 

@@ -24,7 +24,7 @@ pub use description::{BodyVisual, JointVisual, Pattern, SceneDescription};
 pub use hub::{Delivery, Hub, Watcher};
 pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};
-pub use sample::{Pose, Reaction, Sample};
+pub use sample::{Pose, Sample, SampledReaction};
 pub use scale::Scale;
 
 /// Name under which the viewer knows the recordings.

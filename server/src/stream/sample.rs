@@ -11,7 +11,7 @@ pub struct Pose {
 
 /// A joint's reaction at one instant.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reaction {
+pub struct SampledReaction {
     /// Where it acts, in the world, in metres.
     pub at: [f64; 3],
     /// The force on the body `on` of its [`JointVisual`](super::JointVisual), in the world, in newtons.
@@ -34,7 +34,7 @@ pub struct Sample {
     /// Mass times acceleration of the centre of mass, in the world, in newtons; one a body.
     pub inertia: Vec<[f64; 3]>,
     /// One a joint, in the scene's order; empty where the reactions could not be found.
-    pub reactions: Vec<Reaction>,
+    pub reactions: Vec<SampledReaction>,
     /// Energy, in joules.
     pub energy: f64,
     /// Norm of the position constraints, in metres.

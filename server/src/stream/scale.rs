@@ -1,6 +1,6 @@
 //! How long forces and moments are drawn: one scale for the whole scene.
 
-use super::sample::{Reaction, Sample};
+use super::sample::{Sample, SampledReaction};
 use super::vector::norm;
 
 /// How long arrows are.
@@ -74,6 +74,6 @@ fn percentile(mut sizes: Vec<f64>) -> Option<f64> {
 }
 
 /// Whether a reaction has a moment that is more than rounding.
-pub(super) fn has_moment(reaction: &Reaction, size: f64) -> bool {
+pub(super) fn has_moment(reaction: &SampledReaction, size: f64) -> bool {
     norm(reaction.moment) > NO_MOMENT * size * norm(reaction.force).max(1e-300)
 }

@@ -19,10 +19,10 @@ use triad_lessons::answers::units::Unit;
 use triad_lessons::rendering::markdown;
 
 /// Reads bytes in one way.
-pub type Target = fn(&[u8]);
+pub type FuzzTarget = fn(&[u8]);
 
 /// What can be fuzzed, by name.
-pub const TARGETS: [(&str, Target); 5] = [
+pub const TARGETS: [(&str, FuzzTarget); 5] = [
     ("scene", scene),
     ("lesson", lesson),
     ("submission", submission),

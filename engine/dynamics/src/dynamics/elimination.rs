@@ -20,7 +20,7 @@ use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
 use triad_linalg::BlockCholesky;
-use triad_linalg::block_cholesky::Slot;
+use triad_linalg::block_cholesky::BlockSlot;
 
 /// Regularization of S where rows are redundant, relative to its diagonal.
 ///
@@ -46,7 +46,7 @@ pub struct Counters {
 /// A product A_p D⁻¹ A_qᵀ that is added to a block of S.
 #[derive(Clone, Copy, Debug)]
 struct Contribution {
-    slot: Slot,
+    slot: BlockSlot,
     left: usize,
     right: usize,
 }

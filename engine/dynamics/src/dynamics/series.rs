@@ -32,7 +32,7 @@ mod step;
 mod terms;
 
 pub use island::IslandSeries;
-pub use step::{Plan, Taken};
+pub use step::{StepPlan, Taken};
 
 use bodies::Bodies;
 use bundle::Bundle;
@@ -42,14 +42,14 @@ use crate::dynamics::elimination::Counters;
 use crate::model::BodyRef;
 use crate::system::System;
 use angles::Angles;
-use lanes::{Triple, largest};
+use lanes::{LaneVector, largest};
 use layout::bundles;
 use loads::Loads;
 use prescribed::Prescribed;
 use pulp::Simd;
-use rows::{Place, Rows};
+use rows::{LanePlace, Rows};
 use schur::Schur;
-use slot::Slot;
+use slot::FeatureSlot;
 
 /// Regularization of S where rows are redundant, relative to its diagonal; refinement takes its effect out again.
 ///
@@ -67,7 +67,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     /// Coefficients kept for each body: order plus one.
     stride: usize,
     bundles: Vec<B>,
-    slots: Vec<Slot<L>>,
+    slots: Vec<FeatureSlot<L>>,
     /// Position and velocity at the point of expansion, bundle by bundle.
     state: Vec<[B::Natural; 2]>,
     /// Coefficients of Q and of the directors' forces p, `stride` for each bundle.
@@ -77,9 +77,9 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     mobility: Vec<B::Mobility>,
     /// Values of features (or their rates, or second derivatives) and generalized forces on them. Those of the ground
     /// stand behind those of bodies.
-    values: Vec<Triple<L>>,
-    forces: Vec<Triple<L>>,
-    ground: Vec<Triple<L>>,
+    values: Vec<LaneVector<L>>,
+    forces: Vec<LaneVector<L>>,
+    ground: Vec<LaneVector<L>>,
     rows: Rows<L>,
     angles: Angles,
     prescribed: Prescribed,
@@ -126,11 +126,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let mut ground = Vec::new();
         for (feature, place) in system.features.iter().zip(&mut place) {
             if feature.body == BodyRef::Ground {
-                *place = Place { slot: moving + ground.len(), lane: 0 };
+                *place = LanePlace { slot: moving + ground.len(), lane: 0 };
                 ground.push([0, 1, 2].map(|c| [feature.local[c]; L]));
             }
         }
-        let nowhere = Place { slot: moving + ground.len(), lane: 0 };
+        let nowhere = LanePlace { slot: moving + ground.len(), lane: 0 };
         ground.push([[0.0; L]; 3]);
         let stride = order + 1;
         let all = moving + ground.len();

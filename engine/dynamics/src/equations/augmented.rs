@@ -13,7 +13,7 @@ use crate::equations::jacobian::Jacobian;
 use crate::scene::Coordinates;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
-use crate::system::body::Body;
+use crate::system::body::RigidBody;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use triad_linalg::{independent_rows, left_null_space};
@@ -130,7 +130,7 @@ pub fn for_mass_entries(system: &System, at: &State, mut put: impl FnMut(usize, 
 }
 
 /// The blocks of u and v of VᵀMV, V having −ṽ and ũ in its rows of w.
-fn reduced_mass(body: &Body, q: &NaturalCoordinates) -> [[Matrix3<f64>; 2]; 2] {
+fn reduced_mass(body: &RigidBody, q: &NaturalCoordinates) -> [[Matrix3<f64>; 2]; 2] {
     let [a, b, c] = [body.ibar[0], body.ibar[1], body.ibar[2]];
     let [u, v, _] = q.e;
     let across = |e: &Vector3<f64>| Matrix3::from_diagonal_element(e.norm_squared()) - e * e.transpose();

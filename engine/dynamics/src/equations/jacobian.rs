@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// One number of the Jacobian that can be other than zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Entry {
+pub struct JacobianEntry {
     /// Row.
     pub row: usize,
     /// Column.
@@ -30,7 +30,7 @@ pub struct Jacobian {
     /// Names of the columns, such as `link.ux`.
     pub columns: Vec<String>,
     /// Entries in the order of rows, then columns.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<JacobianEntry>,
     /// The rows that can change, with their entries.
     #[serde(skip)]
     changing: Vec<(Source, Range<usize>)>,
@@ -49,7 +49,7 @@ impl Jacobian {
             let first = jacobian.entries.len();
             visit(system, at, source, |column, value, constant| {
                 if value != 0.0 || !constant {
-                    jacobian.entries.push(Entry { row, column, value, constant });
+                    jacobian.entries.push(JacobianEntry { row, column, value, constant });
                 }
             });
             if jacobian.entries[first..].iter().any(|entry| !entry.constant) {

@@ -1,6 +1,6 @@
 //! Drivers with their motions ready to be evaluated.
 
-use super::reader::Reader;
+use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::model::motion::{Curve, VectorCurve};
 use crate::scene::{Driver, JointKind};
@@ -74,7 +74,7 @@ pub enum DriverKind {
 
 impl ModelDriver {
     /// Checks a driver.
-    pub(super) fn new(driver: &Driver, reader: &Reader) -> Result<Self, ModelError> {
+    pub(super) fn new(driver: &Driver, reader: &ModelReader) -> Result<Self, ModelError> {
         let vector = |body: usize, key: &str, value| {
             Ok::<_, ModelError>(reader.local_vector(BodyRef::Moving(body), &reader.unit(key, value)?))
         };

@@ -1,6 +1,6 @@
 //! Moments to look for, with their points in principal frames.
 
-use super::reader::Reader;
+use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::scene::{Event, JointKind, Passing, Quantity};
 use nalgebra::Vector3;
@@ -56,7 +56,7 @@ pub enum EventQuantity {
 
 impl ModelEvent {
     /// Checks an event.
-    pub(super) fn new(event: &Event, reader: &Reader) -> Result<Self, ModelError> {
+    pub(super) fn new(event: &Event, reader: &ModelReader) -> Result<Self, ModelError> {
         let of = match &event.of {
             Quantity::Coordinate { body, point, direction } => {
                 let body = BodyRef::Moving(reader.moving_body("of/body", body)?);

@@ -1,6 +1,6 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
-use super::reader::Reader;
+use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
 use nalgebra::Vector3;
@@ -43,7 +43,11 @@ pub struct ModelJoint {
 
 impl ModelJoint {
     /// Checks joint `reader.index` of a scene; `reader.joints` are those before it.
-    pub(super) fn new(joint: &Joint, reader: &Reader, notes: &mut Vec<String>) -> Result<Self, ModelError> {
+    pub(super) fn new(
+        joint: &Joint,
+        reader: &ModelReader,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, ModelError> {
         refuse_strangers(joint, reader)?;
         if joint.kind == JointKind::Gear {
             return gear(joint, reader);
@@ -93,7 +97,7 @@ impl ModelJoint {
 }
 
 /// Keys that a kind of joint does not know are errors, not noise.
-fn refuse_strangers(joint: &Joint, reader: &Reader) -> Result<(), ModelError> {
+fn refuse_strangers(joint: &Joint, reader: &ModelReader) -> Result<(), ModelError> {
     let kind = joint.kind;
     let gear = kind == JointKind::Gear;
     let has_point =
@@ -127,7 +131,7 @@ fn refuse_strangers(joint: &Joint, reader: &Reader) -> Result<(), ModelError> {
 /// bodies' word means wherever it is.
 fn choose_sharing(
     joint: &mut ModelJoint,
-    reader: &Reader,
+    reader: &ModelReader,
     notes: &mut Vec<String>,
 ) -> Result<(), ModelError> {
     let asked = joint.rows == AxisRows::Shared;
@@ -147,7 +151,7 @@ fn choose_sharing(
 }
 
 /// A director can only be shared where the axis is one, and has coordinates.
-fn sharing_obstacle(joint: &ModelJoint, reader: &Reader) -> Option<String> {
+fn sharing_obstacle(joint: &ModelJoint, reader: &ModelReader) -> Option<String> {
     joint.bodies.into_iter().enumerate().find_map(|(side, body)| {
         let BodyRef::Moving(index) = body else { return None };
         let body = &reader.bodies[index];
@@ -163,7 +167,7 @@ fn sharing_obstacle(joint: &ModelJoint, reader: &Reader) -> Option<String> {
     })
 }
 
-fn gear(joint: &Joint, reader: &Reader) -> Result<ModelJoint, ModelError> {
+fn gear(joint: &Joint, reader: &ModelReader) -> Result<ModelJoint, ModelError> {
     let Some([first, second]) = &joint.joints else {
         return Err(reader.wrong("joints", "a gear needs the names of two revolute joints"));
     };
@@ -188,7 +192,7 @@ fn gear(joint: &Joint, reader: &Reader) -> Result<ModelJoint, ModelError> {
     })
 }
 
-fn points(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
+fn points(joint: &Joint, reader: &ModelReader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
     match (joint.point, joint.points, joint.point_i, joint.point_j) {
         (Some(_), None, None, None) if joint.kind == JointKind::Rod => {
             Err(reader
@@ -211,7 +215,7 @@ fn points(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3
     }
 }
 
-fn axes(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
+fn axes(joint: &Joint, reader: &ModelReader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
     let given = (joint.axis, joint.axes, joint.axis_i, joint.axis_j);
     let needs_axis = !matches!(joint.kind, JointKind::Spherical | JointKind::Rod);
     match given {
@@ -243,7 +247,11 @@ fn axes(joint: &Joint, reader: &Reader, pair: [BodyRef; 2]) -> Result<[Vector3<f
 
 /// Vectors across the axis on body i, and those on body j that coincide with them as nearly as body j's own axis
 /// allows.
-fn cross_vectors(reader: &Reader, bodies: [BodyRef; 2], axes: [Vector3<f64>; 2]) -> [[Vector3<f64>; 2]; 2] {
+fn cross_vectors(
+    reader: &ModelReader,
+    bodies: [BodyRef; 2],
+    axes: [Vector3<f64>; 2],
+) -> [[Vector3<f64>; 2]; 2] {
     let on_i = orthonormal_basis(&axes[0]);
     let first = reader.vector_from_world(bodies[1], &reader.vector_to_world(bodies[0], &on_i[0]));
     let first = first - axes[1] * axes[1].dot(&first);

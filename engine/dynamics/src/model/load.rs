@@ -1,6 +1,6 @@
 //! Loads with their motions ready to be evaluated.
 
-use super::reader::Reader;
+use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::model::motion::{Curve, VectorCurve};
 use crate::scene::{Friction, JointKind, Load, LoadFrame};
@@ -83,7 +83,7 @@ pub enum LoadKind {
 
 impl ModelLoad {
     /// Checks a load.
-    pub(super) fn new(load: &Load, reader: &Reader) -> Result<Self, ModelError> {
+    pub(super) fn new(load: &Load, reader: &ModelReader) -> Result<Self, ModelError> {
         let kind = match load {
             Load::Force { body, point, force, frame, .. } => {
                 let body = reader.moving_body("body", body)?;
@@ -140,7 +140,7 @@ impl ModelLoad {
 }
 
 /// A vector curve of the author's frame in the frame in which the load is evaluated.
-fn framed(reader: &Reader, body: usize, frame: LoadFrame, curve: VectorCurve) -> VectorCurve {
+fn framed(reader: &ModelReader, body: usize, frame: LoadFrame, curve: VectorCurve) -> VectorCurve {
     match frame {
         LoadFrame::World => curve,
         LoadFrame::Body => curve.rotated(&reader.bodies[body].principal_axes.transpose()),
@@ -152,7 +152,7 @@ fn negated(curve: Curve) -> Curve {
 }
 
 fn law(
-    reader: &Reader,
+    reader: &ModelReader,
     stiffness: f64,
     free: f64,
     damping: f64,

@@ -12,7 +12,7 @@ const MAX_COEFFICIENTS: usize = 32;
 const MAX_POINTS: usize = 10_000;
 
 /// What is known while the elements of one list are read.
-pub(super) struct Reader<'a> {
+pub(super) struct ModelReader<'a> {
     /// Which list: `joints`, `drivers`, `loads` or `events`.
     pub list: &'static str,
     /// Place in that list.
@@ -27,7 +27,7 @@ pub(super) struct Reader<'a> {
     pub joints: &'a [ModelJoint],
 }
 
-impl Reader<'_> {
+impl ModelReader<'_> {
     /// JSON pointer of a key of the element.
     pub fn at(&self, key: &str) -> String {
         format!("/{}/{}/{key}", self.list, self.index)

@@ -8,7 +8,7 @@ use crate::model::BodyRef;
 use crate::scene::LoadFrame;
 use crate::system::System;
 use crate::system::feature::FeatureId;
-use crate::system::load::Load;
+use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
@@ -74,7 +74,7 @@ impl AppliedForces {
     }
 }
 
-impl Load {
+impl SystemLoad {
     /// Adds its generalized force to those of the bodies.
     pub fn apply(&self, system: &System, at: &State, forces: &mut AppliedForces) {
         let t = at.time;

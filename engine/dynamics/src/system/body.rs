@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// A body as the equations of motion see it.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct RigidBody {
     /// Mass m, kg.
     pub mass: f64,
     /// Principal moments of inertia, kg m².
@@ -36,7 +36,7 @@ pub struct GroundPivot {
     pub ground: Vector3<f64>,
 }
 
-impl Body {
+impl RigidBody {
     /// What a force at the centre of mass moves it by: nothing if it has a ground pivot, where the moment about the pivot
     /// says all.
     pub fn free_inverse_mass(&self) -> f64 {

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 /// A load, its geometry as features.
 #[derive(Clone, Debug)]
-pub enum Load {
+pub enum SystemLoad {
     /// Force at a point of a body.
     Force {
         /// The body.
@@ -61,7 +61,7 @@ pub enum Load {
     },
 }
 
-impl Load {
+impl SystemLoad {
     /// Writes the features of a load.
     pub fn new(model: &Model, load: &ModelLoad, builder: &mut RowBuilder) -> Self {
         match &load.kind {

@@ -9,9 +9,9 @@
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, ModelJoint};
 use crate::scene::{JointKind, LoadFrame};
-use crate::system::body::{Body, GroundPivot, PlanarPose};
+use crate::system::body::{GroundPivot, PlanarPose, RigidBody};
 use crate::system::feature::{Difference, Target};
-use crate::system::load::Load;
+use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::{Row, System};
@@ -216,12 +216,12 @@ fn turn_loads(flat: &mut System, turned: &Matrix3<f64>) {
     let System { loads, bodies, .. } = flat;
     for load in loads {
         let (body, curve, frame) = match load {
-            Load::Force { body, local, force, frame } => {
+            SystemLoad::Force { body, local, force, frame } => {
                 *local = directors(&bodies[*body]) * *local;
                 (*body, force, *frame)
             }
-            Load::Moment { body, moment, frame } => (*body, moment, *frame),
-            Load::Spring { .. } | Load::Torsion { .. } | Load::Slider { .. } => continue,
+            SystemLoad::Moment { body, moment, frame } => (*body, moment, *frame),
+            SystemLoad::Spring { .. } | SystemLoad::Torsion { .. } | SystemLoad::Slider { .. } => continue,
         };
         let turn = if frame == LoadFrame::Body { directors(&bodies[body]) } else { *turned };
         *curve = curve.clone().rotated(&turn);
@@ -236,7 +236,7 @@ fn independent(form: &Form) -> usize {
     }
 }
 
-fn directors(body: &Body) -> Matrix3<f64> {
+fn directors(body: &RigidBody) -> Matrix3<f64> {
     body.planar_pose.map_or_else(Matrix3::identity, |pose| pose.directors)
 }
 

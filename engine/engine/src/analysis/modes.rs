@@ -14,8 +14,7 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// The position that is looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-#[schemars(rename = "ModesAbout")]
-pub enum About {
+pub enum ModesAbout {
     /// The equilibrium near the start.
     #[default]
     Equilibrium,
@@ -25,8 +24,7 @@ pub enum About {
 
 /// The part of a mode that one body takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "ModeShape")]
-pub struct Motion {
+pub struct ModeShape {
     /// Displacement of the centre of mass, m; of a mode with damping, its part in phase.
     pub translation: [f64; 3],
     /// Rotation, rad.
@@ -49,7 +47,7 @@ pub struct Mode {
     /// Part of critical damping.
     pub damping_ratio: f64,
     /// The motion of each body, the largest displacement (or rotation times the mechanism's length) being one.
-    pub shape: Vec<Motion>,
+    pub shape: Vec<ModeShape>,
 }
 
 /// All modes of a position.
@@ -75,17 +73,17 @@ pub struct Modes {
 /// [`AnalysisError`]: as for [`equilibrium`](super::equilibrium()), and a motion without inertia.
 ///
 /// ```
-/// use triad_engine::{analysis::{About, modes}, prelude::*};
+/// use triad_engine::{analysis::{ModesAbout, modes}, prelude::*};
 ///
 /// let mut scene = Scene::new("pendulum").gravity([0.0, -9.81, 0.0]);
 /// let rod = scene.add(Body::rod("rod", 1.0, [0.0; 3], [0.0, -1.0, 0.0]));
 /// scene.add(Joint::revolute("pin", Ground, &rod).at([0.0; 3]).about([0.0, 0.0, 1.0]));
-/// let found = modes(&scene, About::Equilibrium)?;
+/// let found = modes(&scene, ModesAbout::Equilibrium)?;
 /// let exact = f64::sqrt(1.5 * 9.81) / std::f64::consts::TAU;
 /// assert!(found.freedoms == 1 && (found.modes[0].frequency - exact).abs() < 1e-6);
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
-pub fn modes(scene: &Scene, about: About) -> Result<Modes, AnalysisError> {
+pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     let mut notes = Vec::new();
     if stage.q_dot.iter().any(|v| *v != 0.0) {
@@ -93,7 +91,7 @@ pub fn modes(scene: &Scene, about: About) -> Result<Modes, AnalysisError> {
             "velocities of the start are left out: modes are those of the mechanism at rest".to_owned(),
         );
     }
-    if about == About::Equilibrium {
+    if about == ModesAbout::Equilibrium {
         equilibrium::find(&mut stage)?;
     }
     stage.rest();
@@ -253,7 +251,7 @@ fn mode(value: Complex<f64>, scale: f64, real: &DVector<f64>, imaginary: &DVecto
     let part = |from: &DVector<f64>, at: usize| -> [f64; 3] {
         (Vector3::new(from[at], from[at + 1], from[at + 2]) / size).into()
     };
-    let shape = (0..real.len() / 6).map(|body| Motion {
+    let shape = (0..real.len() / 6).map(|body| ModeShape {
         translation: part(real, 6 * body),
         rotation: part(real, 6 * body + 3),
         translation_later: part(imaginary, 6 * body),

@@ -12,7 +12,7 @@ use super::step::{StepRecord, StopReason};
 use super::stepper::{OdeMethod, Stepper};
 use super::taylor::Taylor;
 use crate::scene::{ConstraintMethod, IntegratorKind};
-use progress::Progress;
+use progress::ProgressMonitor;
 use std::ops::{Deref, DerefMut};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Counters;
@@ -22,7 +22,7 @@ use triad_dynamics::ode::OdeSystem;
 #[derive(Debug)]
 pub struct Integrator {
     stepper: Box<dyn Stepper>,
-    progress: Progress,
+    progress: ProgressMonitor,
 }
 
 impl Clone for Integrator {
@@ -52,7 +52,7 @@ impl Integrator {
         let stepper =
             started.unwrap_or_else(|reason| Box::new(FailedStart { record: StepRecord::new(t, y), reason }));
         let islands = stepper.skipped().map_or(1, |skipped| skipped.islands);
-        Self { progress: Progress::new(t, islands), stepper }
+        Self { progress: ProgressMonitor::new(t, islands), stepper }
     }
 
     /// Work done and projections made, including those that the mechanism counts.

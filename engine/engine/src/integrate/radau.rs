@@ -11,7 +11,7 @@ mod linear;
 use super::step::{StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
 use coefficients::{C, ESTIMATE, PAIR, REAL, T, T_INVERSE, collocation};
-use linear::{Factors, Jacobian};
+use linear::{Factors, RateJacobian};
 use nalgebra::{Complex, DVector};
 use triad_dynamics::ode::OdeSystem;
 
@@ -56,7 +56,7 @@ pub struct Radau {
     w: [Vec<f64>; 3],
     f: [Vec<f64>; 3],
     trial: Vec<f64>,
-    jacobian: Jacobian,
+    jacobian: RateJacobian,
     factors: Option<Factors>,
     /// Ratio of successive corrections in the last step.
     contraction: f64,
@@ -84,7 +84,7 @@ impl Radau {
             w: zeros(),
             f: zeros(),
             trial: vec![0.0; n],
-            jacobian: Jacobian::new(n / 2),
+            jacobian: RateJacobian::new(n / 2),
             factors: None,
             contraction: 1.0,
             before: None,
@@ -143,7 +143,7 @@ impl Radau {
             let step = self.trial[k] - self.last.y[k];
             system.rhs(self.last.t, &self.trial, &mut self.f[0]);
             self.trial[k] = self.last.y[k];
-            let Jacobian { stiffness, damping, .. } = &mut self.jacobian;
+            let RateJacobian { stiffness, damping, .. } = &mut self.jacobian;
             let mut column = if k < f { stiffness.column_mut(k) } else { damping.column_mut(k - f) };
             for i in 0..f {
                 column[i] = (self.f[0][f + i] - self.rate[f + i]) / step;

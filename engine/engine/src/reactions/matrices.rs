@@ -30,7 +30,7 @@ pub enum EntryKind {
 
 /// A number of a symmetric matrix on or below the diagonal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Place {
+pub struct MatrixEntry {
     /// Row.
     pub row: usize,
     /// Column, at most the row.
@@ -47,7 +47,7 @@ pub struct Symmetric {
     /// Names of the rows, which are those of the columns too.
     pub names: Vec<String>,
     /// Numbers on and below the diagonal, by row and column.
-    pub places: Vec<Place>,
+    pub places: Vec<MatrixEntry>,
 }
 
 impl Symmetric {
@@ -194,8 +194,11 @@ fn filled(order: &[usize], joined: &BTreeSet<(usize, usize)>) -> Vec<(usize, usi
     fill
 }
 
-fn listed(places: BTreeMap<(usize, usize), (f64, EntryKind)>) -> Vec<Place> {
-    places.into_iter().map(|((row, column), (value, part))| Place { row, column, value, part }).collect()
+fn listed(places: BTreeMap<(usize, usize), (f64, EntryKind)>) -> Vec<MatrixEntry> {
+    places
+        .into_iter()
+        .map(|((row, column), (value, part))| MatrixEntry { row, column, value, part })
+        .collect()
 }
 
 #[cfg(test)]

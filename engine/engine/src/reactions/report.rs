@@ -24,7 +24,7 @@ pub enum Side {
 /// The point about which moments are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum About {
+pub enum MomentReference {
     /// The joint's point on the body that the reaction acts on.
     #[default]
     JointPoint,
@@ -54,15 +54,14 @@ pub struct Convention {
     /// On which body.
     pub on: Side,
     /// About which point.
-    pub about: About,
+    pub about: MomentReference,
     /// In which frame.
     pub expressed_in: ExpressedIn,
 }
 
 /// One component of a force or moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "ReactionComponent")]
-pub struct Component {
+pub struct ReactionComponent {
     /// Value, N or N m; where it is not unique, that of the smallest multipliers that give the same motion.
     pub value: f64,
     /// Whether the equations of motion determine it.
@@ -89,9 +88,9 @@ pub struct Reaction {
     /// Its axes in the world.
     pub axes: [[f64; 3]; 3],
     /// Force, N.
-    pub force: [Component; 3],
+    pub force: [ReactionComponent; 3],
     /// Moment, N m.
-    pub moment: [Component; 3],
+    pub moment: [ReactionComponent; 3],
 }
 
 /// Every reaction at one moment.
@@ -142,7 +141,10 @@ fn reaction(
     let component = |row: usize| {
         let turned = axes.column(row % 3).transpose() * map.rows(row / 3 * 3, 3);
         let weights: Vec<f64> = turned.iter().copied().collect();
-        Component { value: (turned * &lambda)[0], unique: null.is_unique(constraint.solver.start, &weights) }
+        ReactionComponent {
+            value: (turned * &lambda)[0],
+            unique: null.is_unique(constraint.solver.start, &weights),
+        }
     };
     Reaction {
         joint: constraint.name.clone(),
@@ -170,20 +172,22 @@ fn about(
     at: &State,
     constraint: &Constraint,
     side: usize,
-    about: About,
+    about: MomentReference,
 ) -> (String, Vector3<f64>) {
     let body = constraint.bodies[side];
     let name = body_name(system, body);
     match (about, body) {
-        (About::WorldPoint(point), _) => ("the stated point".to_owned(), point.into()),
-        (About::CenterOfMass, BodyRef::Ground) => ("the world's origin".to_owned(), Vector3::zeros()),
-        (About::CenterOfMass, BodyRef::Moving(index)) => {
+        (MomentReference::WorldPoint(point), _) => ("the stated point".to_owned(), point.into()),
+        (MomentReference::CenterOfMass, BodyRef::Ground) => {
+            ("the world's origin".to_owned(), Vector3::zeros())
+        }
+        (MomentReference::CenterOfMass, BodyRef::Moving(index)) => {
             (format!("the centre of mass of \"{name}\""), at.bodies()[index].q.r)
         }
-        (About::JointPoint, BodyRef::Ground) => {
+        (MomentReference::JointPoint, BodyRef::Ground) => {
             (format!("the point of \"{}\" on \"{name}\"", constraint.name), constraint.points[side])
         }
-        (About::JointPoint, BodyRef::Moving(index)) => {
+        (MomentReference::JointPoint, BodyRef::Moving(index)) => {
             let q = &at.bodies()[index].q;
             (
                 format!("the point of \"{}\" on \"{name}\"", constraint.name),

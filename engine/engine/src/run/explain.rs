@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Something that a run leaves out unless it is switched off.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub struct SkippedItem {
     /// Its word in `simulation.skip`.
     pub word: &'static str,
     /// Whether it is switched on.
@@ -31,7 +31,7 @@ pub(super) struct Counted {
 
 impl Simulation {
     /// What the run has left out so far, word by word.
-    pub fn left_out(&self) -> Vec<LeftOut> {
+    pub fn left_out(&self) -> Vec<SkippedItem> {
         let skip = self.model().settings.skip;
         let bodies = self.model().bodies.len() as u64;
         let steps = self.integrator.last().steps.accepted;
@@ -39,7 +39,7 @@ impl Simulation {
         let entry = |word, on, saved: u64, of: u64, what: String| {
             let what =
                 if of == 0 { "this integrator knows nothing to leave out here".to_owned() } else { what };
-            LeftOut { word, on, saved, of, what }
+            SkippedItem { word, on, saved, of, what }
         };
         let s = saved.unwrap_or_default();
         let of = |n: u64| if saved.is_some() { n } else { 0 };

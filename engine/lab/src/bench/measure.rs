@@ -7,7 +7,7 @@ use triad_engine::run::{Simulation, Summary};
 use triad_scene::Scene;
 use triad_scene::catalogue;
 
-use super::plan::{Case, Method, Plan, Truth};
+use super::plan::{BenchCase, BenchPlan, Method, Truth};
 use super::reference::{self, distance};
 
 /// One run with its error, its times and its work.
@@ -47,7 +47,7 @@ struct Ready {
 }
 
 /// Runs a plan; `progress(done, of all, what)` hears how far it is, in parts of one.
-pub fn measure(plan: &Plan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<Measured>, EngineError> {
+pub fn measure(plan: &BenchPlan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<Measured>, EngineError> {
     let mut ready = Vec::new();
     for (index, case) in plan.cases.iter().enumerate() {
         prepare(plan, case, &mut ready, |part| {
@@ -79,8 +79,8 @@ pub fn measure(plan: &Plan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<M
 }
 
 fn prepare(
-    plan: &Plan,
-    case: &Case,
+    plan: &BenchPlan,
+    case: &BenchCase,
     ready: &mut Vec<Ready>,
     mut progress: impl FnMut(f64),
 ) -> Result<(), EngineError> {
@@ -90,7 +90,7 @@ fn prepare(
     let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
     for (index, &method) in plan.methods.iter().enumerate() {
         progress(index as f64 / plan.methods.len() as f64);
-        for &tolerance in plan.tolerances.iter().filter(|&&t| Plan::worth(case, method, t)) {
+        for &tolerance in plan.tolerances.iter().filter(|&&t| BenchPlan::worth(case, method, t)) {
             scene.coordinates = method.coordinates;
             scene.simulation.integrator = method.integrator;
             scene.simulation.constraint_method = method.constraint_method;

@@ -6,7 +6,7 @@ use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind};
 
 /// A scene to be measured and how its error is known.
 #[derive(Clone, Copy, Debug)]
-pub struct Case {
+pub struct BenchCase {
     /// Name of the built-in scene.
     pub scene: &'static str,
     /// Length of the run, s.
@@ -63,9 +63,9 @@ impl fmt::Display for Method {
 
 /// Everything that is measured.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct BenchPlan {
     /// The scenes.
-    pub cases: Vec<Case>,
+    pub cases: Vec<BenchCase>,
     /// The ways to run them.
     pub methods: Vec<Method>,
     /// The tolerances.
@@ -98,20 +98,20 @@ fn four_bar(windows: f64) -> f64 {
     GRAVITY * 3.0 * (3.0 * windows + 1.0) / (2.0 * (4.0 * windows + 1.0))
 }
 
-fn windows(scene: &'static str, count: f64) -> Case {
+fn windows(scene: &'static str, count: f64) -> BenchCase {
     let truth = Truth::Angle { kappa: four_bar(count), start: 0.0, rate: 1.0, arm: 0.5 };
-    Case { scene, duration: 10.0, truth, large: count > 4.0 }
+    BenchCase { scene, duration: 10.0, truth, large: count > 4.0 }
 }
 
-fn converged(scene: &'static str, duration: f64) -> Case {
-    Case { scene, duration, truth: Truth::Converged, large: scene == "spatial-chain:100" }
+fn converged(scene: &'static str, duration: f64) -> BenchCase {
+    BenchCase { scene, duration, truth: Truth::Converged, large: scene == "spatial-chain:100" }
 }
 
 fn method(integrator: IntegratorKind) -> Method {
     Method { integrator, constraint_method: ConstraintMethod::default(), coordinates: Coordinates::default() }
 }
 
-impl Plan {
+impl BenchPlan {
     /// The whole sweep: all integrators, the other constraint methods with one of them, and the other kinds of bodies with the
     /// two best.
     pub fn full() -> Self {
@@ -132,7 +132,7 @@ impl Plan {
             .flat_map(|coordinates| [Taylor, Dop853].map(|i| Method { coordinates, ..method(i) }));
         Self {
             cases: vec![
-                Case { scene: "simple-pendulum", duration: 10.0, truth: pendulum, large: false },
+                BenchCase { scene: "simple-pendulum", duration: 10.0, truth: pendulum, large: false },
                 windows("n-four-bar:2", 2.0),
                 windows("n-four-bar:10", 10.0),
                 windows("n-four-bar:40", 40.0),
@@ -209,7 +209,7 @@ impl Plan {
 
     /// Whether a run is worth its time: a method of low order is not at tight tolerances, and neither is one whose work
     /// grows with the cube of the number of bodies in a large scene.
-    pub fn worth(case: &Case, method: Method, tolerance: f64) -> bool {
+    pub fn worth(case: &BenchCase, method: Method, tolerance: f64) -> bool {
         use IntegratorKind::{Auto, Dop853, Dopri5, Ode45, Radau, Rattle, Taylor, Trapezoidal};
         let (linear, tightest) = match method.integrator {
             Auto | Taylor | Dop853 => (true, 0.0),
@@ -228,7 +228,7 @@ mod tests {
 
     #[test]
     fn wishes_are_crossed_and_the_rest_of_the_plan_stays() {
-        let plan = Plan::quick().with(Wish {
+        let plan = BenchPlan::quick().with(Wish {
             scenes: vec!["four-bar".into()],
             integrators: vec![IntegratorKind::Taylor, IntegratorKind::Dop853],
             coordinates: vec![Coordinates::Full, Coordinates::Shared],
@@ -237,7 +237,7 @@ mod tests {
         let names: Vec<String> = plan.methods.iter().map(Method::to_string).collect();
         assert_eq!(names, ["taylor", "taylor shared", "dop853", "dop853 shared"]);
         assert_eq!(plan.cases.iter().map(|c| c.scene).collect::<Vec<_>>(), ["n-four-bar:2"]);
-        assert_eq!(plan.tolerances, Plan::quick().tolerances);
-        assert_eq!(Plan::quick().with(Wish::default()).methods, Plan::quick().methods);
+        assert_eq!(plan.tolerances, BenchPlan::quick().tolerances);
+        assert_eq!(BenchPlan::quick().with(Wish::default()).methods, BenchPlan::quick().methods);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use triad_plot::{Axis, Frame, Style};
+use triad_plot::{Axis, PlotFrame, Style};
 
 use super::measure::Measured;
 use super::plan::Method;
@@ -29,7 +29,7 @@ fn error(run: &Measured) -> Option<f64> {
 
 /// The plot of one scene as SVG.
 pub fn svg(scene: &str, runs: &[&Measured]) -> String {
-    let frame = Frame {
+    let frame = PlotFrame {
         size: SIZE,
         margins: MARGINS,
         x: Axis::around(runs.iter().filter_map(|r| error(r)), |exponent| format!("1e{exponent}")).reversed(),

@@ -5,7 +5,7 @@ use triad_engine::run::Simulation;
 use triad_scene::IntegratorKind;
 use triad_scene::Scene;
 
-use super::plan::{Case, Truth};
+use super::plan::{BenchCase, Truth};
 
 /// Interval at which runs are compared, s.
 pub const EVERY: f64 = 0.01;
@@ -34,7 +34,7 @@ pub fn positions(scene: &Scene, bodies: usize) -> Result<Positions, EngineError>
 }
 
 /// The reference of a case: positions of the bodies that are compared.
-pub fn reference(case: &Case, scene: &Scene) -> Result<Positions, EngineError> {
+pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Positions, EngineError> {
     match case.truth {
         Truth::Converged => {
             let mut tight = scene.clone();

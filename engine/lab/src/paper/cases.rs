@@ -15,7 +15,7 @@ pub struct Published {
 
 /// An example of the paper's section 5.
 #[derive(Clone, Copy, Debug)]
-pub struct Case {
+pub struct PaperCase {
     /// The paper's name for it.
     pub name: &'static str,
     /// Number of moving bodies.
@@ -52,8 +52,8 @@ const fn four_bar(
     bodies: usize,
     scene: fn() -> Result<Scene, CatalogueError>,
     published: Published,
-) -> Case {
-    Case {
+) -> PaperCase {
+    PaperCase {
         name,
         bodies,
         scene,
@@ -68,8 +68,8 @@ const fn four_bar(
 }
 
 /// All examples, in the paper's order.
-pub const CASES: &[Case] = &[
-    Case {
+pub const CASES: &[PaperCase] = &[
+    PaperCase {
         name: "Free-falling body",
         bodies: 1,
         scene: falling,
@@ -83,7 +83,7 @@ pub const CASES: &[Case] = &[
             "start withheld; a body at rest that is tilted is stepped by rounding alone, so no count can be equal",
         ),
     },
-    Case {
+    PaperCase {
         name: "Simple pendulum",
         bodies: 1,
         scene: pendulum,
@@ -95,7 +95,7 @@ pub const CASES: &[Case] = &[
         published: published(counts(350, 22, 2233), counts(350, 22, 2233)),
         withheld: None,
     },
-    Case {
+    PaperCase {
         name: "Double pendulum",
         bodies: 2,
         scene: || catalogue::scene("spatial-double-pendulum"),
@@ -107,7 +107,7 @@ pub const CASES: &[Case] = &[
         published: published(counts(406, 12, 2509), counts(414, 9, 2539)),
         withheld: Some("lengths, masses and start withheld; ours are two cylinders on spherical joints"),
     },
-    Case {
+    PaperCase {
         name: "Spatial slider-crank",
         bodies: 3,
         scene: slider_crank,

@@ -1,6 +1,6 @@
 //! ẏ = f(y) of an example, with one of three kinds of linear algebra.
 
-use super::{Case, PaperError, scene};
+use super::{PaperCase, PaperError, scene};
 use nalgebra::{DMatrix, DVector};
 use triad_engine::EngineError;
 use triad_engine::dynamics::elimination::Elimination;
@@ -46,7 +46,11 @@ pub struct PaperPlant {
 
 impl PaperPlant {
     /// Prepares an example: chooses its rows and the order of elimination.
-    pub fn new(case: &Case, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<Self, PaperError> {
+    pub fn new(
+        case: &PaperCase,
+        coordinates: Coordinates,
+        algebra: LinearAlgebra,
+    ) -> Result<Self, PaperError> {
         let scene = scene(case, coordinates)?;
         let system = System::new(Model::new(&scene).map_err(EngineError::from)?);
         let mut elimination = Elimination::new(&system);

@@ -2,55 +2,55 @@
 
 use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{JointKind, Scene};
 
 const FAMILY: &str = "large";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "chain-2000",
         family: FAMILY,
         summary: "A spatial chain of 2000 rods; quick: 200",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: chain,
     },
-    Case {
+    StressCase {
         name: "tree-1023",
         family: FAMILY,
         summary: "A binary tree of 1023 rods on hinges with turned axes; quick: 63",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: tree,
     },
-    Case {
+    StressCase {
         name: "net",
         family: FAMILY,
         summary: "A net of balls and bars, 20 × 20, hung at two corners; quick: 6 × 6",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: net,
     },
-    Case {
+    StressCase {
         name: "four-bar-999",
         family: FAMILY,
         summary: "999 windows, 1999 bodies, through the singular position; quick: 99 windows",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: four_bar,
     },
-    Case {
+    StressCase {
         name: "hub",
         family: FAMILY,
         summary: "One free hub with 200 pendulums; quick: 60",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: hub,
     },
 ];
 
-fn chain(method: &TrialMethod, quick: bool) -> Outcome {
+fn chain(method: &TrialMethod, quick: bool) -> StressOutcome {
     let (rods, seconds) = if quick { (200, 0.5) } else { (2000, 1.0) };
     match triad_scene::catalogue::scene(&format!("spatial-chain:{rods}")) {
         Ok(mut scene) => {
@@ -58,11 +58,11 @@ fn chain(method: &TrialMethod, quick: bool) -> Outcome {
             scene.simulation.tolerance = 1e-8;
             Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
         }
-        Err(error) => Outcome::nothing(Verdict::Wrong, error.to_string()),
+        Err(error) => StressOutcome::nothing(StressVerdict::Wrong, error.to_string()),
     }
 }
 
-fn tree(method: &TrialMethod, quick: bool) -> Outcome {
+fn tree(method: &TrialMethod, quick: bool) -> StressOutcome {
     let levels = if quick { 6 } else { 10 };
     let mut scene = scene("tree", DOWN, 1.0, 1e-8);
     for i in 1..(1usize << levels) {
@@ -80,7 +80,7 @@ fn tree(method: &TrialMethod, quick: bool) -> Outcome {
     Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
 }
 
-fn net(method: &TrialMethod, quick: bool) -> Outcome {
+fn net(method: &TrialMethod, quick: bool) -> StressOutcome {
     let side = if quick { 6 } else { 20 };
     let mut scene = scene("net", [0.0, 0.0, -9.81], 0.5, 1e-8);
     let name = |i: usize, j: usize| format!("ball-{i}-{j}");
@@ -117,7 +117,7 @@ fn net(method: &TrialMethod, quick: bool) -> Outcome {
     Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
 }
 
-fn four_bar(method: &TrialMethod, quick: bool) -> Outcome {
+fn four_bar(method: &TrialMethod, quick: bool) -> StressOutcome {
     let windows = if quick { 99 } else { 999 };
     let n = f64::from(windows);
     let k = 9.81 * 0.5 * (3.0 * n + 1.0) / ((4.0 * n + 1.0) / 3.0);
@@ -135,13 +135,13 @@ fn four_bar(method: &TrialMethod, quick: bool) -> Outcome {
                 .sampled(5)
                 .run()
         }
-        Err(error) => Outcome::nothing(Verdict::Wrong, error.to_string()),
+        Err(error) => StressOutcome::nothing(StressVerdict::Wrong, error.to_string()),
     }
 }
 
 /// All pendulums hang on a free hub that only turns about its axle: with all of them alike, each moves like one on a
 /// hub of which it has its share.
-fn hub(method: &TrialMethod, quick: bool) -> Outcome {
+fn hub(method: &TrialMethod, quick: bool) -> StressOutcome {
     let count = if quick { 60 } else { 200 };
     let mut scene = scene("hub", [0.0; 3], 2.0, 1e-9);
     let mut hub = body("hub", 10.0, [5.0; 3], [0.0; 3]);

@@ -2,48 +2,48 @@
 
 use super::build::{DOWN, GROUND, body, distance, pin, rod, scene};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use nalgebra::Vector3;
 use triad_engine::run::Simulation;
 
 const FAMILY: &str = "long";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "pendulum-2000-s",
         family: FAMILY,
         summary: "A rod swings for 2000 s; quick: 100 s",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: pendulum,
     },
-    Case {
+    StressCase {
         name: "free-body-turns",
         family: FAMILY,
         summary: "A free asymmetric body turns about a general axis 1e5 times; quick: a thousand times",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, quick| free_body([1.0, 2.0, 0.5], quick, method),
     },
-    Case {
+    StressCase {
         name: "intermediate-axis-turns",
         family: FAMILY,
         summary: "The same about its intermediate axis: it flips over and over",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, quick| free_body([1e-3, 2.0, 1e-3], quick, method),
     },
-    Case {
+    StressCase {
         name: "chain-of-ten",
         family: FAMILY,
         summary: "A chain of ten rods for 1000 s; quick: 5 s",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: chain,
     },
 ];
 
-fn pendulum(method: &TrialMethod, quick: bool) -> Outcome {
+fn pendulum(method: &TrialMethod, quick: bool) -> StressOutcome {
     let seconds = if quick { 100.0 } else { 2000.0 };
     let start = 2.0f64;
     let mut scene = scene("pendulum", DOWN, seconds, 1e-10);
@@ -60,7 +60,7 @@ fn pendulum(method: &TrialMethod, quick: bool) -> Outcome {
         .run()
 }
 
-fn free_body(omega: [f64; 3], quick: bool, method: &TrialMethod) -> Outcome {
+fn free_body(omega: [f64; 3], quick: bool, method: &TrialMethod) -> StressOutcome {
     let turns = if quick { 1e3 } else { 1e5 };
     let speed = Vector3::from(omega).norm();
     let mut scene = scene("free-body", [0.0; 3], turns * std::f64::consts::TAU / speed, 1e-10);
@@ -93,7 +93,7 @@ fn free_body(omega: [f64; 3], quick: bool, method: &TrialMethod) -> Outcome {
         .run()
 }
 
-fn chain(method: &TrialMethod, quick: bool) -> Outcome {
+fn chain(method: &TrialMethod, quick: bool) -> StressOutcome {
     let seconds = if quick { 5.0 } else { 1000.0 };
     let mut scene = scene("chain", DOWN, seconds, 1e-9);
     for i in 0..10 {

@@ -3,7 +3,7 @@
 use super::build::{DOWN, GROUND, pin, rod, scene};
 use super::redundant::swinging;
 use super::singular::against_windows;
-use super::{Case, Outcome, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, TrialMethod};
 use triad_scene::{ConstraintMethod, IntegratorKind};
 
 const FAMILY: &str = "treatments";
@@ -13,20 +13,20 @@ const DEAR_STEPS: u64 = 12_000;
 /// Bodies of a method whose matrices are full: the cube of more takes hours.
 const BODIES: usize = 50;
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "pendulum-100-s",
         family: FAMILY,
         summary: "A physical pendulum swings for 100 s: what drifts has time to",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: pendulum,
     },
-    Case {
+    StressCase {
         name: "four-bar-10-s",
         family: FAMILY,
         summary: "Two four-bar windows through ten singular positions",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| against_windows(2, 10.0, method),
     },
@@ -48,7 +48,7 @@ pub const COMPARED: [&str; 12] = [
     "friction-smooth",
 ];
 
-fn pendulum(method: &TrialMethod, _: bool) -> Outcome {
+fn pendulum(method: &TrialMethod, _: bool) -> StressOutcome {
     let start = 1.0f64;
     let mut scene = scene("pendulum", DOWN, 100.0, 1e-9);
     scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));

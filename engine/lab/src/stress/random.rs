@@ -9,19 +9,19 @@ mod invariants;
 pub use draw::scene;
 pub use invariants::judge;
 
-use super::{Entry, Outcome, TrialMethod, Verdict};
+use super::{CaseReport, StressOutcome, StressVerdict, TrialMethod};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Family of all random mechanisms.
 pub(super) const FAMILY: &str = "random";
 
 /// Draws, runs and judges the mechanism of a seed. A panic is caught and counts as wrong.
-pub fn run(seed: u64, method: &TrialMethod) -> Entry {
+pub fn run(seed: u64, method: &TrialMethod) -> CaseReport {
     let scene = scene(seed);
     let outcome = catch_unwind(AssertUnwindSafe(|| judge(&scene, method))).unwrap_or_else(|panic| {
-        Outcome::nothing(Verdict::Wrong, format!("panicked: {}", super::words_of(&*panic)))
+        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {}", super::words_of(&*panic)))
     });
-    Entry {
+    CaseReport {
         case: format!("seed-{seed}"),
         family: FAMILY.to_owned(),
         summary: format!(
@@ -32,7 +32,7 @@ pub fn run(seed: u64, method: &TrialMethod) -> Entry {
             scene.loads.len()
         ),
         // A driver may ask for more than drawn loops allow.
-        expected: if scene.drivers.is_empty() { Verdict::Degraded } else { Verdict::Refused },
+        expected: if scene.drivers.is_empty() { StressVerdict::Degraded } else { StressVerdict::Refused },
         outcome,
     }
 }

@@ -3,80 +3,80 @@
 use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
 use super::oracle::OneDegree;
 use super::trial::must_be_refused;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{AxisRows, Driver, JointKind, Motion, Scene, VectorMotion};
 
 const FAMILY: &str = "redundant";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "bricard",
         family: FAMILY,
         summary: "Bricard's loop of six hinges, which counting says cannot move",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: bricard,
     },
-    Case {
+    StressCase {
         name: "coaxial-hinges",
         family: FAMILY,
         summary: "A door on 1 to 12 hinges in line",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: coaxial,
     },
-    Case {
+    StressCase {
         name: "bookshelf",
         family: FAMILY,
         summary: "A board on nine parallel uprights: eight loops where one would do",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: bookshelf,
     },
-    Case {
+    StressCase {
         name: "rows-twice",
         family: FAMILY,
         summary: "Every joint of a double pendulum written three times, with both kinds of rows",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: twice,
     },
-    Case {
+    StressCase {
         name: "contradiction",
         family: FAMILY,
         summary: "Two ball joints hold one rigid body at points that are too far apart",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: contradiction,
     },
-    Case {
+    StressCase {
         name: "contradiction-in-loop",
         family: FAMILY,
         summary: "A closed loop whose bars are too short to close",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: open_loop,
     },
-    Case {
+    StressCase {
         name: "contradictory-drivers",
         family: FAMILY,
         summary: "Two drivers turn one hinge at different rates",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: drivers,
     },
-    Case {
+    StressCase {
         name: "driver-past-reach",
         family: FAMILY,
         summary: "A driver pulls the end of an arm farther than the arm reaches",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: past_reach,
     },
 ];
 
 /// A uniform rod of 1 m and 1 kg on a hinge: θ̈ = −(3/2) g sin θ from the downward vertical.
-pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, method: &TrialMethod) -> Outcome {
+pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, method: &TrialMethod) -> StressOutcome {
     let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * a.sin());
     Trial::new(run_scene, method)
         .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
@@ -87,18 +87,18 @@ pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, method: &Trial
         .run()
 }
 
-fn bricard(method: &TrialMethod, _: bool) -> Outcome {
+fn bricard(method: &TrialMethod, _: bool) -> StressOutcome {
     match triad_scene::catalogue::scene("bricard") {
         // The loop starts at rest in a closed form; energy and closure are its invariants, and it must move.
         Ok(mut scene) => {
             scene.simulation.duration = 10.0;
             Trial::new(scene, method).conserving((1e-6, 1e-3)).run()
         }
-        Err(error) => Outcome::nothing(Verdict::Wrong, error.to_string()),
+        Err(error) => StressOutcome::nothing(StressVerdict::Wrong, error.to_string()),
     }
 }
 
-fn coaxial(method: &TrialMethod, _: bool) -> Outcome {
+fn coaxial(method: &TrialMethod, _: bool) -> StressOutcome {
     let start = 1.0f64;
     [1usize, 2, 3, 12]
         .into_iter()
@@ -120,10 +120,10 @@ fn coaxial(method: &TrialMethod, _: bool) -> Outcome {
             }
             swinging(scene, 0, start, method)
         })
-        .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
+        .fold(StressOutcome::nothing(StressVerdict::Survived, String::new()), StressOutcome::and)
 }
 
-fn bookshelf(method: &TrialMethod, _: bool) -> Outcome {
+fn bookshelf(method: &TrialMethod, _: bool) -> StressOutcome {
     let (count, start) = (9usize, 0.3f64);
     let mut scene = scene("bookshelf", DOWN, 10.0, 1e-9);
     let (s, c) = (start.sin(), start.cos());
@@ -150,7 +150,7 @@ fn bookshelf(method: &TrialMethod, _: bool) -> Outcome {
 }
 
 /// The same double pendulum with each joint once, in reduced coordinates, is the reference.
-fn twice(method: &TrialMethod, _: bool) -> Outcome {
+fn twice(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("twice", DOWN, 3.0, 1e-10);
     scene.bodies.push(rod("upper", 1.0, [0.0; 2], [1.0, 0.0], [0.0; 2], 0.0));
     scene.bodies.push(rod("lower", 1.0, [1.0, 0.0], [2.0, 0.0], [0.0; 2], 0.0));
@@ -167,7 +167,7 @@ fn twice(method: &TrialMethod, _: bool) -> Outcome {
         }
     }
     let Ok(mut other) = triad_engine::run::Simulation::new(&once) else {
-        return Outcome::nothing(Verdict::Wrong, "the reference does not start".to_owned());
+        return StressOutcome::nothing(StressVerdict::Wrong, "the reference does not start".to_owned());
     };
     Trial::new(scene, method)
         .against("the same with each joint once, in reduced coordinates", (1e-6, 1e-3), move |run| {
@@ -181,7 +181,7 @@ fn twice(method: &TrialMethod, _: bool) -> Outcome {
         .run()
 }
 
-fn contradiction(method: &TrialMethod, _: bool) -> Outcome {
+fn contradiction(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("contradiction", DOWN, 1.0, 1e-9);
     scene.bodies.push(body("bar", 1.0, [0.1, 0.1, 0.1], [0.5, 0.0, 0.0]));
     let mut left = joint("left", JointKind::Spherical, GROUND, "bar", [0.0; 3]);
@@ -194,7 +194,7 @@ fn contradiction(method: &TrialMethod, _: bool) -> Outcome {
     must_be_refused(&scene, method, "assembly-failed", &["\"left\"", "\"right\""])
 }
 
-fn open_loop(method: &TrialMethod, _: bool) -> Outcome {
+fn open_loop(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("open-loop", DOWN, 1.0, 1e-9);
     for k in 0..3 {
         let x = f64::from(k);
@@ -211,7 +211,7 @@ fn open_loop(method: &TrialMethod, _: bool) -> Outcome {
     must_be_refused(&scene, method, "assembly-failed", &["\"A\"", "\"D\""])
 }
 
-fn drivers(method: &TrialMethod, _: bool) -> Outcome {
+fn drivers(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("drivers", DOWN, 1.0, 1e-9);
     scene.bodies.push(rod("bar", 1.0, [0.0; 2], [1.0, 0.0], [0.0; 2], 0.0));
     scene.joints.push(pin("A", GROUND, "bar", [0.0; 2]));
@@ -225,7 +225,7 @@ fn drivers(method: &TrialMethod, _: bool) -> Outcome {
     must_be_refused(&scene, method, "motion-impossible", &["\"slow\"", "\"fast\""])
 }
 
-fn past_reach(method: &TrialMethod, _: bool) -> Outcome {
+fn past_reach(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("past-reach", [0.0; 3], 2.0, 1e-9);
     let bend = [0.6, 0.8];
     scene.bodies.push(rod("upper", 1.0, [0.0; 2], bend, [0.0; 2], 0.0));
@@ -246,8 +246,8 @@ fn past_reach(method: &TrialMethod, _: bool) -> Outcome {
     let codes = "motion-impossible|constraints-lost|step-too-small|stalled|no-convergence";
     let mut outcome = must_be_refused(&scene, method, codes, &["driver \"hand\" asks for"]);
     // At t = 1 s the arm is straight; feedback stretches it a little.
-    if outcome.verdict == Verdict::Refused && !(0.99..1.3).contains(&outcome.reached) {
-        outcome.verdict = Verdict::Wrong;
+    if outcome.verdict == StressVerdict::Refused && !(0.99..1.3).contains(&outcome.reached) {
+        outcome.verdict = StressVerdict::Wrong;
         outcome.reason.push_str("; but the arm is straight at t = 1 s");
     }
     outcome

@@ -3,66 +3,66 @@
 use super::build::{DOWN, GROUND, body, distance, joint, pin, rod, scene};
 use super::oracle::OneDegree;
 use super::redundant::swinging;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{Inertia, JointKind};
 
 const FAMILY: &str = "scales";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "mass-ratios-down",
         family: FAMILY,
         summary: "A chain of ten, each body a hundred times lighter than the one above: 1 to 1e-18 kg",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| chain(1e-2, method),
     },
-    Case {
+    StressCase {
         name: "mass-ratios-up",
         family: FAMILY,
         // The heavy end makes the light links vibrate at megahertz: no explicit method can follow.
         summary: "A chain of ten, each body a hundred times heavier than the one above: 1e-9 to 1e9 kg",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: |method, _| chain(1e2, method),
     },
-    Case {
+    StressCase {
         name: "micrometre",
         family: FAMILY,
         summary: "A pendulum of one micrometre and one picogram",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| pendulum(1e-6, 1e-15, method),
     },
-    Case {
+    StressCase {
         name: "kilometre",
         family: FAMILY,
         summary: "A pendulum of ten kilometres and a million tonnes",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| pendulum(1e4, 1e9, method),
     },
-    Case {
+    StressCase {
         name: "all-sizes",
         family: FAMILY,
         summary: "Pendulums from a micrometre to a kilometre side by side in one scene",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: all_sizes,
     },
-    Case {
+    StressCase {
         name: "massless-axes",
         family: FAMILY,
         summary: "A lamina, a slender rod without axial inertia and a point mass, each as a pendulum",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: thin,
     },
-    Case {
+    StressCase {
         name: "triangle-limit",
         family: FAMILY,
         summary: "Free bodies whose moments are at the limit of the triangle inequality, spinning",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: triangle,
     },
@@ -72,7 +72,7 @@ pub(super) const CASES: &[Case] = &[
 ///
 /// Half a second: later the whip of light tails is chaotic. At 0.8 s runs still agree to a thousand tolerances, at 1 s
 /// two integrators at a tolerance of 1e-13 differ by metres at the tip.
-fn chain(ratio: f64, method: &TrialMethod) -> Outcome {
+fn chain(ratio: f64, method: &TrialMethod) -> StressOutcome {
     let mut scene = scene("chain", DOWN, 0.5, 1e-9);
     let first = if ratio > 1.0 { 1e-9 } else { 1.0 };
     for i in 0..10 {
@@ -103,7 +103,7 @@ fn chain(ratio: f64, method: &TrialMethod) -> Outcome {
 }
 
 /// A uniform rod on a hinge: θ̈ = −(3 g / 2 l) sin θ; for two periods of about 2π √(2 l / 3 g).
-fn pendulum(length: f64, mass: f64, method: &TrialMethod) -> Outcome {
+fn pendulum(length: f64, mass: f64, method: &TrialMethod) -> StressOutcome {
     let start = 1.0f64;
     let pace = (1.5 * 9.81 / length).sqrt();
     let mut scene = scene("pendulum", DOWN, 15.0 / pace, 1e-9);
@@ -122,7 +122,7 @@ fn pendulum(length: f64, mass: f64, method: &TrialMethod) -> Outcome {
         .run()
 }
 
-fn all_sizes(method: &TrialMethod, _: bool) -> Outcome {
+fn all_sizes(method: &TrialMethod, _: bool) -> StressOutcome {
     let lengths = [1e-6, 1e-3, 1.0, 1e3];
     let start = 1.0f64;
     let mut scene = scene("all-sizes", DOWN, 0.02, 1e-9);
@@ -150,7 +150,7 @@ fn all_sizes(method: &TrialMethod, _: bool) -> Outcome {
         .run()
 }
 
-fn thin(method: &TrialMethod, _: bool) -> Outcome {
+fn thin(method: &TrialMethod, _: bool) -> StressOutcome {
     let start = 1.0f64;
     let moment = 1.0 / 12.0;
     let shapes = [
@@ -179,10 +179,10 @@ fn thin(method: &TrialMethod, _: bool) -> Outcome {
                 .conserving((1e-7, 1e-3))
                 .run()
         })
-        .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
+        .fold(StressOutcome::nothing(StressVerdict::Survived, String::new()), StressOutcome::and)
 }
 
-fn triangle(method: &TrialMethod, _: bool) -> Outcome {
+fn triangle(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("triangle", [0.0; 3], 10.0, 1e-10);
     let inertias = [[1.0, 1.0, 1e-9], [1.0, 1.0, 2.0], [1.0, 1e-6, 1.0], [3.0, 1.0, 2.0]];
     for (i, principal) in inertias.into_iter().enumerate() {

@@ -2,50 +2,50 @@
 
 use super::build::{DOWN, GROUND, distance, hinged, joint, pin, rod, scene};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use triad_scene::{JointKind, Scene};
 
 const FAMILY: &str = "singular";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "four-bars",
         family: FAMILY,
         summary: "N-four-bars through every crossing; N = 1 to 40 for 100 s, quick: four of them for 10 s",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: four_bars,
     },
-    Case {
+    StressCase {
         name: "four-bar-horizontal",
         family: FAMILY,
         summary: "Three windows started exactly in the singular position, moving along the branch",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: horizontal,
     },
-    Case {
+    StressCase {
         name: "four-bar-unequal",
         family: FAMILY,
         summary: "Four windows on bent levers with unequal arms: each is singular at another moment",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: unequal,
     },
-    Case {
+    StressCase {
         name: "slider-crank-equal",
         family: FAMILY,
         summary: "Crank and rod of equal length: the slider passes through the crank's pivot",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: slider_crank,
     },
-    Case {
+    StressCase {
         name: "branch-point-at-rest",
         family: FAMILY,
         summary: "A parallelogram let go at rest in its branch point: the branch is not determined, and is told so",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: at_rest,
     },
@@ -86,7 +86,7 @@ fn against_pendulum(
     start: (f64, f64),
     seconds: f64,
     method: &TrialMethod,
-) -> Outcome {
+) -> StressOutcome {
     scene.simulation.duration = seconds;
     let k = kappa(count);
     let mut exact = OneDegree::new(start.0, start.1, move |a: f64, _| k * a.sin());
@@ -109,29 +109,29 @@ fn against_pendulum(
         .run()
 }
 
-fn four_bars(method: &TrialMethod, quick: bool) -> Outcome {
+fn four_bars(method: &TrialMethod, quick: bool) -> StressOutcome {
     let (counts, seconds): (Vec<usize>, f64) =
         if quick { (vec![1, 2, 5, 12], 10.0) } else { ((1..=40).collect(), 100.0) };
     counts
         .into_iter()
         .map(|n| against_windows(n, seconds, method))
-        .reduce(Outcome::and)
-        .unwrap_or_else(|| Outcome::nothing(Verdict::Wrong, "nothing was run".to_owned()))
+        .reduce(StressOutcome::and)
+        .unwrap_or_else(|| StressOutcome::nothing(StressVerdict::Wrong, "nothing was run".to_owned()))
 }
 
 /// So many windows from the upright for so long.
-pub(super) fn against_windows(count: usize, seconds: f64, method: &TrialMethod) -> Outcome {
+pub(super) fn against_windows(count: usize, seconds: f64, method: &TrialMethod) -> StressOutcome {
     against_pendulum(windows(count, 0.0, 1.0), count, (0.0, 1.0), seconds, method)
 }
 
-fn horizontal(method: &TrialMethod, _: bool) -> Outcome {
+fn horizontal(method: &TrialMethod, _: bool) -> StressOutcome {
     let start = (FRAC_PI_2, 3.0);
     against_pendulum(windows(3, start.0, start.1), 3, start, 10.0, method)
 }
 
 /// Levers turn together by θ; arm k of lever k and lever k + 1 stands at the angle β_k and has the length a_k, and a
 /// massive coupler joins the two. Singular where θ + β_k is 0 or π.
-fn unequal(method: &TrialMethod, _: bool) -> Outcome {
+fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
     let arms = [(1.0, 0.0), (0.7, 0.8), (1.3, 1.9), (0.5, 2.7)];
     let (start, rate) = (0.4, 1.5);
     let mut scene = scene("unequal-windows", DOWN, 20.0, 1e-9);
@@ -178,7 +178,7 @@ fn unequal(method: &TrialMethod, _: bool) -> Outcome {
 
 /// Crank at θ, rod back to the axis, slider at 2 cos θ: ½ M(θ) θ̇² + g sin θ with
 /// M = 1/3 + 1/12 + ¼ cos² θ + 9/4 sin² θ + 4 sin² θ, all masses and lengths one.
-fn slider_crank(method: &TrialMethod, _: bool) -> Outcome {
+fn slider_crank(method: &TrialMethod, _: bool) -> StressOutcome {
     let (start, rate): (f64, f64) = (0.5, 4.0);
     let mut scene = scene("slider-crank", DOWN, 20.0, 1e-9);
     let (c, s) = (start.cos(), start.sin());
@@ -209,7 +209,7 @@ fn slider_crank(method: &TrialMethod, _: bool) -> Outcome {
 
 /// At rest in the horizontal position several branches begin. Any of them is a solution; the result must be one, and
 /// the author must be told.
-fn at_rest(method: &TrialMethod, _: bool) -> Outcome {
+fn at_rest(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = windows(1, FRAC_PI_2, 0.0);
     scene.simulation.duration = 3.0;
     let told = triad_engine::run::Simulation::new(&scene)
@@ -227,8 +227,8 @@ fn at_rest(method: &TrialMethod, _: bool) -> Outcome {
         })
         .conserving((1e-6, 1e-3))
         .run();
-    if !told && outcome.verdict == Verdict::Survived {
-        outcome.verdict = Verdict::Wrong;
+    if !told && outcome.verdict == StressVerdict::Survived {
+        outcome.verdict = StressVerdict::Wrong;
         "the start is singular, and nothing is said about it".clone_into(&mut outcome.reason);
     }
     outcome

@@ -2,58 +2,58 @@
 
 use super::build::{DOWN, GROUND, distance, pin, rod, scene};
 use super::trial::must_be_refused;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_engine::run::Simulation;
 use triad_scene::{Orientation, Scene};
 
 const FAMILY: &str = "wrong starts";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "points-off",
         family: FAMILY,
         summary: "A double pendulum whose points miss each other by up to 30 % of a link",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: points_off,
     },
-    Case {
+    StressCase {
         name: "velocities-off",
         family: FAMILY,
         summary: "A double pendulum whose velocities contradict its hinges",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: velocities_off,
     },
-    Case {
+    StressCase {
         name: "not-orthonormal",
         family: FAMILY,
         summary: "Directors that are 10 % from orthonormal",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: not_orthonormal,
     },
-    Case {
+    StressCase {
         name: "left-handed",
         family: FAMILY,
         summary: "Directors u, v and w of which the third points the wrong way",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: left_handed,
     },
-    Case {
+    StressCase {
         name: "not-at-all-orthonormal",
         family: FAMILY,
         summary: "Directors that are parallel",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: parallel,
     },
-    Case {
+    StressCase {
         name: "unreachable",
         family: FAMILY,
         summary: "A double pendulum whose last point is held twice as far as it reaches",
-        expected: Verdict::Refused,
+        expected: StressVerdict::Refused,
         quick: true,
         run: unreachable,
     },
@@ -76,7 +76,7 @@ fn double_pendulum() -> Scene {
 }
 
 /// The corrected start must be told in a note, be consistent, and stay near what was given; from there energy holds.
-fn corrected(scene: Scene, far: f64, word: &str, method: &TrialMethod) -> Outcome {
+fn corrected(scene: Scene, far: f64, word: &str, method: &TrialMethod) -> StressOutcome {
     let given: Vec<_> = scene.bodies.iter().map(|b| b.position).collect();
     let told = Simulation::new(&scene).is_ok_and(|run| run.notes().iter().any(|note| note.contains(word)));
     let mut first = true;
@@ -89,14 +89,14 @@ fn corrected(scene: Scene, far: f64, word: &str, method: &TrialMethod) -> Outcom
         })
         .conserving((1e-6, 1e-3))
         .run();
-    if !told && outcome.verdict == Verdict::Survived {
-        outcome.verdict = Verdict::Wrong;
+    if !told && outcome.verdict == StressVerdict::Survived {
+        outcome.verdict = StressVerdict::Wrong;
         "the start was corrected, and nothing is said about it".clone_into(&mut outcome.reason);
     }
     outcome
 }
 
-fn points_off(method: &TrialMethod, _: bool) -> Outcome {
+fn points_off(method: &TrialMethod, _: bool) -> StressOutcome {
     [0.01, 0.1, 0.2]
         .into_iter()
         .map(|by| {
@@ -106,10 +106,10 @@ fn points_off(method: &TrialMethod, _: bool) -> Outcome {
             scene.bodies[1].position[2] += 0.5 * by;
             corrected(scene, 2.0 * by, "positions", method)
         })
-        .fold(Outcome::nothing(Verdict::Survived, String::new()), Outcome::and)
+        .fold(StressOutcome::nothing(StressVerdict::Survived, String::new()), StressOutcome::and)
 }
 
-fn velocities_off(method: &TrialMethod, _: bool) -> Outcome {
+fn velocities_off(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = double_pendulum();
     scene.bodies[0].velocity = [3.0, -1.0, 2.0];
     scene.bodies[0].angular_velocity = [1.0, -1.0, 2.0];
@@ -117,26 +117,26 @@ fn velocities_off(method: &TrialMethod, _: bool) -> Outcome {
     corrected(scene, 1e-9, "velocities", method)
 }
 
-fn not_orthonormal(method: &TrialMethod, _: bool) -> Outcome {
+fn not_orthonormal(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = double_pendulum();
     scene.bodies[1].orientation = Some(Orientation::directors([1.1, 0.05, 0.0], [-0.05, 0.93, 0.02]));
     corrected(scene, 0.2, "orthonormal", method)
 }
 
-fn left_handed(method: &TrialMethod, _: bool) -> Outcome {
+fn left_handed(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = double_pendulum();
     let (u, v) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     scene.bodies[1].orientation = Some(Orientation::Directors { u, v, w: Some([0.0, 0.0, -1.0]) });
     must_be_refused(&scene, method, "orientation-invalid", &["\"lower\""])
 }
 
-fn parallel(method: &TrialMethod, _: bool) -> Outcome {
+fn parallel(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = double_pendulum();
     scene.bodies[0].orientation = Some(Orientation::directors([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]));
     must_be_refused(&scene, method, "orientation-invalid", &["\"upper\""])
 }
 
-fn unreachable(method: &TrialMethod, _: bool) -> Outcome {
+fn unreachable(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = double_pendulum();
     let mut hand = pin("hand", GROUND, "lower", [0.0; 2]);
     hand.point = None;

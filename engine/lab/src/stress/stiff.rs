@@ -2,64 +2,64 @@
 
 use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene, spring};
 use super::oracle::OneDegree;
-use super::{Case, Outcome, Trial, TrialMethod, Verdict};
+use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{Driver, Friction, JointKind, Load, Motion};
 
 const FAMILY: &str = "stiff and fast";
 
-pub(super) const CASES: &[Case] = &[
-    Case {
+pub(super) const CASES: &[StressCase] = &[
+    StressCase {
         name: "spring-1e6",
         family: FAMILY,
         summary: "A mass of 1 kg on a spring of 1e6 N/m for 160 periods",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| oscillator(1e6, 0.0, 1.0, method),
     },
-    Case {
+    StressCase {
         name: "spring-1e10",
         family: FAMILY,
         summary: "A mass of 1 kg on a spring of 1e10 N/m for 160 periods",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| oscillator(1e10, 0.0, 0.01, method),
     },
-    Case {
+    StressCase {
         name: "spring-damped",
         family: FAMILY,
         summary: "1e8 N/m and 4e5 N s/m on 1 kg: twenty times overdamped, as in a governor",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: |method, _| oscillator(1e8, 4e5, 0.1, method),
     },
-    Case {
+    StressCase {
         name: "top",
         family: FAMILY,
         summary: "A symmetric top spinning at 1e5 rad/s in regular precession",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: top,
     },
-    Case {
+    StressCase {
         name: "driver-1-khz",
         family: FAMILY,
         summary: "A pendulum whose pivot is shaken at 1 kHz stands on its head (Kapitza)",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: kapitza,
     },
-    Case {
+    StressCase {
         name: "friction-smooth",
         family: FAMILY,
         summary: "A block that friction, smoothed at 1e-6 m/s, brings to rest",
-        expected: Verdict::Survived,
+        expected: StressVerdict::Survived,
         quick: true,
         run: friction,
     },
 ];
 
 /// x = x₀ of a damped oscillator along x, exactly.
-fn oscillator(stiffness: f64, damping: f64, seconds: f64, method: &TrialMethod) -> Outcome {
+fn oscillator(stiffness: f64, damping: f64, seconds: f64, method: &TrialMethod) -> StressOutcome {
     let (amplitude, rest) = (0.01, 1.0);
     let mut scene = scene("oscillator", [0.0; 3], seconds, 1e-9);
     scene.bodies.push(body("mass", 1.0, [0.1; 3], [rest + amplitude, 0.0, 0.0]));
@@ -85,7 +85,7 @@ fn oscillator(stiffness: f64, damping: f64, seconds: f64, method: &TrialMethod) 
 }
 
 /// With its axis horizontal, a symmetric top precesses steadily at exactly Ω = m g l / (C n).
-fn top(method: &TrialMethod, quick: bool) -> Outcome {
+fn top(method: &TrialMethod, quick: bool) -> StressOutcome {
     let (spin, arm, axial, across) = (1e5, 0.1, 1e-3, 1e-3);
     let precession = 9.81 * arm / (axial * spin);
     let seconds = if quick { 0.02 } else { 0.2 };
@@ -105,7 +105,7 @@ fn top(method: &TrialMethod, quick: bool) -> Outcome {
 }
 
 /// A rod on a pivot at y = a sin Ω t: θ̈ = (3 / 2 l)(g − a Ω² sin Ω t) sin θ from the upward vertical.
-fn kapitza(method: &TrialMethod, _: bool) -> Outcome {
+fn kapitza(method: &TrialMethod, _: bool) -> StressOutcome {
     let (amplitude, frequency) = (0.01, 2.0 * std::f64::consts::PI * 1000.0);
     let start = 0.1f64;
     let mut scene = scene("kapitza", DOWN, 0.3, 1e-10);
@@ -135,7 +135,7 @@ fn kapitza(method: &TrialMethod, _: bool) -> Outcome {
 }
 
 /// A block of 1 kg at 1 m/s against 2 N: it stands after 0.5 s and 0.25 m, and stays.
-fn friction(method: &TrialMethod, quick: bool) -> Outcome {
+fn friction(method: &TrialMethod, quick: bool) -> StressOutcome {
     let mut scene = scene("friction", [0.0; 3], if quick { 0.505 } else { 1.0 }, 1e-8);
     let mut block = body("block", 1.0, [0.1; 3], [0.0; 3]);
     block.velocity = [1.0, 0.0, 0.0];

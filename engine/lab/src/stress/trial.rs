@@ -1,6 +1,6 @@
 //! One run of one scene, and the judgement on it.
 
-use super::{Outcome, TrialMethod, Verdict};
+use super::{StressOutcome, StressVerdict, TrialMethod};
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
 use triad_scene::Scene;
@@ -85,9 +85,11 @@ impl<'a> Trial<'a> {
     }
 
     /// Runs and judges.
-    pub fn run(self) -> Outcome {
-        let refused =
-            |why: String, reference: String| Outcome { reference, ..Outcome::nothing(Verdict::Refused, why) };
+    pub fn run(self) -> StressOutcome {
+        let refused = |why: String, reference: String| StressOutcome {
+            reference,
+            ..StressOutcome::nothing(StressVerdict::Refused, why)
+        };
         if self.scene.bodies.len() > self.max_bodies {
             let why = format!(
                 "not tried: its matrices are full, and more than {} bodies too many",
@@ -101,9 +103,9 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn watch(mut self, mut simulation: Simulation) -> Outcome {
+    fn watch(mut self, mut simulation: Simulation) -> StressOutcome {
         simulation.set_step_limit(self.steps.min(self.max_steps));
-        let mut outcome = Outcome::nothing(Verdict::Survived, String::new());
+        let mut outcome = StressOutcome::nothing(StressVerdict::Survived, String::new());
         outcome.reference = std::mem::take(&mut self.reference);
         let (mut drift, mut kinetic) = (0.0f64, f64::MIN_POSITIVE);
         let mut stopped = None;
@@ -134,8 +136,8 @@ impl<'a> Trial<'a> {
         outcome
     }
 
-    fn judge(&self, outcome: &mut Outcome, stopped: Option<&EngineError>, doubts: &[String]) {
-        let mut verdict = Verdict::Survived;
+    fn judge(&self, outcome: &mut StressOutcome, stopped: Option<&EngineError>, doubts: &[String]) {
+        let mut verdict = StressVerdict::Survived;
         let mut reasons = Vec::new();
         let mut blame = |what: &str, value: Option<f64>, good: f64, poor: f64| {
             let Some(value) = value else { return };
@@ -143,9 +145,9 @@ impl<'a> Trial<'a> {
             let found = if value <= good {
                 return;
             } else if value <= poor {
-                Verdict::Degraded
+                StressVerdict::Degraded
             } else {
-                Verdict::Wrong
+                StressVerdict::Wrong
             };
             verdict = verdict.max(found);
             reasons.push(format!("{what} {value:.1e} is above {good:.0e}"));
@@ -156,15 +158,15 @@ impl<'a> Trial<'a> {
         }
         blame("the violation", outcome.violation, LOOSE, f64::MAX);
         match stopped {
-            Some(error) if verdict < Verdict::Wrong => {
-                verdict = Verdict::Refused;
+            Some(error) if verdict < StressVerdict::Wrong => {
+                verdict = StressVerdict::Refused;
                 reasons.insert(0, error.to_string());
             }
             Some(error) => reasons.push(format!("then it stopped: {error}")),
             None => {}
         }
-        if verdict == Verdict::Wrong && !doubts.is_empty() {
-            verdict = Verdict::Warned;
+        if verdict == StressVerdict::Wrong && !doubts.is_empty() {
+            verdict = StressVerdict::Warned;
             reasons.push(format!("it says: {}", doubts.join("; ")));
         }
         if reasons.is_empty() {
@@ -177,11 +179,11 @@ impl<'a> Trial<'a> {
 }
 
 /// A scene that must be refused with an error of one of the given codes (`a|b`) that names all of `names`.
-pub fn must_be_refused(scene: &Scene, method: &TrialMethod, code: &str, names: &[&str]) -> Outcome {
+pub fn must_be_refused(scene: &Scene, method: &TrialMethod, code: &str, names: &[&str]) -> StressOutcome {
     let mut scene = scene.clone();
     method.apply(&mut scene);
     let reference = format!("must be refused as {code}, naming {}", names.join(" and "));
-    let mut outcome = Outcome::nothing(Verdict::Wrong, "it ran to its end".to_owned());
+    let mut outcome = StressOutcome::nothing(StressVerdict::Wrong, "it ran to its end".to_owned());
     let error = match Simulation::new(&scene) {
         Err(error) => Some(error),
         Ok(mut simulation) => {
@@ -197,7 +199,7 @@ pub fn must_be_refused(scene: &Scene, method: &TrialMethod, code: &str, names: &
         let text = error.to_string();
         let names_all = names.iter().all(|name| text.contains(name));
         let true_reason = code.split('|').any(|code| code == error.code()) && names_all;
-        outcome.verdict = if true_reason { Verdict::Refused } else { Verdict::Wrong };
+        outcome.verdict = if true_reason { StressVerdict::Refused } else { StressVerdict::Wrong };
         outcome.reason = if true_reason { text } else { format!("{}: {text}", error.code()) };
     }
     outcome.reference = reference;

@@ -23,7 +23,7 @@ use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::{Query, Submission};
+use crate::store::{Query, StoredSubmission};
 use crate::{blocking, grading};
 
 /// Longest name of a student, in characters.
@@ -91,7 +91,7 @@ async fn submit(
         }
         let document = described(&verdict)?;
         if gradable {
-            app.store.add(&Submission {
+            app.store.add(&StoredSubmission {
                 id: id.clone(),
                 lesson: lesson.slug.clone(),
                 student: student.clone(),

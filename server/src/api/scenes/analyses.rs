@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::Serialize;
 use serde_json::Value;
-use triad_engine::analysis::{self, About, AnalysisError, Assembly, Equilibrium, Kinematics, Modes};
+use triad_engine::analysis::{self, AnalysisError, Assembly, Equilibrium, Kinematics, Modes, ModesAbout};
 use triad_engine::reactions::report::Convention;
 use triad_engine::scene::Scene;
 use utoipa_axum::router::OpenApiRouter;
@@ -43,7 +43,7 @@ struct AnalysisRequest {
     scene: Value,
     /// Modes about the `equilibrium` near the start, or about the `start` itself.
     #[serde(default)]
-    about: About,
+    about: ModesAbout,
     /// Bodies that an assembly must not move.
     #[serde(default)]
     pinned: Vec<String>,

@@ -8,7 +8,7 @@ use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_engine::reactions::Multiplier;
-use triad_engine::reactions::report::{About, Convention, ExpressedIn, Reaction, Side};
+use triad_engine::reactions::report::{Convention, ExpressedIn, MomentReference, Reaction, Side};
 use triad_engine::reactions::uniqueness::Redundancy;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -192,15 +192,17 @@ async fn look_from(
     Ok(axum::Json(app.sessions.get(&id)?.look_from(new.from).await?))
 }
 
-fn about(asked: Option<&str>) -> Result<About, Problem> {
+fn about(asked: Option<&str>) -> Result<MomentReference, Problem> {
     let text = match asked {
-        None | Some("joint") => return Ok(About::JointPoint),
-        Some("center") => return Ok(About::CenterOfMass),
+        None | Some("joint") => return Ok(MomentReference::JointPoint),
+        Some("center") => return Ok(MomentReference::CenterOfMass),
         Some(text) => text,
     };
     let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
     match numbers[..] {
-        [x, y, z] if [x, y, z].iter().all(|n: &f64| n.is_finite()) => Ok(About::WorldPoint([x, y, z])),
+        [x, y, z] if [x, y, z].iter().all(|n: &f64| n.is_finite()) => {
+            Ok(MomentReference::WorldPoint([x, y, z]))
+        }
         _ => Err(Problem::new(
             StatusCode::BAD_REQUEST,
             "unknown-point",

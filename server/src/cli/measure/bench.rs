@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use axum::http::StatusCode;
 use clap::Args;
 use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind};
-use triad_lab::bench::{Plan, Wish, by_scene, csv, html, measure, svg, table};
+use triad_lab::bench::{BenchPlan, Wish, by_scene, csv, html, measure, svg, table};
 
 use super::raster::{RasterError, png};
 use crate::cli::output::{make_folder, write};
@@ -53,7 +53,7 @@ fn treatment(text: &str) -> Result<ConstraintMethod, String> {
 /// Measures, prints the times to reach three errors, and writes tables and plots into a folder.
 pub(in crate::cli) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
     let Bench { quick, scenes, integrators, treatment, coordinates, tolerances, out: folder } = options;
-    let plan = if quick { Plan::quick() } else { Plan::full() };
+    let plan = if quick { BenchPlan::quick() } else { BenchPlan::full() };
     let plan =
         plan.with(Wish { scenes, integrators, constraint_methods: treatment, coordinates, tolerances });
     if plan.cases.is_empty() {

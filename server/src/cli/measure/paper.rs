@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 use triad_engine::scene::Coordinates;
 use triad_lab::paper::{
-    CASES, Case, Correlation, Counts, LinearAlgebra, PaperPlant, correlation, reference, run,
+    CASES, Correlation, Counts, LinearAlgebra, PaperCase, PaperPlant, correlation, reference, run,
 };
 
 use crate::cli::output::write;
@@ -70,7 +70,7 @@ struct Seconds {
 
 /// Runs all examples.
 pub(in crate::cli) fn paper(options: &Paper, json: bool) -> Result<Outcome, Problem> {
-    let cases: Vec<&Case> = CASES.iter().filter(|case| case.bodies <= options.bodies).collect();
+    let cases: Vec<&PaperCase> = CASES.iter().filter(|case| case.bodies <= options.bodies).collect();
     if cases.is_empty() {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
@@ -100,7 +100,7 @@ pub(in crate::cli) fn paper(options: &Paper, json: bool) -> Result<Outcome, Prob
     Ok(if kept { Outcome::Done } else { Outcome::No })
 }
 
-fn row(case: &'static Case) -> Result<Row, Problem> {
+fn row(case: &'static PaperCase) -> Result<Row, Problem> {
     let (full, followed) = side(case, Coordinates::Full)?;
     let (reduced, also) = side(case, Coordinates::Reduced)?;
     let reference = reference(case)?;
@@ -114,7 +114,7 @@ fn row(case: &'static Case) -> Result<Row, Problem> {
     })
 }
 
-fn side(case: &'static Case, coordinates: Coordinates) -> Result<(Side, Vec<f64>), Problem> {
+fn side(case: &'static PaperCase, coordinates: Coordinates) -> Result<(Side, Vec<f64>), Problem> {
     let found = run(case, coordinates, LinearAlgebra::Sparse)?;
     let published = match coordinates {
         Coordinates::Full | Coordinates::Shared => case.published.full,
@@ -140,7 +140,7 @@ fn side(case: &'static Case, coordinates: Coordinates) -> Result<(Side, Vec<f64>
 }
 
 /// The shortest time of one evaluation among as many as fit into a moment, s.
-fn evaluation(case: &Case, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<f64, Problem> {
+fn evaluation(case: &PaperCase, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<f64, Problem> {
     let mut plant = PaperPlant::new(case, coordinates, algebra)?;
     let y = plant.start().to_vec();
     let mut rate = vec![0.0; y.len()];

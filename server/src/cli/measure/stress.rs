@@ -11,7 +11,7 @@ use clap::Args;
 use serde::Serialize;
 use triad_engine::VERSION;
 use triad_engine::scene::Scene;
-use triad_lab::stress::{self, Case, Entry, TrialMethod, Verdict};
+use triad_lab::stress::{self, CaseReport, StressCase, StressVerdict, TrialMethod};
 
 use crate::cli::output::{make_room, write};
 use crate::cli::terminal::{Outcome, print_json, print_line, progress};
@@ -63,7 +63,7 @@ struct Report {
     counts: BTreeMap<String, usize>,
     /// Cases that did not go as they have to.
     unexpected: Vec<String>,
-    entries: Vec<Entry>,
+    entries: Vec<CaseReport>,
     /// Which method survives what.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     comparison: Vec<Column>,
@@ -74,7 +74,7 @@ struct Report {
 struct Column {
     #[serde(rename = "treatment")]
     method: String,
-    entries: Vec<Entry>,
+    entries: Vec<CaseReport>,
 }
 
 /// Runs the suite.
@@ -119,7 +119,7 @@ pub(in crate::cli) fn stress(options: &Stress, json: bool) -> Result<Outcome, Pr
 
 /// Compares treatments alone.
 fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
-    let cases: Vec<Case> = stress::compared()
+    let cases: Vec<StressCase> = stress::compared()
         .into_iter()
         .filter(|case| options.case.as_deref().is_none_or(|wanted| case.name.contains(wanted)))
         .collect();
@@ -150,10 +150,10 @@ fn treatments(options: &Stress, json: bool) -> Result<Outcome, Problem> {
     Ok(Outcome::Done)
 }
 
-fn chosen(options: &Stress) -> Result<Vec<Case>, Problem> {
+fn chosen(options: &Stress) -> Result<Vec<StressCase>, Problem> {
     let all = stress::cases().into_iter().filter(|case| case.quick || !options.quick);
     let Some(wanted) = options.case.as_deref() else { return Ok(all.collect()) };
-    let cases: Vec<Case> =
+    let cases: Vec<StressCase> =
         all.filter(|case| case.name.contains(wanted) || case.family.contains(wanted)).collect();
     if cases.is_empty() && wanted != "random" {
         let names: Vec<&str> = stress::cases().iter().map(|case| case.name).collect();
@@ -178,7 +178,7 @@ fn seeds(options: &Stress) -> (u64, u64) {
 }
 
 /// Keeps an entry; one that went wrong is printed at once, a random one as a small scene that can be kept.
-fn add(entries: &mut Vec<Entry>, entry: Entry, json: bool) {
+fn add(entries: &mut Vec<CaseReport>, entry: CaseReport, json: bool) {
     if !json && !entry.as_expected() {
         eprintln!("{}: {}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
     }
@@ -188,11 +188,11 @@ fn add(entries: &mut Vec<Entry>, entry: Entry, json: bool) {
 /// The smallest scene that still goes as wrong as that of a seed.
 pub(in crate::cli) fn smallest(seed: u64) -> Scene {
     let method = TrialMethod::default();
-    let wrong = |scene: &Scene| stress::random::judge(scene, &method).verdict == Verdict::Wrong;
+    let wrong = |scene: &Scene| stress::random::judge(scene, &method).verdict == StressVerdict::Wrong;
     stress::shrink::shrink(&stress::random::scene(seed), &wrong)
 }
 
-fn compare(cases: &[Case], json: bool) -> Vec<Column> {
+fn compare(cases: &[StressCase], json: bool) -> Vec<Column> {
     let treatments = stress::comparison();
     let bar = progress("compare", (cases.len() * treatments.len()) as f64, json);
     let mut done = 0.0;
@@ -209,7 +209,7 @@ fn compare(cases: &[Case], json: bool) -> Vec<Column> {
     columns
 }
 
-fn counts(entries: &[Entry]) -> BTreeMap<String, usize> {
+fn counts(entries: &[CaseReport]) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     for entry in entries {
         *counts.entry(entry.outcome.verdict.to_string()).or_insert(0) += 1;

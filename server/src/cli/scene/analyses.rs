@@ -2,7 +2,9 @@
 
 use clap::{Args, ValueEnum};
 use triad_engine::analysis;
-use triad_engine::reactions::report::{About, Convention, ExpressedIn, Reaction, ReactionReport, Side};
+use triad_engine::reactions::report::{
+    Convention, ExpressedIn, MomentReference, Reaction, ReactionReport, Side,
+};
 use triad_engine::run::Simulation;
 use triad_engine::state::BodyFrame;
 
@@ -60,9 +62,9 @@ impl Words {
                 OnWord::J => Side::J,
             },
             about: match self.about {
-                AboutWord::JointPoint => About::JointPoint,
-                AboutWord::CenterOfMass => About::CenterOfMass,
-                AboutWord::Origin => About::WorldPoint([0.0; 3]),
+                AboutWord::JointPoint => MomentReference::JointPoint,
+                AboutWord::CenterOfMass => MomentReference::CenterOfMass,
+                AboutWord::Origin => MomentReference::WorldPoint([0.0; 3]),
             },
             expressed_in: match self.frame {
                 FrameWord::World => ExpressedIn::World,
@@ -116,13 +118,14 @@ fn print_reactions(report: &ReactionReport) {
 }
 
 fn print_reaction(reaction: &Reaction) {
-    let line = |what: &str, unit: &str, components: &[triad_engine::reactions::report::Component; 3]| {
-        let numbers: Vec<String> = components
-            .iter()
-            .map(|c| format!("{}{:>14.6}", if c.unique { ' ' } else { '~' }, c.value + 0.0))
-            .collect();
-        print_line(&format!("    {what:<8}{} {unit}", numbers.concat()));
-    };
+    let line =
+        |what: &str, unit: &str, components: &[triad_engine::reactions::report::ReactionComponent; 3]| {
+            let numbers: Vec<String> = components
+                .iter()
+                .map(|c| format!("{}{:>14.6}", if c.unique { ' ' } else { '~' }, c.value + 0.0))
+                .collect();
+            print_line(&format!("    {what:<8}{} {unit}", numbers.concat()));
+        };
     print_line(&format!(
         "  {}{}: on \"{}\" by \"{}\", about {}, in {}",
         if reaction.driver { "driver " } else { "" },
@@ -173,7 +176,7 @@ pub(in crate::cli) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Pro
 /// Eigenfrequencies and mode shapes.
 pub(in crate::cli) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Outcome, Problem> {
     let scene = scenes::named_or_in_file(spec)?;
-    let about = if at_start { analysis::About::Start } else { analysis::About::Equilibrium };
+    let about = if at_start { analysis::ModesAbout::Start } else { analysis::ModesAbout::Equilibrium };
     let found = analysis::modes(&scene, about)?;
     if json {
         print_json(&found);

@@ -6,7 +6,7 @@ use axum::http::StatusCode;
 use serde_json::json;
 use triad_engine::EngineError;
 use triad_engine::VERSION;
-use triad_engine::run::{LeftOut, Simulation, Summary};
+use triad_engine::run::{Simulation, SkippedItem, Summary};
 use triad_engine::scene::{Scene, Skip};
 use triad_lab::verify::{Verification, Verifier};
 
@@ -14,7 +14,7 @@ use super::csv::Table;
 use super::options::Run;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::{make_room, unwritable};
-use crate::cli::terminal::{Outcome, Progress, print_json, print_line, progress};
+use crate::cli::terminal::{Outcome, TimeBar, print_json, print_line, progress};
 use crate::problem::Problem;
 use crate::scenes;
 use crate::session::{describe, sample};
@@ -127,7 +127,7 @@ fn advance(
     outputs: &mut Outputs,
     every: f64,
     bounds: &Bounds,
-    bar: &Progress,
+    bar: &TimeBar,
 ) -> Result<(), Stop> {
     let engine = |error: EngineError| Stop::Engine(error.into());
     outputs.write(simulation).map_err(Stop::Output)?;
@@ -297,7 +297,7 @@ fn report(
     }
 }
 
-fn explanation(left: &LeftOut) -> String {
+fn explanation(left: &SkippedItem) -> String {
     let switch = if left.on { "on " } else { "off" };
     format!("  left out: {:<10} {switch}  {}", left.word, left.what)
 }

@@ -1,8 +1,8 @@
 //! Joint angles as series, and the rows that relate them: gears and screws — eq. (11.6), (11.7).
 
-use super::lanes::Triple;
+use super::lanes::LaneVector;
 use super::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, value};
-use super::rows::Place;
+use super::rows::LanePlace;
 use crate::state::AngleState;
 use crate::system::System;
 use crate::system::feature::{Difference, FeatureId};
@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 /// The angle of a joint, θ = atan2(a₂ · b, a₁ · b).
 #[derive(Clone, Debug)]
-pub struct Angle {
-    places: [Place; 3],
+pub struct AngleSeries {
+    places: [LanePlace; 3],
     /// Coefficients of a₁, a₂, b, of x = a₁ · b, y = a₂ · b and x² + y², and of x and y over x² + y².
     vectors: [Vectors; 3],
     x: Vec<f64>,
@@ -26,8 +26,8 @@ pub struct Angle {
     pub state: AngleState,
 }
 
-impl Angle {
-    fn new(places: [Place; 3], stride: usize, start: f64) -> Self {
+impl AngleSeries {
+    fn new(places: [LanePlace; 3], stride: usize, start: f64) -> Self {
         let scalar = || vec![0.0; stride];
         Self {
             places,
@@ -43,12 +43,12 @@ impl Angle {
     }
 
     /// Takes over the positions of the features.
-    pub fn place<const L: usize>(&mut self, values: &[Triple<L>]) {
+    pub fn place<const L: usize>(&mut self, values: &[LaneVector<L>]) {
         self.state.set_position(self.places.map(|p| p.get(values).into()));
     }
 
     /// Takes over coefficient m of the features, all before it being known.
-    pub fn store<const L: usize>(&mut self, m: usize, values: &[Triple<L>]) {
+    pub fn store<const L: usize>(&mut self, m: usize, values: &[LaneVector<L>]) {
         for (vectors, place) in self.vectors.iter_mut().zip(self.places) {
             vectors[m] = place.get(values).into();
         }
@@ -104,7 +104,7 @@ struct Relation {
     /// Coefficients of its multiplier.
     lambda: Vec<f64>,
     /// Its features and gradient with respect to them at the state, in the order of [`Form::features`].
-    places: Vec<Place>,
+    places: Vec<LanePlace>,
     gradients: Vec<Vector3<f64>>,
 }
 
@@ -120,13 +120,13 @@ struct Turn {
 /// The part of a displacement: minuend and subtrahend of both factors, and their series.
 #[derive(Clone, Debug)]
 struct Slide {
-    places: [[Option<Place>; 2]; 2],
+    places: [[Option<LanePlace>; 2]; 2],
     factor: f64,
     sides: [Vectors; 2],
 }
 
 impl Slide {
-    fn side<const L: usize>(&self, side: usize, values: &[Triple<L>]) -> Vector3<f64> {
+    fn side<const L: usize>(&self, side: usize, values: &[LaneVector<L>]) -> Vector3<f64> {
         let [plus, minus] = self.places[side].map(|p| p.map_or(Vector3::zeros(), |p| p.get(values).into()));
         plus - minus
     }
@@ -136,19 +136,20 @@ impl Slide {
 #[derive(Clone, Debug)]
 pub struct Angles {
     /// The angles, in the order of the system's.
-    pub list: Vec<Angle>,
+    pub list: Vec<AngleSeries>,
     relations: Vec<Relation>,
 }
 
 impl Angles {
     /// Of a system, with room for `stride` coefficients; `turns` are the angles at the start.
-    pub fn new(system: &System, place: &[Place], stride: usize, turns: &[f64]) -> Self {
+    pub fn new(system: &System, place: &[LanePlace], stride: usize, turns: &[f64]) -> Self {
         let starts = turns.iter().copied().chain(std::iter::repeat(0.0));
         let angles = system.angles.iter().zip(starts);
-        let list = angles.map(|(a, start)| Angle::new(a.features().map(|f| place[f]), stride, start));
+        let list = angles.map(|(a, start)| AngleSeries::new(a.features().map(|f| place[f]), stride, start));
         let relations = system.rows.iter().filter_map(|row| {
             let Form::Relation { angles, slide, constant } = row.form else { return None };
-            let places: Vec<Place> = row.form.features(&system.angles).iter().map(|&f| place[f]).collect();
+            let places: Vec<LanePlace> =
+                row.form.features(&system.angles).iter().map(|&f| place[f]).collect();
             let at = |f: FeatureId| place[f];
             let pair = |d: Difference| [Some(at(d.plus)), d.minus.map(at)];
             Some(Relation {
@@ -177,7 +178,7 @@ impl Angles {
     }
 
     /// Takes over the positions of features: values and gradients at the state.
-    pub fn place<const L: usize>(&mut self, values: &[Triple<L>]) {
+    pub fn place<const L: usize>(&mut self, values: &[LaneVector<L>]) {
         for angle in &mut self.list {
             angle.place(values);
         }
@@ -193,7 +194,7 @@ impl Angles {
 
     /// Takes over coefficient m of all features.
     #[inline(always)]
-    pub fn store<const L: usize>(&mut self, m: usize, values: &[Triple<L>]) {
+    pub fn store<const L: usize>(&mut self, m: usize, values: &[LaneVector<L>]) {
         for angle in &mut self.list {
             angle.store(m, values);
         }
@@ -236,7 +237,7 @@ impl Angles {
     }
 
     /// Φ of relations.
-    pub fn set_violation<const L: usize>(&self, values: &[Triple<L>], extra: &mut [f64]) {
+    pub fn set_violation<const L: usize>(&self, values: &[LaneVector<L>], extra: &mut [f64]) {
         for relation in &self.relations {
             let turns = relation.angles.iter().flatten();
             let turned: f64 = turns.map(|t| t.factor * self.list[t.angle].state.value).sum();
@@ -247,7 +248,7 @@ impl Angles {
     }
 
     /// Φ̇ of relations from the rates of features.
-    pub fn set_rate_violation<const L: usize>(&self, rates: &[Triple<L>], extra: &mut [f64]) {
+    pub fn set_rate_violation<const L: usize>(&self, rates: &[LaneVector<L>], extra: &mut [f64]) {
         for relation in &self.relations {
             extra[relation.row] = relation.along(rates);
         }
@@ -255,7 +256,7 @@ impl Angles {
 
     /// What is left of relations, given the features' part of the unknown.
     #[inline(always)]
-    pub fn residual<const L: usize>(&self, values: &[Triple<L>], extra: &[f64], out: &mut [f64]) {
+    pub fn residual<const L: usize>(&self, values: &[LaneVector<L>], extra: &[f64], out: &mut [f64]) {
         for relation in &self.relations {
             out[relation.row] = relation.along(values) + extra[relation.row];
         }
@@ -263,7 +264,7 @@ impl Angles {
 
     /// Generalized forces of multipliers of the current order.
     #[inline(always)]
-    pub fn add_forces<const L: usize>(&self, lambda: &[f64], forces: &mut [Triple<L>]) {
+    pub fn add_forces<const L: usize>(&self, lambda: &[f64], forces: &mut [LaneVector<L>]) {
         for relation in &self.relations {
             for (place, gradient) in relation.places.iter().zip(&relation.gradients) {
                 place.add(forces, (gradient * -lambda[relation.row]).into());
@@ -273,7 +274,7 @@ impl Angles {
 
     /// Generalized forces of order n that multipliers of lower order make.
     #[inline(always)]
-    pub fn add_known_forces<const L: usize>(&mut self, n: usize, forces: &mut [Triple<L>]) {
+    pub fn add_known_forces<const L: usize>(&mut self, n: usize, forces: &mut [LaneVector<L>]) {
         if n == 0 {
             return;
         }
@@ -325,7 +326,7 @@ impl Angles {
 }
 
 impl Relation {
-    fn set_gradients<const L: usize>(&mut self, angles: &[Angle], values: &[Triple<L>]) {
+    fn set_gradients<const L: usize>(&mut self, angles: &[AngleSeries], values: &[LaneVector<L>]) {
         let mut k = 0;
         for turn in self.angles.iter().flatten() {
             for gradient in angles[turn.angle].state.gradient {
@@ -345,7 +346,7 @@ impl Relation {
 
     /// The gradient times values of features.
     #[inline(always)]
-    fn along<const L: usize>(&self, values: &[Triple<L>]) -> f64 {
+    fn along<const L: usize>(&self, values: &[LaneVector<L>]) -> f64 {
         let terms = self.places.iter().zip(&self.gradients);
         terms.map(|(place, gradient)| gradient.dot(&Vector3::from(place.get(values)))).sum()
     }

@@ -1,9 +1,9 @@
 //! What the series ask of L bodies side by side, whether they move in space or in a plane.
 
-use super::lanes::{Lane, Triple};
-use super::slot::Slot;
+use super::lanes::{Lane, LaneVector};
+use super::slot::FeatureSlot;
 use crate::system::System;
-use crate::system::body::Body;
+use crate::system::body::RigidBody;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use std::fmt::Debug;
@@ -34,7 +34,7 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     /// Bodies of mass 1 and no inertia, to be filled in lane by lane.
     fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self;
     /// Takes over the constants of a body.
-    fn set_body(&mut self, lane: usize, system: &System, body: &Body);
+    fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody);
     /// The bodies; fewer than L in the last bundle, whose other lanes hold bodies at rest without joints.
     fn bodies(&self) -> Range<usize>;
     /// Their features.
@@ -59,11 +59,11 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     fn write(&self, lane: usize, x: &Self::Natural, rate: bool) -> NaturalCoordinates;
 
     /// Value of a feature of the bodies at x, without what never changes.
-    fn value(slot: &Slot<L>, x: &Self::Natural) -> Triple<L>;
+    fn value(slot: &FeatureSlot<L>, x: &Self::Natural) -> LaneVector<L>;
     /// Adds to the value of a feature what never changes.
-    fn add_constant(&self, slot: &Slot<L>, value: &mut Triple<L>);
+    fn add_constant(&self, slot: &FeatureSlot<L>, value: &mut LaneVector<L>);
     /// Adds the generalized force of a force on a feature.
-    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Self::Natural);
+    fn pull_back(slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut Self::Natural);
 
     /// Coefficient of a vector with the given local coordinates that the bodies' coefficient q of an order makes.
     fn arm(local: &Vector3<f64>, q: &Self::Natural, lane: usize, order: usize) -> Vector3<f64>;
@@ -81,7 +81,7 @@ pub trait Bodies<const L: usize>: Clone + Debug + Sized {
     /// Dual basis and inertia at the position q.
     fn linearize(&mut self, q: &Self::Natural);
     /// C⁻¹ s̃ of a feature's arm s.
-    fn half_mobility(&self, slot: &Slot<L>, q: &Self::Natural) -> Self::Mobility;
+    fn half_mobility(&self, slot: &FeatureSlot<L>, q: &Self::Natural) -> Self::Mobility;
     /// Adds to a row of H its part of the translation: the gradient g with respect to a feature times ±1/√m, or 0 for
     /// vectors.
     fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]);

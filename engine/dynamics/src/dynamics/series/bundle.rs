@@ -4,11 +4,11 @@ use super::bodies::Bodies;
 use super::convolution::{gram, moment, symmetric};
 use super::inertia::{invert_inertia, products_of_inertia};
 use super::lanes::{
-    Lane, Natural, Triple, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus, scaled,
-    sum, times, zero,
+    Lane, LaneVector, Natural, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus,
+    scaled, sum, times, zero,
 };
-use super::slot::Slot;
-use crate::system::{System, body::Body, natural::NaturalCoordinates};
+use super::slot::FeatureSlot;
+use crate::system::{System, body::RigidBody, natural::NaturalCoordinates};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -22,26 +22,26 @@ pub struct Bundle<const L: usize> {
     /// 1/m.
     inverse_mass: Lane<L>,
     /// Ī of u, v, w.
-    ibar: Triple<L>,
+    ibar: LaneVector<L>,
     /// δ, the inertia regularization.
     regularizing_inertia: Lane<L>,
     /// Constant generalized force: the weight.
-    weight: Triple<L>,
+    weight: LaneVector<L>,
     /// Half the dual basis of the directors.
-    dual: [Triple<L>; 3],
+    dual: [LaneVector<L>; 3],
     /// Rows of I_g⁻¹, δ included.
-    inverse: [Triple<L>; 3],
+    inverse: [LaneVector<L>; 3],
     /// Lower triangle (00, 10, 11, 20, 21, 22) of C⁻¹, I_g = C Cᵀ.
     lower: [Lane<L>; 6],
     /// Generalized force that acts, less the known convolutions.
     force: Natural<L>,
     /// Moment about the centre of mass that acts besides.
-    moment: Triple<L>,
+    moment: LaneVector<L>,
     /// The unknown: κ Q_(n+2), or a correction of Q.
     solution: Natural<L>,
     /// Its twist part ω̇, and the part for which the effect of δ has been taken out.
-    omega: Triple<L>,
-    taken_out: Triple<L>,
+    omega: LaneVector<L>,
+    taken_out: LaneVector<L>,
 }
 
 impl<const L: usize> Bundle<L> {
@@ -50,7 +50,7 @@ impl<const L: usize> Bundle<L> {
     }
 
     #[inline(always)]
-    fn turn(&mut self, q: &Natural<L>, moment: &Triple<L>) {
+    fn turn(&mut self, q: &Natural<L>, moment: &LaneVector<L>) {
         let omega = multiply(&self.inverse, moment);
         for c in 0..3 {
             self.omega[c] = sum(&self.omega[c], &omega[c]);
@@ -64,9 +64,9 @@ impl<const L: usize> Bundle<L> {
 impl<const L: usize> Bodies<L> for Bundle<L> {
     type Natural = Natural<L>;
     type Rigid = [Lane<L>; 6];
-    type Moment = Triple<L>;
-    type Directors = [Triple<L>; 3];
-    type Mobility = [Triple<L>; 3];
+    type Moment = LaneVector<L>;
+    type Directors = [LaneVector<L>; 3];
+    type Mobility = [LaneVector<L>; 3];
     const DIRECTIONS: usize = 3;
     const TWIST: usize = 6;
     const STRIPS: usize = 3;
@@ -91,7 +91,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         }
     }
 
-    fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
+    fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody) {
         self.inverse_mass[lane] = 1.0 / body.mass;
         self.regularizing_inertia[lane] = body.regularizing_inertia;
         for c in 0..3 {
@@ -122,12 +122,12 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn no_directors() -> [Triple<L>; 3] {
+    fn no_directors() -> [LaneVector<L>; 3] {
         [[[0.0; L]; 3]; 3]
     }
 
     #[inline(always)]
-    fn no_mobility() -> [Triple<L>; 3] {
+    fn no_mobility() -> [LaneVector<L>; 3] {
         [[[0.0; L]; 3]; 3]
     }
 
@@ -155,7 +155,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn value(slot: &Slot<L>, x: &Natural<L>) -> Triple<L> {
+    fn value(slot: &FeatureSlot<L>, x: &Natural<L>) -> LaneVector<L> {
         let mut value = scaled(&slot.point, &x[0]);
         for k in 0..3 {
             add_scaled(&mut value, &slot.local[k], &x[1 + k]);
@@ -164,10 +164,10 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn add_constant(&self, _: &Slot<L>, _: &mut Triple<L>) {}
+    fn add_constant(&self, _: &FeatureSlot<L>, _: &mut LaneVector<L>) {}
 
     #[inline(always)]
-    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut Natural<L>) {
+    fn pull_back(slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut Natural<L>) {
         add_scaled(&mut sum[0], &slot.point, f);
         for k in 0..3 {
             add_scaled(&mut sum[1 + k], &slot.local[k], f);
@@ -221,7 +221,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// C⁻¹ s̃ of a feature's arm s: three rows.
     #[inline(always)]
-    fn half_mobility(&self, slot: &Slot<L>, q: &Natural<L>) -> [Triple<L>; 3] {
+    fn half_mobility(&self, slot: &FeatureSlot<L>, q: &Natural<L>) -> [LaneVector<L>; 3] {
         let mut arm = [[0.0; L]; 3];
         for k in 0..3 {
             add_scaled(&mut arm, &slot.local[k], &q[1 + k]);
@@ -244,7 +244,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn set_unit_rotations(m: &[Triple<L>; 3], lane: usize, sign: f64, block: &mut [f64]) {
+    fn set_unit_rotations(m: &[LaneVector<L>; 3], lane: usize, sign: f64, block: &mut [f64]) {
         let lane = lane % L;
         let Some(block) = block.as_chunks_mut::<6>().0.first_chunk_mut::<3>() else { return };
         for (k, row) in block.iter_mut().enumerate() {
@@ -255,7 +255,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn add_rotation(m: &[Triple<L>; 3], lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]) {
+    fn add_rotation(m: &[LaneVector<L>; 3], lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]) {
         let (lane, Some(row)) = (lane % L, row.first_chunk_mut::<6>()) else { return };
         for (c, z) in m.iter().enumerate() {
             row[3 + c] += sign * (z[0][lane] * g[0] + z[1][lane] * g[1] + z[2][lane] * g[2]);
@@ -263,7 +263,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn pair(a: &[Triple<L>; 3], b: &[Triple<L>; 3]) -> [[Lane<L>; 4]; 3] {
+    fn pair(a: &[LaneVector<L>; 3], b: &[LaneVector<L>; 3]) -> [[Lane<L>; 4]; 3] {
         let mut block = [[[0.0; L]; 4]; 3];
         for (i, strip) in block.iter_mut().enumerate() {
             for (k, out) in strip.iter_mut().enumerate().take(3) {
@@ -301,12 +301,12 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn moment(q: &[Natural<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+    fn moment(q: &[Natural<L>], p: &[[LaneVector<L>; 3]], n: usize) -> LaneVector<L> {
         moment(q, p, n)
     }
 
     #[inline(always)]
-    fn no_moment() -> Triple<L> {
+    fn no_moment() -> LaneVector<L> {
         [[0.0; L]; 3]
     }
 
@@ -328,7 +328,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
     #[inline(always)]
-    fn begin(&mut self, q: &Natural<L>, gamma: &[Lane<L>; 6], known: Triple<L>) {
+    fn begin(&mut self, q: &Natural<L>, gamma: &[Lane<L>; 6], known: LaneVector<L>) {
         let mut moment = known;
         for c in 0..3 {
             moment[c] = sum(&moment[c], &self.moment[c]);
@@ -386,7 +386,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// p_k = P_k − Ī_k ë_k of the solution: what the directors' moments are made of.
     #[inline(always)]
-    fn director_forces(&self) -> [Triple<L>; 3] {
+    fn director_forces(&self) -> [LaneVector<L>; 3] {
         let mut p = [self.force[1], self.force[2], self.force[3]];
         for k in 0..3 {
             for c in 0..3 {

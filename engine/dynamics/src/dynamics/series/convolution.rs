@@ -1,6 +1,6 @@
 //! What bodies in space know of an order from all orders before it: sums over products of coefficients.
 
-use super::lanes::{Lane, Natural, Triple, add_cross, negative, plus, sum};
+use super::lanes::{Lane, LaneVector, Natural, add_cross, negative, plus, sum};
 
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]
@@ -66,7 +66,7 @@ impl<const L: usize> Products<L> {
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
 #[inline(always)]
-pub fn moment<const L: usize>(q: &[Natural<L>], p: &[[Triple<L>; 3]], n: usize) -> Triple<L> {
+pub fn moment<const L: usize>(q: &[Natural<L>], p: &[[LaneVector<L>; 3]], n: usize) -> LaneVector<L> {
     // For each director on its own, so that no sum waits for another.
     let mut sums = [[[0.0; L]; 3]; 3];
     for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {

@@ -1,10 +1,10 @@
 //! Inertia of bodies about the centre of mass, and its inverse, L side by side.
 
-use super::lanes::{Lane, Natural, Triple, inverse_root, less, negative, plus, scaled, sum, times};
+use super::lanes::{Lane, LaneVector, Natural, inverse_root, less, negative, plus, scaled, sum, times};
 
 /// Σ Ī_k e_k e_kᵀ, the second term of I_g = Σ Ī_k (|e_k|² 1 − e_k e_kᵀ): xx, xy, yy, xz, yz, zz.
 #[inline(always)]
-pub fn products_of_inertia<const L: usize>(ibar: &Triple<L>, q: &Natural<L>) -> [Lane<L>; 6] {
+pub fn products_of_inertia<const L: usize>(ibar: &LaneVector<L>, q: &Natural<L>) -> [Lane<L>; 6] {
     let mut products = [[0.0; L]; 6];
     for k in 0..3 {
         let e = &q[1 + k];
@@ -22,7 +22,7 @@ pub fn products_of_inertia<const L: usize>(ibar: &Triple<L>, q: &Natural<L>) -> 
 pub fn invert_inertia<const L: usize>(
     products: &[Lane<L>; 6],
     extra: &Lane<L>,
-) -> ([Triple<L>; 3], [Lane<L>; 6]) {
+) -> ([LaneVector<L>; 3], [Lane<L>; 6]) {
     let [xx, xy, yy, xz, yz, zz] = products;
     let mut diagonal = [[0.0; L]; 3];
     for (out, (a, b)) in diagonal.iter_mut().zip([(yy, zz), (xx, zz), (xx, yy)]) {

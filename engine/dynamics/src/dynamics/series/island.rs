@@ -1,6 +1,6 @@
 //! The series of one island, bundled as suits its number of bodies: the one place where the kernels are compiled.
 
-use super::{Plan, Planar, Series, Taken};
+use super::{Planar, Series, StepPlan, Taken};
 use crate::dynamics::elimination::{Counters, TwistJacobian};
 use crate::system::System;
 
@@ -122,7 +122,7 @@ impl IslandSeries {
     }
 
     /// Takes one step.
-    pub fn step(&mut self, plan: Plan) -> Taken {
+    pub fn step(&mut self, plan: StepPlan) -> Taken {
         with!(&mut self.0, s => s.step(plan))
     }
 

@@ -8,9 +8,9 @@ use pulp::Simd;
 /// One number for each lane.
 pub type Lane<const L: usize> = [f64; L];
 /// A vector of three components for each lane.
-pub type Triple<const L: usize> = [Lane<L>; 3];
+pub type LaneVector<const L: usize> = [Lane<L>; 3];
 /// Natural coordinates (r, u, v, w), or anything that lives on them.
-pub type Natural<const L: usize> = [Triple<L>; 4];
+pub type Natural<const L: usize> = [LaneVector<L>; 4];
 
 /// The zero vector of natural coordinates.
 pub const fn zero<const L: usize>() -> Natural<L> {
@@ -85,7 +85,7 @@ pub fn inverse_root<const L: usize>(a: &Lane<L>) -> Lane<L> {
 
 /// sum += a · b.
 #[inline(always)]
-pub fn add_dot<const L: usize>(sum: &mut Lane<L>, a: &Triple<L>, b: &Triple<L>) {
+pub fn add_dot<const L: usize>(sum: &mut Lane<L>, a: &LaneVector<L>, b: &LaneVector<L>) {
     for c in 0..3 {
         for l in 0..L {
             sum[l] = a[c][l].mul_add(b[c][l], sum[l]);
@@ -95,7 +95,7 @@ pub fn add_dot<const L: usize>(sum: &mut Lane<L>, a: &Triple<L>, b: &Triple<L>) 
 
 /// a · b.
 #[inline(always)]
-pub fn dot<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Lane<L> {
+pub fn dot<const L: usize>(a: &LaneVector<L>, b: &LaneVector<L>) -> Lane<L> {
     let mut sum = [0.0; L];
     add_dot(&mut sum, a, b);
     sum
@@ -103,7 +103,7 @@ pub fn dot<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Lane<L> {
 
 /// sum += a × b.
 #[inline(always)]
-pub fn add_cross<const L: usize>(sum: &mut Triple<L>, a: &Triple<L>, b: &Triple<L>) {
+pub fn add_cross<const L: usize>(sum: &mut LaneVector<L>, a: &LaneVector<L>, b: &LaneVector<L>) {
     for (c, (i, j)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
         for l in 0..L {
             sum[c][l] = a[i][l].mul_add(b[j][l], (-a[j][l]).mul_add(b[i][l], sum[c][l]));
@@ -113,7 +113,7 @@ pub fn add_cross<const L: usize>(sum: &mut Triple<L>, a: &Triple<L>, b: &Triple<
 
 /// a × b.
 #[inline(always)]
-pub fn cross<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Triple<L> {
+pub fn cross<const L: usize>(a: &LaneVector<L>, b: &LaneVector<L>) -> LaneVector<L> {
     let mut sum = [[0.0; L]; 3];
     add_cross(&mut sum, a, b);
     sum
@@ -121,7 +121,7 @@ pub fn cross<const L: usize>(a: &Triple<L>, b: &Triple<L>) -> Triple<L> {
 
 /// sum += factor · a, lane by lane.
 #[inline(always)]
-pub fn add_scaled<const L: usize>(sum: &mut Triple<L>, factor: &Lane<L>, a: &Triple<L>) {
+pub fn add_scaled<const L: usize>(sum: &mut LaneVector<L>, factor: &Lane<L>, a: &LaneVector<L>) {
     for c in 0..3 {
         for l in 0..L {
             sum[c][l] = factor[l].mul_add(a[c][l], sum[c][l]);
@@ -131,7 +131,7 @@ pub fn add_scaled<const L: usize>(sum: &mut Triple<L>, factor: &Lane<L>, a: &Tri
 
 /// factor · a, lane by lane.
 #[inline(always)]
-pub fn scaled<const L: usize>(factor: &Lane<L>, a: &Triple<L>) -> Triple<L> {
+pub fn scaled<const L: usize>(factor: &Lane<L>, a: &LaneVector<L>) -> LaneVector<L> {
     let mut product = [[0.0; L]; 3];
     add_scaled(&mut product, factor, a);
     product
@@ -139,7 +139,7 @@ pub fn scaled<const L: usize>(factor: &Lane<L>, a: &Triple<L>) -> Triple<L> {
 
 /// M a for a matrix given by its rows.
 #[inline(always)]
-pub fn multiply<const L: usize>(rows: &[Triple<L>; 3], a: &Triple<L>) -> Triple<L> {
+pub fn multiply<const L: usize>(rows: &[LaneVector<L>; 3], a: &LaneVector<L>) -> LaneVector<L> {
     [dot(&rows[0], a), dot(&rows[1], a), dot(&rows[2], a)]
 }
 

@@ -3,8 +3,8 @@
 use super::Series;
 use super::bodies::Bodies;
 use super::expand::Value;
-use super::rows::Place;
-use super::slot::Slot;
+use super::rows::LanePlace;
+use super::slot::FeatureSlot;
 use crate::model::BodyRef;
 use crate::system::System;
 use pulp::Arch;
@@ -60,8 +60,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 }
 
 /// Bodies in bundles, their features in slots, and where each feature stands.
-pub(super) fn bundles<const L: usize, B: Bodies<L>>(system: &System) -> (Vec<B>, Vec<Slot<L>>, Vec<Place>) {
-    let mut place = vec![Place { slot: 0, lane: 0 }; system.features.len()];
+pub(super) fn bundles<const L: usize, B: Bodies<L>>(
+    system: &System,
+) -> (Vec<B>, Vec<FeatureSlot<L>>, Vec<LanePlace>) {
+    let mut place = vec![LanePlace { slot: 0, lane: 0 }; system.features.len()];
     let mut of_body: Vec<Vec<usize>> = vec![Vec::new(); system.bodies.len()];
     for (index, feature) in system.features.iter().enumerate() {
         if let BodyRef::Moving(body) = feature.body {
@@ -69,16 +71,16 @@ pub(super) fn bundles<const L: usize, B: Bodies<L>>(system: &System) -> (Vec<B>,
         }
     }
     let mut bundles = Vec::new();
-    let mut slots: Vec<Slot<L>> = Vec::new();
+    let mut slots: Vec<FeatureSlot<L>> = Vec::new();
     for (first, features) in of_body.chunks(L).enumerate().map(|(b, features)| (b * L, features)) {
         let count = features.iter().map(Vec::len).max().unwrap_or(0);
         let begin = slots.len();
-        slots.resize(begin + count, Slot { local: [[0.0; L]; 3], point: [0.0; L] });
+        slots.resize(begin + count, FeatureSlot { local: [[0.0; L]; 3], point: [0.0; L] });
         let mut bundle = B::empty(first..first + features.len(), begin..begin + count);
         for (lane, features) in features.iter().enumerate() {
             bundle.set_body(lane, system, &system.bodies[first + lane]);
             for (k, &feature) in features.iter().enumerate() {
-                place[feature] = Place { slot: begin + k, lane };
+                place[feature] = LanePlace { slot: begin + k, lane };
                 let slot = &mut slots[begin + k];
                 slot.point[lane] = if system.features[feature].point { 1.0 } else { 0.0 };
                 for c in 0..3 {

@@ -1,18 +1,18 @@
 //! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
 
-use super::angles::Angle;
+use super::angles::AngleSeries;
 use super::bodies::Bodies;
-use super::lanes::Triple;
+use super::lanes::LaneVector;
 use super::recurrence::{
     Vectors, dot, product, product_with_rate, quotient, rate, root, scaled, value, vector_value,
 };
-use super::rows::Place;
+use super::rows::LanePlace;
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw};
 use crate::scene::LoadFrame;
 use crate::system::System;
 use crate::system::feature::FeatureId;
-use crate::system::load;
+use crate::system::load::SystemLoad;
 use nalgebra::Vector3;
 
 /// Coulomb friction has its full value where the velocity is this many times its smoothing.
@@ -38,11 +38,18 @@ enum Load {
         speed: Vectors,
     },
     /// Along the line between two points.
-    Spring { from: Place, to: Place, between: Vectors, square: Vec<f64>, over_length: Vec<f64>, law: Law },
+    Spring {
+        from: LanePlace,
+        to: LanePlace,
+        between: Vectors,
+        square: Vec<f64>,
+        over_length: Vec<f64>,
+        law: Law,
+    },
     /// About the axis of a joint.
-    Torsion { angle: usize, axis: Place, seats: [Option<Seat>; 2], direction: Vectors, law: Law },
+    Torsion { angle: usize, axis: LanePlace, seats: [Option<Seat>; 2], direction: Vectors, law: Law },
     /// Along the axis of a joint.
-    Slider { axis: Place, ends: [Option<Place>; 2], direction: Vectors, between: Vectors, law: Law },
+    Slider { axis: LanePlace, ends: [Option<LanePlace>; 2], direction: Vectors, between: Vectors, law: Law },
 }
 
 /// −k (x − x₀) − d ẋ + f*(t) − friction, as a series of x.
@@ -155,7 +162,7 @@ pub struct Loads {
 
 impl Loads {
     /// Of a system, with room for `stride` coefficients.
-    pub fn new(system: &System, place: &[Place], lanes: usize, stride: usize) -> Self {
+    pub fn new(system: &System, place: &[LanePlace], lanes: usize, stride: usize) -> Self {
         let seat = |body: usize| [body / lanes, body % lanes];
         let vectors = || vec![Vector3::zeros(); stride];
         let at = |f: FeatureId| place[f];
@@ -170,9 +177,9 @@ impl Loads {
                 speed: vectors(),
             };
         let list = system.loads.iter().map(|load| match load {
-            load::Load::Force { body, local, force, frame } => given(*body, Some(*local), force, *frame),
-            load::Load::Moment { body, moment, frame } => given(*body, None, moment, *frame),
-            load::Load::Spring { from, to, law } => Load::Spring {
+            SystemLoad::Force { body, local, force, frame } => given(*body, Some(*local), force, *frame),
+            SystemLoad::Moment { body, moment, frame } => given(*body, None, moment, *frame),
+            SystemLoad::Spring { from, to, law } => Load::Spring {
                 from: at(*from),
                 to: at(*to),
                 between: vectors(),
@@ -180,7 +187,7 @@ impl Loads {
                 over_length: vec![0.0; stride],
                 law: Law::new(law, stride),
             },
-            load::Load::Torsion { angle, bodies, law, .. } => Load::Torsion {
+            SystemLoad::Torsion { angle, bodies, law, .. } => Load::Torsion {
                 angle: *angle,
                 axis: at(system.angles[*angle].axis),
                 seats: bodies.map(|body| match body {
@@ -190,7 +197,7 @@ impl Loads {
                 direction: vectors(),
                 law: Law::new(law, stride),
             },
-            load::Load::Slider { axis, between, law } => Load::Slider {
+            SystemLoad::Slider { axis, between, law } => Load::Slider {
                 axis: at(*axis),
                 ends: [Some(at(between.plus)), between.minus.map(at)],
                 direction: vectors(),
@@ -248,7 +255,7 @@ impl Loads {
 
     /// Takes over coefficient m of all features.
     #[inline(always)]
-    pub fn store<const L: usize>(&mut self, m: usize, values: &[Triple<L>], angles: &[Angle]) {
+    pub fn store<const L: usize>(&mut self, m: usize, values: &[LaneVector<L>], angles: &[AngleSeries]) {
         for load in &mut self.list {
             match load {
                 Load::Given { .. } => {}
@@ -276,7 +283,7 @@ impl Loads {
         &mut self,
         n: usize,
         coefficient: impl Fn(usize, usize) -> &'a B::Natural,
-        forces: &mut [Triple<L>],
+        forces: &mut [LaneVector<L>],
         bundles: &mut [B],
     ) {
         for load in &mut self.list {
@@ -372,7 +379,10 @@ fn spring_force(n: usize, between: &[Vector3<f64>], over_length: &mut [f64], law
 }
 
 /// Difference of two features.
-fn difference<const L: usize>([plus, minus]: [Option<Place>; 2], values: &[Triple<L>]) -> Vector3<f64> {
-    let value = |place: Option<Place>| place.map_or(Vector3::zeros(), |p| p.get(values).into());
+fn difference<const L: usize>(
+    [plus, minus]: [Option<LanePlace>; 2],
+    values: &[LaneVector<L>],
+) -> Vector3<f64> {
+    let value = |place: Option<LanePlace>| place.map_or(Vector3::zeros(), |p| p.get(values).into());
     value(plus) - value(minus)
 }

@@ -4,11 +4,11 @@
 //! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
 
 use super::bodies::Bodies;
-use super::lanes::{Lane, Triple};
+use super::lanes::{Lane, LaneVector};
 use super::pair::{Pair, cross, each, gram, moment, turned};
-use super::slot::Slot;
+use super::slot::FeatureSlot;
 use crate::system::System;
-use crate::system::body::{Body, PlanarPose};
+use crate::system::body::{PlanarPose, RigidBody};
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -102,7 +102,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         }
     }
 
-    fn set_body(&mut self, lane: usize, system: &System, body: &Body) {
+    fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody) {
         self.mass[lane] = body.mass;
         self.inverse_mass[lane] = body.free_inverse_mass();
         if let Some(pivot) = body.pivot {
@@ -171,7 +171,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn value(slot: &Slot<L>, x: &[Pair<L>; 2]) -> Triple<L> {
+    fn value(slot: &FeatureSlot<L>, x: &[Pair<L>; 2]) -> LaneVector<L> {
         let [r, z] = x;
         let ([a, b, _], point) = (&slot.local, &slot.point);
         [
@@ -182,14 +182,14 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn add_constant(&self, slot: &Slot<L>, value: &mut Triple<L>) {
+    fn add_constant(&self, slot: &FeatureSlot<L>, value: &mut LaneVector<L>) {
         for l in 0..L {
             value[2][l] += slot.local[2][l] + slot.point[l] * self.height[l];
         }
     }
 
     #[inline(always)]
-    fn pull_back(slot: &Slot<L>, f: &Triple<L>, sum: &mut [Pair<L>; 2]) {
+    fn pull_back(slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut [Pair<L>; 2]) {
         let ([a, b, _], point, [x, y, _]) = (&slot.local, &slot.point, f);
         for l in 0..L {
             sum[0][0][l] += point[l] * x[l];
@@ -247,7 +247,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn half_mobility(&self, slot: &Slot<L>, q: &[Pair<L>; 2]) -> Pair<L> {
+    fn half_mobility(&self, slot: &FeatureSlot<L>, q: &[Pair<L>; 2]) -> Pair<L> {
         let [a, b, _] = slot.local;
         let ([x, y], [from_x, from_y], root) = (turned(&[a, b], &q[1]), &self.arm, &self.root);
         [

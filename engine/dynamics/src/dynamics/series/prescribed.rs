@@ -5,10 +5,10 @@
 //! C₀ Q_m, the part Σ C_i Q_(m−i), i > 0, which is known beforehand; likewise the generalized force on it.
 
 use super::bodies::Bodies;
-use super::lanes::Triple;
+use super::lanes::LaneVector;
 use super::recurrence::{Vectors, product_with_rate, value, vector_value};
-use super::rows::Place;
-use super::slot::Slot;
+use super::rows::LanePlace;
+use super::slot::FeatureSlot;
 use crate::model::BodyRef;
 use crate::model::motion::VectorCurve;
 use crate::system::System;
@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 #[derive(Clone, Debug)]
 struct Driven {
     curve: VectorCurve,
-    place: Place,
+    place: LanePlace,
     /// Bundle and lane of its body; none for the ground.
     body: Option<[usize; 2]>,
     /// Coefficients of its local coordinates and of the constraint force on it.
@@ -47,7 +47,7 @@ pub struct Prescribed {
 
 impl Prescribed {
     /// Of a system, with room for `stride` coefficients.
-    pub fn new(system: &System, place: &[Place], lanes: usize, stride: usize) -> Self {
+    pub fn new(system: &System, place: &[LanePlace], lanes: usize, stride: usize) -> Self {
         let driven = system.features.iter().zip(place).filter_map(|(feature, &place)| {
             let body = match feature.body {
                 BodyRef::Ground => None,
@@ -85,7 +85,12 @@ impl Prescribed {
     }
 
     /// Expands all about time t and puts the features' places of that moment among the others.
-    pub fn expand<const L: usize>(&mut self, t: f64, slots: &mut [Slot<L>], ground: &mut [Triple<L>]) {
+    pub fn expand<const L: usize>(
+        &mut self,
+        t: f64,
+        slots: &mut [FeatureSlot<L>],
+        ground: &mut [LaneVector<L>],
+    ) {
         for feature in &mut self.features {
             feature.curve.expand(t, &mut feature.local);
             let lane = feature.place.lane % L;
@@ -140,7 +145,7 @@ impl Prescribed {
 
     /// Adds what [`Self::prepare`] found, times a factor, to the values of features.
     #[inline(always)]
-    pub fn add_known<const L: usize>(&self, factor: f64, values: &mut [Triple<L>]) {
+    pub fn add_known<const L: usize>(&self, factor: f64, values: &mut [LaneVector<L>]) {
         for feature in &self.features {
             let known = feature.known * factor;
             if feature.body.is_some() {
@@ -156,7 +161,7 @@ impl Prescribed {
     pub fn pull_back<const L: usize, B: Bodies<L>>(
         &mut self,
         n: usize,
-        forces: &[Triple<L>],
+        forces: &[LaneVector<L>],
         bundles: &mut [B],
     ) {
         for feature in &mut self.features {
@@ -170,7 +175,7 @@ impl Prescribed {
 
     /// Adds further forces of order n.
     #[inline(always)]
-    pub fn add_forces<const L: usize>(&mut self, n: usize, forces: &[Triple<L>]) {
+    pub fn add_forces<const L: usize>(&mut self, n: usize, forces: &[LaneVector<L>]) {
         for feature in &mut self.features {
             feature.force[n] += Vector3::from(feature.place.get(forces));
         }

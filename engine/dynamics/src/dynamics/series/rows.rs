@@ -1,6 +1,6 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
-use super::lanes::{Lane, Triple, add_dot, dot, scaled};
+use super::lanes::{Lane, LaneVector, add_dot, dot, scaled};
 use crate::system::System;
 use crate::system::feature::{Difference, FeatureId, Target};
 use crate::system::row::Form;
@@ -9,17 +9,17 @@ use triad_linalg::orthonormal_basis;
 
 /// Where a feature's numbers stand: a slot and a lane of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct LanePlace {
     /// Slot.
     pub slot: usize,
     /// Lane.
     pub lane: usize,
 }
 
-impl Place {
+impl LanePlace {
     /// The numbers there.
     #[inline(always)]
-    pub fn get<const L: usize>(self, values: &[Triple<L>]) -> [f64; 3] {
+    pub fn get<const L: usize>(self, values: &[LaneVector<L>]) -> [f64; 3] {
         let value = &values[self.slot];
         let lane = self.lane % L;
         [value[0][lane], value[1][lane], value[2][lane]]
@@ -27,7 +27,7 @@ impl Place {
 
     /// Replaces the numbers there.
     #[inline(always)]
-    pub fn set<const L: usize>(self, values: &mut [Triple<L>], x: [f64; 3]) {
+    pub fn set<const L: usize>(self, values: &mut [LaneVector<L>], x: [f64; 3]) {
         let value = &mut values[self.slot];
         for c in 0..3 {
             value[c][self.lane % L] = x[c];
@@ -36,7 +36,7 @@ impl Place {
 
     /// Adds to the numbers there.
     #[inline(always)]
-    pub fn add<const L: usize>(self, values: &mut [Triple<L>], x: [f64; 3]) {
+    pub fn add<const L: usize>(self, values: &mut [LaneVector<L>], x: [f64; 3]) {
         let value = &mut values[self.slot];
         let lane = self.lane % L;
         for c in 0..3 {
@@ -48,16 +48,16 @@ impl Place {
 /// a − b = 0 for points.
 #[derive(Clone, Copy, Debug)]
 pub struct Coincidence {
-    a: Place,
-    b: Place,
+    a: LanePlace,
+    b: LanePlace,
     row: usize,
 }
 
 /// a − b = 0 for unit vectors, kept across the vector's direction at the point of expansion.
 #[derive(Clone, Copy, Debug)]
 pub struct CommonVector {
-    a: Place,
-    b: Place,
+    a: LanePlace,
+    b: LanePlace,
     row: usize,
     /// Its place among the system's rows.
     pub index: usize,
@@ -71,7 +71,7 @@ pub struct CommonVector {
 #[derive(Clone, Debug)]
 pub struct Product<const L: usize> {
     /// Minuend and subtrahend of x and of y, lane by lane.
-    factors: [[[Place; L]; 2]; 2],
+    factors: [[[LanePlace; L]; 2]; 2],
     /// Solver rows, as many as there are.
     rows: Vec<usize>,
     constant: Lane<L>,
@@ -85,7 +85,7 @@ pub struct Rows<const L: usize> {
     pub commons: Vec<CommonVector>,
     products: Vec<Product<L>>,
     /// Coefficients of (x, y) and of λ of each product, `stride` for each.
-    factors: Vec<[Triple<L>; 2]>,
+    factors: Vec<[LaneVector<L>; 2]>,
     lambda: Vec<Lane<L>>,
     stride: usize,
     /// What each solver row demands beyond the unknowns: Σ x(i) · y(n−i), Φ or Φ̇.
@@ -94,7 +94,7 @@ pub struct Rows<const L: usize> {
 
 impl<const L: usize> Rows<L> {
     /// Sorts the rows of a system; `place` tells where features stand, `nowhere` is a feature that is always zero.
-    pub fn new(system: &System, place: &[Place], nowhere: Place, stride: usize) -> Self {
+    pub fn new(system: &System, place: &[LanePlace], nowhere: LanePlace, stride: usize) -> Self {
         let mut rows = Self {
             coincidences: Vec::new(),
             commons: Vec::new(),
@@ -128,7 +128,7 @@ impl<const L: usize> Rows<L> {
         rows
     }
 
-    fn add_product(&mut self, factors: [[Place; 2]; 2], row: usize, constant: f64, nowhere: Place) {
+    fn add_product(&mut self, factors: [[LanePlace; 2]; 2], row: usize, constant: f64, nowhere: LanePlace) {
         if self.products.last().is_none_or(|p| p.rows.len() == L) {
             let factors = [[[nowhere; L]; 2]; 2];
             self.products.push(Product { factors, rows: Vec::with_capacity(L), constant: [0.0; L] });
@@ -149,7 +149,7 @@ impl<const L: usize> Rows<L> {
 
     /// Directions across common vectors, from the features' values.
     #[inline(always)]
-    pub fn turn_common_vectors(&mut self, values: &[Triple<L>]) {
+    pub fn turn_common_vectors(&mut self, values: &[LaneVector<L>]) {
         for row in &mut self.commons {
             let s = Vector3::from(row.a.get(values));
             row.across = orthonormal_basis(&(s / s.norm())).map(Into::into);
@@ -166,7 +166,7 @@ impl<const L: usize> Rows<L> {
 
     /// Stores x and y of order n from the features' coefficients.
     #[inline(always)]
-    pub fn store_factors(&mut self, n: usize, values: &[Triple<L>]) {
+    pub fn store_factors(&mut self, n: usize, values: &[LaneVector<L>]) {
         for (k, product) in self.products.iter().enumerate() {
             self.factors[k * self.stride + n] = product.factors(values);
         }
@@ -189,7 +189,7 @@ impl<const L: usize> Rows<L> {
 
     /// Generalized forces of order n that multipliers of lower order make.
     #[inline(always)]
-    pub fn add_known_forces(&self, n: usize, forces: &mut [Triple<L>]) {
+    pub fn add_known_forces(&self, n: usize, forces: &mut [LaneVector<L>]) {
         for (k, product) in self.products.iter().enumerate() {
             let series = &self.factors[k * self.stride..(k + 1) * self.stride];
             let lambda = &self.lambda[k * self.stride..(k + 1) * self.stride];
@@ -205,7 +205,7 @@ impl<const L: usize> Rows<L> {
 
     /// Extra terms Φ of a correction of positions.
     #[inline(always)]
-    pub fn set_violation(&mut self, directions: usize, values: &[Triple<L>]) {
+    pub fn set_violation(&mut self, directions: usize, values: &[LaneVector<L>]) {
         self.set_linear(directions, values);
         for (k, product) in self.products.iter().enumerate() {
             let [x, y] = &self.factors[k * self.stride];
@@ -218,7 +218,7 @@ impl<const L: usize> Rows<L> {
 
     /// Extra terms Φ̇ of a correction of velocities, from the features' rates.
     #[inline(always)]
-    pub fn set_rate_violation(&mut self, directions: usize, values: &[Triple<L>]) {
+    pub fn set_rate_violation(&mut self, directions: usize, values: &[LaneVector<L>]) {
         self.set_linear(directions, values);
         for (k, product) in self.products.iter().enumerate() {
             let [x, y] = &self.factors[k * self.stride];
@@ -232,7 +232,7 @@ impl<const L: usize> Rows<L> {
     }
 
     #[inline(always)]
-    fn set_linear(&mut self, directions: usize, values: &[Triple<L>]) {
+    fn set_linear(&mut self, directions: usize, values: &[LaneVector<L>]) {
         for row in &self.coincidences {
             let (a, b) = (row.a.get(values), row.b.get(values));
             for c in 0..directions {
@@ -254,7 +254,7 @@ impl<const L: usize> Rows<L> {
 
     /// What is left of the rows, given the features' part of the unknown.
     #[inline(always)]
-    pub fn residual(&self, directions: usize, values: &[Triple<L>], out: &mut [f64]) {
+    pub fn residual(&self, directions: usize, values: &[LaneVector<L>], out: &mut [f64]) {
         for row in &self.coincidences {
             let (a, b) = (row.a.get(values), row.b.get(values));
             let extra = &self.extra[row.row..row.row + directions];
@@ -284,7 +284,7 @@ impl<const L: usize> Rows<L> {
 
     /// Generalized forces of multipliers of the current order.
     #[inline(always)]
-    pub fn add_forces(&self, directions: usize, lambda: &[f64], forces: &mut [Triple<L>]) {
+    pub fn add_forces(&self, directions: usize, lambda: &[f64], forces: &mut [LaneVector<L>]) {
         for row in &self.coincidences {
             let lambda = &lambda[row.row..row.row + directions];
             let mut l = [0.0; 3];
@@ -324,7 +324,7 @@ impl<const L: usize> Rows<L> {
 
 impl<const L: usize> Product<L> {
     #[inline(always)]
-    fn factors(&self, values: &[Triple<L>]) -> [Triple<L>; 2] {
+    fn factors(&self, values: &[LaneVector<L>]) -> [LaneVector<L>; 2] {
         let mut out = [[[0.0; L]; 3]; 2];
         for (out, [plus, minus]) in out.iter_mut().zip(&self.factors) {
             for lane in 0..self.rows.len().min(L) {
@@ -348,7 +348,7 @@ impl<const L: usize> Product<L> {
 
     /// Adds −sum to the forces on the features of x and of y.
     #[inline(always)]
-    fn add_forces(&self, sum: &[Triple<L>; 2], forces: &mut [Triple<L>]) {
+    fn add_forces(&self, sum: &[LaneVector<L>; 2], forces: &mut [LaneVector<L>]) {
         for (sum, [plus, minus]) in sum.iter().zip(&self.factors) {
             for lane in 0..self.rows.len().min(L) {
                 let f = [sum[0][lane], sum[1][lane], sum[2][lane]];

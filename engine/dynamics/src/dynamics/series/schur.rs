@@ -3,7 +3,7 @@
 use super::angles::Angles;
 use super::bodies::Bodies;
 use super::lanes::{plus, rows_of_lanes};
-use super::rows::{Place, Rows};
+use super::rows::{LanePlace, Rows};
 use super::terms::{Gradient, Term, changing, ends, terms};
 use crate::system::System;
 use pulp::Simd;
@@ -64,7 +64,7 @@ pub struct Schur {
 
 impl Schur {
     /// Writes the program of S for twists of so many components.
-    pub fn new(system: &System, place: &[Place], lanes: usize, twist: usize) -> Self {
+    pub fn new(system: &System, place: &[LanePlace], lanes: usize, twist: usize) -> Self {
         let sizes: Vec<usize> = system.constraints.iter().map(|g| g.solver.len()).collect();
         // A joint without rows (in the plane) meets nobody.
         let touching: Vec<Vec<usize>> = system

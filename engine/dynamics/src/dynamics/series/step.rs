@@ -25,7 +25,7 @@ const LAST_STEP: f64 = 1.01;
 
 /// What a step has to do.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
+pub struct StepPlan {
     /// Highest order of the series.
     pub order: usize,
     /// Relative and absolute tolerance.
@@ -62,7 +62,7 @@ pub struct Taken {
 }
 
 /// A step, to be compiled for each set of vector instructions.
-struct Step<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Plan);
+struct Step<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, StepPlan);
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     type Output = Taken;
@@ -132,17 +132,17 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
-    pub fn step(&mut self, plan: Plan) -> Taken {
+    pub fn step(&mut self, plan: StepPlan) -> Taken {
         Arch::new().dispatch(Step(self, plan))
     }
 
     /// The step that the series at the state allow, at which S must be factored, if no breakpoint were in the way, s.
     pub fn natural_step(&mut self, order: usize, tolerance: f64) -> f64 {
-        self.step(Plan { order, tolerance, length: 0.0, end: f64::INFINITY, dry_run: true }).h
+        self.step(StepPlan { order, tolerance, length: 0.0, end: f64::INFINITY, dry_run: true }).h
     }
 
     #[inline(always)]
-    fn step_here<S: Simd>(&mut self, simd: S, plan: Plan) -> Taken {
+    fn step_here<S: Simd>(&mut self, simd: S, plan: StepPlan) -> Taken {
         // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
@@ -203,7 +203,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         h: f64,
         time: f64,
         order: usize,
-        plan: Plan,
+        plan: StepPlan,
         most: Option<f64>,
     ) -> Option<(f64, bool)> {
         self.advance(h, order);
@@ -290,7 +290,8 @@ mod tests {
             own.place(system, 0.0, &y);
             own.linearize();
             let mut plain = own.clone();
-            let plan = Plan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, dry_run: false };
+            let plan =
+                StepPlan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, dry_run: false };
             for _ in 0..5 {
                 let taken = own.step(plan);
                 assert_eq!(

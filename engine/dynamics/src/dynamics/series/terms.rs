@@ -1,6 +1,6 @@
 //! The terms of H, from which S = H Hᵀ is built: what each feature contributes to the block of its body.
 
-use super::rows::Place;
+use super::rows::LanePlace;
 use crate::system::row::Form;
 use crate::system::{NO_INCIDENCE, System};
 use std::ops::Range;
@@ -23,7 +23,7 @@ pub enum Gradient {
 pub struct Term {
     pub incidence: usize,
     pub at: usize,
-    pub place: Place,
+    pub place: LanePlace,
     pub gradient: Gradient,
     pub sign: f64,
     /// 1/√m for points, 0 for vectors.
@@ -33,12 +33,12 @@ pub struct Term {
 /// The point of a joint that is nothing but a common point, on one body.
 #[derive(Clone, Copy, Debug)]
 pub struct End {
-    pub place: Place,
+    pub place: LanePlace,
     pub sign: f64,
 }
 
 /// For each incidence its point, if its joint is nothing but a common point.
-pub fn ends(system: &System, place: &[Place]) -> Vec<Option<End>> {
+pub fn ends(system: &System, place: &[LanePlace]) -> Vec<Option<End>> {
     let mut ends = vec![None; system.incidences.len()];
     for constraint in &system.constraints {
         let [row] = &system.rows[constraint.forms.clone()] else { continue };
@@ -74,7 +74,7 @@ pub fn changing(terms: &[Term], twist: usize) -> Vec<Range<usize>> {
 }
 
 /// The terms of H, row form by row form.
-pub fn terms(system: &System, place: &[Place], lanes: usize, twist: usize) -> Vec<Term> {
+pub fn terms(system: &System, place: &[LanePlace], lanes: usize, twist: usize) -> Vec<Term> {
     let mut terms = Vec::new();
     let (mut commons, mut products, mut relations) = (0, 0, 0);
     for row in &system.rows {

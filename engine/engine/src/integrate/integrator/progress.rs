@@ -9,7 +9,7 @@ const GROWTH: f64 = 2.0;
 
 /// How far the last steps have gone.
 #[derive(Clone, Debug)]
-pub(super) struct Progress {
+pub(super) struct ProgressMonitor {
     window: u64,
     steps: u64,
     /// Where the window began, s.
@@ -18,7 +18,7 @@ pub(super) struct Progress {
     before: f64,
 }
 
-impl Progress {
+impl ProgressMonitor {
     /// From time t on, for a mechanism of so many islands.
     pub(super) fn new(t: f64, islands: usize) -> Self {
         Self { window: WINDOW * islands.max(1) as u64, steps: 0, window_start: t, before: 0.0 }
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn shrinking_steps_stall_and_growing_or_sufficient_ones_do_not() {
         let run = |mut h: f64, factor: f64| {
-            let (mut t, mut progress) = (0.0, Progress::new(0.0, 1));
+            let (mut t, mut progress) = (0.0, ProgressMonitor::new(0.0, 1));
             (0..2_000).find_map(|_| {
                 t += h;
                 h *= factor;

@@ -8,7 +8,7 @@ type ComplexLu = LU<Complex<f64>, Dyn, Dyn>;
 
 /// K = ∂η̈/∂η and C = ∂η̈/∂η̇: the lower half of the Jacobian matrix J of (η̇, η̈) by (η, η̇).
 #[derive(Clone, Debug)]
-pub struct Jacobian {
+pub struct RateJacobian {
     /// K.
     pub stiffness: DMatrix<f64>,
     /// C.
@@ -19,7 +19,7 @@ pub struct Jacobian {
     pub valid: bool,
 }
 
-impl Jacobian {
+impl RateJacobian {
     /// Allocates for f coordinates η.
     pub fn new(f: usize) -> Self {
         Self { stiffness: DMatrix::zeros(f, f), damping: DMatrix::zeros(f, f), fresh: false, valid: false }
@@ -37,7 +37,7 @@ pub struct Factors {
 
 impl Factors {
     /// For a step of size h. `None` if a matrix is singular.
-    pub fn new(Jacobian { stiffness, damping, .. }: &Jacobian, h: f64) -> Option<Self> {
+    pub fn new(RateJacobian { stiffness, damping, .. }: &RateJacobian, h: f64) -> Option<Self> {
         let f = stiffness.nrows();
         let mu = REAL / h;
         let real = DMatrix::from_diagonal_element(f, f, mu * mu) - damping * mu - stiffness;
@@ -52,7 +52,7 @@ impl Factors {
 
     /// (μ I − J)⁻¹ r with the real μ, as its two halves. From those of (μ I − J)(a, b) = r:
     /// b = μ a − r_a, (μ² − μ C − K) a = r_b + (μ − C) r_a.
-    pub fn solve_real(&self, jacobian: &Jacobian, r: &DVector<f64>) -> Option<[DVector<f64>; 2]> {
+    pub fn solve_real(&self, jacobian: &RateJacobian, r: &DVector<f64>) -> Option<[DVector<f64>; 2]> {
         let f = r.len() / 2;
         let mu = REAL / self.h;
         let top = r.rows(0, f).into_owned();
@@ -64,7 +64,7 @@ impl Factors {
     /// The same with the complex μ.
     pub fn solve_pair(
         &self,
-        jacobian: &Jacobian,
+        jacobian: &RateJacobian,
         r: &DVector<Complex<f64>>,
     ) -> Option<[DVector<Complex<f64>>; 2]> {
         let f = r.len() / 2;

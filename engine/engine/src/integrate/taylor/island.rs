@@ -3,7 +3,7 @@
 use crate::integrate::step::StopReason;
 use crate::integrate::stepper::IslandStep;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
-use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, Plan};
+use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, StepPlan};
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
 use triad_dynamics::system::islands::{self, Island};
@@ -144,8 +144,13 @@ impl IslandStepper {
     /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
     /// itself that the constraints hold, and how often it was shortened.
     pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), StopReason> {
-        let plan =
-            Plan { order: self.order, tolerance: self.tolerance, length: self.length, end, dry_run: false };
+        let plan = StepPlan {
+            order: self.order,
+            tolerance: self.tolerance,
+            length: self.length,
+            end,
+            dry_run: false,
+        };
         let system = self.own.as_deref().unwrap_or(whole);
         let taken = self.series.step(plan);
         if taken.finite {

@@ -1,7 +1,7 @@
 //! What holds for every mechanism, however it was drawn.
 
 use crate::stress::trial::{kinetic_energy, larger};
-use crate::stress::{Outcome, TrialMethod, Verdict};
+use crate::stress::{StressOutcome, StressVerdict, TrialMethod};
 use nalgebra::Vector3;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
@@ -22,13 +22,13 @@ const LOOKS: u32 = 10;
 
 /// Runs a mechanism and compares: balance of energy and work; full, reduced and mixed coordinates; another integrator; the way
 /// back in time, where the mechanism is reversible; no NaN; bounded steps.
-pub fn judge(scene: &Scene, method: &TrialMethod) -> Outcome {
+pub fn judge(scene: &Scene, method: &TrialMethod) -> StressOutcome {
     let mut scene = scene.clone();
     method.apply(&mut scene);
-    let mut outcome = Outcome::nothing(Verdict::Survived, String::new());
+    let mut outcome = StressOutcome::nothing(StressVerdict::Survived, String::new());
     "balance of energy and work; other coordinates; another integrator; back in time"
         .clone_into(&mut outcome.reference);
-    let mut findings = Findings { verdict: Verdict::Survived, words: Vec::new(), error: 0.0 };
+    let mut findings = Findings { verdict: StressVerdict::Survived, words: Vec::new(), error: 0.0 };
     match watched(&scene, &mut outcome, &mut findings) {
         Ok(mut run) => {
             compare(&scene, &mut run, &mut findings);
@@ -50,7 +50,7 @@ pub fn judge(scene: &Scene, method: &TrialMethod) -> Outcome {
 
 /// What has been found so far.
 struct Findings {
-    verdict: Verdict,
+    verdict: StressVerdict,
     words: Vec<String>,
     error: f64,
 }
@@ -61,20 +61,25 @@ impl Findings {
         if value <= good {
             return;
         }
-        self.verdict = self.verdict.max(if value <= poor { Verdict::Degraded } else { Verdict::Wrong });
+        self.verdict =
+            self.verdict.max(if value <= poor { StressVerdict::Degraded } else { StressVerdict::Wrong });
         self.words.push(format!("{what} differs by {value:.1e}"));
     }
 
     /// An error is a true answer only if it tells what stands in the way; the start of every drawn mechanism is closed.
     fn refused(&mut self, error: &EngineError) {
         let told = error.cause().is_some() || error.code() == "motion-impossible";
-        self.verdict = self.verdict.max(if told { Verdict::Refused } else { Verdict::Wrong });
+        self.verdict = self.verdict.max(if told { StressVerdict::Refused } else { StressVerdict::Wrong });
         self.words.push(error.to_string());
     }
 }
 
 /// Runs to the end; the engine accounts for the work of drivers and loads, so that its energy error is to vanish.
-fn watched(scene: &Scene, outcome: &mut Outcome, findings: &mut Findings) -> Result<Simulation, EngineError> {
+fn watched(
+    scene: &Scene,
+    outcome: &mut StressOutcome,
+    findings: &mut Findings,
+) -> Result<Simulation, EngineError> {
     let mut run = Simulation::new(scene)?;
     run.set_step_limit(STEPS);
     let (mut drift, mut kinetic, mut violation) = (0.0, 1e-3, 0.0);

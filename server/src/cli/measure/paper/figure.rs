@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use triad_plot::{Axis, Frame, Style};
+use triad_plot::{Axis, PlotFrame, Style};
 
 use super::{Row, Seconds};
 
 /// One curve: its name, its look, and (bodies, seconds).
-pub(super) struct Curve {
+pub(super) struct PlottedCurve {
     name: String,
     style: Style,
     points: Vec<(f64, f64)>,
@@ -23,7 +23,7 @@ const BODIES: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
 type Time = fn(&Seconds) -> f64;
 
 /// Full (solid) and reduced (dashed) with each kind of linear algebra.
-pub(super) fn curves(rows: &[Row]) -> Vec<Curve> {
+pub(super) fn curves(rows: &[Row]) -> Vec<PlottedCurve> {
     let kinds: [(&str, &'static str, Time); 3] = [
         ("full square matrix", "#b3261e", |s| s.dense),
         ("zeros left out", "#1f5fa8", |s| s.sparse),
@@ -46,18 +46,18 @@ pub(super) fn curves(rows: &[Row]) -> Vec<Curve> {
                 }
             }
             let style = Style { colour, dashes, width: 2.0 };
-            list.push(Curve { name: format!("{body}, {name}"), style, points });
+            list.push(PlottedCurve { name: format!("{body}, {name}"), style, points });
         }
     }
     list
 }
 
 /// Draws the curves.
-pub(super) fn svg(curves: &[Curve]) -> String {
+pub(super) fn svg(curves: &[PlottedCurve]) -> String {
     let points = || curves.iter().flat_map(|curve| curve.points.iter());
     let most = points().fold(2.0f64, |most, (bodies, _)| most.max(*bodies));
     let lines = BODIES.iter().filter(|bodies| **bodies <= 1.05 * most);
-    let frame = Frame {
+    let frame = PlotFrame {
         size: SIZE,
         margins: MARGINS,
         x: Axis {
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn every_point_lies_within_the_picture() {
-        let curve = |index| Curve {
+        let curve = |index| PlottedCurve {
             name: "full".to_owned(),
             style: Style::number(index),
             points: vec![(1.0, 0.003), (5.0, 0.2), (39.0, 900.0)],

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use triad_lab::stress::{Entry, Verdict};
+use triad_lab::stress::{CaseReport, StressVerdict};
 
 use super::Report;
 
@@ -40,7 +40,7 @@ pub(super) fn render(report: &Report) -> String {
     page.push_str("<h2>Deviation from the reference</h2>");
     page.push_str(&plot(&report.entries));
     page.push_str(
-        "<h2>Cases</h2><div class=scroll><table><tr><th>Case<th>Verdict<th>Error<th>Energy drift\
+        "<h2>Cases</h2><div class=scroll><table><tr><th>StressCase<th>StressVerdict<th>Error<th>Energy drift\
                    <th>Violation<th>Steps<th>Rejected<th>Evaluations<th>Compared with, and why</tr>",
     );
     for entry in report.entries.iter().filter(|e| shown(e)) {
@@ -52,11 +52,11 @@ pub(super) fn render(report: &Report) -> String {
 }
 
 /// Random mechanisms that went well are only counted.
-fn shown(entry: &Entry) -> bool {
-    entry.family != "random" || entry.outcome.verdict != Verdict::Survived
+fn shown(entry: &CaseReport) -> bool {
+    entry.family != "random" || entry.outcome.verdict != StressVerdict::Survived
 }
 
-fn row(page: &mut String, entry: &Entry) {
+fn row(page: &mut String, entry: &CaseReport) {
     let outcome = &entry.outcome;
     let number = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| format!("{x:.1e}"));
     let verdict = outcome.verdict;
@@ -78,9 +78,9 @@ fn row(page: &mut String, entry: &Entry) {
 }
 
 /// Error of each case on a scale of powers of ten from 1e-16 to 1.
-fn plot(entries: &[Entry]) -> String {
+fn plot(entries: &[CaseReport]) -> String {
     let place = |x: f64| 220.0 + 40.0 * (x.max(1e-16).log10() + 16.0).min(16.0);
-    let list: Vec<&Entry> = entries
+    let list: Vec<&CaseReport> = entries
         .iter()
         .filter(|e| shown(e))
         .filter(|e| e.outcome.error.or(e.outcome.energy_drift).is_some())

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use triad_lab::stress::Verdict;
+use triad_lab::stress::StressVerdict;
 
 use super::Column;
 
@@ -11,13 +11,13 @@ const TOP: usize = 170;
 const CELL: (usize, usize) = (46, 30);
 
 /// Fill of a cell, and its mark: the picture must also be readable without colours.
-fn look(verdict: Verdict) -> (&'static str, &'static str) {
+fn look(verdict: StressVerdict) -> (&'static str, &'static str) {
     match verdict {
-        Verdict::Survived => ("#cfe8d5", "✓"),
-        Verdict::Degraded => ("#fbe7b2", "~"),
-        Verdict::Refused => ("#d6e4f7", "–"),
-        Verdict::Warned => ("#f6d3b0", "!"),
-        Verdict::Wrong => ("#f3c1bd", "✗"),
+        StressVerdict::Survived => ("#cfe8d5", "✓"),
+        StressVerdict::Degraded => ("#fbe7b2", "~"),
+        StressVerdict::Refused => ("#d6e4f7", "–"),
+        StressVerdict::Warned => ("#f6d3b0", "!"),
+        StressVerdict::Wrong => ("#f3c1bd", "✗"),
     }
 }
 
@@ -74,7 +74,13 @@ pub(super) fn svg(columns: &[Column]) -> String {
                 writeln!(out, "<text x=\"{}\" y=\"{y}\" text-anchor=\"end\">{}</text>", LEFT - 8, entry.case);
         }
     }
-    let verdicts = [Verdict::Survived, Verdict::Degraded, Verdict::Refused, Verdict::Warned, Verdict::Wrong];
+    let verdicts = [
+        StressVerdict::Survived,
+        StressVerdict::Degraded,
+        StressVerdict::Refused,
+        StressVerdict::Warned,
+        StressVerdict::Wrong,
+    ];
     let words = verdicts.map(|verdict| {
         let (_, mark) = look(verdict);
         format!("{mark} {verdict}")
@@ -114,7 +120,7 @@ pub(super) fn markdown(columns: &[Column], picture: &str) -> String {
     }
     out.push_str("\n## Why\n\n");
     for column in columns {
-        for entry in column.entries.iter().filter(|entry| entry.outcome.verdict >= Verdict::Refused) {
+        for entry in column.entries.iter().filter(|entry| entry.outcome.verdict >= StressVerdict::Refused) {
             let _ = writeln!(out, "- {}, {}: {}", column.method, entry.case, entry.outcome.reason);
         }
     }

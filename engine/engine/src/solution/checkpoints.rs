@@ -4,20 +4,20 @@ use crate::error::EngineError;
 use crate::run::Simulation;
 use triad_dynamics::model::Model;
 
-/// Marks times bodies that are kept at most. Measured: 12 kB a body with dop853 to 33 kB with a series, so 70 MB.
-const ROOM: usize = 2048;
-/// Marks that are kept at least. Measured: 18 kB a body of large mechanisms, so 360 MB for the 5000 bodies of the largest.
-const FEWEST: usize = 4;
+/// Greatest number of checkpoints times bodies that are kept. Measured: 12 kB a body with dop853 to 33 kB with a series, so 70 MB.
+const MAX_CHECKPOINT_BODIES: usize = 2048;
+/// Least number of checkpoints that are kept. Measured: 18 kB a body of large mechanisms, so 360 MB for the 5000 bodies of the largest.
+const MIN_CHECKPOINTS: usize = 4;
 
 /// A run as it stood after one of its steps.
 #[derive(Clone, Debug)]
-pub(super) struct Mark {
+pub(super) struct Checkpoint {
     /// Start of that step, s.
     from: f64,
     pub run: Simulation,
 }
 
-impl Mark {
+impl Checkpoint {
     /// Whether the way to time t is shorter from here than from another place.
     pub fn is_nearer(&self, other: &Self, t: f64) -> bool {
         other.from >= t || other.from < self.from
@@ -33,23 +33,23 @@ impl Mark {
     }
 }
 
-/// Marks of a run, one at each of so many steps. When there are too many, every second one is given up.
+/// Checkpoints of a run, one at each of so many steps. When there are too many, every second one is given up.
 #[derive(Clone, Debug)]
-pub(super) struct Marks {
+pub(super) struct Checkpoints {
     /// Where the run starts.
-    first: Mark,
-    /// The marks after the first.
-    later: Vec<Mark>,
+    first: Checkpoint,
+    /// The checkpoints after the first.
+    later: Vec<Checkpoint>,
     stride: u64,
     steps: u64,
     most: usize,
 }
 
-impl Marks {
-    /// With one mark, where the run starts.
+impl Checkpoints {
+    /// With one checkpoint, where the run starts.
     pub fn new(run: &Simulation) -> Self {
-        let most = (ROOM / run.model().bodies.len().max(1)).max(FEWEST);
-        let first = Mark { from: f64::NEG_INFINITY, run: run.clone() };
+        let most = (MAX_CHECKPOINT_BODIES / run.model().bodies.len().max(1)).max(MIN_CHECKPOINTS);
+        let first = Checkpoint { from: f64::NEG_INFINITY, run: run.clone() };
         Self { first, later: Vec::new(), stride: 1, steps: 0, most }
     }
 
@@ -64,7 +64,7 @@ impl Marks {
         if !self.steps.is_multiple_of(self.stride) {
             return;
         }
-        self.later.push(Mark { from, run: run.clone() });
+        self.later.push(Checkpoint { from, run: run.clone() });
         if self.later.len() > self.most {
             self.stride *= 2;
             let mut step = 0;
@@ -75,9 +75,9 @@ impl Marks {
         }
     }
 
-    /// The last mark whose step begins before time t: a run that comes to t shows it from the step that reaches t.
-    pub fn before(&self, t: f64) -> &Mark {
-        let after = self.later.partition_point(|mark| mark.from < t);
+    /// The last checkpoint whose step begins before time t: a run that comes to t shows it from the step that reaches t.
+    pub fn before(&self, t: f64) -> &Checkpoint {
+        let after = self.later.partition_point(|checkpoint| checkpoint.from < t);
         after.checked_sub(1).map_or(&self.first, |last| &self.later[last])
     }
 }
