@@ -154,47 +154,47 @@ async function lookingBack() {
 }
 
 async function lecture() {
-  const desk = await visitor("presenter");
-  await desk.goto(`${address}/scenes/spatial-double-pendulum`);
-  await until(desk, "the run starts", () => clock(desk), (time) => time === 0);
-  await desk.getByRole("button", { name: /Lecture: let others/ }).click();
-  const code = await desk.locator(".invite-code").innerText();
-  await desk.locator(".qr").waitFor();
-  await noSeriousFaults(desk, "the invitation");
-  await desk.screenshot({ path: join(pictures, "workbench-invite.png") });
-  await desk.keyboard.press("Escape");
+  const presenter = await visitor("presenter");
+  await presenter.goto(`${address}/scenes/spatial-double-pendulum`);
+  await until(presenter, "the run starts", () => clock(presenter), (time) => time === 0);
+  await presenter.getByRole("button", { name: /Lecture: let others/ }).click();
+  const code = await presenter.locator(".invite-code").innerText();
+  await presenter.locator(".qr").waitFor();
+  await noSeriousFaults(presenter, "the invitation");
+  await presenter.screenshot({ path: join(pictures, "workbench-invite.png") });
+  await presenter.keyboard.press("Escape");
   const phone = await visitor("follower", { width: 390, height: 844 });
   await phone.goto(`${address}/room`);
   await phone.getByLabel("Code of the room").fill(code.toLowerCase());
   await phone.getByRole("button", { name: "Join", exact: true }).click();
   await phone.getByRole("heading", { level: 1, name: /pendulum/i }).waitFor();
-  await desk.getByRole("button", { name: "Step by time" }).click();
+  await presenter.getByRole("button", { name: "Step by time" }).click();
   await until(phone, "the presenter's clock travels", () => clock(phone), (time) => time >= 0.099);
-  await desk.getByRole("tab", { name: "Reactions" }).click();
-  await desk.locator(".joint-select").first().click();
+  await presenter.getByRole("tab", { name: "Reactions" }).click();
+  await presenter.locator(".joint-select").first().click();
   await phone.locator(".joint.is-selected").waitFor();
-  await desk.getByRole("button", { name: "Ask a question" }).click();
-  await desk.getByLabel(/Number of the right choice/).fill("2");
-  await desk.getByRole("button", { name: "Ask", exact: true }).click();
+  await presenter.getByRole("button", { name: "Ask a question" }).click();
+  await presenter.getByLabel(/Number of the right choice/).fill("2");
+  await presenter.getByRole("button", { name: "Ask", exact: true }).click();
   await phone.getByRole("button", { name: "negative" }).click();
-  await until(desk, "the histogram is live", () => desk.locator(".desk .histogram caption").innerText(), (text) => text === "1 answer");
+  await until(presenter, "the histogram is live", () => presenter.locator(".presenter .histogram caption").innerText(), (text) => text === "1 answer");
   assert.equal(await phone.locator(".histogram").count(), 0, "followers see no result before the reveal");
   await noSeriousFaults(phone, "the question");
-  await desk.getByRole("button", { name: "Reveal" }).click();
+  await presenter.getByRole("button", { name: "Reveal" }).click();
   await phone.locator(".histogram .is-right").waitFor();
-  await desk.locator(".timeline").fill("0.04");
+  await presenter.locator(".timeline").fill("0.04");
   await until(phone, "looking back travels", () => clock(phone), (time) => time === 0.04);
   await phone.locator(".timeline").fill("0.02");
-  await until(phone, "roaming", () => phone.locator(".room-head .lead").innerText(), (text) => /on your own/.test(text));
+  await until(phone, "roaming", () => phone.locator(".lecture-head .lead").innerText(), (text) => /on your own/.test(text));
   await phone.getByRole("button", { name: "Back to the lecture" }).click();
   await until(phone, "back with the presenter", () => clock(phone), (time) => time === 0.04);
   await phone.screenshot({ path: join(pictures, "workbench-follower.png"), fullPage: true });
   const width = await phone.evaluate(() => document.documentElement.scrollWidth);
   assert(width <= 390, `the follower's page is ${width} px wide`);
-  await desk.getByRole("button", { name: "End the lecture" }).click();
+  await presenter.getByRole("button", { name: "End the lecture" }).click();
   await phone.getByText("The lecture is over.", { exact: false }).waitFor();
   say("a lecture: clock, selection, question, reveal, roaming, the end");
-  await desk.context().close();
+  await presenter.context().close();
   await phone.context().close();
 }
 

@@ -3,7 +3,7 @@ import { join, normalize, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 import { expect, it } from "vitest";
 
-/** The folders in reading order: each imports from those before it only. Circles between files are a lint's business. */
+/** The folders in reading order: each imports from those before it only. A lint finds circles between files. */
 const LAYERS = [
   "core",
   "api",

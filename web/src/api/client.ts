@@ -46,12 +46,22 @@ export class ApiError extends Error {
 /** Any thrown value as a Problem that can be shown. */
 export function problemOf(error: unknown): Problem {
   if (error instanceof ApiError) return error.problem;
+  if (isProblem(error)) return error;
   const detail = error instanceof Error ? error.message : String(error);
   return {
     title: "Something in this page failed",
     detail,
     hint: "Reload the page; if it happens again, report the text above.",
   };
+}
+
+function isProblem(value: unknown): value is Problem {
+  return (
+    typeof value === "object" &&
+    value !== null &&
+    !(value instanceof Error) &&
+    typeof (value as Problem).title === "string"
+  );
 }
 
 async function failure(response: Response): Promise<ApiError> {
@@ -143,7 +153,7 @@ export const api = {
     call<ImportedRobot>("POST", "/import/urdf", side === undefined ? { urdf } : { urdf, with: side }),
   sceneSchema: () => call<unknown>("GET", "/schema/scene"),
 
-  // A run answers at its address: a session's own, or a lecture room's.
+  // The address of a run is that of its session, or of the lecture that follows it.
   createSession: (source: SessionSource, change?: Numbers) =>
     call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
   state: (run: string) => call<SessionState>("GET", run),
@@ -175,7 +185,7 @@ export const api = {
   },
 
   openLecture: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
-  room: (code: string, signal?: AbortSignal) =>
+  lecture: (code: string, signal?: AbortSignal) =>
     call<LectureState>("GET", `/rooms/${id(code)}`, undefined, signal),
   closeLecture: (code: string, key: string) =>
     call<void>("DELETE", `/rooms/${id(code)}`, undefined, undefined, key),
@@ -187,7 +197,7 @@ export const api = {
     call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),
   reveal: (code: string, key: string) =>
     call<void>("POST", `/rooms/${id(code)}/reveal`, undefined, undefined, key),
-  forgetQuestion: (code: string, key: string) =>
+  withdrawQuestion: (code: string, key: string) =>
     call<void>("DELETE", `/rooms/${id(code)}/question`, undefined, undefined, key),
   answer: (code: string, vote: { question: number; voter: string; choice: number }) =>
     call<void>("POST", `/rooms/${id(code)}/answers`, vote),

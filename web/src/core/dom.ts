@@ -1,4 +1,4 @@
-// A few lines instead of a framework: make elements, with typed properties.
+// Helpers of the DOM: make elements with typed properties, announce, save a file.
 
 type Listener = (event: never) => void;
 type Value = string | number | boolean | null | undefined | Listener;
@@ -51,6 +51,13 @@ export function setText(node: Element, text: string): void {
   if (node.textContent !== text) node.textContent = text;
 }
 
+/** Lets the browser save a file. */
+export function saveFile(blob: Blob, name: string): void {
+  const link = h("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
 let counter = 0;
 export function uid(prefix: string): string {
   counter += 1;
@@ -59,7 +66,7 @@ export function uid(prefix: string): string {
 
 const announcer = (): HTMLElement | null => document.getElementById("announce");
 
-/** Says a sentence to a screen reader, once. */
+/** Announces a sentence to screen readers. */
 export function announce(sentence: string): void {
   const region = announcer();
   if (region) region.textContent = sentence;

@@ -33,6 +33,12 @@ export function fixedPlain(value: number, decimals: number): string {
   return minus(value.toFixed(decimals));
 }
 
+/** A number as somebody types it, with a comma or a true minus sign too; NaN where it is none. */
+export function typedNumber(text: string): number {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return plain === "" ? NaN : Number(plain);
+}
+
 export function points(value: number): string {
   return minus(Number(value.toFixed(2)).toString());
 }

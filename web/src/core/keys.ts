@@ -4,7 +4,8 @@ import { recall, remember } from "./prefs";
 export interface Shortcut {
   keys: string[];
   shown: string;
-  says: string;
+  /** What it does, as the help lists it. */
+  does: string;
   run: () => void;
 }
 

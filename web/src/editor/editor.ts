@@ -8,18 +8,15 @@ import { problemNotice } from "../ui/notice";
 import { lineOf, locate } from "./pointer";
 import { suggestions } from "./suggest";
 
+/** A text is checked when nothing was typed for this long, ms. */
 const CHECK_AFTER_MS = 600;
 
-export interface Editor {
-  root: HTMLElement;
-  text: () => string;
-  set: (text: string) => void;
-  dispose: () => void;
-}
+/** Lines that stay visible above a place that is shown. */
+const LINES_ABOVE = 6;
 
-/** `sound` is called with a text that the server has checked and can run. */
-export function sceneEditor(changed: (text: string) => void, sound: (text: string) => void): Editor {
-  const area = h("textarea", {
+export class SceneEditor {
+  readonly root: HTMLElement;
+  private readonly area = h("textarea", {
     class: "code",
     spellcheck: "false",
     autocapitalize: "off",
@@ -28,97 +25,106 @@ export function sceneEditor(changed: (text: string) => void, sound: (text: strin
     "aria-label": "Scene, JSON",
     rows: "24",
   });
-  const gutter = h("div", { class: "gutter", "aria-hidden": "true" });
-  const result = h("div", { class: "check", "aria-live": "polite" });
-  let timer = 0;
-  let asking = new AbortController();
+  private readonly gutter = h("div", { class: "gutter", "aria-hidden": "true" });
+  private readonly result = h("div", { class: "check", "aria-live": "polite" });
+  private timer = 0;
+  /** Ends a check that a newer text has overtaken. */
+  private checking = new AbortController();
 
-  const number = (): void => {
-    const lines = area.value.split("\n").length;
-    if (gutter.childElementCount === lines) return;
-    gutter.replaceChildren(...Array.from({ length: lines }, (_, k) => h("span", null, String(k + 1))));
-  };
+  /** `changed` hears of each edit, `sound` of a text that the server has checked and can run. */
+  constructor(
+    private readonly changed: (text: string) => void,
+    private readonly sound: (text: string) => void,
+  ) {
+    const { area, gutter } = this;
+    const completion = suggestions(area, () => area.dispatchEvent(new Event("input")));
+    this.root = h(
+      "div",
+      { class: "editor" },
+      h("div", { class: "code-box" }, h("div", { class: "gutter-box" }, gutter), area, completion),
+      this.result,
+    );
+    area.addEventListener("input", () => {
+      this.changed(area.value);
+      this.checkSoon();
+    });
+    area.addEventListener("scroll", () => {
+      gutter.style.transform = `translateY(${-area.scrollTop}px)`;
+    });
+  }
 
-  const goTo = (pointer: string): void => {
+  text(): string {
+    return this.area.value;
+  }
+
+  set(text: string): void {
+    this.area.value = text;
+    this.numberLines();
+    void this.check();
+  }
+
+  dispose(): void {
+    clearTimeout(this.timer);
+    this.checking.abort();
+  }
+
+  private numberLines(): void {
+    const count = this.area.value.split("\n").length;
+    if (this.gutter.childElementCount === count) return;
+    const numbers = Array.from({ length: count }, (_, k) => h("span", null, String(k + 1)));
+    this.gutter.replaceChildren(...numbers);
+  }
+
+  private mark(lines: number[]): void {
+    for (const [k, child] of [...this.gutter.children].entries())
+      child.classList.toggle("is-marked", lines.includes(k + 1));
+  }
+
+  private goTo(pointer: string): void {
+    const { area } = this;
     const offset = locate(area.value, pointer);
     area.focus();
     area.setSelectionRange(offset, endOfValue(area.value, offset));
     const line = lineOf(area.value, offset);
-    area.scrollTop = Math.max(0, (line - 6) * lineHeight(area));
-    mark(new Set([line]));
-  };
-  const mark = (lines: Set<number>): void => {
-    for (const [k, child] of [...gutter.children].entries())
-      child.classList.toggle("is-marked", lines.has(k + 1));
-  };
+    area.scrollTop = Math.max(0, (line - LINES_ABOVE) * lineHeight(area));
+    this.mark([line]);
+  }
 
-  const check = async (): Promise<void> => {
-    asking.abort();
-    asking = new AbortController();
-    mark(new Set());
-    const text = area.value;
+  private checkSoon(): void {
+    this.numberLines();
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.check(), CHECK_AFTER_MS);
+  }
+
+  private async check(): Promise<void> {
+    this.checking.abort();
+    this.checking = new AbortController();
+    const { signal } = this.checking;
+    this.mark([]);
+    const text = this.area.value;
     const broken = syntaxProblem(text);
     if (broken) {
-      mark(new Set([broken.line]));
-      result.replaceChildren(problemNotice(broken.problem));
+      this.mark([broken.line]);
+      this.result.replaceChildren(problemNotice(broken.problem));
       return;
     }
     try {
-      const report = await api.check(text, asking.signal);
-      result.replaceChildren(reportView(report));
-      sound(text);
+      const report = await api.check(text, signal);
+      this.result.replaceChildren(reportView(report));
+      this.sound(text);
     } catch (error) {
-      if (asking.signal.aborted) return;
-      if (error instanceof ApiError) {
-        mark(
-          new Set(
-            (error.problem.errors ?? []).flatMap((place) =>
-              place.pointer ? [lineOf(text, locate(text, place.pointer))] : [],
-            ),
-          ),
-        );
-      }
-      result.replaceChildren(problemNotice(error, [], { open: goTo }));
+      if (signal.aborted) return;
+      if (error instanceof ApiError) this.mark(linesOf(error.problem, text));
+      this.result.replaceChildren(problemNotice(error, [], { open: (pointer) => this.goTo(pointer) }));
     }
-  };
-  const soon = (): void => {
-    number();
-    clearTimeout(timer);
-    timer = window.setTimeout(() => void check(), CHECK_AFTER_MS);
-  };
+  }
+}
 
-  area.addEventListener("input", () => {
-    changed(area.value);
-    soon();
-  });
-  area.addEventListener("scroll", () => {
-    gutter.style.transform = `translateY(${-area.scrollTop}px)`;
-  });
-
-  return {
-    root: h(
-      "div",
-      { class: "editor" },
-      h(
-        "div",
-        { class: "code-box" },
-        h("div", { class: "gutter-box" }, gutter),
-        area,
-        suggestions(area, () => area.dispatchEvent(new Event("input"))),
-      ),
-      result,
-    ),
-    text: () => area.value,
-    set: (text) => {
-      area.value = text;
-      number();
-      void check();
-    },
-    dispose: () => {
-      clearTimeout(timer);
-      asking.abort();
-    },
-  };
+/** The lines of the places that a problem names. */
+function linesOf(problem: Problem, text: string): number[] {
+  return (problem.errors ?? []).flatMap((place) =>
+    place.pointer ? [lineOf(text, locate(text, place.pointer))] : [],
+  );
 }
 
 function lineHeight(area: HTMLTextAreaElement): number {
@@ -138,10 +144,11 @@ function syntaxProblem(text: string): { problem: Problem; line: number } | undef
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
     const position = /position (\d+)/.exec(message)?.[1];
+    const stated = /line (\d+)/.exec(message)?.[1];
     const line = position
       ? lineOf(text, Number(position))
-      : /line (\d+)/.exec(message)?.[1]
-        ? Number(/line (\d+)/.exec(message)?.[1])
+      : stated
+        ? Number(stated)
         : text.split("\n").length;
     return {
       line,
@@ -192,7 +199,8 @@ function reportView(report: CheckReport): HTMLElement {
           h(
             "p",
             { class: "help" },
-            "These rows repeat what others already demand. The run is right, but how their joints share the load is not unique.",
+            "These rows repeat what others already demand. The run is right, but how their joints share the load is " +
+              "not unique.",
           ),
         )
       : null,

@@ -78,14 +78,16 @@ function narrowed(root: Schema, here: Schema[], text: string, path: string[]): S
   const objects = here.filter((one) => one.properties);
   const fitting = objects.filter((one) =>
     Object.entries(one.properties ?? {}).every(([key, value]) => {
-      const said = flat(root, value)
+      const stated = flat(root, value)
         .map((part) => part.const)
         .find((word) => typeof word === "string");
-      if (typeof said !== "string") return true;
+      if (typeof stated !== "string") return true;
       const at = locate(text, `/${[...path, key].join("/")}`);
       const written = /^"((?:[^"\\]|\\.)*)"/.exec(text.slice(at))?.[1];
       return (
-        written === undefined || written === said || !new RegExp(`"${key}"\\s*:\\s*$`).test(text.slice(0, at))
+        written === undefined ||
+        written === stated ||
+        !new RegExp(`"${key}"\\s*:\\s*$`).test(text.slice(0, at))
       );
     }),
   );

@@ -1,117 +1,149 @@
 // A list of what fits at the cursor, beside the text: arrows choose, Enter or Tab writes, Escape closes.
 import { api } from "../api/client";
 import { h, uid } from "../core/dom";
-import { type Completion, complete } from "./schema";
+import { type Completion, complete, type Offer } from "./schema";
 
-const MAX_STATES = 12;
+/** Suggestions that are shown at a time. */
+const MAX_OFFERS = 12;
 
+/** The list beside a text; `written` is called when a suggestion has been written into it. */
 export function suggestions(area: HTMLTextAreaElement, written: () => void): HTMLElement {
-  const id = uid("suggest");
-  const list = h("ul", {
-    class: "suggest",
-    id,
-    role: "listbox",
-    "aria-label": "What fits here",
-    hidden: true,
-  });
-  let schema: unknown;
-  let requested = false;
-  let shown: Completion | undefined;
-  let at = 0;
+  return new Suggestions(area, written).root;
+}
 
-  area.setAttribute("aria-controls", id);
-  area.setAttribute("aria-autocomplete", "list");
-  const close = (): void => {
-    shown = undefined;
-    list.hidden = true;
-    area.removeAttribute("aria-activedescendant");
-  };
-  const mark = (to: number): void => {
-    at = to;
-    [...list.children].forEach((child, k) => {
-      child.setAttribute("aria-selected", String(k === at));
-      if (k === at) child.scrollIntoView({ block: "nearest" });
+class Suggestions {
+  readonly root: HTMLElement;
+  private readonly id = uid("suggest");
+  private schema: unknown;
+  private requested = false;
+  private shown: Completion | undefined;
+  /** Index of the suggestion that is marked. */
+  private at = 0;
+
+  constructor(
+    private readonly area: HTMLTextAreaElement,
+    private readonly written: () => void,
+  ) {
+    this.root = h("ul", {
+      class: "suggest",
+      id: this.id,
+      role: "listbox",
+      "aria-label": "What fits here",
+      hidden: true,
     });
-    area.setAttribute("aria-activedescendant", `${id}-${at}`);
-  };
-  const write = (k: number): void => {
-    const offer = shown?.offers[k];
-    if (!shown || !offer) return;
-    area.setRangeText(offer.text, shown.from, shown.to, "end");
-    close();
-    written();
-  };
-  const open = (): void => {
-    if (!schema) {
-      if (!requested)
-        void api
-          .sceneSchema()
-          .then((found) => {
-            schema = found;
-            open();
-          })
-          .catch(() => {
-            // Without the schema one types without help; the check says what is wrong all the same.
-            requested = false;
-          });
-      requested = true;
+    area.setAttribute("aria-controls", this.id);
+    area.setAttribute("aria-autocomplete", "list");
+    area.addEventListener("keydown", (event) => this.press(event));
+    area.addEventListener("input", (event) => {
+      const typed = (event as InputEvent).data;
+      // A list appears where a word begins or goes on; elsewhere it would be in the way.
+      if (typed !== null && typed !== undefined && /["\w-]/.test(typed)) this.open();
+      else this.close();
+    });
+    area.addEventListener("blur", () => this.close());
+    area.addEventListener("scroll", () => this.close());
+  }
+
+  private press(event: KeyboardEvent): void {
+    const { key } = event;
+    if (key === " " && event.ctrlKey) {
+      event.preventDefault();
+      this.open();
+      return;
+    }
+    if (!this.shown) return;
+    const count = this.shown.offers.length;
+    if (key === "ArrowDown") this.mark((this.at + 1) % count);
+    else if (key === "ArrowUp") this.mark((this.at - 1 + count) % count);
+    else if (key === "Enter" || key === "Tab") this.write(this.at);
+    else if (key === "Escape") this.close();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  private open(): void {
+    const { area } = this;
+    if (!this.schema) {
+      this.requestSchema();
       return;
     }
     const found =
       area.selectionStart === area.selectionEnd
-        ? complete(schema, area.value, area.selectionStart)
+        ? complete(this.schema, area.value, area.selectionStart)
         : undefined;
     if (!found) {
-      close();
+      this.close();
       return;
     }
-    shown = { ...found, offers: found.offers.slice(0, MAX_STATES) };
-    list.replaceChildren(
-      ...shown.offers.map((offer, k) =>
-        h(
-          "li",
-          {
-            role: "option",
-            id: `${id}-${k}`,
-            onpointerdown: (event: PointerEvent) => {
-              event.preventDefault();
-              write(k);
-            },
-          },
-          h("code", null, offer.text),
-          h("span", null, offer.about),
-        ),
-      ),
+    this.shown = { ...found, offers: found.offers.slice(0, MAX_OFFERS) };
+    this.root.replaceChildren(...this.shown.offers.map((offer, k) => this.option(offer, k)));
+    this.root.hidden = false;
+    place(this.root, area);
+    this.mark(0);
+  }
+
+  private requestSchema(): void {
+    if (this.requested) return;
+    this.requested = true;
+    void api
+      .sceneSchema()
+      .then((schema) => {
+        this.schema = schema;
+        this.open();
+      })
+      .catch(() => {
+        // Without the schema there are no suggestions; the check finds what is wrong all the same.
+        this.requested = false;
+      });
+  }
+
+  private option(offer: Offer, k: number): HTMLElement {
+    return h(
+      "li",
+      {
+        role: "option",
+        id: `${this.id}-${k}`,
+        onpointerdown: (event: PointerEvent) => {
+          event.preventDefault();
+          this.write(k);
+        },
+      },
+      h("code", null, offer.text),
+      h("span", null, offer.about),
     );
-    list.hidden = false;
-    place(list, area);
-    mark(0);
-  };
-  area.addEventListener("keydown", (event) => {
-    if (event.key === " " && event.ctrlKey) {
-      event.preventDefault();
-      open();
-      return;
-    }
-    if (!shown) return;
-    if (event.key === "ArrowDown" || event.key === "ArrowUp")
-      mark((at + (event.key === "ArrowDown" ? 1 : -1) + shown.offers.length) % shown.offers.length);
-    else if (event.key === "Enter" || event.key === "Tab") write(at);
-    else if (event.key === "Escape") close();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
-  });
-  area.addEventListener("input", (event) => {
-    const typed = (event as InputEvent).data;
-    // A list appears where a word begins or goes on; elsewhere it would be in the way.
-    if (typed !== null && typed !== undefined && /["\w-]/.test(typed)) open();
-    else close();
-  });
-  area.addEventListener("blur", close);
-  area.addEventListener("scroll", close);
-  return list;
+  }
+
+  private mark(to: number): void {
+    this.at = to;
+    [...this.root.children].forEach((child, k) => {
+      child.setAttribute("aria-selected", String(k === to));
+      if (k === to) child.scrollIntoView({ block: "nearest" });
+    });
+    this.area.setAttribute("aria-activedescendant", `${this.id}-${to}`);
+  }
+
+  private write(k: number): void {
+    const offer = this.shown?.offers[k];
+    if (!this.shown || !offer) return;
+    this.area.setRangeText(offer.text, this.shown.from, this.shown.to, "end");
+    this.close();
+    this.written();
+  }
+
+  private close(): void {
+    this.shown = undefined;
+    this.root.hidden = true;
+    this.area.removeAttribute("aria-activedescendant");
+  }
 }
+
+/** Width of the line numbers, px. */
+const GUTTER = 48;
+/** Height that the list may need, px. */
+const LIST_HEIGHT = 160;
+/** Width that the list needs to be read, px. */
+const LIST_WIDTH = 240;
 
 /** Below the line of the cursor, within the box. */
 function place(list: HTMLElement, area: HTMLTextAreaElement): void {
@@ -122,6 +154,7 @@ function place(list: HTMLElement, area: HTMLTextAreaElement): void {
   const height = Number.parseFloat(css.lineHeight) || 20;
   const wide = Number.parseFloat(css.fontSize) * 0.6;
   const top = Number.parseFloat(css.paddingTop) + line * height - area.scrollTop;
-  list.style.insetBlockStart = `${Math.min(top, Math.max(0, area.clientHeight - 160))}px`;
-  list.style.insetInlineStart = `${Math.max(0, Math.min(48 + column * wide - area.scrollLeft, area.clientWidth - 240))}px`;
+  const left = GUTTER + column * wide - area.scrollLeft;
+  list.style.insetBlockStart = `${Math.min(top, Math.max(0, area.clientHeight - LIST_HEIGHT))}px`;
+  list.style.insetInlineStart = `${Math.max(0, Math.min(left, area.clientWidth - LIST_WIDTH))}px`;
 }

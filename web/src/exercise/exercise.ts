@@ -4,47 +4,29 @@ import type { GradedSubmission, Lesson } from "../api/types";
 import { announce, h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
-import { recall, remember, student } from "../core/prefs";
+import { student } from "../core/prefs";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
-import { historyList } from "./history";
+import { DraftStore } from "./drafts";
+import { type HistoryList, historyList } from "./history";
 import { type QuestionField, questionField } from "./question";
 import { verdictSummary } from "./verdict";
 
+/** Label of the button that hands the answers in. */
+const CHECK = "Check my answers";
+
 /** Fills `root`; the returned function undoes what outlives it. */
 export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
-  const { questions } = lesson.exercise;
-  if (questions.length === 0) return () => undefined;
-  const total = questions.reduce((sum, question) => sum + question.points, 0);
-  // Answers belong to the numbers that they are about.
-  const draftKey: `draft:${string}` =
-    lesson.has_variants && lesson.seed ? `draft:${lesson.slug}:${lesson.seed}` : `draft:${lesson.slug}`;
-  const draft = readDraft(recall(draftKey));
-  let ready = false;
+  if (lesson.exercise.questions.length === 0) return () => undefined;
+  const section = new ExerciseSection(lesson);
+  root.append(...section.parts());
+  return () => section.dispose();
+}
 
-  const saveDraft = (): void => {
-    const values: Record<string, string[]> = {};
-    // Hints that are being opened again must not be forgotten meanwhile.
-    if (!ready) return;
-    for (const field of fields) {
-      values[field.id] = field.draft();
-      const opened = Math.max(field.hints(), Number(draft[`${field.id}#hints`]?.[0] ?? 0));
-      if (opened > 0) values[`${field.id}#hints`] = [String(opened)];
-    }
-    remember(draftKey, JSON.stringify(values));
-  };
-  const fields: QuestionField[] = questions.map((question, at) =>
-    questionField(
-      lesson,
-      question,
-      at + 1,
-      { draft: draft[question.id], hints: Number(draft[`${question.id}#hints`]?.[0] ?? 0) },
-      saveDraft,
-    ),
-  );
-  ready = true;
-
-  const name = h("input", {
+class ExerciseSection {
+  private readonly draft: DraftStore;
+  private readonly fields: QuestionField[];
+  private readonly name = h("input", {
     id: "student",
     class: "field",
     autocomplete: "name",
@@ -52,106 +34,127 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
     required: true,
     value: student.get(),
   });
-  const send = h("button", { class: "button primary" }, "Check my answers");
-  const outcome = h("div", { class: "outcome", tabindex: "-1" });
-  const past = historyList(lesson);
-  const form = h(
-    "form",
-    { class: "questions", novalidate: true },
-    ...fields.map((field) => field.root),
-    h(
-      "div",
-      { class: "send" },
-      h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), name),
-      send,
-    ),
-    outcome,
-  );
-
-  const submit = async (): Promise<void> => {
-    const who = name.value.trim();
-    if (!who) {
-      outcome.replaceChildren(
-        problemNotice({
-          title: "Who is answering?",
-          detail: "Your submission is stored under your name.",
-          hint: "Write your name next to the button.",
-        }),
-      );
-      name.focus();
-      return;
-    }
-    if (lesson.has_variants && lesson.seed !== who) {
-      // The lesson is loaded again with the numbers of that name; what was typed stays for comparison.
-      rememberFor(lesson, who, recall(draftKey));
-      announce(`${who}, these are your own numbers now. Look at your answers, then check them.`);
-      // The name may be the one that is known already, from another page.
-      if (student.get() === who) dispatchEvent(new Event("triad:student"));
-      setStudent(who);
-      return;
-    }
-    setStudent(who);
-    send.disabled = true;
-    send.textContent = "Checking…";
-    try {
-      const answers = Object.fromEntries(fields.map((field) => [field.id, field.answer()]));
-      const verdict = await api.submit(
-        lesson.slug,
-        who,
-        answers,
-        lesson.has_variants ? lesson.seed : undefined,
-      );
-      await showVerdict(verdict);
-      past.add(verdict);
-    } catch (error) {
-      outcome.replaceChildren(problemNotice(error));
-      announce(problemOf(error).title);
-    } finally {
-      send.disabled = false;
-      send.textContent = "Check my answers";
-    }
+  private readonly send = h("button", { class: "button primary" }, CHECK);
+  private readonly outcome = h("div", { class: "outcome", tabindex: "-1" });
+  private readonly history: HistoryList;
+  private readonly form: HTMLFormElement;
+  /** Follows a change of the name, from whichever part of the page. */
+  private readonly renamed = (): void => {
+    if (document.activeElement !== this.name) this.name.value = student.get();
+    void this.history.load();
   };
 
-  const showVerdict = async (verdict: GradedSubmission): Promise<void> => {
-    const byId = new Map(verdict.questions.map((question) => [question.id, question]));
-    for (const field of fields) field.show(byId.get(field.id));
-    outcome.replaceChildren(verdictSummary(verdict));
-    await setMaths(form);
-    outcome.focus({ preventScroll: true });
-    const worst = fields.find((field) => byId.get(field.id)?.verdict !== "right");
-    (verdict.passed && !worst ? outcome : (worst?.root ?? outcome)).scrollIntoView({ block: "nearest" });
-  };
+  constructor(private readonly lesson: Lesson) {
+    this.draft = new DraftStore(lesson);
+    this.fields = lesson.exercise.questions.map((question, at) =>
+      questionField(lesson, question, at + 1, this.draft.of(question.id), () => this.draft.save(this.fields)),
+    );
+    this.draft.ready = true;
+    this.history = historyList(lesson);
+    this.form = this.layout();
+    this.form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.submit();
+    });
+    this.name.addEventListener("change", () => setStudent(this.name.value));
+    addEventListener("triad:student", this.renamed);
+    void this.history.load();
+  }
 
-  form.addEventListener("submit", (event) => {
-    event.preventDefault();
-    void submit();
-  });
-  name.addEventListener("change", () => setStudent(name.value));
-  const renamed = (): void => {
-    if (document.activeElement !== name) name.value = student.get();
-    void past.load();
-  };
-  addEventListener("triad:student", renamed);
-
-  root.append(
-    ...[
+  parts(): HTMLElement[] {
+    const { questions, pass_mark: passMark } = this.lesson.exercise;
+    const total = questions.reduce((sum, question) => sum + question.points, 0);
+    const toPass = passMark ? `; ${points(passMark * total)} to pass` : "";
+    return [
       h(
         "div",
         { class: "section-head" },
         h("h2", null, "Exercise"),
-        h(
-          "p",
-          null,
-          `${plural(questions.length, "question")}, ${plural(total, "point")}${lesson.exercise.pass_mark ? `; ${points(lesson.exercise.pass_mark * total)} to pass` : ""}`,
-        ),
+        h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}${toPass}`),
       ),
-      whose(lesson),
-      form,
-      past.root,
-    ].filter((part) => part !== null),
-  );
-  void past.load();
-  return () => removeEventListener("triad:student", renamed);
+      whose(this.lesson),
+      this.form,
+      this.history.root,
+    ].filter((part) => part !== null);
+  }
+
+  dispose(): void {
+    removeEventListener("triad:student", this.renamed);
+  }
+
+  private layout(): HTMLFormElement {
+    return h(
+      "form",
+      { class: "questions", novalidate: true },
+      ...this.fields.map((field) => field.root),
+      h(
+        "div",
+        { class: "send" },
+        h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
+        this.send,
+      ),
+      this.outcome,
+    );
+  }
+
+  private async submit(): Promise<void> {
+    const who = this.name.value.trim();
+    const { has_variants: hasVariants, seed } = this.lesson;
+    if (!who) this.demandName();
+    else if (hasVariants && seed !== who) this.changeVariant(who);
+    else {
+      setStudent(who);
+      await this.grade(who);
+    }
+  }
+
+  private demandName(): void {
+    this.outcome.replaceChildren(
+      problemNotice({
+        title: "Who is answering?",
+        detail: "Your submission is stored under your name.",
+        hint: "Write your name next to the button.",
+      }),
+    );
+    this.name.focus();
+  }
+
+  /** Loads the lesson again with the numbers of that name; what was typed stays for comparison. */
+  private changeVariant(who: string): void {
+    this.draft.copyTo(who);
+    announce(`${who}, these are your own numbers now. Look at your answers, then check them.`);
+    // The name may be the one that is known already, from another page.
+    if (student.get() === who) dispatchEvent(new Event("triad:student"));
+    setStudent(who);
+  }
+
+  private async grade(who: string): Promise<void> {
+    const { slug, has_variants: hasVariants, seed } = this.lesson;
+    this.send.disabled = true;
+    this.send.textContent = "Checking…";
+    try {
+      const answers = Object.fromEntries(this.fields.map((field) => [field.id, field.answer()]));
+      const verdict = await api.submit(slug, who, answers, hasVariants ? seed : undefined);
+      await this.showVerdict(verdict);
+      this.history.add(verdict);
+    } catch (error) {
+      this.outcome.replaceChildren(problemNotice(error));
+      announce(problemOf(error).title);
+    } finally {
+      this.send.disabled = false;
+      this.send.textContent = CHECK;
+    }
+  }
+
+  private async showVerdict(verdict: GradedSubmission): Promise<void> {
+    const byId = new Map(verdict.questions.map((question) => [question.id, question]));
+    for (const field of this.fields) field.show(byId.get(field.id));
+    this.outcome.replaceChildren(verdictSummary(verdict));
+    await setMaths(this.form);
+    this.outcome.focus({ preventScroll: true });
+    const wrong = this.fields.find((field) => byId.get(field.id)?.verdict !== "right");
+    (wrong?.root ?? this.outcome).scrollIntoView({ block: "nearest" });
+  }
 }
 
 /** Says whose numbers these are; without a name, asks for one. */
@@ -179,26 +182,4 @@ function whose(lesson: Lesson): HTMLElement | null {
     else name.focus();
   });
   return form;
-}
-
-/** A draft that was begun before the name was known goes on under the name. */
-function rememberFor(lesson: Lesson, who: string, draft: string | null): void {
-  const key: `draft:${string}` = `draft:${lesson.slug}:${who}`;
-  if (draft && !recall(key)) remember(key, draft);
-}
-
-function readDraft(text: string | null): Record<string, string[]> {
-  if (!text) return {};
-  try {
-    const value: unknown = JSON.parse(text);
-    if (typeof value !== "object" || value === null) return {};
-    return Object.fromEntries(
-      Object.entries(value).filter(
-        (entry): entry is [string, string[]] =>
-          Array.isArray(entry[1]) && entry[1].every((part) => typeof part === "string"),
-      ),
-    );
-  } catch {
-    return {};
-  }
 }

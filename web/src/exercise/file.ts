@@ -1,6 +1,6 @@
 // Questions that are answered by a file: what a program wrote, a table, a scene. Chosen from the disk or pasted.
 import { api } from "../api/client";
-import type { Question } from "../api/types";
+import type { Answer, Question } from "../api/types";
 import { announce, h } from "../core/dom";
 import { plural } from "../core/format";
 import { icon } from "../ui/icons";
@@ -11,92 +11,121 @@ const LARGEST = 1 << 20;
 /** Longest text that the browser remembers. */
 const LONGEST_DRAFT = 100_000;
 
-const ASKED: Record<string, { label: string; accept: string; say: string }> = {
+/** Files larger than this many times what the server reads are not even opened. */
+const OPENED_TIMES = 4;
+
+const KINDS: Record<string, { label: string; accept: string; example: string }> = {
   implement: {
     label: "What your program wrote (JSON or CSV)",
     accept: ".json,.csv,.txt",
-    say: "answer.json",
+    example: "answer.json",
   },
-  trajectory: { label: "Your table (CSV)", accept: ".csv,.txt,.tsv", say: "a table" },
-  model: { label: "Your scene (JSON)", accept: ".json", say: "a scene" },
+  trajectory: { label: "Your table (CSV)", accept: ".csv,.txt,.tsv", example: "a table" },
+  model: { label: "Your scene (JSON)", accept: ".json", example: "a scene" },
 };
 
-export function fileInput(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
-  const kind = ASKED[question.kind] ?? { label: "Your file", accept: "", say: "a file" };
-  const { base } = place;
-  const text = h("textarea", {
-    id: `${base}-text`,
-    class: "field file-text",
-    rows: question.kind === "model" ? "10" : "5",
-    spellcheck: "false",
-    autocapitalize: "off",
-    autocomplete: "off",
-    "aria-label": kind.label,
-    "aria-describedby": `${place.described} ${base}-told`,
-    placeholder: `Paste ${kind.say} here, or choose a file`,
-  });
-  text.value = draft?.[0] ?? "";
-  const pick = h("input", {
-    type: "file",
-    id: `${base}-file`,
-    accept: kind.accept,
-    "aria-label": `Choose a file: ${kind.label}`,
-  });
-  const status = h("p", { class: "file-told", id: `${base}-told`, role: "status" });
-  const clear = h("button", { type: "button", class: "button quiet small" }, "Clear");
+export function fileInput(question: Question, context: QuestionContext, draft: string[] | undefined): Inputs {
+  const input = new FileInput(question, context, draft?.[0] ?? "");
+  return { root: input.root, answer: () => input.answer(), draft: () => input.draft() };
+}
 
-  const tell = (name?: string): void => {
-    const bytes = new Blob([text.value]).size;
+class FileInput {
+  readonly root: HTMLElement;
+  private readonly text: HTMLTextAreaElement;
+  private readonly pick: HTMLInputElement;
+  private readonly status: HTMLElement;
+  private readonly clear = h(
+    "button",
+    { type: "button", class: "button quiet small", onclick: () => this.empty() },
+    "Clear",
+  );
+
+  constructor(question: Question, context: QuestionContext, draft: string) {
+    const kind = KINDS[question.kind] ?? { label: "Your file", accept: "", example: "a file" };
+    const { base, described } = context;
+    this.text = h("textarea", {
+      id: `${base}-text`,
+      class: "field file-text",
+      rows: question.kind === "model" ? "10" : "5",
+      spellcheck: "false",
+      autocapitalize: "off",
+      autocomplete: "off",
+      "aria-label": kind.label,
+      "aria-describedby": `${described} ${base}-status`,
+      placeholder: `Paste ${kind.example} here, or choose a file`,
+    });
+    this.text.value = draft;
+    this.pick = h("input", {
+      type: "file",
+      id: `${base}-file`,
+      accept: kind.accept,
+      "aria-label": `Choose a file: ${kind.label}`,
+    });
+    this.status = h("p", { class: "file-status", id: `${base}-status`, role: "status" });
+    this.root = h(
+      "div",
+      { class: "answer is-file" },
+      ...handouts(question, context),
+      h("div", { class: "file-pick" }, this.pick, this.clear),
+      this.text,
+      this.status,
+    );
+    this.listen();
+    this.showStatus();
+  }
+
+  answer(): Answer {
+    return { file: this.text.value };
+  }
+
+  draft(): string[] {
+    return [this.text.value.length > LONGEST_DRAFT ? "" : this.text.value];
+  }
+
+  private listen(): void {
+    this.pick.addEventListener("change", () => void this.load(this.pick.files?.[0]));
+    this.text.addEventListener("input", () => this.showStatus());
+    this.root.addEventListener("dragover", (event) => event.preventDefault());
+    this.root.addEventListener("drop", (event) => {
+      event.preventDefault();
+      void this.load(event.dataTransfer?.files[0]);
+    });
+  }
+
+  /** How large the text is, and whether it is too large. */
+  private showStatus(name?: string): void {
+    const text = this.text.value;
+    const bytes = new Blob([text]).size;
     const large = bytes > LARGEST;
-    text.toggleAttribute("aria-invalid", large);
-    status.classList.toggle("is-bad", large);
-    status.textContent = !text.value.trim()
-      ? ""
-      : large
-        ? `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`
-        : `${name ? `${name}, ` : ""}${size(bytes)}, ${plural(text.value.trim().split("\n").length, "line")}`;
-    clear.hidden = text.value === "";
-  };
-  const take = async (file: File | undefined): Promise<void> => {
+    this.text.toggleAttribute("aria-invalid", large);
+    this.status.classList.toggle("is-bad", large);
+    this.clear.hidden = text === "";
+    const lines = plural(text.trim().split("\n").length, "line");
+    if (!text.trim()) this.status.textContent = "";
+    else if (large)
+      this.status.textContent = `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`;
+    else this.status.textContent = `${name ? `${name}, ` : ""}${size(bytes)}, ${lines}`;
+  }
+
+  private async load(file: File | undefined): Promise<void> {
     if (!file) return;
-    if (file.size > 4 * LARGEST) {
-      status.classList.add("is-bad");
-      status.textContent = `${file.name} has ${size(file.size)}: too large. At most ${size(LARGEST)} are read.`;
+    if (file.size > OPENED_TIMES * LARGEST) {
+      this.status.classList.add("is-bad");
+      this.status.textContent = `${file.name} has ${size(file.size)}: too large. At most ${size(LARGEST)} are read.`;
       return;
     }
-    text.value = await file.text();
-    tell(file.name);
+    this.text.value = await file.text();
     announce(`${file.name} is in the field.`);
-    text.dispatchEvent(new Event("input", { bubbles: true }));
-    tell(file.name);
-  };
-  pick.addEventListener("change", () => void take(pick.files?.[0]));
-  text.addEventListener("input", () => tell());
-  clear.addEventListener("click", () => {
-    text.value = "";
-    pick.value = "";
-    text.dispatchEvent(new Event("input", { bubbles: true }));
-    text.focus();
-  });
-  const root = h(
-    "div",
-    { class: "answer is-file" },
-    ...before(question, place),
-    h("div", { class: "file-pick" }, pick, clear),
-    text,
-    status,
-  );
-  root.addEventListener("dragover", (event) => event.preventDefault());
-  root.addEventListener("drop", (event) => {
-    event.preventDefault();
-    void take(event.dataTransfer?.files[0]);
-  });
-  tell();
-  return {
-    root,
-    answer: () => ({ file: text.value }),
-    draft: () => [text.value.length > LONGEST_DRAFT ? "" : text.value],
-  };
+    this.text.dispatchEvent(new Event("input", { bubbles: true }));
+    this.showStatus(file.name);
+  }
+
+  private empty(): void {
+    this.text.value = "";
+    this.pick.value = "";
+    this.text.dispatchEvent(new Event("input", { bubbles: true }));
+    this.text.focus();
+  }
 }
 
 const size = (bytes: number): string =>
@@ -106,8 +135,8 @@ const size = (bytes: number): string =>
       ? `${Math.round(bytes / 1024)} KiB`
       : `${(bytes / (1 << 20)).toFixed(1)} MiB`;
 
-/** What is handed out before anything can be handed in. */
-function before(question: Question, { slug, seed }: QuestionContext): HTMLElement[] {
+/** What the student needs before anything can be handed in: states, starters, the columns of the table. */
+function handouts(question: Question, { slug, seed }: QuestionContext): HTMLElement[] {
   if (question.kind === "implement") {
     const link = (href: string, name: string, text: string): HTMLElement =>
       h("a", { href, download: name, class: "button small" }, icon("save"), text);

@@ -9,13 +9,13 @@ import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { verdictLine } from "./verdict";
 
-export interface History {
+export interface HistoryList {
   root: HTMLElement;
   load: () => Promise<void>;
   add: (verdict: GradedSubmission) => void;
 }
 
-export function historyList(lesson: Lesson): History {
+export function historyList(lesson: Lesson): HistoryList {
   const root = h("section", { class: "history", "aria-label": "Your submissions", hidden: true });
   let verdicts: GradedSubmission[] = [];
 

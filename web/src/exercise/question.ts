@@ -20,7 +20,7 @@ export interface QuestionField {
 }
 
 /** What was filled in before, and how many hints were opened. */
-export interface Kept {
+export interface Draft {
   draft: string[] | undefined;
   hints: number;
 }
@@ -29,15 +29,15 @@ export function questionField(
   lesson: Lesson,
   question: Question,
   number: number,
-  kept: Kept,
+  before: Draft,
   changed: () => void,
 ): QuestionField {
   const base = `q-${question.id}`;
   const ruleId = `${base}-rule`;
   const verdictId = `${base}-verdict`;
-  const place = { slug: lesson.slug, seed: lesson.seed, base, described: `${ruleId} ${verdictId}` };
-  const inputs = inputsOf(question, place, kept.draft);
-  const opened = hints(lesson, question, kept.hints, changed);
+  const context = { slug: lesson.slug, seed: lesson.seed, base, described: `${ruleId} ${verdictId}` };
+  const inputs = inputsOf(question, context, before.draft);
+  const opened = hints(lesson, question, before.hints, changed);
   const verdict = h("div", { id: verdictId, class: "verdict-slot" });
   inputs.root.addEventListener("input", changed);
   inputs.root.addEventListener("change", changed);

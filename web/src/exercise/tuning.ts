@@ -4,24 +4,29 @@ import type { IntegratorKind, Question } from "../api/types";
 import { h, uid } from "../core/dom";
 import { type Inputs, type QuestionContext, textInput } from "./field";
 
-const WORDS: Record<string, string> = {
+interface TuningSettings {
+  integrator: IntegratorKind;
+  tolerance: string;
+  baumgarte?: [string, string];
+}
+
+const NAMES: Record<string, string> = {
   dopri5: "Dormand-Prince, order 5",
   dop853: "Dormand-Prince, order 8",
   taylor: "Taylor series",
 };
 
-export function tuningInput(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
-  const { base, described } = place;
+export function tuningInput(
+  question: Question,
+  context: QuestionContext,
+  draft: string[] | undefined,
+): Inputs {
+  const { base, described } = context;
   const offered = question.tuning ?? { integrators: [], baumgarte: false, budget: 0, error: 0 };
-  const labelled = (label: string, field: HTMLElement): HTMLElement => {
-    const id = field.id || uid("setting");
-    field.id = id;
-    return h("div", { class: "setting" }, h("label", { for: id }, label), field);
-  };
   const integrator = h(
     "select",
     { id: `${base}-integrator`, class: "field", "aria-describedby": described },
-    ...offered.integrators.map((kind) => h("option", { value: kind }, WORDS[kind] ?? kind)),
+    ...offered.integrators.map((kind) => h("option", { value: kind }, NAMES[kind] ?? kind)),
   );
   const drafted = offered.integrators.find((kind) => kind === draft?.[0]);
   if (drafted) integrator.value = drafted;
@@ -43,32 +48,29 @@ export function tuningInput(question: Question, place: QuestionContext, draft: s
   };
   kind.addEventListener("change", paint);
   paint();
-  const root = h(
-    "div",
-    { class: "answer is-tuning" },
-    h(
-      "div",
-      { class: "settings" },
-      labelled("Integrator", integrator),
-      labelled("Tolerance", tolerance),
-      offered.baumgarte ? labelled("Stabilization", kind) : null,
-    ),
-    offered.baumgarte ? parameters : null,
-  );
+  const main = [labelled("Integrator", integrator), labelled("Tolerance", tolerance)];
+  if (offered.baumgarte) main.push(labelled("Stabilization", kind));
+  const settings = (): TuningSettings => ({
+    integrator: integrator.value as IntegratorKind,
+    tolerance: tolerance.value.trim(),
+    ...(offered.baumgarte && kind.value === "baumgarte"
+      ? { baumgarte: [alpha.value.trim() || "0", beta.value.trim() || "0"] }
+      : {}),
+  });
   return {
-    root,
-    answer: () =>
-      tolerance.value.trim() === ""
-        ? { value: "" }
-        : {
-            settings: {
-              integrator: integrator.value as IntegratorKind,
-              tolerance: tolerance.value.trim(),
-              ...(offered.baumgarte && kind.value === "baumgarte"
-                ? { baumgarte: [alpha.value.trim() || "0", beta.value.trim() || "0"] as [string, string] }
-                : {}),
-            },
-          },
+    root: h(
+      "div",
+      { class: "answer is-tuning" },
+      h("div", { class: "settings" }, ...main),
+      offered.baumgarte ? parameters : null,
+    ),
+    answer: () => (tolerance.value.trim() === "" ? { value: "" } : { settings: settings() }),
     draft: () => [integrator.value, tolerance.value, kind.value, alpha.value, beta.value],
   };
+}
+
+function labelled(label: string, field: HTMLElement): HTMLElement {
+  const id = field.id || uid("setting");
+  field.id = id;
+  return h("div", { class: "setting" }, h("label", { for: id }, label), field);
 }

@@ -13,7 +13,8 @@ const WORDS: Record<Mark, { word: string; mark: IconName }> = {
 };
 
 const SAID = new Set(["Right.", "Not right.", "Not answered."]);
-const UNKNOWN_SLIP = "This slip is not one that we know. Go through your steps once more, or open a hint.";
+const UNKNOWN_MISTAKE =
+  "This mistake is not one that we know. Go through your steps once more, or open a hint.";
 
 export function verdictLine(result: QuestionVerdict): HTMLElement {
   const { word, mark } = WORDS[result.verdict] ?? WORDS.invalid;
@@ -21,7 +22,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   // The heading says it already.
   const first = text.firstElementChild;
   if (first && SAID.has(first.textContent ?? "")) first.remove();
-  if (result.verdict === "wrong" && !text.textContent) text.append(h("p", null, UNKNOWN_SLIP));
+  if (result.verdict === "wrong" && !text.textContent) text.append(h("p", null, UNKNOWN_MISTAKE));
   return h(
     "div",
     { class: `verdict is-${result.verdict}` },

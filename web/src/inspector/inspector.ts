@@ -1,32 +1,32 @@
-// What stands behind the picture, in numbers: state, Jacobian, multipliers, bodies, plots.
+// The run in numbers, below its picture: parameters, state, matrices, reactions, bodies, plots, analyses.
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { tabs } from "../ui/tabs";
-import { analysesTab } from "./analyses-tab";
+import { AnalysesTab } from "./analyses/analyses-tab";
 import { bodiesTab } from "./bodies-tab";
-import { matrixTab } from "./matrix/matrix-tab";
-import { parametersTab } from "./parameters-tab";
-import { plotsTab } from "./plots/plots-tab";
-import { multipliersTab } from "./reactions-tab";
-import { stateTab } from "./state-tab";
+import { MatrixTab } from "./matrix/matrix-tab";
+import { ParametersTab } from "./parameters/parameters-tab";
+import { PlotsTab } from "./plots/plots-tab";
+import { ReactionsTab } from "./reactions/reactions-tab";
+import { StateTab } from "./state-tab";
 
-/** Panels that are nothing to somebody who only watches. */
+/** Panels for the page that controls the run; a follower of a lecture has no use for them. */
 const PRESENTER_ONLY = new Set(["parameters", "analyses"]);
 
 export function inspector(
   session: Session,
-  panelAsked?: string,
+  wantedPanel?: string,
 ): { root: HTMLElement; current: () => string; select: (key: string) => void } {
   const made: Record<string, Panel> = {
-    parameters: parametersTab(session),
-    state: stateTab(session),
-    jacobian: matrixTab(session),
-    multipliers: multipliersTab(session),
+    parameters: new ParametersTab(session),
+    state: new StateTab(session),
+    jacobian: new MatrixTab(session),
+    multipliers: new ReactionsTab(session),
     bodies: bodiesTab(session),
-    plots: plotsTab(session),
-    analyses: analysesTab(session),
+    plots: new PlotsTab(session),
+    analyses: new AnalysesTab(session),
   };
   const panel = (key: string): HTMLElement => h("div", null, made[key]?.root);
   const bar = tabs(
@@ -40,7 +40,7 @@ export function inspector(
       { key: "plots", label: "Plots", panel: panel("plots") },
       { key: "analyses", label: "Analyses", panel: panel("analyses") },
     ].filter((tab) => session.controls || !PRESENTER_ONLY.has(tab.key)),
-    panelAsked ?? recall("tab:inspector"),
+    wantedPanel ?? recall("tab:inspector"),
     (key) => {
       if (session.controls) remember("tab:inspector", key);
       made[key]?.refresh();

@@ -1,11 +1,13 @@
-// Time, coordinates, energy, violation, work.
+// The state that is shown: time, energy, constraint violation, work of the integrator, coordinates.
 import { api } from "../api/client";
+import type { SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
 import { fixed, num, sci, seconds } from "../core/format";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { liveTable } from "../ui/table";
 
+/** Coordinates that are shown until all are wanted. */
 const FIRST_ROWS = 48;
 
 interface Figure {
@@ -18,86 +20,115 @@ function figure(label: string, about: string): Figure {
   return { root: h("div", { class: "figure" }, h("dt", { title: about }, label), value), value };
 }
 
-export function stateTab(session: Session): Panel {
-  const time = figure("Time", "Simulated time");
-  const energy = figure("Energy", "Kinetic and potential energy together");
-  const drift = figure(
-    "Energy drift",
-    "Change of the energy since the start: it should stay near zero where nothing is lost",
-  );
-  const phi = figure("Violation |Φ|", "How far the positions are from meeting the constraints");
-  const phiDot = figure("Its rate |dΦ/dt|", "How far the velocities are from meeting the constraints");
-  const steps = figure("Steps", "Accepted steps of the integrator, and rejected ones");
-  const evaluations = figure("Evaluations", "How often the accelerations were computed");
-  const factors = figure("Factorizations", "How often a matrix was factorized");
-  const table = liveTable("Coordinates q and their rates", "Coordinate", [
+/** The figures of a state, and how each is written. */
+const FIGURES: { label: string; about: string; of: (state: SessionState) => string }[] = [
+  { label: "Time", about: "Simulated time", of: (state) => seconds(state.time) },
+  {
+    label: "Energy",
+    about: "Kinetic and potential energy together",
+    of: (state) => `${num(state.energy, 7)} J`,
+  },
+  {
+    label: "Energy drift",
+    about: "Change of the energy since the start: it should stay near zero where nothing is lost",
+    of: (state) => `${sci(state.energy_drift)} J`,
+  },
+  {
+    label: "Violation |Φ|",
+    about: "How far the positions are from meeting the constraints",
+    of: (state) => sci(state.position_violation),
+  },
+  {
+    label: "Its rate |dΦ/dt|",
+    about: "How far the velocities are from meeting the constraints",
+    of: (state) => sci(state.velocity_violation),
+  },
+  {
+    label: "Steps",
+    about: "Accepted steps of the integrator, and rejected ones",
+    of: ({ steps, rejected }) => (rejected > 0 ? `${steps} (+ ${rejected} rejected)` : String(steps)),
+  },
+  {
+    label: "Evaluations",
+    about: "How often the accelerations were computed",
+    of: (state) => String(state.evaluations),
+  },
+  {
+    label: "Factorizations",
+    about: "How often a matrix was factorized",
+    of: (state) => String(state.factorizations),
+  },
+];
+
+export class StateTab implements Panel {
+  readonly root: HTMLElement;
+  private readonly figures = FIGURES.map(({ label, about }) => figure(label, about));
+  private readonly notes = h("ul", {
+    class: "notes",
+    "aria-label": "Notes of the engine about this scene",
+  });
+  private readonly table = liveTable("Coordinates q and their rates", "Coordinate", [
     { label: "q", number: true },
     { label: "dq/dt", unit: "per s", number: true },
   ]);
-  const more = h("button", { type: "button", class: "button quiet small", hidden: true });
-  const notes = h("ul", { class: "notes", "aria-label": "Notes of the engine about this scene" });
-  let limit = FIRST_ROWS;
-  let names: string[] | undefined;
-  let requestedFor = "";
-
-  more.addEventListener("click", () => {
-    limit = Infinity;
-    refresh();
+  private readonly more = h("button", {
+    type: "button",
+    class: "button quiet small",
+    hidden: true,
+    onclick: () => this.showAll(),
   });
+  private limit = FIRST_ROWS;
+  /** Names of the coordinates. */
+  private names: string[] | undefined;
+  /** The session whose names were asked for. */
+  private requestedFor = "";
 
-  const refresh = (): void => {
-    const state = session.shown;
+  constructor(private readonly session: Session) {
+    const figures = h("dl", { class: "figures" }, ...this.figures.map((item) => item.root));
+    this.root = h("div", { class: "stack" }, figures, this.notes, this.table.root, this.more);
+  }
+
+  refresh(): void {
+    const state = this.session.shown;
     if (!state) return;
-    if (requestedFor !== state.id && names?.length !== state.q.length) {
-      requestedFor = state.id;
-      // Without names the coordinates are numbered.
-      api
-        .jacobian(state.links.self)
-        .then((jacobian) => {
-          names = jacobian.columns;
-          refresh();
-        })
-        .catch(() => undefined);
-    }
-    setText(time.value, seconds(state.time));
-    setText(energy.value, `${num(state.energy, 7)} J`);
-    setText(drift.value, `${sci(state.energy_drift)} J`);
-    setText(phi.value, sci(state.position_violation));
-    setText(phiDot.value, sci(state.velocity_violation));
-    setText(
-      steps.value,
-      state.rejected > 0 ? `${state.steps} (+ ${state.rejected} rejected)` : String(state.steps),
-    );
-    setText(evaluations.value, String(state.evaluations));
-    setText(factors.value, String(state.factorizations));
-    const said = state.notes ?? [];
-    notes.hidden = said.length === 0;
-    if (notes.textContent !== said.join(""))
-      notes.replaceChildren(...said.map((text) => h("li", null, text)));
-    const shown = Math.min(limit, state.q.length);
-    table.update(
-      state.q.slice(0, shown).map((q, k) => ({
-        head: names?.[k] ?? `q${k + 1}`,
-        cells: [fixed(q, 6), fixed(state.q_dot[k] ?? NaN, 6)],
+    if (this.requestedFor !== state.id && this.names?.length !== state.q.length) this.requestNames(state);
+    FIGURES.forEach(({ of }, k) => {
+      const found = this.figures[k];
+      if (found) setText(found.value, of(state));
+    });
+    const notes = state.notes ?? [];
+    this.notes.hidden = notes.length === 0;
+    if (this.notes.textContent !== notes.join(""))
+      this.notes.replaceChildren(...notes.map((text) => h("li", null, text)));
+    this.showCoordinates(state);
+  }
+
+  private showCoordinates({ q, q_dot }: SessionState): void {
+    const shown = Math.min(this.limit, q.length);
+    this.table.update(
+      q.slice(0, shown).map((value, k) => ({
+        head: this.names?.[k] ?? `q${k + 1}`,
+        cells: [fixed(value, 6), fixed(q_dot[k] ?? NaN, 6)],
       })),
     );
-    more.hidden = shown >= state.q.length;
-    setText(more, `Show all ${state.q.length} coordinates`);
-  };
+    this.more.hidden = shown >= q.length;
+    setText(this.more, `Show all ${q.length} coordinates`);
+  }
 
-  return {
-    root: h(
-      "div",
-      { class: "stack" },
-      h(
-        "dl",
-        { class: "figures" },
-        ...[time, energy, drift, phi, phiDot, steps, evaluations, factors].map((item) => item.root),
-      ),
-      notes,
-      table.root,
-      more,
-    ),
-    refresh,
-  };
+  private showAll(): void {
+    this.limit = Infinity;
+    this.refresh();
+  }
+
+  /** Without names the coordinates are numbered. */
+  private requestNames(state: SessionState): void {
+    this.requestedFor = state.id;
+    api
+      .jacobian(state.links.self)
+      .then((jacobian) => {
+        this.names = jacobian.columns;
+        this.refresh();
+      })
+      .catch(() => undefined);
+  }
 }

@@ -1,4 +1,4 @@
-// A lecture as a follower sees it: the presenter's run, mirrored, or looked around in on one's own.
+// The session of a follower: it mirrors the presenter's run, until the follower looks around alone.
 import { ApiError, api } from "../api/client";
 import type { LectureState, SessionState } from "../api/types";
 import { announce } from "../core/dom";
@@ -67,9 +67,9 @@ export class Follower extends Session {
     } else super.read(message);
   }
 
-  protected override take(state: SessionState): void {
+  protected override accept(state: SessionState): void {
     const first = this.latest === undefined;
-    super.take(state);
+    super.accept(state);
     if (first && !this.roaming) this.mirror();
   }
 
@@ -133,7 +133,7 @@ export class Follower extends Session {
 
   protected override async comeBack(): Promise<"there" | "gone" | "silent"> {
     try {
-      this.lecture = await api.room(this.code);
+      this.lecture = await api.lecture(this.code);
       return "there";
     } catch (error) {
       return error instanceof ApiError && error.gone ? "gone" : "silent";

@@ -1,4 +1,4 @@
-// What a presenter sees: opens a lecture for the run of this page, sends what is looked at, asks, reveals.
+// A presenter's panel: opens a lecture for the run of this page, sends what is looked at, asks and reveals.
 import { ApiError, api } from "../api/client";
 import type { Tally } from "../api/types";
 import { announce, h, setText } from "../core/dom";
@@ -7,231 +7,243 @@ import type { SharedView } from "../session/shared-view";
 import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { type Question, questionDialog } from "./question-dialog";
+import { type NewQuestion, questionDialog } from "./question-dialog";
 import { histogram } from "./voter";
 
-/** Between two messages to the room, ms. */
+/** Time between two messages to the followers, ms. */
 const SEND_MS = 150;
+/** Time between two questions for the number of followers and answers, ms. */
 const POLL_MS = 1000;
+/** Where the tab keeps its lecture: it goes on after a reload and on the next lesson, but no other tab leads it. */
+const STORED = "triad:room";
 
-interface Room {
+/** A lecture as its presenter knows it. */
+interface OwnLecture {
   code: string;
+  /** Who has it may show, ask and end. */
   key: string;
 }
 
-/** The room belongs to this tab: it goes on after a reload and on the next lesson, but no other tab leads it. */
-const STORED = "triad:room";
-
-function keep(room: Room | undefined): void {
+function store(lecture: OwnLecture | undefined): void {
   try {
-    if (room) sessionStorage.setItem(STORED, JSON.stringify(room));
+    if (lecture) sessionStorage.setItem(STORED, JSON.stringify(lecture));
     else sessionStorage.removeItem(STORED);
   } catch {
     // Without storage the lecture ends with the page.
   }
 }
 
-function remembered(): Room | undefined {
+function stored(): OwnLecture | undefined {
   try {
-    const room = JSON.parse(sessionStorage.getItem(STORED) ?? "null") as Room | null;
-    return room && typeof room.code === "string" && typeof room.key === "string" ? room : undefined;
+    const found = JSON.parse(sessionStorage.getItem(STORED) ?? "null") as OwnLecture | null;
+    return found && typeof found.code === "string" && typeof found.key === "string" ? found : undefined;
   } catch {
     return undefined;
   }
 }
 
-export interface PresenterPanel {
-  button: HTMLElement;
-  root: HTMLElement;
-  dispose: () => void;
-}
-
-export function presenterPanel(session: Session, seen: () => SharedView): PresenterPanel {
-  let room = remembered();
-  let sent = "";
-  let shown = "";
-  let waiting = 0;
-  let question: Question | undefined;
-  const trouble = h("div", { "aria-live": "polite" });
-  const followers = h("span", { class: "desk-count", role: "status" }, "nobody follows yet");
-  const result = h("div", { class: "desk-result" });
-  const revealButton = h(
-    "button",
-    {
-      type: "button",
-      class: "button primary",
-      hidden: true,
-      onclick: () => attempt((it) => api.reveal(it.code, it.key)),
-    },
-    "Reveal",
-  );
-  const forgetButton = h(
-    "button",
-    {
-      type: "button",
-      class: "button",
-      hidden: true,
-      onclick: () =>
-        void attempt(async (it) => {
-          await api.forgetQuestion(it.code, it.key);
-          question = undefined;
-          showTally(null);
-        }),
-    },
-    "Take it away",
-  );
-  const code = h("b", { class: "desk-code" });
-  const root = h(
-    "section",
-    { class: "desk", "aria-label": "Lecture", hidden: true },
-    h(
-      "div",
-      { class: "row wrap between" },
-      h("p", { class: "row wrap" }, h("span", null, "Lecture room "), code, followers),
-      h(
-        "span",
-        { class: "row wrap tight" },
-        h(
-          "button",
-          { type: "button", class: "button", onclick: () => room && void invite(room) },
-          "How to join",
-        ),
-        h("button", { type: "button", class: "button", onclick: () => askDialog() }, "Ask a question"),
-        revealButton,
-        forgetButton,
-        h("button", { type: "button", class: "button quiet", onclick: () => void end() }, "End the lecture"),
-      ),
-    ),
-    result,
-    trouble,
-  );
-  const button = h(
+export class PresenterPanel {
+  /** Opens a lecture; it has its place among the controls. */
+  readonly button = h(
     "button",
     {
       type: "button",
       class: "button quiet small icon-only",
       "aria-label": "Lecture: let others follow this run",
       title: "Lecture: let others follow this run",
-      onclick: () => void open(),
+      onclick: () => void this.open(),
     },
     icon("lecture"),
   );
+  readonly root: HTMLElement;
+  private readonly code = h("b", { class: "presenter-code" });
+  private readonly followers = h("span", { class: "presenter-count", role: "status" }, "nobody follows yet");
+  private readonly result = h("div", { class: "presenter-result" });
+  private readonly trouble = h("div", { "aria-live": "polite" });
+  private readonly revealButton = action("Reveal", "button primary", () => void this.reveal());
+  private readonly withdrawButton = action("Take it away", "button", () => void this.withdraw());
+  private readonly undo: (() => void)[];
 
-  const paint = (): void => {
-    root.hidden = !room;
-    button.hidden = room !== undefined;
-    setText(code, room?.code ?? "");
-  };
-  const forget = (): void => {
-    room = undefined;
-    keep(undefined);
-    paint();
-  };
-  const attempt = async (run: (room: Room) => Promise<void>): Promise<void> => {
-    if (!room) return;
-    try {
-      await run(room);
-      trouble.replaceChildren();
-    } catch (error) {
-      // A room that is gone, or that another browser leads now, is no longer ours.
-      if (error instanceof ApiError && (error.gone || error.problem.status === 403)) forget();
-      trouble.replaceChildren(problemNotice(error));
-    }
-  };
-  const open = async (): Promise<void> => {
-    const id = session.latest?.id;
+  private lecture = stored();
+  private question: NewQuestion | undefined;
+  /** The view that was sent last, as JSON. */
+  private sentView = "";
+  /** The session that the followers see. */
+  private shownSession = "";
+  private sendTimer = 0;
+
+  /** `seen` is what the page shows now, as a link would carry it. */
+  constructor(
+    private readonly session: Session,
+    private readonly seen: () => SharedView,
+  ) {
+    this.revealButton.hidden = true;
+    this.withdrawButton.hidden = true;
+    this.root = this.layout();
+    const poll = window.setInterval(() => void this.poll(), POLL_MS);
+    this.undo = [
+      () => clearInterval(poll),
+      ...(["shown", "view", "selected", "opened"] as const).map((event) =>
+        session.on(event, () => this.send()),
+      ),
+    ];
+    this.paint();
+  }
+
+  dispose(): void {
+    clearTimeout(this.sendTimer);
+    for (const step of this.undo) step();
+  }
+
+  private layout(): HTMLElement {
+    return h(
+      "section",
+      { class: "presenter", "aria-label": "Lecture", hidden: true },
+      h(
+        "div",
+        { class: "row wrap between" },
+        h("p", { class: "row wrap" }, h("span", null, "Lecture room "), this.code, this.followers),
+        h(
+          "span",
+          { class: "row wrap tight" },
+          action("How to join", "button", () => this.lecture && void invite(this.lecture)),
+          action("Ask a question", "button", () => this.ask()),
+          this.revealButton,
+          this.withdrawButton,
+          action("End the lecture", "button quiet", () => void this.end()),
+        ),
+      ),
+      this.result,
+      this.trouble,
+    );
+  }
+
+  private paint(): void {
+    this.root.hidden = !this.lecture;
+    this.button.hidden = this.lecture !== undefined;
+    setText(this.code, this.lecture?.code ?? "");
+  }
+
+  private async open(): Promise<void> {
+    const id = this.session.latest?.id;
     if (!id) return;
     try {
       const opened = await api.openLecture(id);
-      room = { code: opened.code, key: opened.key };
-      keep(room);
-      sent = "";
-      shown = id;
-      paint();
+      this.lecture = { code: opened.code, key: opened.key };
+      store(this.lecture);
+      this.sentView = "";
+      this.shownSession = id;
+      this.paint();
       announce(`The lecture room ${opened.code} is open.`);
-      send();
-      await invite(room);
+      this.send();
+      await invite(this.lecture);
     } catch (error) {
-      root.hidden = false;
-      trouble.replaceChildren(problemNotice(error));
+      this.root.hidden = false;
+      this.trouble.replaceChildren(problemNotice(error));
     }
-  };
-  const end = (): Promise<void> =>
-    attempt(async (it) => {
-      await api.closeLecture(it.code, it.key);
-      forget();
+  }
+
+  private end(): Promise<void> {
+    return this.attempt(async ({ code, key }) => {
+      await api.closeLecture(code, key);
+      this.forget();
       announce("The lecture is over.");
     });
+  }
 
-  /** Tells the room what is looked at: at most a few times a second, the newest counts. */
-  const send = (): void => {
-    if (!room || waiting) return;
-    waiting = window.setTimeout(() => {
-      waiting = 0;
-      const id = session.latest?.id;
-      const view = { ...seen(), back: session.reviewing };
+  private forget(): void {
+    this.lecture = undefined;
+    store(undefined);
+    this.paint();
+  }
+
+  /** Sends a request for the lecture that is open; a failure is shown in the panel. */
+  private async attempt(run: (lecture: OwnLecture) => Promise<void>): Promise<void> {
+    if (!this.lecture) return;
+    try {
+      await run(this.lecture);
+      this.trouble.replaceChildren();
+    } catch (error) {
+      // A lecture that is over, or that another browser leads now, is no longer ours.
+      if (error instanceof ApiError && (error.gone || error.problem.status === 403)) this.forget();
+      this.trouble.replaceChildren(problemNotice(error));
+    }
+  }
+
+  /** Sends what is looked at to the followers: at most a few times a second, the newest counts. */
+  private send(): void {
+    if (!this.lecture || this.sendTimer) return;
+    this.sendTimer = window.setTimeout(() => {
+      this.sendTimer = 0;
+      const id = this.session.latest?.id;
+      const view = { ...this.seen(), back: this.session.reviewing };
       // While time runs, followers have it from the run itself.
-      if (!session.reviewing) delete view.time;
+      if (!this.session.reviewing) delete view.time;
       const text = JSON.stringify(view);
-      if (!id || (text === sent && id === shown)) return;
-      void attempt((it) => api.show(it.code, it.key, id === shown ? { view } : { session: id, view })).then(
+      const same = id === this.shownSession;
+      if (!id || (same && text === this.sentView)) return;
+      void this.attempt(({ code, key }) => api.show(code, key, same ? { view } : { session: id, view })).then(
         () => {
-          sent = text;
-          shown = id;
+          this.sentView = text;
+          this.shownSession = id;
         },
       );
     }, SEND_MS);
-  };
+  }
 
-  const askDialog = (): void =>
-    questionDialog(session.joint, async (asked, right) => {
-      if (!room) return;
-      await api.ask(room.code, room.key, { ...asked, right });
-      question = asked;
-      void look();
+  private ask(): void {
+    questionDialog(this.session.joint, async (question, right) => {
+      if (!this.lecture) return;
+      await api.ask(this.lecture.code, this.lecture.key, { ...question, right });
+      this.question = question;
+      void this.poll();
     });
-  const showTally = (tally: Tally | null): void => {
-    revealButton.hidden = !tally || tally.revealed;
-    forgetButton.hidden = !tally;
-    result.replaceChildren(
-      ...(tally
-        ? [
-            h("p", { class: "desk-question" }, question?.text ?? "The question that is asked"),
-            histogram(question?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`), tally),
-          ]
-        : []),
+  }
+
+  private reveal(): Promise<void> {
+    return this.attempt(({ code, key }) => api.reveal(code, key));
+  }
+
+  private withdraw(): Promise<void> {
+    return this.attempt(async ({ code, key }) => {
+      await api.withdrawQuestion(code, key);
+      this.question = undefined;
+      this.showTally(null);
+    });
+  }
+
+  private poll(): Promise<void> {
+    return this.attempt(async ({ code, key }) => {
+      const { followers, tally } = await api.presenterState(code, key);
+      const verb = followers === 1 ? "follows" : "follow";
+      setText(this.followers, followers === 0 ? "nobody follows yet" : `${followers} ${verb}`);
+      this.showTally(tally);
+    });
+  }
+
+  private showTally(tally: Tally | null): void {
+    this.revealButton.hidden = !tally || tally.revealed;
+    this.withdrawButton.hidden = !tally;
+    if (!tally) {
+      this.result.replaceChildren();
+      return;
+    }
+    const choices = this.question?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`);
+    this.result.replaceChildren(
+      h("p", { class: "presenter-question" }, this.question?.text ?? "The question that is asked"),
+      histogram(choices, tally),
     );
-  };
-  const look = (): Promise<void> =>
-    attempt(async (it) => {
-      const state = await api.presenterState(it.code, it.key);
-      setText(
-        followers,
-        state.followers === 0
-          ? "nobody follows yet"
-          : `${state.followers} ${state.followers === 1 ? "follows" : "follow"}`,
-      );
-      showTally(state.tally);
-    });
-
-  const timer = window.setInterval(() => void look(), POLL_MS);
-  const silence = (["shown", "view", "selected", "opened"] as const).map((event) => session.on(event, send));
-  paint();
-  return {
-    button,
-    root,
-    dispose: () => {
-      clearInterval(timer);
-      clearTimeout(waiting);
-      for (const step of silence) step();
-    },
-  };
+  }
 }
 
-/** The code in type that is read from the back of a room, and the address as a picture for phones. */
-async function invite(room: Room): Promise<void> {
+function action(label: string, cls: string, run: () => void): HTMLButtonElement {
+  return h("button", { type: "button", class: cls, onclick: run }, label);
+}
+
+/** Shows the code in type that is read from the back of a lecture hall, and the address as a picture for phones. */
+async function invite(lecture: OwnLecture): Promise<void> {
   const { qr } = await import("./qr");
-  const address = new URL(`/room/${room.code}`, location.href).href;
+  const address = new URL(`/room/${lecture.code}`, location.href).href;
   const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
   const box = dialog(
     "Join this lecture",
@@ -249,12 +261,13 @@ async function invite(room: Room): Promise<void> {
           h("b", null, new URL("/room", location.href).href.replace(/^https?:\/\//, "")),
           " and type",
         ),
-        h("p", { class: "invite-code" }, room.code),
+        h("p", { class: "invite-code" }, lecture.code),
         here
           ? h(
               "p",
               { class: "notice is-note" },
-              "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.",
+              "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” " +
+                "and open the page at this computer’s address in the network.",
             )
           : null,
       ),

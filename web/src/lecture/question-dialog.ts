@@ -3,15 +3,15 @@ import { h } from "../core/dom";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
 
-export interface Question {
+export interface NewQuestion {
   text: string;
   choices: string[];
 }
 
-/** `ask` sends the question with the index of its right choice; while it is refused, the dialog stays open. */
+/** `ask` sends the question with the index of its right choice; the dialog stays open until it is accepted. */
 export function questionDialog(
   joint: string | null,
-  ask: (question: Question, right: number | null) => Promise<void>,
+  ask: (question: NewQuestion, right: number | null) => Promise<void>,
 ): void {
   const text = h("input", {
     class: "field",

@@ -1,11 +1,11 @@
-// The quick question as a follower answers it, and as everybody sees its result.
+// A question to all followers: how one of them answers it, and how everybody sees the result.
 import { api } from "../api/client";
 import type { LectureQuestion, Tally } from "../api/types";
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 import { problemNotice } from "../ui/notice";
 
-/** A name made up once, so that whoever answers again changes the answer and does not vote twice. */
+/** A random name, kept in the browser: a second answer replaces the first and is not counted twice. */
 function voter(): string {
   const known = recall("voter");
   if (known) return known;
@@ -74,7 +74,7 @@ export function ballot(code: string): {
   return { root, show };
 }
 
-/** How the answers stand: bars with numbers, the right one marked by a word too. */
+/** The counts of the answers as bars with numbers; the right one is marked by a word too. */
 export function histogram(choices: string[], tally: Tally, mine?: number): HTMLElement {
   const all = tally.counts.reduce((sum, count) => sum + count, 0);
   const most = Math.max(1, ...tally.counts);

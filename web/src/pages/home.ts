@@ -17,95 +17,45 @@ interface Best {
   attempts: number;
 }
 
+/** Submissions that are asked for to show the progress: more than a student hands in. */
+const MAX_SUBMISSIONS = 200;
+
 export function homePage(outlet: HTMLElement): Page {
   const leaving = new AbortController();
   const list = h("div", { class: "contents", "aria-busy": "true" }, skeleton(8));
   const progress = h("p", { class: "contents-progress" });
-  const place = lastBookmark();
-
   outlet.append(
     h(
       "div",
       { class: "page home" },
-      h(
-        "section",
-        { class: "hero" },
-        h(
-          "div",
-          { class: "hero-text" },
-          h("h1", null, "Mechanisms in space, one constraint at a time"),
-          h(
-            "p",
-            { class: "lead" },
-            "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
-            "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
-          ),
-          place
-            ? h(
-                "p",
-                { class: "go-on" },
-                h("a", { class: "button primary", href: place.href }, `Go on with “${place.title}”`),
-              )
-            : null,
-        ),
-        heroDrawing(),
-      ),
+      hero(),
       h(
         "section",
         { "aria-labelledby": "lessons-title" },
         h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), progress),
         list,
       ),
-      h(
-        "section",
-        { class: "aside-strip" },
-        h(
-          "div",
-          null,
-          h("h2", null, "Or build your own"),
-          h(
-            "p",
-            null,
-            "Run a built-in mechanism without a lesson, change it, or write a new one. Triad counts its degrees of freedom and names its redundant rows as you type.",
-          ),
-        ),
-        h("a", { class: "button", href: "/scenes" }, icon("cube"), "Open the scenes"),
-      ),
+      ownScene(),
     ),
   );
 
-  let lessons: LessonSummary[] = [];
-  const paint = (best: Map<string, Best>): void => {
-    list.removeAttribute("aria-busy");
-    if (lessons.length === 0) {
-      list.replaceChildren(
-        empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."),
-      );
-      return;
-    }
-    const passed = lessons.filter((lesson) => best.get(lesson.slug)?.passed).length;
-    progress.textContent = student.get()
-      ? `${passed} of ${lessons.length} passed`
-      : plural(lessons.length, "lesson");
-    list.replaceChildren(
-      h("ol", { class: "lesson-list" }, ...lessons.map((lesson) => row(lesson, best.get(lesson.slug)))),
-    );
-  };
-
   const load = async (): Promise<void> => {
+    let lessons: LessonSummary[];
     try {
       lessons = await api.lessons(leaving.signal);
-      paint(new Map());
     } catch (error) {
       if (leaving.signal.aborted) return;
       list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
       return;
     }
+    paint(list, progress, lessons, new Map());
     const who = student.get();
     if (!who) return;
-    // Progress is a nicety: without it the list stands as it is.
-    const verdicts = await api.submissions({ student: who, limit: 200 }, leaving.signal).catch(() => []);
-    if (!leaving.signal.aborted) paint(bestOf(verdicts));
+    // Progress is a nicety: without it the list stays as it is.
+    const verdicts = await api
+      .submissions({ student: who, limit: MAX_SUBMISSIONS }, leaving.signal)
+      .catch(() => []);
+    if (!leaving.signal.aborted) paint(list, progress, lessons, bestOf(verdicts));
   };
   const renamed = (): void => void load();
   addEventListener("triad:student", renamed);
@@ -118,6 +68,74 @@ export function homePage(outlet: HTMLElement): Page {
       removeEventListener("triad:student", renamed);
     },
   };
+}
+
+function hero(): HTMLElement {
+  const place = lastBookmark();
+  return h(
+    "section",
+    { class: "hero" },
+    h(
+      "div",
+      { class: "hero-text" },
+      h("h1", null, "Mechanisms in space, one constraint at a time"),
+      h(
+        "p",
+        { class: "lead" },
+        "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
+        "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
+      ),
+      place
+        ? h(
+            "p",
+            { class: "go-on" },
+            h("a", { class: "button primary", href: place.href }, `Go on with “${place.title}”`),
+          )
+        : null,
+    ),
+    heroDrawing(),
+  );
+}
+
+function ownScene(): HTMLElement {
+  return h(
+    "section",
+    { class: "aside-strip" },
+    h(
+      "div",
+      null,
+      h("h2", null, "Or build your own"),
+      h(
+        "p",
+        null,
+        "Run a built-in mechanism without a lesson, change it, or write a new one. ",
+        "Triad counts its degrees of freedom and names its redundant rows as you type.",
+      ),
+    ),
+    h("a", { class: "button", href: "/scenes" }, icon("cube"), "Open the scenes"),
+  );
+}
+
+function paint(
+  list: HTMLElement,
+  progress: HTMLElement,
+  lessons: LessonSummary[],
+  best: Map<string, Best>,
+): void {
+  list.removeAttribute("aria-busy");
+  if (lessons.length === 0) {
+    list.replaceChildren(
+      empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."),
+    );
+    return;
+  }
+  const passed = lessons.filter((lesson) => best.get(lesson.slug)?.passed).length;
+  progress.textContent = student.get()
+    ? `${passed} of ${lessons.length} passed`
+    : plural(lessons.length, "lesson");
+  list.replaceChildren(
+    h("ol", { class: "lesson-list" }, ...lessons.map((lesson) => row(lesson, best.get(lesson.slug)))),
+  );
 }
 
 function bestOf(verdicts: GradedSubmission[]): Map<string, Best> {

@@ -1,4 +1,4 @@
-// A lecture, followed: the presenter's run, the question that is asked, and the way to look around and come back.
+// A lecture as a follower sees it: the presenter's run, the question, and the way to look around and come back.
 import { ApiError, api } from "../api/client";
 import { h, setText } from "../core/dom";
 import { navigate, type Page, setTitle } from "../core/router";
@@ -11,8 +11,8 @@ import { mountWorkbench } from "../workbench/workbench";
 
 export function joinPage(outlet: HTMLElement): Page {
   const code = h("input", {
-    id: "room-code",
-    class: "field room-code",
+    id: "lecture-code",
+    class: "field lecture-code",
     autocomplete: "off",
     autocapitalize: "characters",
     spellcheck: "false",
@@ -23,7 +23,7 @@ export function joinPage(outlet: HTMLElement): Page {
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "room-code" }, "Code of the room"),
+    h("label", { for: "lecture-code" }, "Code of the room"),
     code,
     wrong,
     h("div", { class: "row" }, h("button", { class: "button primary" }, "Join")),
@@ -32,7 +32,7 @@ export function joinPage(outlet: HTMLElement): Page {
     event.preventDefault();
     const typed = code.value.trim().toUpperCase();
     api
-      .room(typed)
+      .lecture(typed)
       .then(() => navigate(`/room/${encodeURIComponent(typed)}`))
       .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
   });
@@ -50,79 +50,88 @@ export function joinPage(outlet: HTMLElement): Page {
 }
 
 export function lecturePage(outlet: HTMLElement, params: string[]): Page {
-  const code = (params[0] ?? "").toUpperCase();
-  const leaving = new AbortController();
-  const place = h("section", { class: "bench", "aria-label": "Mechanism" });
-  const title = h("h1", null, "Lecture");
-  const status = h("p", { class: "lead", role: "status" });
-  const back = h(
+  const page = new LecturePage((params[0] ?? "").toUpperCase());
+  outlet.append(page.root);
+  return { title: "Lecture", dispose: () => page.dispose() };
+}
+
+class LecturePage {
+  readonly root: HTMLElement;
+  private readonly title = h("h1", null, "Lecture");
+  private readonly status = h("p", { class: "lead", role: "status" });
+  private readonly back = h(
     "button",
     { type: "button", class: "button primary", hidden: true },
     icon("live"),
     "Back to the lecture",
   );
-  const own = h("a", { class: "button", hidden: true, href: "/" }, "Try it yourself");
-  const votes = ballot(code);
-  const head = h(
-    "header",
-    { class: "room-head" },
-    h("div", null, h("p", { class: "lesson-kicker" }, `Room ${code}`), title, status),
-    h("div", { class: "row wrap" }, back, own),
-  );
-  outlet.append(h("div", { class: "room" }, head, votes.root, place));
-  let end: (() => void) | undefined;
+  private readonly own = h("a", { class: "button", hidden: true, href: "/" }, "Try it yourself");
+  private readonly bench = h("section", { class: "bench", "aria-label": "Mechanism" });
+  private readonly votes: ReturnType<typeof ballot>;
+  private readonly leaving = new AbortController();
+  private endRun: (() => void) | undefined;
 
-  const open = (): void => {
-    const follower = new Follower(code);
-    const made = mountWorkbench(place, follower, {});
-    end = made.dispose;
-    follower.panel = made.selectPanel;
-    back.onclick = () => follower.comeBackToLecture();
-    const paint = (): void => {
-      const board = follower.lecture;
-      votes.show(follower.over ? null : (board?.question ?? null));
-      setText(title, board?.title ?? "Lecture");
-      if (board?.title) setTitle(board.title);
-      setText(
-        status,
-        follower.over
-          ? "The lecture is over. What was shown can still be looked at here."
-          : !board?.source
-            ? "The presenter shows nothing at the moment."
-            : follower.roaming
-              ? "You look around on your own; the lecture goes on."
-              : "You see what the presenter shows.",
-      );
-      back.hidden = !follower.roaming || follower.over;
-      void ownLink(follower).then((href) => {
-        own.hidden = href === undefined;
-        if (href) own.href = href;
+  constructor(private readonly code: string) {
+    this.votes = ballot(code);
+    const head = h(
+      "header",
+      { class: "lecture-head" },
+      h("div", null, h("p", { class: "lesson-kicker" }, `Room ${code}`), this.title, this.status),
+      h("div", { class: "row wrap" }, this.back, this.own),
+    );
+    this.root = h("div", null, head, this.votes.root, this.bench);
+    api
+      .lecture(code, this.leaving.signal)
+      .then(() => this.open())
+      .catch((error: unknown) => {
+        if (!this.leaving.signal.aborted) this.fail(head, error);
       });
-    };
-    follower.on("lecture", paint);
-    follower.on("scene", paint);
-    void follower.start();
-  };
+  }
 
-  api
-    .room(code, leaving.signal)
-    .then(open)
-    .catch((error: unknown) => {
-      if (leaving.signal.aborted) return;
-      const missing = error instanceof ApiError && error.gone;
-      place.remove();
-      status.textContent = missing
-        ? "There is no such room. The lecture may be over, or the code is another."
-        : "";
-      head.after(problemNotice(error, [{ label: "Type the code again", run: () => navigate("/room") }]));
+  dispose(): void {
+    this.leaving.abort();
+    this.endRun?.();
+  }
+
+  private open(): void {
+    const follower = new Follower(this.code);
+    const made = mountWorkbench(this.bench, follower, {});
+    this.endRun = made.dispose;
+    follower.panel = made.selectPanel;
+    this.back.onclick = () => follower.comeBackToLecture();
+    follower.on("lecture", () => this.paint(follower));
+    follower.on("scene", () => this.paint(follower));
+    void follower.start();
+  }
+
+  private fail(head: HTMLElement, error: unknown): void {
+    const missing = error instanceof ApiError && error.gone;
+    this.bench.remove();
+    this.status.textContent = missing
+      ? "There is no such room. The lecture may be over, or the code is another."
+      : "";
+    head.after(problemNotice(error, [{ label: "Type the code again", run: () => navigate("/room") }]));
+  }
+
+  private paint(follower: Follower): void {
+    const { lecture, over, roaming } = follower;
+    this.votes.show(over ? null : (lecture?.question ?? null));
+    setText(this.title, lecture?.title ?? "Lecture");
+    if (lecture?.title) setTitle(lecture.title);
+    setText(this.status, statusOf(follower));
+    this.back.hidden = !roaming || over;
+    void ownLink(follower).then((href) => {
+      this.own.hidden = href === undefined;
+      if (href) this.own.href = href;
     });
-  return {
-    title: "Lecture",
-    dispose: () => {
-      leaving.abort();
-      end?.();
-    },
-  };
+  }
+}
+
+function statusOf({ lecture, over, roaming }: Follower): string {
+  if (over) return "The lecture is over. What was shown can still be looked at here.";
+  if (!lecture?.source) return "The presenter shows nothing at the moment.";
+  if (roaming) return "You look around on your own; the lecture goes on.";
+  return "You see what the presenter shows.";
 }
 
 /** Where a follower runs the same scene alone, with the presenter's numbers. */

@@ -1,4 +1,4 @@
-// One lesson: text, mechanism, exercise. The text comes first, everything else when it can be read.
+// One lesson: text, mechanism, exercise. The text comes first, the others when it can be read.
 import { ApiError, api } from "../api/client";
 import type { Lesson, LessonSummary } from "../api/types";
 import { authored, h } from "../core/dom";
@@ -11,95 +11,109 @@ import { problemNotice, skeleton } from "../ui/notice";
 import { trackReadingPosition } from "./reading-position";
 import { steps } from "./steps";
 
+/** Longest wait for the formulas before the text is shown, ms. */
 const MATHS_PATIENCE_MS = 350;
 
 export function lessonPage(outlet: HTMLElement, params: string[]): Page {
-  const slug = params[0] ?? "";
-  const leaving = new AbortController();
-  const undo: (() => void)[] = [];
-  const text = h("article", { class: "reading", id: "text", "aria-busy": "true" }, skeleton(14));
-  const bench = h(
+  const page = new LessonPage(params[0] ?? "");
+  outlet.append(...page.parts());
+  return { title: "Lesson", dispose: () => page.dispose() };
+}
+
+class LessonPage {
+  private readonly text = h("article", { class: "reading", id: "text", "aria-busy": "true" }, skeleton(14));
+  private readonly bench = h(
     "section",
     { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
     workbenchPlaceholder(),
   );
-  const exercise = h("section", { class: "exercise", id: "exercise", "aria-label": "Exercise" });
-  outlet.append(
-    h("div", { class: "lesson" }, text, bench, exercise),
-    h(
-      "nav",
-      { class: "jump", "aria-label": "Parts of this lesson" },
-      h("a", { href: "#text" }, "Text"),
-      h("a", { href: "#mechanism" }, "Mechanism"),
-      h("a", { href: "#exercise" }, "Exercise"),
-    ),
-  );
+  private readonly exercise = h("section", {
+    class: "exercise",
+    id: "exercise",
+    "aria-label": "Exercise",
+  });
+  private readonly leaving = new AbortController();
+  private readonly undo: (() => void)[] = [];
+  private shown: Lesson | undefined;
+  /** Another name, other numbers: text, mechanism and exercise are made anew. */
+  private readonly renamed = (): void => {
+    if (!this.shown?.has_variants || this.shown.seed === student.get()) return;
+    for (const step of this.undo.splice(0)) step();
+    this.bench.replaceChildren(workbenchPlaceholder());
+    void this.load().then(() => this.exercise.scrollIntoView({ block: "start" }));
+  };
 
-  let shown: Lesson | undefined;
+  constructor(private readonly slug: string) {
+    addEventListener("triad:student", this.renamed);
+    void this.load();
+  }
 
-  const load = async (): Promise<void> => {
+  parts(): HTMLElement[] {
+    return [
+      h("div", { class: "lesson" }, this.text, this.bench, this.exercise),
+      h(
+        "nav",
+        { class: "jump", "aria-label": "Parts of this lesson" },
+        h("a", { href: "#text" }, "Text"),
+        h("a", { href: "#mechanism" }, "Mechanism"),
+        h("a", { href: "#exercise" }, "Exercise"),
+      ),
+    ];
+  }
+
+  dispose(): void {
+    this.leaving.abort();
+    removeEventListener("triad:student", this.renamed);
+    for (const step of this.undo) step();
+  }
+
+  private async load(): Promise<void> {
+    const { signal } = this.leaving;
     try {
-      const lesson = await api.lesson(slug, student.get(), leaving.signal);
-      shown = lesson;
+      const lesson = await api.lesson(this.slug, student.get(), signal);
+      this.shown = lesson;
       setTitle(lesson.title);
       // A short wait for KaTeX saves a jump of the whole text; a long one would keep it from the reader.
       if (hasMaths(lesson.html))
         await Promise.race([loadMaths(), new Promise((done) => setTimeout(done, MATHS_PATIENCE_MS))]);
-      if (leaving.signal.aborted) return;
-      showText(text, lesson);
-      exercise.replaceChildren();
-      undo.push(exerciseSection(exercise, lesson));
-      await setMaths(text);
-      await setMaths(exercise);
-      if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
-      undo.push(trackReadingPosition(slug, lesson.title));
+      if (signal.aborted) return;
+      await this.show(lesson);
       await afterPaint();
-      void showNeighbours(text, exercise, slug, leaving.signal);
-      if (leaving.signal.aborted) return;
-      await openBench(lesson);
+      void showNeighbours(this.text, this.exercise, this.slug, signal);
+      if (!signal.aborted) await this.openBench(lesson);
     } catch (error) {
-      if (leaving.signal.aborted) return;
-      text.removeAttribute("aria-busy");
-      const missing = error instanceof ApiError && error.gone;
-      text.replaceChildren(
-        h("h1", null, missing ? "There is no such lesson" : "The lesson could not be loaded"),
-        problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void load() }]),
-        h("p", null, h("a", { href: "/" }, "All lessons")),
-      );
-      bench.hidden = missing;
+      if (!signal.aborted) this.fail(error);
     }
-  };
+  }
 
-  const openBench = async (lesson: Lesson): Promise<void> => {
+  /** Shows text and exercise. */
+  private async show(lesson: Lesson): Promise<void> {
+    showText(this.text, lesson);
+    this.exercise.replaceChildren();
+    this.undo.push(exerciseSection(this.exercise, lesson));
+    await setMaths(this.text);
+    await setMaths(this.exercise);
+    if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
+    this.undo.push(trackReadingPosition(this.slug, lesson.title));
+  }
+
+  private async openBench(lesson: Lesson): Promise<void> {
     const [{ workbench }, seen] = await Promise.all([import("../workbench/workbench"), requestedView()]);
-    if (leaving.signal.aborted) return;
-    undo.push(
-      workbench(bench, {
-        source: lesson.seed ? { lesson: slug, seed: lesson.seed } : { lesson: slug },
-        scene: lesson.scene,
-        seen,
-      }),
+    if (this.leaving.signal.aborted) return;
+    const source = lesson.seed ? { lesson: this.slug, seed: lesson.seed } : { lesson: this.slug };
+    this.undo.push(workbench(this.bench, { source, scene: lesson.scene, seen }));
+  }
+
+  private fail(error: unknown): void {
+    this.text.removeAttribute("aria-busy");
+    const missing = error instanceof ApiError && error.gone;
+    this.text.replaceChildren(
+      h("h1", null, missing ? "There is no such lesson" : "The lesson could not be loaded"),
+      problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void this.load() }]),
+      h("p", null, h("a", { href: "/" }, "All lessons")),
     );
-  };
-
-  // Another name, other numbers: text, mechanism and exercise are made anew.
-  const renamed = (): void => {
-    if (!shown?.has_variants || shown.seed === student.get()) return;
-    for (const step of undo.splice(0)) step();
-    bench.replaceChildren(workbenchPlaceholder());
-    void load().then(() => exercise.scrollIntoView({ block: "start" }));
-  };
-  addEventListener("triad:student", renamed);
-
-  void load();
-  return {
-    title: "Lesson",
-    dispose: () => {
-      leaving.abort();
-      removeEventListener("triad:student", renamed);
-      for (const step of undo) step();
-    },
-  };
+    this.bench.hidden = missing;
+  }
 }
 
 /** Where to go on: the lessons before and after this one. What to read before gets its title. */
@@ -135,7 +149,7 @@ async function showNeighbours(
   );
 }
 
-/** Keeps the room that the workbench will take, so that nothing jumps when it arrives. */
+/** Keeps the place that the workbench will take, so that nothing jumps when it arrives. */
 export function workbenchPlaceholder(): HTMLElement {
   return h(
     "div",

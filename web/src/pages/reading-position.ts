@@ -4,6 +4,7 @@ import { recall, remember } from "../core/prefs";
 
 /** Parts of a lesson that an address can name. */
 const PARTS = ".math.display[id], #steps, fieldset.question[id]";
+/** The place is remembered when nothing was scrolled for this long, ms. */
 const AFTER_MS = 400;
 
 /** Remembers the part that is being read until the returned function is called. */

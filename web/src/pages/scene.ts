@@ -1,10 +1,10 @@
 // One scene: its text on one side, its run on the other.
 import { ApiError, api } from "../api/client";
 import type { Scene } from "../api/types";
-import { h } from "../core/dom";
+import { h, saveFile } from "../core/dom";
 import { recall, remember, student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
-import { sceneEditor } from "../editor/editor";
+import { SceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
 import { requestedView } from "../session/requested-view";
 import type { SharedView } from "../session/shared-view";
@@ -14,6 +14,7 @@ import { type WorkbenchOptions, workbench } from "../workbench/workbench";
 import { workbenchPlaceholder } from "./lesson";
 import { OWN_SCENE } from "./scenes";
 
+/** A scene of one's own begins as this built-in one. */
 const STARTING_SCENE = "simple-pendulum";
 
 /** A built-in scene, a lesson's, or one that a student writes. */
@@ -26,173 +27,187 @@ interface Subject {
 
 export function scenePage(outlet: HTMLElement, params: string[]): Page {
   const name = params[0] ?? "";
-  return openScene(outlet, { name, own: name === OWN_SCENE });
+  return open(outlet, { name, own: name === OWN_SCENE });
 }
 
 /** The scene of a lesson as text, with the student's own numbers in it. */
 export function lessonScenePage(outlet: HTMLElement, params: string[]): Page {
   const lesson = params[0] ?? "";
-  return openScene(outlet, { name: lesson, own: false, lesson });
+  return open(outlet, { name: lesson, own: false, lesson });
 }
 
-function openScene(outlet: HTMLElement, { name, own, lesson }: Subject): Page {
-  const draftKey = lesson ? (`scene-draft:${lesson}` as const) : own ? ("scene-draft" as const) : null;
-  const leaving = new AbortController();
-  let endRun: (() => void) | undefined;
-  let original = "";
+function open(outlet: HTMLElement, subject: Subject): Page {
+  const page = new ScenePage(subject);
+  outlet.append(page.root);
+  return { title: subject.own ? "Your own scene" : subject.name, dispose: () => page.dispose() };
+}
 
-  const title = h("h1", null, own ? "Your own scene" : name);
-  const about = h("p", { class: "lead" });
-  const bench = h(
+class ScenePage {
+  readonly root: HTMLElement;
+  private readonly title: HTMLElement;
+  private readonly about = h("p", { class: "lead" });
+  private readonly restore = h(
+    "button",
+    { type: "button", class: "button", hidden: true, onclick: () => this.undoEdits() },
+    "Undo all changes",
+  );
+  private readonly preview = h("input", { type: "checkbox", id: "preview", checked: true });
+  private readonly status = h("p", { class: "help", role: "status" });
+  private readonly editor: SceneEditor;
+  private readonly side: HTMLElement;
+  private readonly bench = h(
     "section",
     { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
     workbenchPlaceholder(),
   );
-  const run = h(
-    "button",
-    { type: "button", class: "button primary", onclick: () => runText() },
-    icon("play"),
-    "Run this text",
-  );
-  const restore = h(
-    "button",
-    { type: "button", class: "button", hidden: true, onclick: () => undoEdits() },
-    "Undo all changes",
-  );
-  const state = h("p", { class: "help", role: "status" });
-  let shownAs = "";
-  const preview = h("input", { type: "checkbox", id: "preview" });
-  preview.checked = true;
-  const editor = sceneEditor(
-    (text) => {
-      restore.hidden = text === original;
-      state.textContent = text === original ? "" : "Changed, not run yet.";
-      if (draftKey) remember(draftKey, text);
-    },
-    (text) => {
-      // What can run is shown at once, at its start; what is already shown stays.
-      if (!preview.checked || text === shownAs) return;
-      runText();
-    },
-  );
-  const side = h(
-    "article",
-    { class: "reading is-editor" },
-    h(
-      "header",
-      { class: "lesson-head" },
-      h(
-        "p",
-        { class: "lesson-kicker" },
-        lesson
-          ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, "Back to the lesson")
-          : h("a", { href: "/scenes" }, "Scenes"),
-      ),
-      title,
-      about,
-    ),
-    h(
-      "div",
-      { class: "row wrap" },
-      run,
-      restore,
-      h(
-        "button",
-        { type: "button", class: "button quiet", onclick: () => download() },
-        icon("save"),
-        "Save the file",
-      ),
-      h("span", { class: "check-line" }, preview, h("label", { for: "preview" }, "Show it as I type")),
-      state,
-    ),
-    editor.root,
-  );
-  outlet.append(h("div", { class: "lesson is-scene" }, side, bench));
+  private readonly leaving = new AbortController();
+  /** Where the browser keeps what was edited; a built-in scene is not kept. */
+  private readonly draftKey: "scene-draft" | `scene-draft:${string}` | null;
+  private endRun: (() => void) | undefined;
+  /** The text as it was loaded. */
+  private original = "";
+  /** The text that runs. */
+  private shownText = "";
 
-  const open = (options: WorkbenchOptions): void => {
-    endRun?.();
-    endRun = workbench(bench, options);
-  };
-  const runText = (seen?: SharedView): void => {
-    try {
-      const scene = JSON.parse(editor.text()) as Scene;
-      shownAs = editor.text();
-      state.textContent = "";
-      open({
-        source: { scene },
-        scene,
-        seen,
-        own: { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) },
-      });
-    } catch {
-      state.textContent = "The text is not JSON yet: see the remark below it.";
-    }
-  };
-  const undoEdits = (): void => {
-    editor.set(original);
-    restore.hidden = true;
-    state.textContent = "";
-    if (draftKey) remember(draftKey, null);
-  };
-  const download = (): void => {
-    const link = h("a", {
-      href: URL.createObjectURL(new Blob([editor.text()], { type: "application/json" })),
-      download: `${own ? "scene" : name.replaceAll(":", "-")}.json`,
-    });
-    link.click();
-    URL.revokeObjectURL(link.href);
-  };
+  constructor(private readonly subject: Subject) {
+    const { name, own, lesson } = subject;
+    this.draftKey = lesson ? `scene-draft:${lesson}` : own ? "scene-draft" : null;
+    this.title = h("h1", null, own ? "Your own scene" : name);
+    this.editor = new SceneEditor(
+      (text) => this.edited(text),
+      (text) => {
+        // What can run is shown at once, at its start; what is already shown stays.
+        if (this.preview.checked && text !== this.shownText) this.runText();
+      },
+    );
+    this.side = this.layout();
+    this.root = h("div", { class: "lesson is-scene" }, this.side, this.bench);
+    void this.load();
+  }
 
-  const load = async (): Promise<void> => {
+  dispose(): void {
+    this.leaving.abort();
+    this.editor.dispose();
+    this.endRun?.();
+  }
+
+  private layout(): HTMLElement {
+    const { lesson } = this.subject;
+    const back = lesson
+      ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, "Back to the lesson")
+      : h("a", { href: "/scenes" }, "Scenes");
+    return h(
+      "article",
+      { class: "reading is-editor" },
+      h("header", { class: "lesson-head" }, h("p", { class: "lesson-kicker" }, back), this.title, this.about),
+      h(
+        "div",
+        { class: "row wrap" },
+        h(
+          "button",
+          { type: "button", class: "button primary", onclick: () => this.runText() },
+          icon("play"),
+          "Run this text",
+        ),
+        this.restore,
+        h(
+          "button",
+          { type: "button", class: "button quiet", onclick: () => this.download() },
+          icon("save"),
+          "Save the file",
+        ),
+        h("span", { class: "check-line" }, this.preview, h("label", { for: "preview" }, "Show it as I type")),
+        this.status,
+      ),
+      this.editor.root,
+    );
+  }
+
+  private async load(): Promise<void> {
+    const { name, own, lesson } = this.subject;
+    const { signal } = this.leaving;
     try {
       const scene = lesson
-        ? await lessonScene(lesson, leaving.signal)
-        : await api.scene(own ? STARTING_SCENE : name, leaving.signal);
-      original = pretty(scene);
+        ? await lessonScene(lesson, signal)
+        : await api.scene(own ? STARTING_SCENE : name, signal);
+      this.original = pretty(scene);
       const seen = await requestedView();
-      const draft = draftKey ? ((own ? shownText(seen) : null) ?? recall(draftKey)) : null;
-      if (own) {
-        about.textContent =
-          "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
-      } else {
-        title.textContent = scene.title ?? name;
-        about.textContent = scene.description ?? "";
-        setTitle(scene.title ?? name);
-      }
-      shownAs = draft ?? original;
-      editor.set(shownAs);
-      restore.hidden = draft === null || draft === original;
-      if (draftKey) runText(seen);
-      else open({ source: { builtin: name }, scene, seen });
+      const draft = this.draftKey ? ((own ? sceneText(seen) : null) ?? recall(this.draftKey)) : null;
+      this.describe(scene);
+      this.shownText = draft ?? this.original;
+      this.editor.set(this.shownText);
+      this.restore.hidden = draft === null || draft === this.original;
+      if (this.draftKey) this.runText(seen);
+      else this.run({ source: { builtin: name }, scene, seen });
     } catch (error) {
-      if (leaving.signal.aborted) return;
-      const missing = error instanceof ApiError && error.gone;
-      side.replaceChildren(
-        h("h1", null, missing ? "There is no such scene" : "The scene could not be loaded"),
-        problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void load() }]),
-        h("p", null, h("a", { href: "/scenes" }, "All scenes")),
-      );
-      bench.hidden = missing;
+      if (!signal.aborted) this.fail(error);
     }
-  };
-  void load();
+  }
 
-  return {
-    title: own ? "Your own scene" : name,
-    dispose: () => {
-      leaving.abort();
-      editor.dispose();
-      endRun?.();
-    },
-  };
+  private describe(scene: Scene): void {
+    if (this.subject.own) {
+      this.about.textContent =
+        "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
+      return;
+    }
+    const title = scene.title ?? this.subject.name;
+    this.title.textContent = title;
+    this.about.textContent = scene.description ?? "";
+    setTitle(title);
+  }
+
+  private fail(error: unknown): void {
+    const missing = error instanceof ApiError && error.gone;
+    this.side.replaceChildren(
+      h("h1", null, missing ? "There is no such scene" : "The scene could not be loaded"),
+      problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void this.load() }]),
+      h("p", null, h("a", { href: "/scenes" }, "All scenes")),
+    );
+    this.bench.hidden = missing;
+  }
+
+  private edited(text: string): void {
+    this.restore.hidden = text === this.original;
+    this.status.textContent = text === this.original ? "" : "Changed, not run yet.";
+    if (this.draftKey) remember(this.draftKey, text);
+  }
+
+  private undoEdits(): void {
+    this.editor.set(this.original);
+    this.restore.hidden = true;
+    this.status.textContent = "";
+    if (this.draftKey) remember(this.draftKey, null);
+  }
+
+  private run(options: WorkbenchOptions): void {
+    this.endRun?.();
+    this.endRun = workbench(this.bench, options);
+  }
+
+  private runText(seen?: SharedView): void {
+    try {
+      const scene = JSON.parse(this.editor.text()) as Scene;
+      this.shownText = this.editor.text();
+      this.status.textContent = "";
+      const own = { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) };
+      this.run({ source: { scene }, scene, seen, own });
+    } catch {
+      this.status.textContent = "The text is not JSON yet: see the remark below it.";
+    }
+  }
+
+  private download(): void {
+    const name = this.subject.own ? "scene" : this.subject.name.replaceAll(":", "-");
+    saveFile(new Blob([this.editor.text()], { type: "application/json" }), `${name}.json`);
+  }
 }
 
 async function lessonScene(slug: string, signal: AbortSignal): Promise<Scene> {
   return (await api.lesson(slug, student.get(), signal)).scene;
 }
 
-/** The scene of a link, written as a person would. What stands in this browser's own draft stays there until it is edited. */
-function shownText(seen: SharedView | undefined): string | null {
+/** The scene of a link, written as a person would. The browser's own draft stays until this text is edited. */
+function sceneText(seen: SharedView | undefined): string | null {
   if (seen?.scene === undefined) return null;
   try {
     return pretty(JSON.parse(seen.scene));

@@ -1,4 +1,4 @@
-// The gallery of built-in mechanisms, and the door to one's own.
+// The gallery of built-in mechanisms, and the way to a scene of one's own.
 import { api } from "../api/client";
 import type { SceneEntry } from "../api/types";
 import { h } from "../core/dom";
@@ -9,8 +9,9 @@ import { empty, problemNotice, skeleton } from "../ui/notice";
 
 export const OWN_SCENE = "own";
 
-/** Families take a number: a sensible first one stands in their link. */
+/** A family of scenes takes a number in place of N. */
 const FAMILY = /^(.+):N$/;
+/** The number with which the link to a family begins. */
 const FAMILY_START = "2";
 
 export function scenesPage(outlet: HTMLElement): Page {

@@ -1,11 +1,13 @@
-// Predict, run, check, explain: what the student says is kept in this browser, and a prediction is shown again at the check.
+// Predict, run, check, explain: what the student writes is kept in this browser, and a prediction is shown again at
+// the check.
 
 import type { Lesson } from "../api/types";
 import { authored, h, setText } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 
+/** Longest note, characters. */
 const MAX_LENGTH = 2000;
-const ASKED: Record<string, string> = { predict: "Your prediction", explain: "In your own words" };
+const PROMPTS: Record<string, string> = { predict: "Your prediction", explain: "In your own words" };
 
 export function steps(lesson: Lesson): HTMLElement[] {
   if (!lesson.steps?.length) return [];
@@ -15,9 +17,9 @@ export function steps(lesson: Lesson): HTMLElement[] {
       h("li", null),
       `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`,
     );
-    const prompt = ASKED[step.kind];
+    const prompt = PROMPTS[step.kind];
     if (prompt)
-      item.append(said(`said:${lesson.slug}:${at}`, prompt, step.kind === "predict" ? again : null));
+      item.append(note(`said:${lesson.slug}:${at}`, prompt, step.kind === "predict" ? again : null));
     if (step.kind === "check") item.append(again);
     return item;
   });
@@ -43,7 +45,7 @@ export function steps(lesson: Lesson): HTMLElement[] {
   ];
 }
 
-function said(key: `said:${string}`, label: string, again: HTMLElement | null): HTMLElement {
+function note(key: `said:${string}`, label: string, again: HTMLElement | null): HTMLElement {
   const area = h("textarea", {
     class: "field",
     rows: "2",

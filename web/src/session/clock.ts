@@ -141,15 +141,14 @@ export class Clock extends Emitter {
     this.emit("shown");
   }
 
-  /** Says the state that is shown to a screen reader. */
+  /** Announces the state that is shown to screen readers. */
   protected announceState(): void {
     const state = this.shown;
     if (!state) return;
     const lead = state.finished ? "The run is complete" : "Paused";
     const body = state.bodies[0];
     const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
-    announce(
-      `${lead} at ${seconds(state.time)} after ${state.steps} steps. Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.${where}`,
-    );
+    const quality = `Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.`;
+    announce(`${lead} at ${seconds(state.time)} after ${state.steps} steps. ${quality}${where}`);
   }
 }

@@ -1,6 +1,7 @@
 // The stream of a run: opened, read, and opened again when it breaks.
 import { banner } from "../ui/notice";
 
+/** Pauses before the stream is opened again, ms; the last one is repeated. */
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 
 export interface ConnectionHooks {
@@ -19,7 +20,7 @@ export class Connection {
   private retry = 0;
   private timer = 0;
   private ended = false;
-  /** The page says that the connection is lost. */
+  /** The banner says that the connection is lost. */
   private missed = false;
 
   constructor(private readonly hooks: ConnectionHooks) {}

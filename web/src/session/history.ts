@@ -1,6 +1,7 @@
 // The states that arrived, kept for looking back: thinned out evenly when they become many.
 import type { SessionState, Vec3 } from "../api/types";
 
+/** More states than these are thinned out: those of five minutes, at ten a second. */
 const MAX_STATES = 3000;
 
 export class History {

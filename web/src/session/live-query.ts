@@ -2,6 +2,7 @@
 import type { SessionState } from "../api/types";
 import type { Session } from "./session";
 
+/** Pause between two requests, ms. */
 const PAUSE_MS = 300;
 
 export interface LiveQuery {

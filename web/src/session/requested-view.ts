@@ -1,4 +1,4 @@
-// What the page's address asks to be shown, with a word where it cannot be read.
+// What the page's address asks to be shown, with a notice where it cannot be read.
 
 import { banner } from "../ui/notice";
 import { type SharedView, viewOfAddress } from "./shared-view";

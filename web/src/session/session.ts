@@ -25,11 +25,14 @@ export class Session extends Clock {
   /** Whether this page controls the run; a follower of a lecture only watches. */
   readonly controls: boolean = true;
   protected readonly connection: Connection;
+  /** Numbers to which `undo` goes back, the latest last. */
   private before: Numbers[] = [];
+  /** Session and number of changes for which the scene was read. */
   private seenChanges = "";
   private waiters: (() => void)[] = [];
   private busy = false;
   private redrawing: "idle" | "busy" | "again" = "idle";
+  /** The arrows that the server draws, as JSON. */
   private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all", marked: null });
 
   constructor(
@@ -56,7 +59,7 @@ export class Session extends Clock {
 
   async start(): Promise<void> {
     try {
-      this.take(await this.create());
+      this.accept(await this.create());
       this.connection.open();
     } catch (error) {
       this.emit("problem", error);
@@ -98,7 +101,7 @@ export class Session extends Clock {
       sent = between(this.numbers, to, view);
       if (isNone(sent)) return;
       this.toNewest();
-      this.take(await api.change(run, sent, then));
+      this.accept(await api.change(run, sent, then));
       this.numbers = tidy(to, view);
       this.altered = (this.latest?.time ?? 0) > 0;
     });
@@ -111,7 +114,7 @@ export class Session extends Clock {
     if (!run) return;
     await this.inTurn(async () => {
       this.toNewest();
-      this.take(pull ? await api.pull(run, pull) : await api.release(run));
+      this.accept(pull ? await api.pull(run, pull) : await api.release(run));
       this.altered = true;
     });
   }
@@ -141,7 +144,7 @@ export class Session extends Clock {
       this.view = await api.sceneOf(state.links.self);
       this.emit("scene");
     } catch {
-      // The run goes on without its panel of numbers; the next change asks again.
+      // The run goes on without its numbers; they are read again after the next change.
       this.seenChanges = "";
     }
   }
@@ -234,7 +237,7 @@ export class Session extends Clock {
     void this.redraw(false);
   }
 
-  /** Tells reactions in another way, in every view. */
+  /** States reactions by another convention, in every view. */
   setConvention(change: Partial<ReactionConvention>): void {
     this.convention = { ...this.convention, ...change };
     this.emit("view");
@@ -276,7 +279,7 @@ export class Session extends Clock {
     return { on: convention.on, about: convention.about, drawn: which, marked: joint };
   }
 
-  /** Lets the server draw forces as the page tells them: one request at a time, the newest wish wins. */
+  /** Lets the server draw the forces that the page draws: one request at a time, the newest wins. */
   private async redraw(fit: boolean): Promise<void> {
     const run = this.address;
     const arrows = this.arrows();
@@ -294,7 +297,7 @@ export class Session extends Clock {
         this.latest = { ...this.latest, drawing: state.drawing };
       this.emit("view");
     } catch {
-      // The sketch and the tables tell it already; the next wish asks again.
+      // The sketch and the tables show it already; the next change asks again.
     } finally {
       const again = (this.redrawing as string) === "again";
       this.redrawing = "idle";
@@ -312,7 +315,7 @@ export class Session extends Clock {
     if (!run || this.busy) return;
     this.busy = true;
     try {
-      this.take(await request(run));
+      this.accept(await request(run));
     } catch (error) {
       if (error instanceof ApiError && error.gone) await this.recreate();
       else this.emit("problem", error);
@@ -321,7 +324,7 @@ export class Session extends Clock {
     }
   }
 
-  protected take(state: SessionState): void {
+  protected accept(state: SessionState): void {
     const before = this.latest;
     this.cameAt = performance.now();
     if (before && (state.id !== before.id || state.title !== before.title || state.time < before.time)) {
@@ -341,14 +344,14 @@ export class Session extends Clock {
   protected read(message: { type?: string }): void {
     if (message.type === "reset") this.emit("opened");
     // A step asked for by HTTP may overtake its own echo on the socket.
-    if (message.type === "state" && !this.busy) this.take(message as unknown as SessionState);
+    if (message.type === "state" && !this.busy) this.accept(message as unknown as SessionState);
   }
 
   protected async comeBack(): Promise<"there" | "gone" | "silent"> {
     const run = this.address;
     if (!run) return "silent";
     try {
-      this.take(await api.state(run));
+      this.accept(await api.state(run));
       return "there";
     } catch (error) {
       return error instanceof ApiError && error.gone ? "gone" : "silent";
@@ -363,7 +366,7 @@ export class Session extends Clock {
     try {
       this.latest = undefined;
       this.drawnAs = "";
-      this.take(await this.create());
+      this.accept(await this.create());
       this.connection.open();
       void this.redraw(false);
       announce("The simulation had expired on the server and was started anew, at time 0.");

@@ -10,7 +10,7 @@ import type { ReactionConvention } from "./events";
 import type { Session } from "./session";
 import { linkTo, MAX_LENGTH, type SharedView } from "./shared-view";
 
-/** How long the word of success stays. */
+/** How long the notice of success stays, ms. */
 const GLANCE_MS = 6000;
 
 export interface Shared {
@@ -71,7 +71,7 @@ export function viewOf({ session, panel, picture, own }: Shared): SharedView {
     panel: panel(),
     picture: picture(),
     told: `${convention.on}.${convention.about}.${convention.in}`,
-    drawn: drawn.what === "body" ? `body:${drawn.body}` : drawn.what,
+    drawn: textOf(drawn),
     camera,
   };
   if (!isNone(session.numbers)) seen.numbers = session.numbers;
@@ -107,6 +107,10 @@ export function applyView(session: Session, seen: SharedView): void {
   );
 }
 
+/** Which forces are drawn, as a link and a list of choices write it: joint, all, none, or body:NAME. */
+export const textOf = (drawn: Drawn): string => (drawn.what === "body" ? `body:${drawn.body}` : drawn.what);
+
+/** The inverse of `textOf`; undefined for any other text. */
 export function drawnOf(text: string | undefined): Drawn | undefined {
   if (text?.startsWith("body:")) return { what: "body", body: text.slice(5) };
   return text === "joint" || text === "all" || text === "none" ? { what: text } : undefined;

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { pack, type SharedView, unpack } from "./shared-view";
 
 describe("a link", () => {
-  it("says the same when it is read again", async () => {
+  it("is the same when it is read again", async () => {
     const seen: SharedView = {
       numbers: { values: { mass: 2.5 }, places: { "/simulation/stabilization": { kind: "projection" } } },
       time: 1.25,
@@ -17,7 +17,7 @@ describe("a link", () => {
     expect(text).toMatch(/^[\w-]+$/);
     expect(await unpack(text)).toEqual(seen);
   });
-  it("that is broken or forged says nothing harmful", async () => {
+  it("that is broken or forged does no harm", async () => {
     expect(await unpack("%%%")).toBeUndefined();
     expect(await unpack("AAAA")).toBeUndefined();
     const forged = await pack({

@@ -1,7 +1,7 @@
 // One link holds what somebody looks at: numbers that were changed, the time, the selected joint, panel and picture.
 import type { Numbers } from "../api/numbers";
 
-/** What a link says beside the lesson or scene of its path. */
+/** What a link holds beside the lesson or scene of its path. Its keys are published: old links use them. */
 export interface SharedView {
   numbers?: Numbers;
   time?: number;
@@ -14,19 +14,20 @@ export interface SharedView {
   camera?: string;
   /** Which forces are drawn: joint, all, none, or body:NAME. */
   drawn?: string;
-  /** On which body, about which point, in which frame, such as j.joint.world. */
+  /** The reaction convention: on which body, about which point, in which frame, such as j.joint.world. */
   told?: string;
   /** The text of a scene of one's own. */
   scene?: string;
 }
 
-/** Links beyond this are cut by mail programs and chats. */
+/** Longest link, characters: mail programs and chats cut longer ones. */
 export const MAX_LENGTH = 16_000;
-/** A small link must not unpack to more than a scene's text may have. */
+/** Largest text that a link may unpack to, bytes: more than the text of any scene. */
 const MAX_TEXT = 2_000_000;
+/** The link's one parameter. */
 const NAME = "show";
 
-/** The value of the link's one parameter. */
+/** A view as the value of the link's parameter. */
 export async function pack(seen: SharedView): Promise<string> {
   const bytes = new TextEncoder().encode(JSON.stringify(seen));
   const packed = await through(bytes, new CompressionStream("deflate-raw"), Infinity);
@@ -35,7 +36,7 @@ export async function pack(seen: SharedView): Promise<string> {
   return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** What a link says; undefined where it says nothing that can be read. */
+/** What a link holds; undefined where it cannot be read. */
 export async function unpack(text: string): Promise<SharedView | undefined> {
   try {
     const raw = atob(text.replaceAll("-", "+").replaceAll("_", "/"));

@@ -1,5 +1,5 @@
-// From where the mechanism is looked at: the viewer's own camera can be turned by the mouse but not read, so a link
-// and a lecture carry one of these sides.
+// The side from which the mechanism is seen. The viewer's own camera can be turned by the mouse but not read, so a
+// link and a lecture carry one of these sides.
 
 import type { Camera } from "../api/types";
 import { h } from "../core/dom";
@@ -31,7 +31,7 @@ export function cameras(session: Session): { root: HTMLElement; dispose: () => v
     {
       keys: ["c", "C"],
       shown: "C",
-      says: "Camera: corner, front, side, above",
+      does: "Camera: corner, front, side, above",
       run: () => {
         const at = SIDES.findIndex(([side]) => side === session.camera);
         session.lookFrom(SIDES[(at + 1) % SIDES.length]?.[0] ?? "corner");

@@ -1,4 +1,4 @@
-// What the arrows of the 3-D view mean, in words: one scale for the whole scene; and the selected joint in big type.
+// The scale of the arrows in the 3-D view, in words, and the force of the selected joint in big type.
 import { h, setText } from "../core/dom";
 import { num } from "../core/format";
 import { arrows, roundDown } from "../mechanics/forces";
@@ -7,7 +7,7 @@ import type { Session } from "../session/session";
 
 export function legend(session: Session): { root: HTMLElement; update: () => void } {
   const scale = h("span");
-  const selected = h("b", { class: "stage-told" });
+  const selected = h("b", { class: "stage-selected" });
   const root = h("p", { class: "stage-legend", hidden: true }, selected, scale);
   const update = (): void => {
     const drawing = session.latest?.drawing;
@@ -22,10 +22,11 @@ export function legend(session: Session): { root: HTMLElement; update: () => voi
     const newtons = roundDown((0.4 * drawing.longest) / drawing.force_scale);
     const moments = roundDown((0.2 * drawing.longest) / drawing.moment_scale);
     const turning = state.forces.some((entry) => norm(entry.moment) > 0);
-    setText(
-      scale,
-      `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. ${turning ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. ` : ""}Drawn double: more than shown.`,
-    );
+    const arrowText = `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. `;
+    const circleText = turning
+      ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. `
+      : "";
+    setText(scale, `${arrowText}${circleText}Drawn double: more than shown.`);
     const [arrow] =
       session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.convention);
     setText(

@@ -4,12 +4,16 @@ import type { Vec3 } from "../api/types";
 import { svg } from "../core/dom";
 import { type Axes, add, along, out, sub } from "../mechanics/vec";
 import type { Session } from "../session/session";
-import type { Grip, Layer } from "./viewport";
+import type { Sketch } from "./sketch";
+import type { Layer } from "./viewport";
+
+/** Radius of the circle that stands for the hand, in units of the drawing. */
+const HAND_RADIUS = 8;
 
 /** The hand's spring as a line from the grabbed point to the hand. */
 export function pullLayer(session: Session): Layer {
   const line = svg("path", { class: "pull-line" });
-  const hand = svg("circle", { class: "pull-hand", r: 8 });
+  const hand = svg("circle", { class: "pull-hand", r: HAND_RADIUS });
   const root = svg("g", { class: "pull-layer" }, line, hand);
   return {
     root,
@@ -28,25 +32,28 @@ export function pullLayer(session: Session): Layer {
   };
 }
 
-/** A zigzag of ten turns. */
+/** Straight pieces of the zigzag of a spring. */
+const SPRING_PIECES = 20;
+/** Distance of the corners of a spring from its axis, in units of the drawing. */
+const SPRING_WIDTH = 5;
+
+/** A spring between two points of the drawing. */
 function spring(x: number, y: number, hx: number, hy: number): string {
   const [dx, dy] = [hx - x, hy - y];
   const length = Math.hypot(dx, dy) || 1;
   const [nx, ny] = [-dy / length, dx / length];
-  const points = Array.from({ length: 21 }, (_, k) => {
-    const side = k === 0 || k === 20 ? 0 : k % 2 === 0 ? 5 : -5;
-    return `${(x + (dx * k) / 20 + nx * side).toFixed(1)} ${(y + (dy * k) / 20 + ny * side).toFixed(1)}`;
+  const points = Array.from({ length: SPRING_PIECES + 1 }, (_, k) => {
+    const end = k === 0 || k === SPRING_PIECES;
+    const side = end ? 0 : k % 2 === 0 ? SPRING_WIDTH : -SPRING_WIDTH;
+    const along = k / SPRING_PIECES;
+    return `${(x + dx * along + nx * side).toFixed(1)} ${(y + dy * along + ny * side).toFixed(1)}`;
   });
   return `M${points.join("L")}`;
 }
 
-/** Makes bodies of the drawing follow the mouse. `move` turns a shift on the screen into one in the world. */
-export function dragging(
-  session: Session,
-  root: SVGSVGElement,
-  grip: (target: Element, x: number, y: number) => Grip | undefined,
-  move: (dx: number, dy: number) => Vec3,
-): void {
+/** Makes bodies of the drawing follow the mouse. */
+export function dragging(session: Session, sketch: Sketch): void {
+  const { root } = sketch;
   let held: { body: string; point: Vec3; from: Vec3; x: number; y: number } | undefined;
   let wanted: Vec3 | null | undefined;
   let sending = false;
@@ -77,7 +84,7 @@ export function dragging(
   root.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || !(event.target instanceof Element)) return;
     const [x, y] = onScreen(event);
-    const found = grip(event.target, x, y);
+    const found = sketch.grip(event.target, x, y);
     const body = found && session.latest?.bodies.find((entry) => entry.name === found.body);
     if (!found || !body) return;
     const axes: Axes = [body.u, body.v, body.w];
@@ -89,7 +96,7 @@ export function dragging(
   root.addEventListener("pointermove", (event) => {
     if (!held) return;
     const [x, y] = onScreen(event);
-    void send(add(held.from, move(x - held.x, y - held.y)));
+    void send(add(held.from, sketch.move(x - held.x, y - held.y)));
   });
   const letGo = (): void => {
     if (!held) return;

@@ -1,4 +1,4 @@
-// The paper that the sketch and its layers are drawn on.
+// The area that the sketch and its layers are drawn on.
 import type { SessionState, Vec3 } from "../api/types";
 import { type Axes, add, scale } from "../mechanics/vec";
 

@@ -8,10 +8,11 @@ export function heroDrawing(): SVGSVGElement {
     svg("circle", { cx, cy, r, class: cls });
   const label = (x: number, y: number, text: string): SVGTextElement =>
     svg("text", { x, y, class: "hero-label" }, text);
-  const A = [86, 262] as const,
-    B = [150, 92] as const,
-    C = [356, 66] as const,
-    D = [404, 262] as const;
+  // The hinges of the loop, and the centre of mass of its coupler, in units of the drawing.
+  const A = [86, 262] as const;
+  const B = [150, 92] as const;
+  const C = [356, 66] as const;
+  const D = [404, 262] as const;
   const G = [253, 79] as const;
 
   const hatch = (x: number): SVGGElement =>
@@ -52,17 +53,24 @@ export function heroDrawing(): SVGSVGElement {
   );
 }
 
+/** Length of an arrow's head, in units of the drawing. */
+const HEAD = 11;
+/** Half the width of an arrow's head, in units of the drawing. */
+const HALF_HEAD = 4.6;
+/** The shaft ends this far before the tip, inside the head, in units of the drawing. */
+const SHAFT_END = 8;
+
 function arrow(x: number, y: number, dx: number, dy: number, cls: string): SVGGElement {
   const length = Math.hypot(dx, dy);
   const [ex, ey] = [dx / length, dy / length];
   const [tx, ty] = [x + dx, y + dy];
-  const back = 11,
-    side = 4.6;
-  const head = `M${tx} ${ty}L${tx - ex * back - ey * side} ${ty - ey * back + ex * side}L${tx - ex * back + ey * side} ${ty - ey * back - ex * side}Z`;
+  const [nx, ny] = [tx - ex * HEAD, ty - ey * HEAD];
+  const left = `${nx - ey * HALF_HEAD} ${ny + ex * HALF_HEAD}`;
+  const right = `${nx + ey * HALF_HEAD} ${ny - ex * HALF_HEAD}`;
   return svg(
     "g",
     { class: cls },
-    svg("line", { x1: x, y1: y, x2: tx - ex * 8, y2: ty - ey * 8 }),
-    svg("path", { d: head }),
+    svg("line", { x1: x, y1: y, x2: tx - ex * SHAFT_END, y2: ty - ey * SHAFT_END }),
+    svg("path", { d: `M${tx} ${ty}L${left}L${right}Z` }),
   );
 }

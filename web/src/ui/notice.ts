@@ -1,4 +1,4 @@
-// What the page says when something went wrong, is empty, or is on its way.
+// Notices: a problem, an empty list, text that is still loading, the banner over the page.
 import { problemOf } from "../api/client";
 import type { Problem } from "../api/types";
 import { type Child, h } from "../core/dom";
@@ -14,9 +14,9 @@ export interface PointerLink {
   open: (pointer: string) => void;
 }
 
-/** A problem as the server tells it: what, where, and what to try. */
+/** A problem as the server reports it: what, where, and what to try. */
 export function problemNotice(error: unknown, actions: Action[] = [], link?: PointerLink): HTMLElement {
-  const problem: Problem = isProblem(error) ? error : problemOf(error);
+  const problem: Problem = problemOf(error);
   const places = (problem.errors ?? []).filter((place) => place.detail !== problem.detail || place.pointer);
   return h(
     "section",
@@ -74,15 +74,6 @@ function pointer(path: string | undefined, link?: PointerLink): Child {
   );
 }
 
-function isProblem(value: unknown): value is Problem {
-  return (
-    typeof value === "object" &&
-    value !== null &&
-    !(value instanceof Error) &&
-    typeof (value as Problem).title === "string"
-  );
-}
-
 export function note(...children: Child[]): HTMLElement {
   return h(
     "section",
@@ -96,7 +87,7 @@ export function empty(title: string, text: string, ...more: Child[]): HTMLElemen
   return h("div", { class: "empty" }, h("p", { class: "empty-title" }, title), h("p", null, text), ...more);
 }
 
-/** Grey lines that take the place of text that is on its way. */
+/** Grey lines in place of text that is still loading. */
 export function skeleton(lines: number): HTMLElement {
   const widths = [92, 100, 97, 64, 99, 88, 95, 52];
   return h(
@@ -110,7 +101,7 @@ export function skeleton(lines: number): HTMLElement {
 
 const slot = (): HTMLElement | null => document.getElementById("banner");
 
-/** The one line above everything; null takes it away. */
+/** Shows a line over everything; null removes it. */
 export function banner(text: string | null, action?: Action): void {
   const place = slot();
   if (!place) return;

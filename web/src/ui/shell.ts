@@ -9,38 +9,6 @@ import { icon } from "./icons";
 export function header(root: HTMLElement): void {
   const brandMark = h("span", { class: "brand-mark", "aria-hidden": "true" });
   brandMark.innerHTML = mark;
-  const name = h("button", { type: "button", class: "header-button", id: "who", onclick: askName });
-  const themeButton = h("button", {
-    type: "button",
-    class: "header-button square",
-    onclick: () => toggleTheme(),
-  });
-  const paintTheme = (): void => {
-    const dark = theme() === "dark";
-    themeButton.replaceChildren(icon(dark ? "sun" : "moon"));
-    const label = dark ? "Use the light theme" : "Use the dark theme";
-    themeButton.setAttribute("aria-label", label);
-    themeButton.title = label;
-  };
-  const beamer = h(
-    "button",
-    {
-      type: "button",
-      class: "header-button square wide-only",
-      "aria-label": "Projector: big type and strong lines",
-      title: "Projector: big type and strong lines (P)",
-      onclick: toggleProjector,
-    },
-    icon("beamer"),
-  );
-  const paintBeamer = (): void => beamer.setAttribute("aria-pressed", String(projector()));
-  onTheme(paintBeamer);
-  paintBeamer();
-  onTheme(paintTheme);
-  paintTheme();
-  paintName(name);
-  addEventListener("triad:student", () => paintName(name));
-
   root.append(
     h(
       "a",
@@ -56,9 +24,9 @@ export function header(root: HTMLElement): void {
       h("a", { href: "/room" }, "Join"),
     ),
     h("span", { class: "header-space" }),
-    name,
-    beamer,
-    themeButton,
+    nameButton(),
+    projectorButton(),
+    themeButton(),
     h(
       "button",
       {
@@ -72,9 +40,52 @@ export function header(root: HTMLElement): void {
     ),
   );
   bind([
-    { keys: ["p", "P"], shown: "P", says: "Projector: big type and strong lines", run: toggleProjector },
+    { keys: ["p", "P"], shown: "P", does: "Projector: big type and strong lines", run: toggleProjector },
+    { keys: ["?"], shown: "?", does: "Show this help", run: help },
   ]);
-  bind([{ keys: ["?"], shown: "?", says: "Show this help", run: help }]);
+}
+
+function nameButton(): HTMLElement {
+  const button = h("button", { type: "button", class: "header-button", id: "who", onclick: askName });
+  paintName(button);
+  addEventListener("triad:student", () => paintName(button));
+  return button;
+}
+
+function projectorButton(): HTMLElement {
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "header-button square wide-only",
+      "aria-label": "Projector: big type and strong lines",
+      title: "Projector: big type and strong lines (P)",
+      onclick: toggleProjector,
+    },
+    icon("projector"),
+  );
+  const paint = (): void => button.setAttribute("aria-pressed", String(projector()));
+  onTheme(paint);
+  paint();
+  return button;
+}
+
+function themeButton(): HTMLElement {
+  const button = h("button", {
+    type: "button",
+    class: "header-button square",
+    onclick: () => toggleTheme(),
+  });
+  const paint = (): void => {
+    const dark = theme() === "dark";
+    button.replaceChildren(icon(dark ? "sun" : "moon"));
+    const label = dark ? "Use the light theme" : "Use the dark theme";
+    button.setAttribute("aria-label", label);
+    button.title = label;
+  };
+  onTheme(paint);
+  paint();
+  return button;
 }
 
 function paintName(button: HTMLButtonElement): void {
@@ -126,7 +137,7 @@ function help(): void {
         "tr",
         null,
         h("td", null, ...entry.shown.split(" ").map((key) => h("kbd", null, key))),
-        h("td", null, entry.says),
+        h("td", null, entry.does),
       ),
     );
   const toggle = h("input", { type: "checkbox", id: "keys-on" });
@@ -137,7 +148,8 @@ function help(): void {
     h(
       "p",
       null,
-      "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D view too: every number it shows stands in the tables below it.",
+      "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D " +
+        "view too: every number it shows stands in the tables below it.",
     ),
     h(
       "table",
@@ -153,7 +165,8 @@ function help(): void {
     h(
       "p",
       { class: "help" },
-      "In the 3-D view: drag to turn, scroll to come closer, drag with the right button to move, double-click a body to look at it. The sketch is the same scene without 3-D.",
+      "In the 3-D view: drag to turn, scroll to come closer, drag with the right button to move, double-click a body to " +
+        "look at it. The sketch is the same scene without 3-D.",
     ),
   );
 }

@@ -10,7 +10,7 @@ export function trouble(session: Session): HTMLElement {
   const root = h("div", { class: "trouble" });
   const clear = (): void => root.replaceChildren();
   session.on("problem", (error) => {
-    const problem: Problem = isProblem(error) ? error : problemOf(error);
+    const problem: Problem = problemOf(error);
     root.replaceChildren(problemNotice(problem, ways(session, problem, clear)));
   });
   // The way out was taken elsewhere, or by itself.
@@ -62,13 +62,4 @@ function ways(session: Session, problem: Problem, clear: () => void): Action[] {
       },
     },
   ];
-}
-
-function isProblem(value: unknown): value is Problem {
-  return (
-    typeof value === "object" &&
-    value !== null &&
-    !(value instanceof Error) &&
-    typeof (value as Problem).title === "string"
-  );
 }

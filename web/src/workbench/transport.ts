@@ -1,81 +1,64 @@
 // Play, pause, step, look back: the clock of the page.
+import type { SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
-import { fixedPlain, seconds } from "../core/format";
+import { fixedPlain, seconds, typedNumber } from "../core/format";
 import { bind } from "../core/keys";
 import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
 
+/** Simulated seconds by second of the wall clock. */
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+const START_SPEED = 1;
+/** Steps by time, s. */
 const STRIDES = [0.01, 0.05, 0.1, 0.5, 1];
+const START_STRIDE = 0.1;
+/** Length of the timeline until the run says how long it is planned to be, s. */
+const UNKNOWN_DURATION = 10;
 
-export function transport(
-  session: Session,
-  plannedDuration: number | undefined,
-  more: HTMLElement,
-): { root: HTMLElement; dispose: () => void } {
-  const button = (
-    name: IconName,
-    label: string,
-    keys: string,
-    run: () => void,
-    cls = "",
-  ): HTMLButtonElement =>
-    h(
-      "button",
-      {
-        type: "button",
-        class: `button icon-button ${cls}`,
-        "aria-label": label,
-        title: `${label} (${keys})`,
-        onclick: run,
-      },
-      icon(name),
-    );
-
-  const stride = h(
+export class Transport {
+  readonly root: HTMLElement;
+  private readonly stride = h(
     "select",
     { class: "field compact", "aria-label": "Length of a step by time" },
-    ...STRIDES.map((value) => h("option", { value: String(value), selected: value === 0.1 }, `${value} s`)),
+    ...STRIDES.map((value) =>
+      h("option", { value: String(value), selected: value === START_STRIDE }, `${value} s`),
+    ),
   );
-  const speed = h(
+  private readonly speed = h(
     "select",
     { class: "field compact", "aria-label": "Speed", title: "Speed" },
-    ...SPEEDS.map((value) => h("option", { value: String(value), selected: value === 1 }, `${value} ×`)),
+    ...SPEEDS.map((value) =>
+      h("option", { value: String(value), selected: value === START_SPEED }, `${value} ×`),
+    ),
   );
-
-  const stepTime = (): void => void session.step({ seconds: Number(stride.value) });
-  const stepOnce = (): void => void session.forward();
-  const changeSpeed = (by: number): void => {
-    speed.selectedIndex = Math.max(0, Math.min(SPEEDS.length - 1, speed.selectedIndex + by));
-    session.setSpeed(Number(speed.value));
-  };
-  speed.addEventListener("change", () => session.setSpeed(Number(speed.value)));
-
-  const play = button("play", "Play", "space", () => void session.toggle(), "primary play");
-  const back = button("back", "Back to the moment before", "←", () => session.back());
-  const live = h(
+  private readonly play = button("play", "Play", "space", () => void this.session.toggle(), "primary play");
+  private readonly back = button("back", "Back to the moment before", "←", () => this.session.back());
+  private readonly live = h(
     "button",
     {
       type: "button",
       class: "button small live",
       hidden: true,
       title: "Looking back: go to the newest time",
-      onclick: () => session.seek(Infinity),
+      onclick: () => this.session.seek(Infinity),
     },
     icon("live"),
     "To newest",
   );
-  const slider = h("input", {
-    type: "range",
-    class: "timeline",
-    min: "0",
-    max: String(plannedDuration ?? 10),
-    step: "0.001",
-    value: "0",
-    "aria-label": "Time",
-  });
-  slider.addEventListener("input", () => session.seek(Number(slider.value)));
-  const clock = h("input", {
+  private readonly loop = h(
+    "button",
+    {
+      type: "button",
+      class: "button quiet small icon-only",
+      "aria-label": "Loop: show the run again and again",
+      title: "Loop: show the run again and again (L)",
+      "aria-pressed": "false",
+      onclick: () => this.toggleLoop(),
+    },
+    icon("loop"),
+  );
+  private readonly timeline: HTMLInputElement;
+  private readonly clock = h("input", {
     class: "clock",
     type: "text",
     inputmode: "decimal",
@@ -84,134 +67,188 @@ export function transport(
     "aria-label": "Run to a time, in seconds",
     title: "Type a time and press Enter: the run goes there",
   });
-  clock.addEventListener("focus", () => clock.select());
-  clock.addEventListener("blur", () => paint());
-  clock.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") clock.blur();
-    if (event.key !== "Enter") return;
-    const typed = clock.value.trim().replace(",", ".");
-    clock.blur();
-    if (typed !== "" && Number.isFinite(Number(typed))) void session.goTo(Number(typed));
-  });
-  const until = h(
-    "span",
-    { class: "clock-until" },
-    plannedDuration ? `of ${seconds(plannedDuration, 0)}` : "",
-  );
-  const mode = h("span", { class: "clock-mode" });
+  private readonly until: HTMLElement;
+  private readonly mode = h("span", { class: "clock-mode" });
+  private readonly undo: (() => void)[];
+  /** What the play button shows. */
+  private moving: boolean | undefined;
 
-  const loop = h(
+  /** `more` stands beside the timeline. */
+  constructor(
+    private readonly session: Session,
+    plannedDuration: number | undefined,
+    more: HTMLElement,
+  ) {
+    this.timeline = h("input", {
+      type: "range",
+      class: "timeline",
+      min: "0",
+      max: String(plannedDuration ?? UNKNOWN_DURATION),
+      step: "0.001",
+      value: "0",
+      "aria-label": "Time",
+    });
+    this.until = h(
+      "span",
+      { class: "clock-until" },
+      plannedDuration ? `of ${seconds(plannedDuration, 0)}` : "",
+    );
+    this.root = this.layout(more);
+    this.listen();
+    this.undo = [session.on("shown", () => this.paint()), this.bindKeys()];
+  }
+
+  dispose(): void {
+    for (const step of this.undo) step();
+  }
+
+  private layout(more: HTMLElement): HTMLElement {
+    const { session } = this;
+    return h(
+      "div",
+      { class: "transport", role: "group", "aria-label": "Run of the simulation" },
+      h("div", { class: "timeline-row" }, this.timeline, this.loop, more),
+      h(
+        "div",
+        { class: "transport-row" },
+        h(
+          "div",
+          { class: "transport-group" },
+          button("reset", "Reset to the start", "backspace", () => void session.reset()),
+          this.back,
+          this.play,
+          button("step", "One integrator step", "→", () => void session.forward()),
+        ),
+        h(
+          "div",
+          { class: "transport-group joined", hidden: !session.controls },
+          button("skip", "Step by time", "full stop", () => this.stepTime()),
+          this.stride,
+        ),
+        h(
+          "p",
+          { class: "clock-box" },
+          this.clock,
+          " ",
+          this.until,
+          h("span", { class: "clock-slot" }, this.mode, this.live),
+        ),
+        h("div", { class: "transport-group speed" }, this.speed),
+      ),
+    );
+  }
+
+  private listen(): void {
+    const { session, timeline, clock } = this;
+    this.speed.addEventListener("change", () => session.setSpeed(Number(this.speed.value)));
+    timeline.addEventListener("input", () => session.seek(Number(timeline.value)));
+    clock.addEventListener("focus", () => clock.select());
+    clock.addEventListener("blur", () => this.paint());
+    clock.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") clock.blur();
+      if (event.key !== "Enter") return;
+      const time = typedNumber(clock.value);
+      clock.blur();
+      if (Number.isFinite(time)) void session.goTo(time);
+    });
+  }
+
+  private bindKeys(): () => void {
+    const { session } = this;
+    return bind([
+      { keys: [" "], shown: "space", does: "Play or pause", run: () => void session.toggle() },
+      {
+        keys: ["ArrowRight"],
+        shown: "→",
+        does: "One integrator step, or the next moment while looking back",
+        run: () => void session.forward(),
+      },
+      {
+        keys: ["l", "L"],
+        shown: "L",
+        does: "Loop: show the run again and again",
+        run: () => this.toggleLoop(),
+      },
+      {
+        keys: ["ArrowLeft"],
+        shown: "←",
+        does: "Back to the moment before, without computing",
+        run: () => session.back(),
+      },
+      { keys: ["."], shown: ".", does: "Step by time", run: () => this.stepTime() },
+      { keys: ["+", "="], shown: "+", does: "Faster", run: () => this.changeSpeed(1) },
+      { keys: ["-"], shown: "−", does: "Slower", run: () => this.changeSpeed(-1) },
+      { keys: ["Backspace"], shown: "Backspace", does: "Back to the start", run: () => void session.reset() },
+    ]);
+  }
+
+  private stepTime(): void {
+    void this.session.step({ seconds: Number(this.stride.value) });
+  }
+
+  private changeSpeed(by: number): void {
+    const at = this.speed.selectedIndex + by;
+    this.speed.selectedIndex = Math.max(0, Math.min(SPEEDS.length - 1, at));
+    this.session.setSpeed(Number(this.speed.value));
+  }
+
+  private toggleLoop(): void {
+    this.session.loop = !this.session.loop;
+    this.loop.setAttribute("aria-pressed", String(this.session.loop));
+  }
+
+  private paint(): void {
+    const { session } = this;
+    const state = session.latest;
+    if (!state) return;
+    this.paintTimeline(session.time, state);
+    if (document.activeElement !== this.clock) this.clock.value = fixedPlain(session.time, 3);
+    setText(this.until, `of ${Number(state.duration.toFixed(3))} s`);
+    setText(this.mode, session.replaying ? "replay" : modeOf(state));
+    this.live.hidden = !session.reviewing || session.replaying;
+    this.mode.hidden = !this.live.hidden;
+    this.back.disabled = session.time <= 0;
+    if (this.moving !== session.moving) this.paintPlay(session.moving);
+  }
+
+  private paintTimeline(time: number, { time: computed, duration }: SessionState): void {
+    const { timeline } = this;
+    const percent = (part: number): string => `${duration > 0 ? (100 * part) / duration : 0}%`;
+    timeline.max = String(duration);
+    timeline.value = String(time);
+    timeline.style.setProperty("--done", percent(time));
+    timeline.style.setProperty("--computed", percent(computed));
+    timeline.setAttribute(
+      "aria-valuetext",
+      `${seconds(time)} of ${seconds(duration, 0)}, computed up to ${seconds(computed)}`,
+    );
+  }
+
+  private paintPlay(moving: boolean): void {
+    this.moving = moving;
+    const label = moving ? "Pause" : "Play";
+    this.play.replaceChildren(icon(moving ? "pause" : "play"));
+    this.play.setAttribute("aria-label", label);
+    this.play.title = `${label} (space)`;
+  }
+}
+
+function modeOf(state: SessionState): string {
+  if (state.error) return "stopped";
+  if (state.finished) return "complete";
+  return state.playing ? "running" : "paused";
+}
+
+function button(name: IconName, label: string, keys: string, run: () => void, cls = ""): HTMLButtonElement {
+  return h(
     "button",
     {
       type: "button",
-      class: "button quiet small icon-only",
-      "aria-label": "Loop: show the run again and again",
-      title: "Loop: show the run again and again (L)",
-      "aria-pressed": "false",
-      onclick: () => setLoop(),
+      class: `button icon-button ${cls}`,
+      "aria-label": label,
+      title: `${label} (${keys})`,
+      onclick: run,
     },
-    icon("loop"),
+    icon(name),
   );
-  const setLoop = (): void => {
-    session.loop = !session.loop;
-    loop.setAttribute("aria-pressed", String(session.loop));
-  };
-
-  let playing: boolean | undefined;
-  const paint = (): void => {
-    const state = session.latest;
-    if (!state) return;
-    const time = session.time;
-    slider.max = String(state.duration);
-    slider.value = String(time);
-    slider.style.setProperty("--done", `${state.duration > 0 ? (100 * time) / state.duration : 0}%`);
-    slider.style.setProperty(
-      "--computed",
-      `${state.duration > 0 ? (100 * state.time) / state.duration : 0}%`,
-    );
-    slider.setAttribute(
-      "aria-valuetext",
-      `${seconds(time)} of ${seconds(state.duration, 0)}, computed up to ${seconds(state.time)}`,
-    );
-    if (document.activeElement !== clock) clock.value = fixedPlain(time, 3);
-    setText(until, `of ${Number(state.duration.toFixed(3))} s`);
-    setText(
-      mode,
-      session.replaying
-        ? "replay"
-        : state.error
-          ? "stopped"
-          : state.finished
-            ? "complete"
-            : state.playing
-              ? "running"
-              : "paused",
-    );
-    live.hidden = !session.reviewing || session.replaying;
-    mode.hidden = !live.hidden;
-    back.disabled = time <= 0;
-    if (playing !== session.moving) {
-      playing = session.moving;
-      const label = playing ? "Pause" : "Play";
-      play.replaceChildren(icon(playing ? "pause" : "play"));
-      play.setAttribute("aria-label", label);
-      play.title = `${label} (space)`;
-    }
-  };
-  const silence = session.on("shown", paint);
-
-  const release = bind([
-    { keys: [" "], shown: "space", says: "Play or pause", run: () => void session.toggle() },
-    {
-      keys: ["ArrowRight"],
-      shown: "→",
-      says: "One integrator step, or the next moment while looking back",
-      run: stepOnce,
-    },
-    { keys: ["l", "L"], shown: "L", says: "Loop: show the run again and again", run: setLoop },
-    {
-      keys: ["ArrowLeft"],
-      shown: "←",
-      says: "Back to the moment before, without computing",
-      run: () => session.back(),
-    },
-    { keys: ["."], shown: ".", says: "Step by time", run: stepTime },
-    { keys: ["+", "="], shown: "+", says: "Faster", run: () => changeSpeed(1) },
-    { keys: ["-"], shown: "−", says: "Slower", run: () => changeSpeed(-1) },
-    { keys: ["Backspace"], shown: "Backspace", says: "Back to the start", run: () => void session.reset() },
-  ]);
-
-  const root = h(
-    "div",
-    { class: "transport", role: "group", "aria-label": "Run of the simulation" },
-    h("div", { class: "timeline-row" }, slider, loop, more),
-    h(
-      "div",
-      { class: "transport-row" },
-      h(
-        "div",
-        { class: "transport-group" },
-        button("reset", "Reset to the start", "backspace", () => void session.reset()),
-        back,
-        play,
-        button("step", "One integrator step", "→", stepOnce),
-      ),
-      h(
-        "div",
-        { class: "transport-group joined", hidden: !session.controls },
-        button("skip", "Step by time", "full stop", stepTime),
-        stride,
-      ),
-      h("p", { class: "clock-box" }, clock, " ", until, h("span", { class: "clock-slot" }, mode, live)),
-      h("div", { class: "transport-group speed" }, speed),
-    ),
-  );
-
-  return {
-    root,
-    dispose: () => {
-      release();
-      silence();
-    },
-  };
 }

@@ -3,13 +3,13 @@ import type { SessionSource } from "../api/client";
 import type { Scene } from "../api/types";
 import { h } from "../core/dom";
 import { inspector } from "../inspector/inspector";
-import { presenterPanel } from "../lecture/presenter";
+import { PresenterPanel } from "../lecture/presenter";
 import { Session } from "../session/session";
 import { restore, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
-import { stage } from "../stage/stage";
+import { Stage } from "../stage/stage";
 import { trouble } from "./run-problems";
-import { transport } from "./transport";
+import { Transport } from "./transport";
 
 export interface WorkbenchOptions {
   source: SessionSource;
@@ -36,10 +36,10 @@ export function mountWorkbench(
   session: Session,
   options: Partial<WorkbenchOptions>,
 ): { dispose: () => void; selectPanel: (key: string) => void } {
-  const picture = stage(session, options.scene, options.seen?.picture);
+  const picture = new Stage(session, options.scene, options.seen?.picture);
   const details = inspector(session, options.seen?.panel);
-  const shared = { session, panel: details.current, picture: picture.current, own: options.own };
-  const lecture = session.controls ? presenterPanel(session, () => viewOf(shared)) : undefined;
+  const shared = { session, panel: details.current, picture: () => picture.current(), own: options.own };
+  const lecture = session.controls ? new PresenterPanel(session, () => viewOf(shared)) : undefined;
   const more = h(
     "span",
     { class: "row tight" },
@@ -47,7 +47,7 @@ export function mountWorkbench(
     session.controls ? shareButton(shared) : null,
     picture.toggle,
   );
-  const controls = transport(session, options.scene?.simulation?.duration, more);
+  const controls = new Transport(session, options.scene?.simulation?.duration, more);
   root.replaceChildren(
     picture.root,
     controls.root,

@@ -39,17 +39,24 @@ export interface Layout {
   named: boolean;
 }
 
+/** Largest side of a cell, px. */
 const MAX_CELL = 26;
-const NAMED_FROM = 13;
+/** Smallest side of a cell, px. */
 const MIN_CELL = 3;
+/** Cells from this side on have their own names beside them, px. */
+const MIN_NAMED = 13;
+/** Margin for the names of rows, px. */
+const LEFT = { wide: 168, narrow: 92 };
+/** Margin for the names of columns, px. */
+const TOP = { named: 78, groups: 26 };
 
-/** Fits the matrix to a width; names are drawn where a cell leaves room for them. */
-export function layout(rows: number, columns: number, room: number, wide: boolean): Layout {
-  const left = wide ? 168 : 92;
-  const fit = (margin: number): number => Math.floor((room - margin - 2) / Math.max(1, columns));
-  const cell = Math.max(MIN_CELL, Math.min(MAX_CELL, fit(left)));
-  const named = cell >= NAMED_FROM;
-  const top = named ? 78 : 26;
+/** Fits the matrix to a width; single names are drawn where cells are large enough for them. */
+export function layout(rows: number, columns: number, width: number, wide: boolean): Layout {
+  const left = wide ? LEFT.wide : LEFT.narrow;
+  const fit = Math.floor((width - left - 2) / Math.max(1, columns));
+  const cell = Math.max(MIN_CELL, Math.min(MAX_CELL, fit));
+  const named = cell >= MIN_NAMED;
+  const top = named ? TOP.named : TOP.groups;
   return { cell, left, top, named, width: left + cell * columns + 2, height: top + cell * rows + 2 };
 }
 

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { type ModeMotion, type Placed, swung, turned } from "../../mechanics/pose";
 import { norm } from "../../mechanics/vec";
-import { columnsOf, difference, plotSvg, resample, ticks } from "./compare";
+import { columnsOf, difference, resample } from "./compare";
+import { plotSvg, ticks } from "./svg-file";
 
 describe("two runs", () => {
   it("are compared at the times of the present one, where both exist", () => {

@@ -1,4 +1,4 @@
-// Two runs laid over each other: the kept one is read at the times of the present one.
+// Two runs laid over each other: the earlier one, or a table from a file, is read at the times of the present one.
 
 export interface Columns {
   times: number[];
@@ -43,7 +43,7 @@ export function resample(times: number[], values: number[], at: number[]): (numb
   });
 }
 
-/** Present less kept, and the largest of it. */
+/** Present values less earlier ones, and the largest size among them. */
 export function difference(
   now: number[],
   before: (number | null)[],
@@ -54,78 +54,3 @@ export function difference(
   });
   return { values, largest: values.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0) };
 }
-
-export interface Line {
-  label: string;
-  unit: string;
-  values: (number | null)[];
-  color: string;
-  dash: number[];
-}
-
-const [W, H, LEFT, RIGHT, TOP, BOTTOM] = [900, 520, 88, 24, 46, 60];
-
-/** A plot as a file of its own, readable in print and on a slide. */
-export function plotSvg(
-  title: string,
-  times: number[],
-  lines: Line[],
-  colors: { ink: string; line: string; paper: string },
-): string {
-  const numbers = lines.flatMap((line) =>
-    line.values.filter((value): value is number => value !== null && Number.isFinite(value)),
-  );
-  const [x0, x1] = [times[0] ?? 0, times.at(-1) ?? 1];
-  let [y0, y1] = [Math.min(...numbers, Infinity), Math.max(...numbers, -Infinity)];
-  if (!(y1 > y0)) [y0, y1] = [(Number.isFinite(y0) ? y0 : 0) - 1, (Number.isFinite(y0) ? y0 : 0) + 1];
-  const x = (t: number): number => LEFT + ((t - x0) / (x1 - x0 || 1)) * (W - LEFT - RIGHT);
-  const y = (v: number): number => H - BOTTOM - ((v - y0) / (y1 - y0)) * (H - TOP - BOTTOM);
-  const text = (at: string, body: string): string =>
-    `<text ${at} fill="${colors.ink}">${escapeXml(body)}</text>`;
-  const grid = [
-    ...ticks(x0, x1).map(
-      (t) =>
-        `<path d="M${r(x(t))} ${TOP}V${H - BOTTOM}" stroke="${colors.line}"/>${text(`x="${r(x(t))}" y="${H - BOTTOM + 22}" text-anchor="middle"`, short(t))}`,
-    ),
-    ...ticks(y0, y1).map(
-      (v) =>
-        `<path d="M${LEFT} ${r(y(v))}H${W - RIGHT}" stroke="${colors.line}"/>${text(`x="${LEFT - 10}" y="${r(y(v) + 5)}" text-anchor="end"`, short(v))}`,
-    ),
-  ];
-  const curves = lines.map((line) => {
-    let pen = "M";
-    const d = line.values
-      .map((value, k) => {
-        if (value === null || !Number.isFinite(value)) {
-          pen = "M";
-          return "";
-        }
-        const point = `${pen}${r(x(times[k] ?? 0))} ${r(y(value))}`;
-        pen = "L";
-        return point;
-      })
-      .join("");
-    return `<path d="${d}" fill="none" stroke="${line.color}" stroke-width="2.5"${line.dash.length > 0 ? ` stroke-dasharray="${line.dash.join(" ")}"` : ""}/>`;
-  });
-  const names = lines.map(
-    (line, k) =>
-      `<path d="M${LEFT + k * 190} 30h28" stroke="${line.color}" stroke-width="3"${line.dash.length > 0 ? ` stroke-dasharray="${line.dash.join(" ")}"` : ""}/>${text(`x="${LEFT + 36 + k * 190}" y="35"`, `${line.label}${line.unit ? `, ${line.unit}` : ""}`)}`,
-  );
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${W} ${H}" width="${W}" height="${H}" font-family="sans-serif" font-size="16"><title>${escapeXml(title)}</title><rect width="${W}" height="${H}" fill="${colors.paper}"/>${grid.join("")}${curves.join("")}${names.join("")}${text(`x="${(LEFT + W - RIGHT) / 2}" y="${H - 14}" text-anchor="middle"`, "Time, s")}</svg>\n`;
-}
-
-/** About six round values from low to high. */
-export function ticks(low: number, high: number): number[] {
-  const rough = (high - low) / 6;
-  if (!(rough > 0) || !Number.isFinite(rough)) return [low];
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * ([1, 2, 5, 10].find((lead) => lead * power >= rough) ?? 10);
-  const found: number[] = [];
-  for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step && found.length < 20; k += 1)
-    found.push(k * step);
-  return found;
-}
-
-const r = (value: number): string => value.toFixed(1);
-const short = (value: number): string => String(Number(value.toPrecision(6))).replace("-", "−");
-const escapeXml = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");

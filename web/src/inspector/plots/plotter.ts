@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
-export interface Drawing {
+export interface Plot {
   /** A change of this key builds the plot anew. */
   key: string;
   log: boolean;
@@ -12,10 +12,11 @@ export interface Drawing {
   seek: (time: number) => void;
 }
 
+/** Height of a plot, px. */
 const HEIGHT = 260;
 const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; cursor: { at: number } }>();
 
-export function draw(place: HTMLElement, drawing: Drawing): void {
+export function draw(place: HTMLElement, drawing: Plot): void {
   const values = drawing.curves.map((curve) =>
     curve.values.map((value) => (drawing.log && value !== null && value <= 0 ? null : value)),
   );
@@ -34,7 +35,7 @@ export function draw(place: HTMLElement, drawing: Drawing): void {
   entry.plot.setData(data);
 }
 
-function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cursor: { at: number }): uPlot {
+function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, cursor: { at: number }): uPlot {
   const css = getComputedStyle(place);
   const color = (name: string): string => css.getPropertyValue(name).trim();
   const font = `12px ${css.fontFamily}`;
@@ -73,24 +74,7 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
           }),
         ),
       ],
-      hooks: {
-        draw: [
-          (self) => {
-            const x = Math.round(self.valToPos(cursor.at, "x", true));
-            const { ctx, bbox } = self;
-            if (x < bbox.left || x > bbox.left + bbox.width) return;
-            ctx.save();
-            ctx.strokeStyle = color("--accent");
-            ctx.lineWidth = devicePixelRatio;
-            ctx.setLineDash([]);
-            ctx.beginPath();
-            ctx.moveTo(x, bbox.top);
-            ctx.lineTo(x, bbox.top + bbox.height);
-            ctx.stroke();
-            ctx.restore();
-          },
-        ],
-      },
+      hooks: { draw: [(self) => drawCursor(self, cursor.at, color("--accent"))] },
       cursor: { drag: { x: false, y: false } },
       legend: { live: false },
     },
@@ -99,6 +83,22 @@ function build(place: HTMLElement, drawing: Drawing, data: uPlot.AlignedData, cu
   );
   plot.over.addEventListener("click", (event) => drawing.seek(plot.posToVal(event.offsetX, "x")));
   return plot;
+}
+
+/** The line at the time that the page shows. */
+function drawCursor(plot: uPlot, time: number, color: string): void {
+  const x = Math.round(plot.valToPos(time, "x", true));
+  const { ctx, bbox } = plot;
+  if (x < bbox.left || x > bbox.left + bbox.width) return;
+  ctx.save();
+  ctx.strokeStyle = color;
+  ctx.lineWidth = devicePixelRatio;
+  ctx.setLineDash([]);
+  ctx.beginPath();
+  ctx.moveTo(x, bbox.top);
+  ctx.lineTo(x, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.restore();
 }
 
 /** The picture as it is drawn, for a slide. */

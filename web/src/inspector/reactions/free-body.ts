@@ -1,9 +1,9 @@
 // One body cut free, with every force on it, their sum, and mass times acceleration.
-import type { SessionState, Vec3 } from "../api/types";
-import { h } from "../core/dom";
-import { num } from "../core/format";
-import { type Drawn, freeBody, momentAbout } from "../mechanics/forces";
-import { norm } from "../mechanics/vec";
+import type { SessionState, Vec3 } from "../../api/types";
+import { h } from "../../core/dom";
+import { num } from "../../core/format";
+import { type Drawn, freeBody, momentAbout } from "../../mechanics/forces";
+import { norm } from "../../mechanics/vec";
 
 export function paintFreeBody(place: HTMLElement, state: SessionState | undefined, drawn: Drawn): void {
   place.hidden = drawn.what !== "body";

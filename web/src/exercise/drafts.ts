@@ -1,0 +1,65 @@
+// Answers that were typed but not handed in yet: kept in this browser, for each lesson and its numbers.
+import type { Lesson } from "../api/types";
+import { recall, remember } from "../core/prefs";
+import type { Draft, QuestionField } from "./question";
+
+type Key = `draft:${string}`;
+
+export class DraftStore {
+  /** Set when all fields are made: hints that are being opened again must not be forgotten meanwhile. */
+  ready = false;
+  private readonly key: Key;
+  private readonly values: Record<string, string[]>;
+
+  constructor(private readonly lesson: Lesson) {
+    // Answers belong to the numbers that they are about.
+    this.key = lesson.has_variants && lesson.seed ? keyOf(lesson, lesson.seed) : `draft:${lesson.slug}`;
+    this.values = parse(recall(this.key));
+  }
+
+  /** What was typed into a question, and how many of its hints were open. */
+  of(question: string): Draft {
+    return { draft: this.values[question], hints: this.hintsOf(question) };
+  }
+
+  save(fields: QuestionField[]): void {
+    if (!this.ready) return;
+    const values: Record<string, string[]> = {};
+    for (const field of fields) {
+      values[field.id] = field.draft();
+      const opened = Math.max(field.hints(), this.hintsOf(field.id));
+      if (opened > 0) values[hintsKey(field.id)] = [String(opened)];
+    }
+    remember(this.key, JSON.stringify(values));
+  }
+
+  /** A draft that was begun before the name was known goes on under the name. */
+  copyTo(student: string): void {
+    const key = keyOf(this.lesson, student);
+    const draft = recall(this.key);
+    if (draft && !recall(key)) remember(key, draft);
+  }
+
+  private hintsOf(question: string): number {
+    return Number(this.values[hintsKey(question)]?.[0] ?? 0);
+  }
+}
+
+const keyOf = (lesson: Lesson, seed: string): Key => `draft:${lesson.slug}:${seed}`;
+const hintsKey = (question: string): string => `${question}#hints`;
+
+function parse(text: string | null): Record<string, string[]> {
+  if (!text) return {};
+  try {
+    const value: unknown = JSON.parse(text);
+    if (typeof value !== "object" || value === null) return {};
+    return Object.fromEntries(
+      Object.entries(value).filter(
+        (entry): entry is [string, string[]] =>
+          Array.isArray(entry[1]) && entry[1].every((part) => typeof part === "string"),
+      ),
+    );
+  } catch {
+    return {};
+  }
+}

@@ -1,0 +1,114 @@
+// Analyses of the scene as it is now, besides its run.
+import { api } from "../../api/client";
+import { announce, h } from "../../core/dom";
+import { reducedMotion } from "../../core/prefs";
+import { type Placed, placed, swung, visible } from "../../mechanics/pose";
+import type { Session } from "../../session/session";
+import { problemNotice } from "../../ui/notice";
+import type { Panel } from "../../ui/panel";
+import {
+  type AssemblyResult,
+  assemblyView,
+  type EquilibriumResult,
+  equilibriumView,
+  freedomsView,
+  type KinematicsResult,
+  kinematicsView,
+  type Mode,
+  type ModesResult,
+  modesView,
+} from "./results";
+
+/** Period at which a mode is shown, s: slow enough for the eye, whatever its frequency. */
+const SHOWN_PERIOD = 2;
+
+export class AnalysesTab implements Panel {
+  readonly root: HTMLElement;
+  private readonly result = h("section", {
+    class: "stack",
+    "aria-live": "polite",
+    "aria-label": "Result of the analysis",
+  });
+  private readonly back = h(
+    "button",
+    { type: "button", class: "button small", hidden: true, onclick: () => this.pose(undefined) },
+    "Back to the run",
+  );
+
+  constructor(private readonly session: Session) {
+    const scene = (of: unknown): { scene: unknown } => ({ scene: of });
+    this.root = h(
+      "div",
+      { class: "stack" },
+      h("p", { class: "help" }, "Asked of the scene with the numbers that it has now, from its start."),
+      h(
+        "div",
+        { class: "row wrap" },
+        this.button("Count freedoms", async (it) => freedomsView(await api.check(JSON.stringify(it)))),
+        this.button("Assemble", async (it) =>
+          assemblyView(await api.analyse<AssemblyResult>("assembly", scene(it))),
+        ),
+        this.button("Kinematics and driving forces", async (it) =>
+          kinematicsView(await api.analyse<KinematicsResult>("kinematics", scene(it))),
+        ),
+        this.button("Static equilibrium", async (it) =>
+          this.equilibrium(await api.analyse<EquilibriumResult>("equilibrium", scene(it))),
+        ),
+        this.button("Small vibrations", async (it) => {
+          const found = await api.analyse<ModesResult>("modes", scene(it));
+          return modesView(found, (mode) => this.swing(found.bodies, mode));
+        }),
+        this.back,
+      ),
+      this.result,
+    );
+    session.on("scene", () => this.pose(undefined));
+  }
+
+  refresh(): void {
+    // The results belong to the scene's start, not to the moment that is shown.
+  }
+
+  /** A button that runs an analysis and shows its result. */
+  private button(label: string, analyse: (scene: unknown) => Promise<HTMLElement[]>): HTMLButtonElement {
+    const button = h("button", { type: "button", class: "button" }, label);
+    button.addEventListener("click", () => {
+      const scene = this.session.view?.scene;
+      if (!scene) return;
+      button.disabled = true;
+      analyse(scene)
+        .then((parts) => {
+          this.result.replaceChildren(h("h3", null, label), ...parts);
+          announce(`${label}: the result is below.`);
+        })
+        .catch((error: unknown) => this.result.replaceChildren(problemNotice(error)))
+        .finally(() => {
+          button.disabled = false;
+        });
+    });
+    return button;
+  }
+
+  /** Shows a pose of the bodies in place of the run; undefined shows the run again. */
+  private pose(pose: Session["pose"]): void {
+    if (pose && this.session.latest?.playing) void this.session.pause();
+    this.session.setPose(pose);
+    this.back.hidden = !pose;
+  }
+
+  private equilibrium(found: EquilibriumResult): HTMLElement[] {
+    const state = this.session.latest;
+    if (state) this.pose(() => placed(state, found.bodies));
+    return equilibriumView(found, state?.bodies.map((body) => body.name) ?? []);
+  }
+
+  private swing(bodies: Placed[], mode: Mode): void {
+    const state = this.session.latest;
+    if (!state) return;
+    const size = visible(state);
+    this.pose((now) => {
+      const phase = reducedMotion() ? 0 : ((now / 1000 / SHOWN_PERIOD) % 1) * 2 * Math.PI;
+      return placed(state, swung(bodies, mode.shape, phase, size));
+    });
+  }
+}

@@ -1,0 +1,235 @@
+// Results of the analyses, as tables and lists of figures.
+import type { CheckReport, Reaction, Vec3 } from "../../api/types";
+import { h } from "../../core/dom";
+import { fixed, num, plural, sci, seconds } from "../../core/format";
+import type { ModeMotion, Placed } from "../../mechanics/pose";
+import { norm } from "../../mechanics/vec";
+import { liveTable } from "../../ui/table";
+
+export interface AssemblyResult {
+  bodies: { body: string; position: Vec3; moved: number; turned: number }[];
+  iterations: number;
+  opening: number;
+  left: number;
+}
+
+export interface KinematicsResult {
+  states: { time: number; bodies: Placed[]; reactions: { reactions: Reaction[] } }[];
+  iterations: number;
+}
+
+export interface EquilibriumResult {
+  iterations: number;
+  residual: number;
+  least_stiffness: number;
+  /** Null where the stiffness is too near zero to tell. */
+  stable: boolean | null;
+  bodies: Placed[];
+  reactions: { reactions: Reaction[] };
+}
+
+export interface Mode {
+  kind: string;
+  frequency: number;
+  growth: number;
+  damping_ratio: number;
+  shape: ModeMotion[];
+}
+
+export interface ModesResult {
+  freedoms: number;
+  modes: Mode[];
+  bodies: Placed[];
+  notes: string[];
+}
+
+/** Positions of a kinematic analysis that the table shows at most. */
+const MAX_ROWS = 21;
+
+const columns = (labels: string[], unit: string): { label: string; unit: string; number: boolean }[] =>
+  labels.map((label) => ({ label, unit, number: true }));
+
+function figures(list: [string, string][]): HTMLElement {
+  return h(
+    "dl",
+    { class: "figures" },
+    ...list.map(([label, value]) =>
+      h("div", { class: "figure" }, h("dt", null, label), h("dd", null, value)),
+    ),
+  );
+}
+
+export function freedomsView(report: CheckReport): HTMLElement[] {
+  const redundant = report.redundant.map((entry) => `${entry.joint} (${entry.rows.join(", ")})`);
+  return [
+    figures([
+      ["Bodies", String(report.bodies)],
+      ["Coordinates", String(report.coordinates)],
+      ["Rows", String(report.rows)],
+      ["Rank", String(report.rank)],
+      ["Degrees of freedom", String(report.degrees_of_freedom)],
+    ]),
+    redundant.length > 0
+      ? h("p", null, "Redundant rows: ", redundant.join("; "), ".")
+      : h("p", null, "No row is redundant."),
+  ];
+}
+
+export function assemblyView(found: AssemblyResult): HTMLElement[] {
+  const table = liveTable("Where the bodies came to lie", "Body", [
+    ...columns(["x", "y", "z", "moved"], "m"),
+    ...columns(["turned"], "rad"),
+  ]);
+  table.update(
+    found.bodies.map((body) => ({
+      head: body.body,
+      cells: [...body.position.map((part) => fixed(part, 5)), sci(body.moved), sci(body.turned)],
+    })),
+  );
+  return [
+    figures([
+      ["Steps", String(found.iterations)],
+      ["Open at the start", `${sci(found.opening)} m`],
+      ["Open now", `${sci(found.left)} m`],
+    ]),
+    table.root,
+  ];
+}
+
+export function kinematicsView(found: KinematicsResult): HTMLElement[] {
+  const { states } = found;
+  const drivers = (states[0]?.reactions.reactions ?? [])
+    .filter((entry) => entry.driver)
+    .map((entry) => entry.joint);
+  const table = liveTable(
+    "What each driver must exert, in the world frame",
+    "Time",
+    drivers.flatMap((name) => [...columns([`${name}: force`], "N"), ...columns(["moment"], "N m")]),
+  );
+  const size = (parts: { value: number }[]): string => num(norm(parts.map((part) => part.value) as Vec3), 6);
+  const stride = Math.max(1, Math.ceil(states.length / MAX_ROWS));
+  table.update(
+    states
+      .filter((_, k) => k % stride === 0)
+      .map((state) => ({
+        head: seconds(state.time),
+        cells: drivers.flatMap((name) => {
+          const entry = state.reactions.reactions.find((one) => one.joint === name);
+          return entry ? [size(entry.force), size(entry.moment)] : ["–", "–"];
+        }),
+      })),
+  );
+  return [
+    h("p", null, `${plural(states.length, "position")}, ${plural(found.iterations, "Newton step")}.`),
+    table.root,
+  ];
+}
+
+/** `names` are those of the bodies, in their order. */
+export function equilibriumView(found: EquilibriumResult, names: string[]): HTMLElement[] {
+  const places = liveTable("Centres of mass at rest", "Body", columns(["x", "y", "z"], "m"));
+  places.update(
+    found.bodies.map((body, k) => ({
+      head: names[k] ?? "",
+      cells: body.position.map((part) => fixed(part, 6)),
+    })),
+  );
+  const forces = liveTable("Reactions at rest, world frame", "Joint", [
+    ...columns(["Fx", "Fy", "Fz"], "N"),
+    ...columns(["Mx", "My", "Mz"], "N m"),
+  ]);
+  forces.update(
+    found.reactions.reactions.map((entry) => ({
+      head: entry.joint,
+      cells: [...entry.force, ...entry.moment].map(
+        (part) => `${part.unique ? "" : "≈ "}${num(part.value, 5)}`,
+      ),
+    })),
+  );
+  return [
+    figures([
+      ["Stable", found.stable === null ? "undecided" : found.stable ? "yes" : "no"],
+      ["Least stiffness", `${num(found.least_stiffness, 5)} N/m`],
+      ["Left over", `${sci(found.residual)} N`],
+      ["Steps", String(found.iterations)],
+    ]),
+    places.root,
+    forces.root,
+  ];
+}
+
+export function modesView(found: ModesResult, show: (mode: Mode) => void): HTMLElement[] {
+  return [
+    h(
+      "p",
+      null,
+      `${plural(found.freedoms, "degree")} of freedom about the equilibrium near the start. ` +
+        "Choose a mode to see it swing in the sketch.",
+    ),
+    modesTable(found.modes, show),
+    ...found.notes.map((note) => h("p", { class: "help" }, note)),
+  ];
+}
+
+function modesTable(modes: Mode[], show: (mode: Mode) => void): HTMLElement {
+  const buttons: HTMLButtonElement[] = [];
+  const rows = modes.map((mode, k) => {
+    const button = h(
+      "button",
+      {
+        type: "button",
+        class: "button small",
+        "aria-pressed": "false",
+        "aria-label": `Show mode ${k + 1}`,
+        onclick: () => {
+          for (const other of buttons) other.setAttribute("aria-pressed", String(other === button));
+          show(mode);
+        },
+      },
+      "Show",
+    );
+    buttons.push(button);
+    return h(
+      "tr",
+      null,
+      h("th", { scope: "row" }, `Mode ${k + 1}, ${mode.kind}`),
+      h("td", { class: "number" }, num(mode.frequency, 6)),
+      h("td", { class: "number" }, mode.frequency > 0 ? num(1 / mode.frequency, 5) : "–"),
+      h("td", { class: "number" }, num(mode.growth, 4)),
+      h("td", { class: "number" }, num(mode.damping_ratio, 4)),
+      h("td", null, button),
+    );
+  });
+  return h(
+    "div",
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Modes" },
+    h("table", { class: "data" }, modesHead(), h("tbody", null, ...rows)),
+  );
+}
+
+function modesHead(): HTMLElement {
+  const quantities = [
+    ["Frequency", "Hz"],
+    ["Period", "s"],
+    ["Growth", "1/s"],
+    ["Damping ratio", ""],
+  ];
+  return h(
+    "thead",
+    null,
+    h(
+      "tr",
+      null,
+      h("th", { scope: "col" }, "Mode"),
+      ...quantities.map(([label, unit]) =>
+        h(
+          "th",
+          { scope: "col", class: "number" },
+          label,
+          unit ? h("span", { class: "unit" }, ` ${unit}`) : null,
+        ),
+      ),
+      h("th", { scope: "col" }, h("span", { class: "visually-hidden" }, "Picture")),
+    ),
+  );
+}

@@ -1,0 +1,133 @@
+// What may be changed while it runs: the author's parameters as sliders, every other number for experts.
+
+import { count, type Numbers, none } from "../../api/numbers";
+import type { AfterChange, SessionParameter } from "../../api/types";
+import { announce, h, setText } from "../../core/dom";
+import { plural } from "../../core/format";
+import type { Session } from "../../session/session";
+import { empty } from "../../ui/notice";
+import type { Panel } from "../../ui/panel";
+import { Attempts } from "./attempts";
+import { ExpertPanel } from "./expert-panel";
+import { ParameterRow } from "./parameter-row";
+import { PullPanel } from "./pull-panel";
+
+export class ParametersTab implements Panel {
+  readonly root: HTMLElement;
+  private readonly attempts = new Attempts();
+  private readonly rows = new Map<string, ParameterRow>();
+  private readonly list = h("div", { class: "parameters" });
+  private readonly status = h("p", { class: "help", role: "status" });
+  private readonly undo = h(
+    "button",
+    { type: "button", class: "button small", onclick: () => void this.attempt(() => this.session.undo()) },
+    "Undo",
+  );
+  private readonly reset = h(
+    "button",
+    {
+      type: "button",
+      class: "button small",
+      onclick: () => void this.attempt(() => this.session.change(none())),
+    },
+    "Reset all",
+  );
+  private readonly expert: ExpertPanel;
+  private readonly pull: PullPanel;
+  /** The change to be sent next. */
+  private wanted: { to: Numbers; then?: AfterChange | undefined } | undefined;
+  private sending = false;
+
+  constructor(private readonly session: Session) {
+    this.expert = new ExpertPanel(session, (pointer, value, then) => {
+      const base = this.base();
+      this.change({ values: base.values, places: { ...base.places, [pointer]: value } }, then);
+    });
+    this.pull = new PullPanel(session);
+    this.root = h(
+      "div",
+      { class: "stack" },
+      h("div", { class: "row between" }, this.status, h("div", { class: "row" }, this.undo, this.reset)),
+      this.attempts.root,
+      this.list,
+      this.pull.root,
+      this.expert.root,
+    );
+    session.on("scene", () => {
+      this.paint();
+      this.expert.refresh();
+      if (count(session.numbers) === 0 && session.canUndo)
+        announce("All numbers stand as the author wrote them.");
+    });
+  }
+
+  refresh(): void {
+    this.paint();
+    this.expert.refresh();
+    this.pull.refresh();
+  }
+
+  private async attempt(change: () => Promise<void>): Promise<void> {
+    await this.attempts.run(change);
+    this.paint();
+  }
+
+  /** What a further change starts from: the one that waits, if there is one. */
+  private base(): Numbers {
+    return this.wanted?.to ?? this.session.numbers;
+  }
+
+  private setValue(name: string, value: number): void {
+    const base = this.base();
+    this.change({ values: { ...base.values, [name]: value }, places: base.places });
+  }
+
+  /** A slider that is dragged asks often: one request at a time, the newest wins. */
+  private change(to: Numbers, then?: AfterChange): void {
+    this.wanted = { to, then };
+    if (!this.sending) void this.send();
+  }
+
+  private async send(): Promise<void> {
+    this.sending = true;
+    while (this.wanted) {
+      const { to, then } = this.wanted;
+      this.wanted = undefined;
+      await this.attempt(() => this.session.change(to, then));
+    }
+    this.sending = false;
+    this.paint();
+  }
+
+  private paint(): void {
+    const { view, numbers, canUndo } = this.session;
+    if (!view) return;
+    const names = view.parameters.map((parameter) => parameter.name);
+    if (names.join("|") !== [...this.rows.keys()].join("|") || this.list.childElementCount === 0)
+      this.makeRows(view.parameters);
+    if (!this.sending)
+      for (const parameter of view.parameters)
+        this.rows.get(parameter.name)?.show(parameter, parameter.value);
+    const changed = count(numbers);
+    setText(this.status, changed === 0 ? "As the author wrote it." : `${plural(changed, "number")} changed.`);
+    this.undo.disabled = !canUndo;
+    this.reset.disabled = changed === 0;
+  }
+
+  private makeRows(parameters: SessionParameter[]): void {
+    this.rows.clear();
+    for (const parameter of parameters)
+      this.rows.set(
+        parameter.name,
+        new ParameterRow(parameter, (value) => this.setValue(parameter.name, value)),
+      );
+    this.list.replaceChildren(...[...this.rows.values()].map((row) => row.root));
+    if (parameters.length === 0)
+      this.list.replaceChildren(
+        empty(
+          "No sliders here",
+          "The author of this scene offers no parameters. Every number of it can be changed below.",
+        ),
+      );
+  }
+}

@@ -1,0 +1,105 @@
+// A plot as an SVG file.
+
+export interface Line {
+  label: string;
+  unit: string;
+  values: (number | null)[];
+  color: string;
+  dash: number[];
+}
+
+/** Size of the picture, px. */
+const WIDTH = 900;
+const HEIGHT = 520;
+/** The frame of the curves, px from the edges of the picture. */
+const LEFT = 88;
+const RIGHT = WIDTH - 24;
+const TOP = 46;
+const BOTTOM = HEIGHT - 60;
+/** Width of an entry of the legend, px. */
+const LEGEND_ENTRY = 190;
+/** About how many values an axis names. */
+const TICKS = 6;
+/** Larger than the number of values that an axis can name: a guard against an endless loop. */
+const MAX_TICKS = 20;
+
+interface Colors {
+  ink: string;
+  line: string;
+  paper: string;
+}
+
+/** A plot as a file of its own, readable in print and on a slide. */
+export function plotSvg(title: string, times: number[], lines: Line[], colors: Colors): string {
+  const numbers = lines.flatMap((line) =>
+    line.values.filter((value): value is number => value !== null && Number.isFinite(value)),
+  );
+  const [x0, x1] = [times[0] ?? 0, times.at(-1) ?? 1];
+  let [y0, y1] = [Math.min(...numbers, Infinity), Math.max(...numbers, -Infinity)];
+  if (!(y1 > y0)) [y0, y1] = [(Number.isFinite(y0) ? y0 : 0) - 1, (Number.isFinite(y0) ? y0 : 0) + 1];
+  const x = (t: number): number => LEFT + ((t - x0) / (x1 - x0 || 1)) * (RIGHT - LEFT);
+  const y = (v: number): number => BOTTOM - ((v - y0) / (y1 - y0)) * (BOTTOM - TOP);
+  const parts = [
+    ...ticks(x0, x1).flatMap((t) => [
+      `<path d="M${r(x(t))} ${TOP}V${BOTTOM}" stroke="${colors.line}"/>`,
+      text(`x="${r(x(t))}" y="${BOTTOM + 22}" text-anchor="middle"`, short(t), colors),
+    ]),
+    ...ticks(y0, y1).flatMap((v) => [
+      `<path d="M${LEFT} ${r(y(v))}H${RIGHT}" stroke="${colors.line}"/>`,
+      text(`x="${LEFT - 10}" y="${r(y(v) + 5)}" text-anchor="end"`, short(v), colors),
+    ]),
+    ...lines.map((line) => curve(line, (k) => x(times[k] ?? 0), y)),
+    ...lines.flatMap((line, k) => legendEntry(line, LEFT + k * LEGEND_ENTRY, colors)),
+    text(`x="${(LEFT + RIGHT) / 2}" y="${HEIGHT - 14}" text-anchor="middle"`, "Time, s", colors),
+  ];
+  const size = `viewBox="0 0 ${WIDTH} ${HEIGHT}" width="${WIDTH}" height="${HEIGHT}"`;
+  return [
+    `<svg xmlns="http://www.w3.org/2000/svg" ${size} font-family="sans-serif" font-size="16">`,
+    `<title>${escapeXml(title)}</title><rect width="${WIDTH}" height="${HEIGHT}" fill="${colors.paper}"/>`,
+    ...parts,
+    "</svg>\n",
+  ].join("");
+}
+
+/** A line through all finite values; it breaks where there is none. */
+function curve(line: Line, x: (k: number) => number, y: (value: number) => number): string {
+  let pen = "M";
+  const points = line.values.map((value, k) => {
+    if (value === null || !Number.isFinite(value)) {
+      pen = "M";
+      return "";
+    }
+    const point = `${pen}${r(x(k))} ${r(y(value))}`;
+    pen = "L";
+    return point;
+  });
+  return `<path d="${points.join("")}" fill="none" stroke="${line.color}" stroke-width="2.5"${dashes(line)}/>`;
+}
+
+function legendEntry(line: Line, left: number, colors: Colors): string[] {
+  return [
+    `<path d="M${left} 30h28" stroke="${line.color}" stroke-width="3"${dashes(line)}/>`,
+    text(`x="${left + 36}" y="35"`, `${line.label}${line.unit ? `, ${line.unit}` : ""}`, colors),
+  ];
+}
+
+const dashes = ({ dash }: Line): string => (dash.length > 0 ? ` stroke-dasharray="${dash.join(" ")}"` : "");
+
+const text = (place: string, body: string, { ink }: Colors): string =>
+  `<text ${place} fill="${ink}">${escapeXml(body)}</text>`;
+
+/** About six round values from low to high. */
+export function ticks(low: number, high: number): number[] {
+  const rough = (high - low) / TICKS;
+  if (!(rough > 0) || !Number.isFinite(rough)) return [low];
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5, 10].find((lead) => lead * power >= rough) ?? 10);
+  const found: number[] = [];
+  for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step && found.length < MAX_TICKS; k += 1)
+    found.push(k * step);
+  return found;
+}
+
+const r = (value: number): string => value.toFixed(1);
+const short = (value: number): string => String(Number(value.toPrecision(6))).replace("-", "−");
+const escapeXml = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");

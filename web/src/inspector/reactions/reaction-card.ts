@@ -1,0 +1,123 @@
+// The reaction of one joint, stated completely: on which body, about which point, in which frame, unique or not; and the
+// multipliers that it is made of.
+import type { Reaction, Vec3 } from "../../api/types";
+import { h } from "../../core/dom";
+import { num } from "../../core/format";
+import { norm } from "../../mechanics/vec";
+
+/** A reaction with its multipliers. */
+export interface JointReaction extends Reaction {
+  rows: { label: string; value: number }[];
+}
+
+/** The card of a joint; `toggle` selects it, or no joint. */
+export function card(entry: JointReaction, selected: boolean, toggle: () => void): HTMLElement {
+  const at = entry.about_at.map((part) => num(tidy(part, entry.about_at), 4)).join(", ");
+  const about = `moment about ${entry.about} at (${at}) m`;
+  return h(
+    "article",
+    { class: selected ? "joint is-selected" : "joint" },
+    h(
+      "h3",
+      null,
+      h(
+        "button",
+        {
+          type: "button",
+          class: "joint-select",
+          "aria-pressed": String(selected),
+          title: "Draw its force, mark its rows in the Jacobian",
+          onclick: toggle,
+        },
+        entry.joint,
+      ),
+      entry.driver ? h("span", { class: "help" }, " driver") : null,
+    ),
+    h(
+      "p",
+      { class: "convention" },
+      `On ${entry.on}, from ${entry.by}; ${about}; components in ${entry.expressed_in}.`,
+    ),
+    componentTable(entry),
+    entry.rows.length > 0 ? multiplierList(entry) : null,
+  );
+}
+
+/** Force and moment, component by component. */
+function componentTable(entry: JointReaction): HTMLElement {
+  const axes = entry.expressed_in.includes("world")
+    ? ["x", "y", "z"]
+    : entry.expressed_in.includes("joint")
+      ? ["1", "2", "3"]
+      : ["u", "v", "w"];
+  return h(
+    "div",
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${entry.joint}` },
+    h(
+      "table",
+      { class: "data" },
+      h(
+        "thead",
+        { class: "visually-hidden" },
+        h(
+          "tr",
+          null,
+          h("th", { scope: "col" }, "Quantity"),
+          ...axes.map((axis) => h("th", { scope: "col" }, axis)),
+          h("th", { scope: "col" }, "Size"),
+        ),
+      ),
+      h("tbody", null, componentRow(entry, "Force", axes, "N"), componentRow(entry, "Moment", axes, "N m")),
+    ),
+  );
+}
+
+function componentRow(
+  entry: JointReaction,
+  label: "Force" | "Moment",
+  axes: string[],
+  unit: string,
+): HTMLElement {
+  const symbol = label === "Force" ? "F" : "M";
+  const parts = label === "Force" ? entry.force : entry.moment;
+  // A moment beside the force, with an arm of a metre: less is rounding.
+  const all = values([...entry.force, ...entry.moment]);
+  const size = norm(values(parts) as Vec3);
+  return h(
+    "tr",
+    null,
+    h("th", { scope: "row" }, label),
+    ...parts.map((part, k) =>
+      h(
+        "td",
+        { class: part.unique ? "number" : "number is-shared", title: part.unique ? "" : "Not unique" },
+        h("span", { class: "component-name" }, `${symbol}${axes[k]} `),
+        part.unique ? "" : "≈ ",
+        num(tidy(part.value, all), 6),
+        part.unique ? null : h("span", { class: "visually-hidden" }, " not unique"),
+      ),
+    ),
+    h("td", { class: "number strong" }, `${num(tidy(size, all), 6)} `, h("span", { class: "unit" }, unit)),
+  );
+}
+
+function multiplierList({ joint, rows }: JointReaction): HTMLElement {
+  return h(
+    "ul",
+    { class: "lambdas", "aria-label": `Multipliers of ${joint}` },
+    ...rows.map((row) =>
+      h("li", null, h("span", null, row.label), h("b", null, `λ = ${num(tidy(row.value, values(rows)), 6)}`)),
+    ),
+  );
+}
+
+const values = (parts: { value: number }[]): number[] => parts.map((part) => part.value);
+
+/** Values below this part of the largest beside them are rounding: a few times the precision of a double. */
+const ROUNDING = 1e-14;
+
+/** Zero where a value is only rounding beside the other ones. */
+function tidy(value: number, beside: number[]): number {
+  const largest = Math.max(...beside.map(Math.abs));
+  return Math.abs(value) < ROUNDING * largest ? 0 : value;
+}

@@ -1,0 +1,35 @@
+// The line over the sketch while the 3-D view loads, and where it says that it cannot.
+import { announce, h, setText } from "../core/dom";
+import { ViewerUnavailable } from "./unavailable";
+
+const SKETCH_STAYS = "The sketch and the tables show the same run.";
+
+export class Loading {
+  private readonly bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
+  private readonly text = h("span");
+  readonly root = h("div", { class: "stage-loading", hidden: true }, this.text, this.bar);
+
+  begin(): void {
+    setText(this.text, "Loading the 3-D view…");
+    this.bar.hidden = false;
+  }
+
+  /** The loaded part of the viewer, from 0 to 1. */
+  progress(fraction: number): void {
+    // What still arrives after a failure must not hide its reason.
+    if (this.bar.hidden) return;
+    this.bar.value = fraction;
+    setText(
+      this.text,
+      fraction < 1 ? `Loading the 3-D view, ${Math.round(fraction * 100)} %` : "Starting the 3-D view…",
+    );
+  }
+
+  fail(error: unknown): void {
+    this.bar.hidden = true;
+    const reason = error instanceof ViewerUnavailable ? error.message : "The 3-D view could not be started.";
+    setText(this.text, `${reason} ${SKETCH_STAYS}`);
+    this.text.title = error instanceof Error ? error.message : String(error);
+    announce(`The 3-D view could not be loaded. ${SKETCH_STAYS}`);
+  }
+}
