@@ -9,7 +9,8 @@ use crate::model::BodyRef;
 use crate::scene::Coordinates;
 use crate::state::{ScalarState, State};
 use crate::system::System;
-use crate::system::feature::{Difference, FeatureId, Target};
+use crate::system::feature::{Difference, Target};
+use crate::system::index::{FeatureId, RowId};
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::{Form, equation_labels};
 use nalgebra::Vector3;
@@ -57,7 +58,7 @@ pub enum Source {
     /// A component of a row of a joint or driver.
     Joint {
         /// The row.
-        row: usize,
+        row: RowId,
         /// The component.
         component: usize,
     },
@@ -96,6 +97,7 @@ pub fn sources(system: &System) -> Vec<Source> {
         list.extend(data.layout.rigid_rows().map(|(k, l, _)| Source::Rigid { body, k, l }));
     }
     for (row, data) in system.rows.iter().enumerate().filter(|(_, data)| !data.implied) {
+        let row = RowId(row);
         list.extend((0..data.form.equations()).map(|component| Source::Joint { row, component }));
     }
     list
@@ -105,7 +107,7 @@ pub fn sources(system: &System) -> Vec<Source> {
 pub fn equation(system: &System, at: &State, source: Source) -> Equation {
     match source {
         Source::Rigid { body, k, l } => rigid_equation(at, body, k, l),
-        Source::Joint { row, component } => match system.rows[row].form {
+        Source::Joint { row, component } => match system[row].form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
                 let g = Vector3::ith(component, 1.0);
                 let difference = |of: &dyn Fn(FeatureId) -> Vector3<f64>| (of(a) - of(b))[component];
@@ -117,7 +119,7 @@ pub fn equation(system: &System, at: &State, source: Source) -> Equation {
                 }
             }
             Form::Product { a, b, target } => product_equation(system, at, a, b, target),
-            Form::Relation { .. } => relation_equation(system, at, &system.rows[row].form),
+            Form::Relation { .. } => relation_equation(system, at, &system[row].form),
         },
     }
 }
@@ -142,7 +144,8 @@ fn product_equation(system: &System, at: &State, a: Difference, b: Difference, t
     let rate = |d: Difference| d.of(|f| at.feature_rate(f));
     let driven_rate = |d: Difference| d.of(|f| at.driven_rate(system, f));
     let driven = |d: Difference| d.of(|f| at.driven_acceleration(system, f));
-    let fixed = |d: Difference| [Some(d.plus), d.minus].into_iter().flatten().all(|f| f >= system.changing);
+    let fixed =
+        |d: Difference| [Some(d.plus), d.minus].into_iter().flatten().all(|f| f.index() >= system.changing);
     let (x, y) = (value(a), value(b));
     let mut gradient = Vec::with_capacity(4);
     for (own, g, constant) in [(a, y, fixed(b)), (b, x, fixed(a))] {
@@ -186,7 +189,7 @@ fn gradients(system: &System, at: &State, gradient: &[(FeatureId, Vector3<f64>, 
     let mut list: Vec<BodyGradient> = Vec::with_capacity(2);
     for &(feature, g, constant) in gradient {
         let local = at.feature_local(system, feature);
-        let feature = &system.features[feature];
+        let feature = &system[feature];
         let BodyRef::Moving(body) = feature.body else { continue };
         let place = list.iter().position(|p| p.body == body).unwrap_or_else(|| {
             list.push(BodyGradient {

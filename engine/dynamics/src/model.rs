@@ -11,6 +11,7 @@ mod driver;
 mod error;
 mod event;
 mod joint;
+mod joint_keys;
 mod load;
 mod parameter;
 mod reader;
@@ -19,7 +20,7 @@ pub use body::ModelBody;
 pub use driver::{DriverKind, ModelDriver};
 pub use error::ModelError;
 pub use event::{EventQuantity, ModelEvent};
-pub use joint::{ModelJoint, director_along};
+pub use joint::{JointGeometry, ModelJoint, director_along};
 pub use load::{ForceLaw, LoadKind, ModelLoad};
 
 use crate::scene::{ConstraintMethod, Scene, Settings};

@@ -20,7 +20,8 @@ pub use rows::{Residual, ScalarState};
 use crate::model::BodyRef;
 use crate::model::motion::Jet;
 use crate::system::System;
-use crate::system::feature::{FeatureId, Target};
+use crate::system::feature::Target;
+use crate::system::index::FeatureId;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
@@ -175,7 +176,7 @@ impl State {
             }
         }
         for (state, angle) in self.angles.iter_mut().zip(&system.angles) {
-            state.set_position(angle.features().map(|f| self.features[f].value));
+            state.set_position(angle.features().map(|f| self.features[f.index()].value));
         }
         self.stage = Stage::Positions;
     }
@@ -205,8 +206,8 @@ impl State {
         for (state, angle) in self.angles.iter_mut().zip(&system.angles) {
             let features = angle.features();
             state.set_velocity(
-                features.map(|f| self.features[f].value),
-                features.map(|f| self.features[f].rate),
+                features.map(|f| self.features[f.index()].value),
+                features.map(|f| self.features[f.index()].rate),
             );
         }
         self.stage = Stage::Velocities;
@@ -278,28 +279,28 @@ impl State {
 
     /// From the centre of mass to a feature's point, or its vector.
     pub fn feature_arm(&self, feature: FeatureId) -> Vector3<f64> {
-        self.features[feature].arm
+        self.features[feature.index()].arm
     }
 
     /// Position of a feature's point, or its vector.
     pub fn feature_value(&self, feature: FeatureId) -> Vector3<f64> {
-        self.features[feature].value
+        self.features[feature.index()].value
     }
 
     /// Rate of change of [`Self::feature_value`].
     pub fn feature_rate(&self, feature: FeatureId) -> Vector3<f64> {
-        self.features[feature].rate
+        self.features[feature.index()].rate
     }
 
     /// Local coordinates of a feature at the current time.
     pub fn feature_local(&self, system: &System, feature: FeatureId) -> Vector3<f64> {
-        let feature = &system.features[feature];
+        let feature = &system[feature];
         feature.curve.map_or(feature.local, |curve| self.curves[curve][0])
     }
 
     /// The part of a feature's rate that its prescribed motion makes.
     pub fn driven_rate(&self, system: &System, feature: FeatureId) -> Vector3<f64> {
-        let feature = &system.features[feature];
+        let feature = &system[feature];
         let Some(curve) = feature.curve else { return Vector3::zeros() };
         let rate = self.curves[curve][1];
         match feature.body {
@@ -310,7 +311,7 @@ impl State {
 
     /// The part of a feature's second derivative that its prescribed motion makes.
     pub fn driven_acceleration(&self, system: &System, feature: FeatureId) -> Vector3<f64> {
-        let feature = &system.features[feature];
+        let feature = &system[feature];
         let Some(curve) = feature.curve else { return Vector3::zeros() };
         let [_, rate, acceleration] = self.curves[curve];
         match feature.body {

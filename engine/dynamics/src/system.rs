@@ -1,5 +1,7 @@
 //! The assembled system: everything that never changes during a run.
 
+pub mod index;
+
 pub mod natural;
 
 pub mod sharing;
@@ -32,12 +34,13 @@ use crate::system::angle::Angle;
 use crate::system::body::RigidBody;
 use crate::system::event::EventFunction;
 use crate::system::feature::{Feature, TargetCurve};
+use crate::system::index::{ConstraintId, FeatureId, IncidenceId, RowId, SolverRow};
 use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
 use nalgebra::Vector3;
-use std::ops::Range;
+use std::ops::{Index, Range};
 use std::sync::Arc;
 
 /// The rows of one joint or driver.
@@ -65,7 +68,7 @@ pub struct Constraint {
 #[derive(Clone, Copy, Debug)]
 pub struct Incidence {
     /// The joint.
-    pub constraint: usize,
+    pub constraint: ConstraintId,
     /// The body.
     pub body: usize,
     /// Offset of the block (rows are contiguous).
@@ -97,8 +100,8 @@ pub struct Row {
 /// Marks a feature of the ground, which meets no moving body.
 pub const NO_INCIDENCE: usize = usize::MAX;
 
-/// A principal moment of inertia below this part of m l², l the longest arm of the body's own joints, is as good as none
-/// for the factorization.
+/// Principal moment of inertia, relative to m l² with l the longest arm of the body's own joints, below which the inertia is
+/// regularized: S would be too ill-conditioned to be factored.
 const LACKING: f64 = 1e-7;
 /// δ over m l² of a body that lacks inertia — eq. (7.8).
 const REGULARIZING_INERTIA: f64 = 1e-4;
@@ -156,10 +159,10 @@ impl System {
     pub fn new(model: Model) -> Self {
         let mut builder = RowBuilder::default();
         for joint in &model.joints {
-            joint::write(&model, joint, &mut builder);
+            joint::build(&model, joint, &mut builder);
         }
         for driver in &model.drivers {
-            driver::write(&model, driver, &mut builder);
+            driver::build(&model, driver, &mut builder);
         }
         let mut loads: Vec<SystemLoad> =
             model.loads.iter().map(|l| SystemLoad::new(&model, l, &mut builder)).collect();
@@ -251,13 +254,13 @@ impl System {
 
     fn add_constraint(&mut self, written: ConstraintBlock) {
         let ConstraintBlock { name, forms, bodies: pair, points, driver } = written;
-        let index = self.constraints.len();
+        let index = ConstraintId(self.constraints.len());
         let size: usize = forms.iter().map(|row| row.form.independent()).sum();
         let first = self.incidences.len();
         let mut bodies: Vec<usize> = forms
             .iter()
             .flat_map(|row| row.form.features(&self.angles))
-            .filter_map(|f| match self.features[f].body {
+            .filter_map(|f| match self[f].body {
                 BodyRef::Ground => None,
                 BodyRef::Moving(body) => Some(body),
             })
@@ -279,7 +282,7 @@ impl System {
         for LabelledForm { label, form, implied } in forms {
             let mut incidence = [NO_INCIDENCE; 6];
             for (k, f) in form.features(&self.angles).into_iter().enumerate() {
-                if let BodyRef::Moving(body) = self.features[f].body {
+                if let BodyRef::Moving(body) = self[f].body {
                     let found = (first..self.incidences.len()).find(|&i| self.incidences[i].body == body);
                     incidence[k] = found.unwrap_or(NO_INCIDENCE);
                 }
@@ -309,6 +312,11 @@ impl System {
         self.solver_rows += size;
     }
 
+    /// All joints and drivers.
+    pub fn constraint_ids(&self) -> impl Iterator<Item = ConstraintId> + use<> {
+        (0..self.constraints.len()).map(ConstraintId)
+    }
+
     /// Whether nothing but weight and springs acts: then the energy stays what it is.
     pub fn is_conservative(&self) -> bool {
         !self.constraints.iter().any(|constraint| constraint.driver)
@@ -334,4 +342,41 @@ impl System {
             body.layout.store(&NaturalCoordinates { r: model.velocity, e: e_dot }, q_dot);
         }
     }
+}
+
+impl Constraint {
+    /// Its row forms.
+    pub fn row_ids(&self) -> impl Iterator<Item = RowId> + use<> {
+        self.forms.clone().map(RowId)
+    }
+
+    /// Its rows in the solver.
+    pub fn solver_rows(&self) -> impl Iterator<Item = SolverRow> + use<> {
+        self.solver.clone().map(SolverRow)
+    }
+
+    /// Where it meets moving bodies.
+    pub fn incidence_ids(&self) -> impl Iterator<Item = IncidenceId> + use<> {
+        self.incidences.clone().map(IncidenceId)
+    }
+}
+
+macro_rules! indexed {
+    ($($id:ident: $list:ident of $item:ident;)*) => {$(
+        impl Index<$id> for System {
+            type Output = $item;
+
+            #[inline]
+            fn index(&self, id: $id) -> &$item {
+                &self.$list[id.index()]
+            }
+        }
+    )*};
+}
+
+indexed! {
+    FeatureId: features of Feature;
+    ConstraintId: constraints of Constraint;
+    RowId: rows of Row;
+    IncidenceId: incidences of Incidence;
 }

@@ -21,7 +21,7 @@ pub use stage::Stage;
 use crate::error::EngineError;
 use triad_dynamics::constraints::ConstraintError;
 
-/// Most bodies that analyses with dense matrices take: their work grows with the cube.
+/// Greatest number of bodies in analyses with dense matrices, whose work grows with its cube.
 pub const MAX_BODIES: usize = 150;
 
 /// Why an analysis has no result.

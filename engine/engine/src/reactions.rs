@@ -58,19 +58,17 @@ pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
     let mut joints = Vec::with_capacity(system.constraints.len());
     for constraint in &system.constraints {
         let rows = constraint
-            .forms
-            .clone()
-            .flat_map(|index| {
-                let row = &system.rows[index];
+            .row_ids()
+            .flat_map(|id| {
+                let row = &system[id];
                 let labels = equation_labels(row.label, row.form.equations());
-                labels.into_iter().zip(at.of_row(index))
+                labels.into_iter().zip(at.of_row(id))
             })
             .map(|(label, value)| Multiplier { label, value })
             .collect();
         let side = usize::from(constraint.bodies[1] != BodyRef::Ground);
         let BodyRef::Moving(body) = constraint.bodies[side] else { continue };
-        let Some(incidence) = constraint.incidences.clone().find(|&i| system.incidences[i].body == body)
-        else {
+        let Some(incidence) = constraint.incidence_ids().find(|&id| system[id].body == body) else {
             continue;
         };
         let [force, about_center] = at.wrench_on(incidence);

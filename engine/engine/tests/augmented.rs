@@ -8,6 +8,7 @@ use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::reactions::rigid_multipliers;
 use triad_engine::state::State;
+use triad_engine::system::index::RowId;
 
 /// Full, reduced or mixed coordinates, body by body.
 const KINDS: [fn(usize) -> &'static str; 3] =
@@ -67,7 +68,7 @@ fn the_elimination_agrees_with_the_augmented_system_on_the_manifold() {
                     continue;
                 }
                 let index = system.rows.iter().position(|r| r.equation == row.equation).unwrap();
-                for (k, lambda) in found.multipliers.of_row(index).iter().enumerate() {
+                for (k, lambda) in found.multipliers.of_row(RowId(index)).iter().enumerate() {
                     let augmented = solution.multipliers[system.rigid_rows + row.equation + k];
                     assert!((lambda - augmented).abs() < 1e-8 * scale, "seed {seed}: {lambda} {augmented}");
                 }
@@ -94,7 +95,7 @@ fn rigid_body_multipliers_close_the_equations_of_motion() {
             let mut all: Vec<f64> = rigid.iter().flat_map(|body| body.rows.iter().map(|r| r.value)).collect();
             assert_eq!(all.len(), system.rigid_rows);
             for index in 0..system.rows.len() {
-                all.extend(found.multipliers.of_row(index));
+                all.extend(found.multipliers.of_row(RowId(index)));
             }
             let residual = &augmented.mass * DVector::from(acceleration)
                 + augmented.jacobian.tr_mul(&DVector::from(all))

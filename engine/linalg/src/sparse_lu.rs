@@ -4,6 +4,7 @@
 //! Comput. 9 (1988). Pivots, and the order of all sums, are those of the plain factorization of a full square, so that
 //! the solution is the same to the last bit.
 
+/// Marks a row that is no pivot yet, or that no column has touched.
 const NONE: usize = usize::MAX;
 
 /// A square matrix by columns.

@@ -7,53 +7,56 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// What a joint is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum JointKind {
-    /// A common point.
-    Spherical,
-    /// A common point and a common axis.
-    Revolute,
-    /// A common point and two axes that stay perpendicular, one in each body.
-    Universal,
-    /// A common axis, along and about which body j moves.
-    Cylindrical,
-    /// A common axis, along which body j slides without turning.
-    Prismatic,
-    /// A common plane: body j slides in the plane of body i through its point, normal to the axis, and turns about
-    /// the axis.
-    Planar,
-    /// A common axis, along which body j moves as it turns: `pitch` metres a turn.
-    Screw,
-    /// No relative motion.
-    Fixed,
-    /// A rigid massless bar between a point of each body.
-    Rod,
-    /// The point of body j stays on the line of body i through its point along the axis.
-    PointOnLine,
-    /// The point of body j stays in the plane of body i through its point, normal to the axis.
-    PointInPlane,
-    /// The angle of one revolute joint is `ratio` times that of another.
-    Gear,
+macro_rules! joint_kinds {
+    ($($(#[$text:meta])* $kind:ident = $word:literal,)*) => {
+        /// What a joint is.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum JointKind {$(
+            $(#[$text])*
+            $kind,
+        )*}
+
+        impl JointKind {
+            /// All of them.
+            pub const ALL: [Self; [$($word),*].len()] = [$(Self::$kind),*];
+
+            /// What a scene writes for it.
+            const fn as_str(self) -> &'static str {
+                match self {$(
+                    Self::$kind => $word,
+                )*}
+            }
+        }
+    };
 }
 
-impl JointKind {
-    /// All of them.
-    pub const ALL: [Self; 12] = [
-        Self::Spherical,
-        Self::Revolute,
-        Self::Universal,
-        Self::Cylindrical,
-        Self::Prismatic,
-        Self::Planar,
-        Self::Screw,
-        Self::Fixed,
-        Self::Rod,
-        Self::PointOnLine,
-        Self::PointInPlane,
-        Self::Gear,
-    ];
+joint_kinds! {
+    /// A common point.
+    Spherical = "spherical",
+    /// A common point and a common axis.
+    Revolute = "revolute",
+    /// A common point and two axes that stay perpendicular, one in each body.
+    Universal = "universal",
+    /// A common axis, along and about which body j moves.
+    Cylindrical = "cylindrical",
+    /// A common axis, along which body j slides without turning.
+    Prismatic = "prismatic",
+    /// A common plane: body j slides in the plane of body i through its point, normal to the axis, and turns about
+    /// the axis.
+    Planar = "planar",
+    /// A common axis, along which body j moves as it turns: `pitch` metres a turn.
+    Screw = "screw",
+    /// No relative motion.
+    Fixed = "fixed",
+    /// A rigid massless bar between a point of each body.
+    Rod = "rod",
+    /// The point of body j stays on the line of body i through its point along the axis.
+    PointOnLine = "point-on-line",
+    /// The point of body j stays in the plane of body i through its point, normal to the axis.
+    PointInPlane = "point-in-plane",
+    /// The angle of one revolute joint is `ratio` times that of another.
+    Gear = "gear",
 }
 
 impl fmt::Display for JointKind {
@@ -68,20 +71,7 @@ impl fmt::Display for JointKind {
     /// }
     /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Spherical => "spherical",
-            Self::Revolute => "revolute",
-            Self::Universal => "universal",
-            Self::Cylindrical => "cylindrical",
-            Self::Prismatic => "prismatic",
-            Self::Planar => "planar",
-            Self::Screw => "screw",
-            Self::Fixed => "fixed",
-            Self::Rod => "rod",
-            Self::PointOnLine => "point-on-line",
-            Self::PointInPlane => "point-in-plane",
-            Self::Gear => "gear",
-        })
+        f.pad(self.as_str())
     }
 }
 

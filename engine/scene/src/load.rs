@@ -236,11 +236,15 @@ impl Load {
     /// assert!(matches!(motor, Load::Torsion { torque: Some(_), .. }));
     /// ```
     pub fn motor(name: impl Into<String>, joint: impl Into<JointHandle>, torque: impl Into<Motion>) -> Self {
-        let mut load = Self::torsion(name, joint, 0.0, 0.0);
-        if let Self::Torsion { torque: place, .. } = &mut load {
-            *place = Some(torque.into());
+        Self::Torsion {
+            name: name.into(),
+            joint: joint.into().into(),
+            stiffness: 0.0,
+            free_angle: 0.0,
+            damping: 0.0,
+            torque: Some(torque.into()),
+            friction: None,
         }
-        load
     }
 
     /// Friction about a revolute or cylindrical joint.
@@ -249,11 +253,15 @@ impl Load {
         joint: impl Into<JointHandle>,
         friction: Friction,
     ) -> Self {
-        let mut load = Self::torsion(name, joint, 0.0, 0.0);
-        if let Self::Torsion { friction: place, .. } = &mut load {
-            *place = Some(friction);
+        Self::Torsion {
+            name: name.into(),
+            joint: joint.into().into(),
+            stiffness: 0.0,
+            free_angle: 0.0,
+            damping: 0.0,
+            torque: None,
+            friction: Some(friction),
         }
-        load
     }
 
     /// Friction along a prismatic or cylindrical joint.
@@ -262,11 +270,15 @@ impl Load {
         joint: impl Into<JointHandle>,
         friction: Friction,
     ) -> Self {
-        let mut load = Self::slider(name, joint, 0.0, 0.0);
-        if let Self::Slider { friction: place, .. } = &mut load {
-            *place = Some(friction);
+        Self::Slider {
+            name: name.into(),
+            joint: joint.into().into(),
+            stiffness: 0.0,
+            free_length: 0.0,
+            damping: 0.0,
+            force: None,
+            friction: Some(friction),
         }
-        load
     }
 
     /// The length of a spring or slider without force, m; other loads have none and stay as they are.

@@ -6,7 +6,8 @@ use triad_engine::equations::{column_names, row_names};
 use triad_engine::model::BodyRef;
 use triad_engine::scene::GROUND;
 use triad_engine::system::System;
-use triad_engine::system::feature::{Difference, FeatureId, Target};
+use triad_engine::system::feature::{Difference, Target};
+use triad_engine::system::index::FeatureId;
 use triad_engine::system::natural::Director;
 use triad_engine::system::row::Form;
 
@@ -198,7 +199,7 @@ fn difference(system: &System, d: Difference) -> Result<InstanceFeature, Instanc
 }
 
 fn feature(system: &System, id: FeatureId) -> Result<InstanceFeature, InstanceError> {
-    let feature = &system.features[id];
+    let feature = &system[id];
     if feature.curve.is_some() {
         return Err(InstanceError::MovingFeature);
     }

@@ -7,6 +7,7 @@ use crate::ode::OdeSystem;
 use crate::scene::ConstraintMethod;
 use crate::state::{self, State};
 use crate::system::System;
+use crate::system::index::ConstraintId;
 
 /// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
 const NEGLIGIBLE: f64 = 0.1;
@@ -157,18 +158,18 @@ impl Mechanism {
     fn check_motion(&self, time: f64, most: f64) -> Result<(), ConstraintError> {
         let Self { system, state, .. } = self;
         let rates = violation::rates(system, state);
-        let drivers = (0..rates.len()).filter(|&constraint| system.constraints[constraint].driver);
-        let driver = drivers.max_by(|&a, &b| rates[a].total_cmp(&rates[b]));
+        let drivers = system.constraint_ids().filter(|&id| system[id].driver);
+        let driver = drivers.max_by(|&a, &b| rates[a.index()].total_cmp(&rates[b.index()]));
         let unsolved = rates.iter().any(|rate| *rate > most);
         let Some(driver) = driver.filter(|_| unsolved) else { return Ok(()) };
-        let others = violation::worst(&rates).into_iter().filter(|&(constraint, _)| constraint != driver);
-        let name = |constraint: usize| system.constraints[constraint].name.clone();
+        let others = violation::worst(&rates).into_iter().filter(|&(id, _)| id != driver);
+        let name = |id: ConstraintId| system[id].name.clone();
         Err(ConstraintError::MotionImpossible {
             time,
             driver: name(driver),
-            with: others.take(violation::MAX_NAMED).map(|(constraint, _)| name(constraint)).collect(),
+            with: others.take(violation::MAX_NAMED).map(|(id, _)| name(id)).collect(),
             pointer: violation::pointer(system, driver),
-            missed: rates[driver],
+            missed: rates[driver.index()],
         })
     }
 

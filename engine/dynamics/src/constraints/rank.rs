@@ -57,7 +57,7 @@ pub fn analyze(system: &System, state: &mut State, elimination: &mut Elimination
 pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
     let System { constraints, bodies, model, .. } = system;
     let Some(row) = rank.dependent.first() else { return Ok(()) };
-    let tree = model.drivers.is_empty() && model.joints.iter().all(|joint| joint.gear.is_none());
+    let tree = model.drivers.is_empty() && model.joints.iter().all(|joint| joint.coupled_joints().is_none());
     if !tree || islands::has_loops(model) {
         return Ok(());
     }

@@ -7,6 +7,7 @@ use crate::constraints::ConstraintError;
 use crate::scene::{ConstraintMethod, Settings};
 use crate::state::State;
 use crate::system::feature::Difference;
+use crate::system::index::ConstraintId;
 use crate::system::row::Form;
 use crate::system::{Row, System};
 
@@ -15,8 +16,8 @@ use crate::system::{Row, System};
 pub struct ConstraintViolation {
     /// Largest |Φ| relative to the size of its row, rigid-body rows included.
     pub relative: f64,
-    /// Joints and drivers that are open, the worst first: index of the constraint and its relative |Φ|.
-    pub constraints: Vec<(usize, f64)>,
+    /// Joints and drivers that are open, the worst first, with their relative |Φ|.
+    pub constraints: Vec<(ConstraintId, f64)>,
 }
 
 /// Greatest number of joints that an error names.
@@ -25,31 +26,32 @@ pub const MAX_NAMED: usize = 4;
 impl ConstraintViolation {
     /// Name of the joint that is open most, and of those open with it.
     pub fn names(&self, system: &System) -> (String, Vec<String>) {
-        let name = |&(index, _): &(usize, f64)| system.constraints.get(index).map(|g| g.name.clone());
-        let mut names = self.constraints.iter().take(MAX_NAMED).filter_map(name);
+        let name = |&(id, _): &(ConstraintId, f64)| system[id].name.clone();
+        let mut names = self.constraints.iter().take(MAX_NAMED).map(name);
         (names.next().unwrap_or_default(), names.collect())
     }
 
     /// JSON pointer of the element that is open most.
     pub fn pointer(&self, system: &System) -> String {
-        pointer(system, self.constraints.first().map_or(0, |&(index, _)| index))
+        pointer(system, self.constraints.first().map_or(ConstraintId(0), |&(id, _)| id))
     }
 }
 
-/// JSON pointer of a joint or driver, by the index of its constraint: rows are written by joints, then by drivers.
-pub fn pointer(system: &System, constraint: usize) -> String {
-    match constraint.checked_sub(system.model.joints.len()) {
+/// JSON pointer of a joint or driver.
+pub fn pointer(system: &System, constraint: ConstraintId) -> String {
+    match constraint.index().checked_sub(system.model.joints.len()) {
         Some(driver) => format!("/drivers/{driver}"),
-        None => format!("/joints/{constraint}"),
+        None => format!("/joints/{}", constraint.index()),
     }
 }
 
-/// A joint counts as open with the worst one if it is violated by more than this part of it.
+/// An error names a joint beside the most violated one if its own violation is more than this fraction of that one's.
 const SHARE: f64 = 0.05;
 
-/// A relative |Φ| above which a run with projection has lost its constraints.
+/// Relative |Φ| above which a run has lost its constraints: chosen above what projection leaves at any
+/// tolerance and below what a picture shows.
 const LOST: f64 = 1e-6;
-/// The same with Baumgarte's stabilization or penalties, which keep a bounded violation by design.
+/// The same with Baumgarte's stabilization or penalties, which keep a violation within bounds but not near zero.
 const LOST_BY_FEEDBACK: f64 = 0.1;
 
 /// Refuses positions that are off the constraints: they are no result.
@@ -105,11 +107,12 @@ fn by_constraint(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
     system.constraints.iter().map(|constraint| largest(&system.rows[constraint.forms.clone()])).collect()
 }
 
-/// The constraints with the largest numbers, the worst first.
-pub fn worst(numbers: &[f64]) -> Vec<(usize, f64)> {
+/// The constraints with the largest numbers, of one for each, the worst first.
+pub fn worst(numbers: &[f64]) -> Vec<(ConstraintId, f64)> {
     let worst = numbers.iter().copied().fold(0.0, larger);
-    let counts = |&(_, open): &(usize, f64)| open > SHARE * worst || open.is_nan();
-    let mut constraints: Vec<(usize, f64)> = numbers.iter().copied().enumerate().filter(counts).collect();
+    let counts = |&(_, open): &(ConstraintId, f64)| open > SHARE * worst || open.is_nan();
+    let numbered = numbers.iter().enumerate().map(|(index, &number)| (ConstraintId(index), number));
+    let mut constraints: Vec<(ConstraintId, f64)> = numbered.filter(counts).collect();
     constraints.sort_by(|a, b| b.1.total_cmp(&a.1));
     constraints
 }
@@ -131,7 +134,7 @@ fn rigid_violation(at: &State) -> f64 {
 /// What a row's Φ is measured in: m for each point in it.
 fn row_size(system: &System, form: &Form) -> f64 {
     let points = |d: Difference| {
-        if system.features[d.plus].point { system.length } else { 1.0 }
+        if system[d.plus].point { system.length } else { 1.0 }
     };
     match *form {
         Form::Coincidence { .. } => system.length,
@@ -141,21 +144,23 @@ fn row_size(system: &System, form: &Form) -> f64 {
     }
 }
 
-/// What a run has shown of itself.
+/// What a run has shown that speaks against its result.
 #[derive(Clone, Copy, Debug)]
 pub struct Signs {
-    /// When it first passed a singular position, s.
+    /// Time at which it first passed a singular configuration, s.
     pub passed: Option<f64>,
-    /// Energy that is missing, relative to the largest kinetic energy.
+    /// Error of the energy balance, relative to the largest kinetic energy.
     pub drift: f64,
     /// Largest |Φ| relative to the size of its row.
     pub open: f64,
-    /// Part of the lightest mass that is lost in the rounding of penalties.
+    /// Rounding of the penalty terms, relative to the lightest mass.
     pub swallowed: f64,
 }
 
-/// Energy may be missing, and rows may be open, by so many tolerances, within these bounds.
+/// Tolerances by which the energy and the constraints may be off before a result is doubted: local errors add up over the
+/// steps of a run.
 const ALLOWED: f64 = 1e4;
+/// Least and greatest value of that bound, relative: tighter is rounding, looser is no result.
 const ALLOWED_WITHIN: (f64, f64) = (1e-6, 1e-2);
 
 /// What speaks against the result of a run, in words, with what to use instead.

@@ -16,6 +16,7 @@ pub use twist_jacobian::TwistJacobian;
 
 use crate::state::{AppliedForces, State};
 use crate::system::System;
+use crate::system::index::{ConstraintId, IncidenceId};
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
@@ -27,9 +28,10 @@ use triad_linalg::block_cholesky::BlockSlot;
 /// Large enough that rounding in a nearly singular S stays harmless through singular positions (with 1e-11 the step
 /// control stalls there at tolerances of 1e-12), small enough that two refinements remove its effect elsewhere.
 pub const REGULARIZATION: f64 = 1e-9;
-/// A relative pivot below this calls for the regularization.
+/// Relative pivot of S below which it is regularized although its rows were found independent: the position is nearly
+/// singular.
 const NEAR_SINGULAR: f64 = 1e-9;
-/// Refinement steps where the factor is that of a regularized or lent system.
+/// Steps of iterative refinement where S or an inertia is regularized.
 const REFINEMENTS: usize = 3;
 
 /// Work done so far.
@@ -100,9 +102,9 @@ impl Elimination {
         let sizes: Vec<usize> = system.constraints.iter().map(|g| g.solver.len()).collect();
         let edges = system.incidences_of_body.iter().flat_map(|incidences| {
             incidences.iter().enumerate().flat_map(move |(k, &p)| {
-                incidences[k + 1..]
-                    .iter()
-                    .map(move |&q| (system.incidences[p].constraint, system.incidences[q].constraint))
+                incidences[k + 1..].iter().map(move |&q| {
+                    (system.incidences[p].constraint.index(), system.incidences[q].constraint.index())
+                })
             })
         });
         let factor = BlockCholesky::new(&sizes, edges);
@@ -110,7 +112,10 @@ impl Elimination {
         for incidences in &system.incidences_of_body {
             for (k, &p) in incidences.iter().enumerate() {
                 for &q in &incidences[k..] {
-                    let slot = factor.slot(system.incidences[p].constraint, system.incidences[q].constraint);
+                    let slot = factor.slot(
+                        system.incidences[p].constraint.index(),
+                        system.incidences[q].constraint.index(),
+                    );
                     let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
                     contributions.push(Contribution { slot, left, right });
                 }
@@ -250,7 +255,7 @@ impl Elimination {
         }
         for incidence in &system.incidences {
             let [v, w] = self.bodies[incidence.body].twist;
-            let first = system.constraints[incidence.constraint].solver.start;
+            let first = system[incidence.constraint].solver.start;
             let block = &self.jacobian.a[incidence.offset..incidence.offset + 6 * incidence.rows];
             for (a, residual) in block.chunks_exact(6).zip(&mut self.residual[first..]) {
                 *residual +=
@@ -263,7 +268,7 @@ impl Elimination {
     fn apply_multipliers(&mut self, system: &System) {
         for incidence in &system.incidences {
             let [v, w] = &mut self.bodies[incidence.body].twist;
-            let first = system.constraints[incidence.constraint].solver.start;
+            let first = system[incidence.constraint].solver.start;
             let block = &self.b[incidence.offset..incidence.offset + 6 * incidence.rows];
             for (b, lambda) in block.chunks_exact(6).zip(&self.residual[first..]) {
                 for c in 0..3 {
@@ -304,14 +309,14 @@ impl Elimination {
     }
 
     /// The rows A_b D_b⁻¹ of an incidence, six numbers each.
-    pub fn weighted_rows_on(&self, system: &System, incidence: usize) -> &[f64] {
-        let incidence = &system.incidences[incidence];
+    pub fn weighted_rows_on(&self, system: &System, incidence: IncidenceId) -> &[f64] {
+        let incidence = &system[incidence];
         &self.b[incidence.offset..incidence.offset + 6 * incidence.rows]
     }
 
     /// The joints in the order in which S is eliminated.
-    pub fn elimination_order(&self) -> Vec<usize> {
-        self.factor.order()
+    pub fn elimination_order(&self) -> Vec<ConstraintId> {
+        self.factor.order().into_iter().map(ConstraintId).collect()
     }
 }
 

@@ -18,7 +18,7 @@ use crate::system::natural::NaturalCoordinates;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use triad_linalg::{independent_rows, left_null_space};
 
-/// Rows whose part across the others is smaller than this, relative to the longest row, are dependent.
+/// A row depends on others if its component orthogonal to them, relative to the longest row, is smaller than this.
 pub const DEPENDENT: f64 = 1e-9;
 
 /// M, g, Φ, Φ_q and γ at one state.

@@ -4,9 +4,10 @@ use super::{ModelError, finite};
 use crate::scene::{Body, Coordinates, Inertia, Orientation, Triple, WrittenOrientation};
 use nalgebra::{Matrix3, Quaternion, SymmetricEigen, Unit, UnitQuaternion, Vector3};
 
-/// How far from orthonormal directors may be, to be corrected instead of refused.
+/// Deviation of directors from orthonormal ones, or of a quaternion's norm from 1, up to which it is corrected; what is
+/// farther off is refused as a mistake.
 const DIRECTOR_SLACK: f64 = 0.3;
-/// Relative slack of the triangle inequality and of symmetry: rounding of printed data.
+/// Relative tolerance of the triangle inequality, of symmetry and of unit length: data are often printed with six digits.
 const PRINTED: f64 = 1e-6;
 
 /// A checked body, its start written with the centre of mass and the principal axes.

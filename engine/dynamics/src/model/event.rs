@@ -5,8 +5,8 @@ use super::{BodyRef, ModelError};
 use crate::scene::{Event, JointKind, Passing, Quantity};
 use nalgebra::Vector3;
 
-/// Greatest value of an event, m or rad.
-const FARTHEST: f64 = 1e9;
+/// Greatest |value| that an event may wait for, m or rad.
+const MAX_VALUE: f64 = 1e9;
 
 /// A checked event.
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ impl ModelEvent {
         Ok(Self {
             name: event.name.clone(),
             of,
-            value: reader.number("value", event.value, -FARTHEST, FARTHEST)?,
+            value: reader.number("value", event.value, -MAX_VALUE, MAX_VALUE)?,
             passing: event.passing,
             stop: event.stop,
         })

@@ -1,12 +1,14 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
+use super::joint_keys::{AxisKeys, KnownKeys, PointKeys, refuse_strangers};
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
 use nalgebra::Vector3;
 use triad_linalg::orthonormal_basis;
 
-/// How near a unit axis must be to a director.
+/// Greatest difference of |component| from 1 at which a unit axis lies along a director: rounding of an axis that was turned
+/// into the principal frame.
 const ALONG: f64 = 1e-9;
 
 /// The director (0, 1, 2 for u, v, w) that a local unit axis lies along, and its sign.
@@ -15,13 +17,56 @@ pub fn director_along(axis: &Vector3<f64>) -> Option<(usize, f64)> {
     ((axis[k].abs() - 1.0).abs() < ALONG).then(|| (k, axis[k].signum()))
 }
 
+/// What a joint is, with the data of its kind alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointGeometry {
+    /// A common point.
+    Spherical,
+    /// A common point and a common axis.
+    Revolute {
+        /// How the axis is written.
+        rows: AxisRows,
+    },
+    /// A common point and two axes that stay perpendicular, one in each body.
+    Universal,
+    /// A common axis, along and about which body j moves.
+    Cylindrical,
+    /// A common axis, along which body j slides without turning.
+    Prismatic,
+    /// A common plane, normal to the axis.
+    Planar,
+    /// A common axis, along which body j moves as it turns.
+    Screw {
+        /// Advance, m/rad.
+        pitch: f64,
+    },
+    /// No relative motion.
+    Fixed,
+    /// A rigid massless bar between a point of each body.
+    Rod {
+        /// Its length, m.
+        length: f64,
+    },
+    /// The point of body j stays on the line of body i through its point along the axis.
+    PointOnLine,
+    /// The point of body j stays in the plane of body i through its point, normal to the axis.
+    PointInPlane,
+    /// The angle of one revolute joint is a multiple of that of another.
+    Gear {
+        /// The two joints.
+        joints: [usize; 2],
+        /// Angle of the second for each radian of the first.
+        ratio: f64,
+    },
+}
+
 /// A checked joint. Ground points and vectors are in the world frame, others in the principal frame of the body.
 #[derive(Clone, Debug)]
 pub struct ModelJoint {
     /// Name.
     pub name: String,
     /// What it is.
-    pub kind: JointKind,
+    pub geometry: JointGeometry,
     /// Bodies i and j (of a gear: body j of its two joints).
     pub bodies: [BodyRef; 2],
     /// The joint's point on body i and on body j, m.
@@ -31,14 +76,6 @@ pub struct ModelJoint {
     /// Two vectors across the axis on body i and the vectors on body j that coincide with them at the start; with
     /// the axis they are right-handed. The angle of the joint is that from the first on i to the first on j.
     pub cross: [[Vector3<f64>; 2]; 2],
-    /// How the axis of a revolute joint is written.
-    pub rows: AxisRows,
-    /// Length of a rod, m.
-    pub length: f64,
-    /// Advance of a screw, m/rad.
-    pub pitch: f64,
-    /// Joints that a gear couples, and the angle of the second for each radian of the first.
-    pub gear: Option<([usize; 2], f64)>,
 }
 
 impl ModelJoint {
@@ -48,8 +85,9 @@ impl ModelJoint {
         reader: &ModelReader,
         notes: &mut Vec<String>,
     ) -> Result<Self, ModelError> {
-        refuse_strangers(joint, reader)?;
-        if joint.kind == JointKind::Gear {
+        let keys = KnownKeys::of(joint.kind);
+        refuse_strangers(joint, &keys, reader)?;
+        if keys.gear {
             return gear(joint, reader);
         }
         let bodies = [reader.body("body_i", &joint.body_i)?, reader.body("body_j", &joint.body_j)?];
@@ -60,99 +98,118 @@ impl ModelJoint {
                 body: joint.body_j.clone(),
             });
         }
-        let points = points(joint, reader, bodies)?;
-        let axes = axes(joint, reader, bodies)?;
-        let mut model = Self {
-            name: joint.name.clone(),
-            kind: joint.kind,
-            bodies,
-            points,
-            axes,
-            cross: [[Vector3::zeros(); 2]; 2],
-            rows: joint.rows.unwrap_or_default(),
-            length: 0.0,
-            pitch: 0.0,
-            gear: None,
-        };
-        if joint.kind == JointKind::Rod {
-            let ends = [0, 1].map(|side| reader.point_to_world(bodies[side], &points[side]));
-            let length = joint.length.unwrap_or_else(|| (ends[1] - ends[0]).norm());
-            model.length = reader.number("length", length, 1e-9, 1e9)?;
-        }
-        if joint.kind == JointKind::Screw {
-            let pitch = joint.pitch.ok_or_else(|| reader.wrong("pitch", "a screw needs a pitch"))?;
-            if !(pitch.is_finite() && pitch != 0.0) {
-                return Err(reader.wrong("pitch", "the pitch of a screw is a number other than zero"));
+        let points = points(joint, &keys, reader, bodies)?;
+        let axes = axes(joint, &keys, reader, bodies)?;
+        let geometry = match joint.kind {
+            JointKind::Spherical => JointGeometry::Spherical,
+            JointKind::Revolute => {
+                JointGeometry::Revolute { rows: revolute_rows(joint, reader, bodies, axes, notes)? }
             }
-            model.pitch = pitch / std::f64::consts::TAU;
+            JointKind::Universal => JointGeometry::Universal,
+            JointKind::Cylindrical => JointGeometry::Cylindrical,
+            JointKind::Prismatic => JointGeometry::Prismatic,
+            JointKind::Planar => JointGeometry::Planar,
+            JointKind::Screw => JointGeometry::Screw { pitch: pitch(joint, reader)? },
+            JointKind::Fixed => JointGeometry::Fixed,
+            JointKind::Rod => JointGeometry::Rod { length: rod_length(joint, reader, bodies, points)? },
+            JointKind::PointOnLine => JointGeometry::PointOnLine,
+            JointKind::PointInPlane => JointGeometry::PointInPlane,
+            JointKind::Gear => return gear(joint, reader),
+        };
+        let cross = if axes[0] == Vector3::zeros() {
+            [[Vector3::zeros(); 2]; 2]
+        } else {
+            cross_vectors(reader, bodies, axes)
+        };
+        Ok(Self { name: joint.name.clone(), geometry, bodies, points, axes, cross })
+    }
+
+    /// What the author calls it.
+    pub fn kind(&self) -> JointKind {
+        match self.geometry {
+            JointGeometry::Spherical => JointKind::Spherical,
+            JointGeometry::Revolute { .. } => JointKind::Revolute,
+            JointGeometry::Universal => JointKind::Universal,
+            JointGeometry::Cylindrical => JointKind::Cylindrical,
+            JointGeometry::Prismatic => JointKind::Prismatic,
+            JointGeometry::Planar => JointKind::Planar,
+            JointGeometry::Screw { .. } => JointKind::Screw,
+            JointGeometry::Fixed => JointKind::Fixed,
+            JointGeometry::Rod { .. } => JointKind::Rod,
+            JointGeometry::PointOnLine => JointKind::PointOnLine,
+            JointGeometry::PointInPlane => JointKind::PointInPlane,
+            JointGeometry::Gear { .. } => JointKind::Gear,
         }
-        if joint.kind == JointKind::Revolute {
-            choose_sharing(&mut model, reader, notes)?;
+    }
+
+    /// The joints whose angles it couples, if it is a gear: then it connects no bodies of its own.
+    pub fn coupled_joints(&self) -> Option<[usize; 2]> {
+        match self.geometry {
+            JointGeometry::Gear { joints, .. } => Some(joints),
+            JointGeometry::Spherical
+            | JointGeometry::Revolute { .. }
+            | JointGeometry::Universal
+            | JointGeometry::Cylindrical
+            | JointGeometry::Prismatic
+            | JointGeometry::Planar
+            | JointGeometry::Screw { .. }
+            | JointGeometry::Fixed
+            | JointGeometry::Rod { .. }
+            | JointGeometry::PointOnLine
+            | JointGeometry::PointInPlane => None,
         }
-        if axes[0] != Vector3::zeros() {
-            model.cross = cross_vectors(reader, bodies, axes);
-        }
-        Ok(model)
     }
 }
 
-/// Keys that a kind of joint does not know are errors, not noise.
-fn refuse_strangers(joint: &Joint, reader: &ModelReader) -> Result<(), ModelError> {
-    let kind = joint.kind;
-    let gear = kind == JointKind::Gear;
-    let has_point =
-        joint.point.is_some() || joint.points.is_some() || joint.point_i.is_some() || joint.point_j.is_some();
-    let has_axis =
-        joint.axis.is_some() || joint.axes.is_some() || joint.axis_i.is_some() || joint.axis_j.is_some();
-    let named = !joint.body_i.is_empty() || !joint.body_j.is_empty();
-    let rules = [
-        (
-            "rows",
-            joint.rows.is_some() && kind != JointKind::Revolute,
-            "only a revolute joint chooses its rows",
-        ),
-        ("length", joint.length.is_some() && kind != JointKind::Rod, "only a rod has a length"),
-        ("pitch", joint.pitch.is_some() && kind != JointKind::Screw, "only a screw has a pitch"),
-        ("joints", joint.joints.is_some() && !gear, "only a gear couples two joints"),
-        ("ratio", joint.ratio.is_some() && !gear, "only a gear has a ratio"),
-        ("point", gear && has_point, "a gear has no point: it couples the angles of two joints"),
-        ("axis", gear && has_axis, "a gear has no axis: it couples the angles of two joints"),
-        ("body_i", gear && named, "a gear names two joints, not two bodies"),
-        ("axis", kind == JointKind::Spherical && has_axis, "a spherical joint has no axis"),
-        ("axis", kind == JointKind::Rod && has_axis, "a rod has no axis"),
-    ];
-    match rules.iter().find(|(_, broken, _)| *broken) {
-        Some((key, _, reason)) => Err(reader.wrong(key, *reason)),
-        None => Ok(()),
+fn pitch(joint: &Joint, reader: &ModelReader) -> Result<f64, ModelError> {
+    let pitch = joint.pitch.ok_or_else(|| reader.wrong("pitch", "a screw needs a pitch"))?;
+    if pitch.is_finite() && pitch != 0.0 {
+        Ok(pitch / std::f64::consts::TAU)
+    } else {
+        Err(reader.wrong("pitch", "the pitch of a screw is a number other than zero"))
     }
 }
 
-/// Shares the axis where the joint or all of its bodies ask for it. What the joint asks for must be possible; the
-/// bodies' word means wherever it is.
-fn choose_sharing(
-    joint: &mut ModelJoint,
+/// As stated, or the distance of the rod's points at the start.
+fn rod_length(
+    joint: &Joint,
     reader: &ModelReader,
+    bodies: [BodyRef; 2],
+    points: [Vector3<f64>; 2],
+) -> Result<f64, ModelError> {
+    let ends = [0, 1].map(|side| reader.point_to_world(bodies[side], &points[side]));
+    let length = joint.length.unwrap_or_else(|| (ends[1] - ends[0]).norm());
+    reader.number("length", length, 1e-9, 1e9)
+}
+
+/// How the axis of a revolute joint is written: shared where the joint or all of its bodies ask for it. What the joint asks
+/// for must be possible; the bodies' word means wherever it is.
+fn revolute_rows(
+    joint: &Joint,
+    reader: &ModelReader,
+    bodies: [BodyRef; 2],
+    axes: [Vector3<f64>; 2],
     notes: &mut Vec<String>,
-) -> Result<(), ModelError> {
-    let asked = joint.rows == AxisRows::Shared;
-    let by_bodies = joint.bodies.iter().all(|body| match body {
+) -> Result<AxisRows, ModelError> {
+    let rows = joint.rows.unwrap_or_default();
+    let by_bodies = bodies.iter().all(|body| match body {
         BodyRef::Ground => true,
         BodyRef::Moving(index) => reader.bodies[*index].coordinates == Coordinates::Shared,
     });
-    match sharing_obstacle(joint, reader) {
-        Some(reason) if asked => return Err(reader.wrong("rows", reason)),
+    match sharing_obstacle(reader, bodies, axes) {
+        Some(reason) if rows == AxisRows::Shared => Err(reader.wrong("rows", reason)),
         Some(reason) if by_bodies => {
             notes.push(format!("joint \"{}\" shares no director: {reason}", joint.name));
+            Ok(rows)
         }
-        None if by_bodies => joint.rows = AxisRows::Shared,
-        _ => {}
+        None if by_bodies => Ok(AxisRows::Shared),
+        Some(_) | None => Ok(rows),
     }
-    Ok(())
 }
 
 /// A director can only be shared where the axis is one, and has coordinates.
-fn sharing_obstacle(joint: &ModelJoint, reader: &ModelReader) -> Option<String> {
-    joint.bodies.into_iter().enumerate().find_map(|(side, body)| {
+fn sharing_obstacle(reader: &ModelReader, bodies: [BodyRef; 2], axes: [Vector3<f64>; 2]) -> Option<String> {
+    bodies.into_iter().enumerate().find_map(|(side, body)| {
         let BodyRef::Moving(index) = body else { return None };
         let body = &reader.bodies[index];
         if body.coordinates == Coordinates::Reduced {
@@ -161,7 +218,7 @@ fn sharing_obstacle(joint: &ModelJoint, reader: &ModelReader) -> Option<String> 
                 body.name
             ));
         }
-        director_along(&joint.axes[side])
+        director_along(&axes[side])
             .is_none()
             .then(|| format!("its axis is not along a principal axis of body \"{}\"", body.name))
     })
@@ -180,28 +237,28 @@ fn gear(joint: &Joint, reader: &ModelReader) -> Result<ModelJoint, ModelError> {
     let [a, b] = pair.map(|index| &reader.joints[index]);
     Ok(ModelJoint {
         name: joint.name.clone(),
-        kind: JointKind::Gear,
+        geometry: JointGeometry::Gear { joints: pair, ratio },
         bodies: [a.bodies[1], b.bodies[1]],
         points: [a.points[1], b.points[1]],
         axes: [a.axes[1], b.axes[1]],
         cross: [[Vector3::zeros(); 2]; 2],
-        rows: AxisRows::default(),
-        length: 0.0,
-        pitch: 0.0,
-        gear: Some((pair, ratio)),
     })
 }
 
-fn points(joint: &Joint, reader: &ModelReader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
+fn points(
+    joint: &Joint,
+    keys: &KnownKeys,
+    reader: &ModelReader,
+    pair: [BodyRef; 2],
+) -> Result<[Vector3<f64>; 2], ModelError> {
     match (joint.point, joint.points, joint.point_i, joint.point_j) {
-        (Some(_), None, None, None) if joint.kind == JointKind::Rod => {
-            Err(reader
-                .wrong("point", "a rod has two points: give \"points\", or \"point_i\" and \"point_j\""))
-        }
-        (Some(world), None, None, None) => {
-            let world = reader.vector("point", world)?;
-            Ok(pair.map(|body| reader.point_from_world(body, &world)))
-        }
+        (Some(world), None, None, None) => match keys.point {
+            PointKeys::Two(reason) => Err(reader.wrong("point", reason)),
+            PointKeys::None(_) | PointKeys::Common => {
+                let world = reader.vector("point", world)?;
+                Ok(pair.map(|body| reader.point_from_world(body, &world)))
+            }
+        },
         (None, Some([first, second]), None, None) => {
             let world = [reader.vector("points/0", first)?, reader.vector("points/1", second)?];
             Ok([0, 1].map(|side| reader.point_from_world(pair[side], &world[side])))
@@ -215,24 +272,29 @@ fn points(joint: &Joint, reader: &ModelReader, pair: [BodyRef; 2]) -> Result<[Ve
     }
 }
 
-fn axes(joint: &Joint, reader: &ModelReader, pair: [BodyRef; 2]) -> Result<[Vector3<f64>; 2], ModelError> {
+fn axes(
+    joint: &Joint,
+    keys: &KnownKeys,
+    reader: &ModelReader,
+    pair: [BodyRef; 2],
+) -> Result<[Vector3<f64>; 2], ModelError> {
     let given = (joint.axis, joint.axes, joint.axis_i, joint.axis_j);
-    let needs_axis = !matches!(joint.kind, JointKind::Spherical | JointKind::Rod);
     match given {
-        (None, None, None, None) if !needs_axis => Ok([Vector3::zeros(); 2]),
-        // The axis of a fixed joint only says in which directions its reaction is shown.
-        (None, None, None, None) if joint.kind == JointKind::Fixed => {
-            let world = Vector3::z();
-            Ok(pair.map(|body| reader.vector_from_world(body, &world)))
-        }
-        (None, None, None, None) => Err(reader.wrong("axis", "it has no axis")),
-        (Some(_), None, None, None) if joint.kind == JointKind::Universal => {
-            Err(reader.wrong("axis", "a universal joint has two axes: give \"axes\""))
-        }
-        (Some(world), None, None, None) => {
-            let world = reader.unit("axis", world)?;
-            Ok(pair.map(|body| reader.vector_from_world(body, &world)))
-        }
+        (None, None, None, None) => match keys.axis {
+            AxisKeys::None(_) => Ok([Vector3::zeros(); 2]),
+            AxisKeys::Optional => {
+                let world = Vector3::z();
+                Ok(pair.map(|body| reader.vector_from_world(body, &world)))
+            }
+            AxisKeys::Common | AxisKeys::Two(_) => Err(reader.wrong("axis", "it has no axis")),
+        },
+        (Some(world), None, None, None) => match keys.axis {
+            AxisKeys::Two(reason) => Err(reader.wrong("axis", reason)),
+            AxisKeys::None(_) | AxisKeys::Optional | AxisKeys::Common => {
+                let world = reader.unit("axis", world)?;
+                Ok(pair.map(|body| reader.vector_from_world(body, &world)))
+            }
+        },
         (None, Some([first, second]), None, None) => {
             let world = [reader.unit("axes/0", first)?, reader.unit("axes/1", second)?];
             Ok([0, 1].map(|side| reader.vector_from_world(pair[side], &world[side])))

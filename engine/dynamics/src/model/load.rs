@@ -6,8 +6,8 @@ use crate::model::motion::{Curve, VectorCurve};
 use crate::scene::{Friction, JointKind, Load, LoadFrame};
 use nalgebra::Vector3;
 
-/// Greatest stiffness, damping or friction that a load may have, SI units.
-const GREATEST: f64 = 1e15;
+/// Greatest stiffness, damping or friction that a load may have, SI units: far above steel, far below overflow.
+const MAX_COEFFICIENT: f64 = 1e15;
 
 /// A checked load.
 #[derive(Clone, Debug)]
@@ -159,12 +159,12 @@ fn law(
     drive: Option<Curve>,
     friction: Option<Friction>,
 ) -> Result<ForceLaw, ModelError> {
-    reader.number("stiffness", stiffness, 0.0, GREATEST)?;
+    reader.number("stiffness", stiffness, 0.0, MAX_COEFFICIENT)?;
     reader.number("free", free, -1e9, 1e9)?;
-    reader.number("damping", damping, 0.0, GREATEST)?;
+    reader.number("damping", damping, 0.0, MAX_COEFFICIENT)?;
     if let Some(friction) = friction {
-        reader.number("friction/viscous", friction.viscous, 0.0, GREATEST)?;
-        reader.number("friction/coulomb", friction.coulomb, 0.0, GREATEST)?;
+        reader.number("friction/viscous", friction.viscous, 0.0, MAX_COEFFICIENT)?;
+        reader.number("friction/coulomb", friction.coulomb, 0.0, MAX_COEFFICIENT)?;
         reader.number("friction/smoothing", friction.smoothing, 1e-9, 1e9)?;
     }
     Ok(ForceLaw { stiffness, free, damping, drive, friction })

@@ -5,7 +5,7 @@ use super::unique_name;
 use crate::scene::{Parameter, Scene, WrittenScene};
 use std::collections::HashMap;
 
-/// Relative slack between numbers that a person has written to agree.
+/// Relative difference up to which two numbers that an author has written agree.
 const AGREES: f64 = 1e-9;
 
 /// Refuses parameters that name no number, or numbers outside their own range.

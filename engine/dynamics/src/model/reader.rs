@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 use std::collections::HashMap;
 use triad_scene::text::nearest_name;
 
-/// Most coefficients of a polynomial and most points of a table.
+/// Greatest number of coefficients of a polynomial.
 const MAX_COEFFICIENTS: usize = 32;
+/// Greatest number of points of a table.
 const MAX_POINTS: usize = 10_000;
 
 /// What is known while the elements of one list are read.
@@ -71,7 +72,7 @@ impl ModelReader<'_> {
             let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
             return Err(self.wrong(key, format!("there is no joint \"{name}\"{guess}")));
         };
-        if kinds.contains(&self.joints[index].kind) {
+        if kinds.contains(&self.joints[index].kind()) {
             Ok(index)
         } else {
             Err(self.wrong(key, format!("joint \"{name}\" is not of a kind that it can act in ({kinds:?})")))

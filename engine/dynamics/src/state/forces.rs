@@ -7,7 +7,7 @@ use super::{Stage, State};
 use crate::model::BodyRef;
 use crate::scene::LoadFrame;
 use crate::system::System;
-use crate::system::feature::FeatureId;
+use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
@@ -45,7 +45,7 @@ impl AppliedForces {
 
     /// Cᵀ f for the point or vector of a feature.
     fn add_at_feature(&mut self, system: &System, feature: FeatureId, force: &Vector3<f64>) {
-        let feature = &system.features[feature];
+        let feature = &system[feature];
         if let BodyRef::Moving(body) = feature.body {
             let lift = &mut self.bodies[body];
             if feature.point {

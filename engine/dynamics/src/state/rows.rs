@@ -49,7 +49,7 @@ impl State {
     }
 
     fn difference(&self, difference: Difference, of: impl Fn(&FeatureState) -> Vector3<f64>) -> Vector3<f64> {
-        difference.of(|feature| of(&self.features[feature]))
+        difference.of(|feature| of(&self.features[feature.index()]))
     }
 
     /// −Φ of each row, or −Φ̇.
@@ -59,7 +59,7 @@ impl State {
         for (out, row) in out.iter_mut().zip(&system.rows) {
             *out = match row.form {
                 Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                    let (a, b) = (&self.features[a], &self.features[b]);
+                    let (a, b) = (&self.features[a.index()], &self.features[b.index()]);
                     if of_rates { b.rate - a.rate } else { b.value - a.value }
                 }
                 Form::Product { a, b, target } => {
@@ -79,7 +79,7 @@ impl State {
     pub fn row_violation(&self, form: &Form) -> f64 {
         match *form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                (self.features[a].value - self.features[b].value).amax()
+                (self.features[a.index()].value - self.features[b.index()].value).amax()
             }
             Form::Product { a, b, target } => (self.product(a, b).value - self.target(target)[0]).abs(),
             Form::Relation { .. } => self.relation(form).value.abs(),
@@ -91,7 +91,7 @@ impl State {
         self.require(Stage::Velocities);
         match *form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                (self.features[a].rate - self.features[b].rate).amax()
+                (self.features[a.index()].rate - self.features[b.index()].rate).amax()
             }
             Form::Product { a, b, target } => (self.product(a, b).rate - self.target(target)[1]).abs(),
             Form::Relation { .. } => self.relation(form).rate.abs(),

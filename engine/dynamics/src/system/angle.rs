@@ -3,7 +3,7 @@
 //! θ is the angle about the axis from the vector a₁ of body i to the vector b of body j, measured with a₂ = s × a₁ as
 //! θ = atan2(a₂ · b, a₁ · b). Whole turns are counted from the last accepted step.
 
-use crate::system::feature::FeatureId;
+use crate::system::index::FeatureId;
 
 /// The features that make an angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ impl Angle {
     /// Renames features.
     pub fn rename(&mut self, place: &[FeatureId]) {
         for feature in [&mut self.a1, &mut self.a2, &mut self.b, &mut self.axis] {
-            *feature = place[*feature];
+            *feature = place[feature.index()];
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
 use nalgebra::Vector3;
 
 /// Writes the rows of a driver.
-pub fn write(model: &Model, driver: &ModelDriver, builder: &mut RowBuilder) {
+pub fn build(model: &Model, driver: &ModelDriver, builder: &mut RowBuilder) {
     let origin = Vector3::zeros();
     let ground = BodyRef::Ground;
     let (bodies, points, label, form) = match &driver.kind {

@@ -2,6 +2,7 @@
 
 use crate::model::BodyRef;
 use crate::model::motion::{Curve, Jet, MAX_TERMS, sine_cosine};
+use crate::system::index::FeatureId;
 use nalgebra::Vector3;
 
 /// A point (`point`) or a vector that is fixed in a body or in the ground, or moves in it as prescribed.
@@ -24,9 +25,6 @@ impl Feature {
     }
 }
 
-/// Place of a feature in the system's list.
-pub type FeatureId = usize;
-
 /// Difference of two features, or one feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
@@ -44,8 +42,8 @@ impl Difference {
 
     /// Renames features.
     pub fn rename(&mut self, place: &[FeatureId]) {
-        self.plus = place[self.plus];
-        self.minus = self.minus.map(|f| place[f]);
+        self.plus = place[self.plus.index()];
+        self.minus = self.minus.map(|f| place[f.index()]);
     }
 
     /// The difference of some quantity of the two features.

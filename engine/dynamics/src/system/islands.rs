@@ -3,8 +3,7 @@
 //! Bodies that no joint, driver or load connects move each on its own: their series take steps of their own. A body
 //! that rigid connections tie to the ground is ground.
 
-use crate::model::{BodyRef, DriverKind, LoadKind, Model, ModelJoint};
-use crate::scene::JointKind;
+use crate::model::{BodyRef, DriverKind, JointGeometry, LoadKind, Model, ModelJoint};
 use crate::system::System;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
@@ -88,7 +87,7 @@ pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Islands 
 /// driven body is never taken for fixed.
 fn tied_to_ground(model: &Model) -> Vec<bool> {
     let mut grounded = vec![false; model.bodies.len()];
-    if model.joints.iter().any(|joint| joint.gear.is_some()) {
+    if model.joints.iter().any(|joint| joint.coupled_joints().is_some()) {
         return grounded;
     }
     let mut driven = grounded.clone();
@@ -102,7 +101,7 @@ fn tied_to_ground(model: &Model) -> Vec<bool> {
     let mut changed = true;
     while changed {
         changed = false;
-        for joint in model.joints.iter().filter(|joint| joint.kind == JointKind::Fixed) {
+        for joint in model.joints.iter().filter(|joint| joint.geometry == JointGeometry::Fixed) {
             let tied = |grounded: &[bool], body: BodyRef| match body {
                 BodyRef::Ground => true,
                 BodyRef::Moving(body) => grounded[body],
@@ -145,7 +144,7 @@ fn load_bodies(model: &Model, kind: &LoadKind) -> [BodyRef; 2] {
 
 /// Pairs of bodies that something connects.
 fn links(model: &Model) -> impl Iterator<Item = [BodyRef; 2]> + '_ {
-    let geared = model.joints.iter().filter_map(|joint| joint.gear).flat_map(move |([a, b], _)| {
+    let geared = model.joints.iter().filter_map(ModelJoint::coupled_joints).flat_map(move |[a, b]| {
         let moving = |joint: usize| model.joints[joint].bodies;
         let ends: Vec<BodyRef> =
             moving(a).into_iter().chain(moving(b)).filter(|b| *b != BodyRef::Ground).collect();
@@ -166,11 +165,17 @@ pub fn has_loops(model: &Model) -> bool {
         BodyRef::Ground => ground,
         BodyRef::Moving(body) => body,
     };
-    let joints =
-        model.joints.iter().filter(|joint| joint.gear.is_none()).map(|joint| joint.bodies.map(place));
+    let joints = model
+        .joints
+        .iter()
+        .filter(|joint| joint.coupled_joints().is_none())
+        .map(|joint| joint.bodies.map(place));
     let drivers = model.drivers.iter().filter_map(|driver| match driver.kind {
         DriverKind::Point { body, .. } | DriverKind::Vector { body, .. } => Some([body, ground]),
-        _ => None,
+        DriverKind::Angle { .. }
+        | DriverKind::Slide { .. }
+        | DriverKind::Cosine { .. }
+        | DriverKind::CosineToWorld { .. } => None,
     });
     joints.chain(drivers).any(|[i, j]| {
         let joined = root(&mut label, i) == root(&mut label, j);
@@ -252,7 +257,9 @@ fn distribute(model: &Model, assignments: &[Assignment], islands: &mut [Model]) 
             own.axes[side] = turned(&joint.axes[side], false);
             own.cross[side] = joint.cross[side].map(|across| turned(&across, false));
         }
-        own.gear = joint.gear.map(|(pair, ratio)| (pair.map(|joint| places[joint]), ratio));
+        if let JointGeometry::Gear { joints, .. } = &mut own.geometry {
+            *joints = joints.map(|joint| places[joint]);
+        }
         islands[island].joints.push(own);
     }
     for driver in &model.drivers {

@@ -1,22 +1,24 @@
-//! Joints as lists of rows — THEORY section 5. A joint has no object at run time: it only writes rows.
+//! Joints as lists of rows — THEORY section 5. A joint has no object at run time: it is rows.
 
-use crate::model::{Model, ModelJoint};
-use crate::scene::{AxisRows, JointKind};
-use crate::system::feature::{Difference, FeatureId, Target};
+use crate::model::{JointGeometry, Model, ModelJoint};
+use crate::scene::AxisRows;
+use crate::system::feature::{Difference, Target};
+use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
 
-/// Labels of perpendicularity rows (CAR) and of rows that keep a point on a line.
+/// Labels of perpendicularity rows (constant angle, right).
 const CAR: [&str; 3] = ["CAR1", "CAR2", "CAR3"];
+/// Labels of the rows that keep a point on a line.
 const LINE: [&str; 2] = ["LINE1", "LINE2"];
 
 /// Writes the rows of a joint.
-pub fn write(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
-    let forms = match joint.kind {
-        JointKind::Spherical => vec![common_point(joint, builder)],
-        JointKind::Revolute => {
+pub fn build(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
+    let forms = match joint.geometry {
+        JointGeometry::Spherical => vec![common_point(joint, builder)],
+        JointGeometry::Revolute { rows } => {
             let mut forms = vec![common_point(joint, builder)];
-            match joint.rows {
+            match rows {
                 AxisRows::Cv => {
                     let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
                     forms.push(LabelledForm::new("CV", Form::CommonVector { a, b }));
@@ -30,47 +32,43 @@ pub fn write(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
             }
             forms
         }
-        JointKind::Universal => {
+        JointGeometry::Universal => {
             let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
             vec![common_point(joint, builder), LabelledForm::new("CAR", perpendicular(a, b))]
         }
-        JointKind::Cylindrical => on_line(joint, builder).chain(common_axis(joint, builder)).collect(),
-        JointKind::Prismatic => {
+        JointGeometry::Cylindrical => on_line(joint, builder).chain(common_axis(joint, builder)).collect(),
+        JointGeometry::Prismatic => {
             let forms = on_line(joint, builder).chain(common_axis(joint, builder));
             let mut forms: Vec<LabelledForm> = forms.collect();
             forms.push(no_turn(joint, builder));
             forms
         }
-        JointKind::Planar => {
+        JointGeometry::Planar => {
             let mut forms = vec![in_plane(joint, builder)];
             forms.extend(common_axis(joint, builder));
             forms
         }
-        JointKind::Screw => {
+        JointGeometry::Screw { pitch } => {
             let mut forms: Vec<LabelledForm> =
                 on_line(joint, builder).chain(common_axis(joint, builder)).collect();
-            forms.push(LabelledForm::new("SCREW", thread(joint, builder)));
+            forms.push(LabelledForm::new("SCREW", thread(joint, pitch, builder)));
             forms
         }
-        JointKind::Fixed => {
+        JointGeometry::Fixed => {
             let mut forms = vec![common_point(joint, builder)];
             forms.extend(common_axis(joint, builder));
             forms.push(no_turn(joint, builder));
             forms
         }
-        JointKind::Rod => vec![LabelledForm::new("DIST", distance(joint, builder))],
-        JointKind::PointOnLine => on_line(joint, builder).collect(),
-        JointKind::PointInPlane => vec![in_plane(joint, builder)],
-        JointKind::Gear => match joint.gear {
-            Some(([first, second], ratio)) => {
-                let first = builder.angle(&model.joints[first]);
-                let second = builder.angle(&model.joints[second]);
-                let angles = [Some((first, -ratio)), Some((second, 1.0))];
-                let form = Form::Relation { angles, slide: None, constant: 0.0 };
-                vec![LabelledForm::new("GEAR", form)]
-            }
-            None => Vec::new(),
-        },
+        JointGeometry::Rod { length } => vec![LabelledForm::new("DIST", distance(joint, length, builder))],
+        JointGeometry::PointOnLine => on_line(joint, builder).collect(),
+        JointGeometry::PointInPlane => vec![in_plane(joint, builder)],
+        JointGeometry::Gear { joints, ratio } => {
+            let [first, second] = joints.map(|index| builder.angle(&model.joints[index]));
+            let angles = [Some((first, -ratio)), Some((second, 1.0))];
+            let form = Form::Relation { angles, slide: None, constant: 0.0 };
+            vec![LabelledForm::new("GEAR", form)]
+        }
     };
     let (name, bodies, points) = (joint.name.clone(), joint.bodies, joint.points);
     builder.constraints.push(ConstraintBlock { name, forms, bodies, points, driver: false });
@@ -118,20 +116,20 @@ fn in_plane(joint: &ModelJoint, builder: &mut RowBuilder) -> LabelledForm {
 }
 
 /// |P_j − P_i|² = L².
-fn distance(joint: &ModelJoint, builder: &mut RowBuilder) -> Form {
+fn distance(joint: &ModelJoint, length: f64, builder: &mut RowBuilder) -> Form {
     let [i, j] = joint.bodies;
     let between = Difference {
         plus: builder.point(j, joint.points[1]),
         minus: Some(builder.point(i, joint.points[0])),
     };
-    Form::Product { a: between, b: between, target: Target::Constant(joint.length * joint.length) }
+    Form::Product { a: between, b: between, target: Target::Constant(length * length) }
 }
 
 /// Displacement − pitch · angle = 0.
-fn thread(joint: &ModelJoint, builder: &mut RowBuilder) -> Form {
+fn thread(joint: &ModelJoint, pitch: f64, builder: &mut RowBuilder) -> Form {
     let angle = builder.angle(joint);
     let (a, b) = builder.slide(joint);
-    Form::Relation { angles: [Some((angle, -joint.pitch)), None], slide: Some((a, b, 1.0)), constant: 0.0 }
+    Form::Relation { angles: [Some((angle, -pitch)), None], slide: Some((a, b, 1.0)), constant: 0.0 }
 }
 
 /// s₁ · s₂ = 0 (CAR of 90°).

@@ -3,7 +3,8 @@
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw, LoadKind, Model, ModelLoad};
 use crate::scene::LoadFrame;
-use crate::system::feature::{Difference, FeatureId};
+use crate::system::feature::Difference;
+use crate::system::index::FeatureId;
 use crate::system::row_builder::RowBuilder;
 use nalgebra::Vector3;
 
@@ -92,15 +93,14 @@ impl SystemLoad {
     pub fn rename(&mut self, place: &[FeatureId]) {
         match self {
             Self::Force { .. } | Self::Moment { .. } => {}
-            Self::Torsion { axis, .. } => *axis = place[*axis],
+            Self::Torsion { axis, .. } => *axis = place[axis.index()],
             Self::Spring { from, to, .. } => {
-                *from = place[*from];
-                *to = place[*to];
+                *from = place[from.index()];
+                *to = place[to.index()];
             }
             Self::Slider { axis, between, .. } => {
-                *axis = place[*axis];
-                between.plus = place[between.plus];
-                between.minus = between.minus.map(|f| place[f]);
+                *axis = place[axis.index()];
+                between.rename(place);
             }
         }
     }

@@ -7,10 +7,11 @@
 //! reactions, which are found in space when somebody asks for them.
 
 use crate::model::motion::{Curve, VectorCurve};
-use crate::model::{BodyRef, ModelJoint};
-use crate::scene::{JointKind, LoadFrame};
+use crate::model::{BodyRef, JointGeometry, ModelJoint};
+use crate::scene::LoadFrame;
 use crate::system::body::{GroundPivot, PlanarPose, RigidBody};
 use crate::system::feature::{Difference, Target};
+use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
@@ -18,11 +19,12 @@ use crate::system::{Row, System};
 use nalgebra::{Matrix3, Vector3};
 use triad_linalg::orthonormal_basis;
 
-/// Directions are the same, and components are nothing, within this.
+/// Difference up to which unit vectors are the same and components are zero: rounding of an assembled start.
 const ALIKE: f64 = 1e-11;
-/// A body whose moment of inertia is below this part of m l² is given some, as much as [`REGULARIZING_INERTIA`] m l².
+/// Moment of inertia about the normal, relative to m l², below which the inertia is regularized.
 const LACKING: f64 = 1e-7;
-/// Two refinements give it back; with less the inverses of blocks would be too far from exact.
+/// δ over m l² of such a body — eq. (7.8). Two refinements take its effect out again; with less, the inverses of blocks would
+/// lose too many digits.
 const REGULARIZING_INERTIA: f64 = 1e-5;
 
 /// Directions in the plane and its normal, as columns.
@@ -63,15 +65,24 @@ pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
         };
         place.arm(&joint.axes[side])
     };
-    let tells = |joint: &&ModelJoint| matches!(joint.kind, JointKind::Revolute | JointKind::Planar);
-    let normal = system.model.joints.iter().find(tells).map(axis).ok_or(Spatial::NoNormal)?;
+    let has_normal = |joint: &&ModelJoint| {
+        matches!(joint.geometry, JointGeometry::Revolute { .. } | JointGeometry::Planar)
+    };
+    let normal = system.model.joints.iter().find(has_normal).map(axis).ok_or(Spatial::NoNormal)?;
     let plane = Plane { frame: frame(&normal.normalize()) };
     let normal = plane.frame.column(2).into_owned();
-    let keeps_plane = |joint: &ModelJoint| match joint.kind {
-        JointKind::Revolute | JointKind::Planar => axis(joint).cross(&normal).amax() < ALIKE,
-        JointKind::Prismatic => axis(joint).dot(&normal).abs() < ALIKE,
-        JointKind::Fixed => true,
-        _ => false,
+    let keeps_plane = |joint: &ModelJoint| match joint.geometry {
+        JointGeometry::Revolute { .. } | JointGeometry::Planar => axis(joint).cross(&normal).amax() < ALIKE,
+        JointGeometry::Prismatic => axis(joint).dot(&normal).abs() < ALIKE,
+        JointGeometry::Fixed => true,
+        JointGeometry::Spherical
+        | JointGeometry::Universal
+        | JointGeometry::Cylindrical
+        | JointGeometry::Screw { .. }
+        | JointGeometry::Rod { .. }
+        | JointGeometry::PointOnLine
+        | JointGeometry::PointInPlane
+        | JointGeometry::Gear { .. } => false,
     };
     if let Some(body) = loose_body(system, keeps_plane) {
         return Err(Spatial::Loose { body: system.model.bodies[body].name.clone() });
@@ -184,7 +195,7 @@ fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
 /// Makes a hinge on the ground the pivot of its body: one for each body, and only between fixed points.
 fn set_pivot(flat: &mut System, form: &Form) -> bool {
     let &Form::Coincidence { a, b } = form else { return false };
-    let [a, b] = [a, b].map(|f| flat.features[f]);
+    let [a, b] = [a, b].map(|f| flat[f]);
     let (body, own, ground) = match (a.body, b.body) {
         (BodyRef::Moving(body), BodyRef::Ground) => (body, a, b),
         (BodyRef::Ground, BodyRef::Moving(body)) => (body, b, a),
@@ -249,8 +260,7 @@ fn kept(flat: &System, rows: &[Row], joint: &str) -> Result<Vec<Row>, Spatial> {
             Form::Relation { .. } => {}
             Form::Coincidence { .. } => return Err(Spatial::Mixed { joint: joint.to_owned() }),
             Form::CommonVector { a, b } => {
-                let along =
-                    |f: usize| flat.features[f].curve.is_none() && flat.features[f].local.xy().amax() < ALIKE;
+                let along = |f: FeatureId| flat[f].curve.is_none() && flat[f].local.xy().amax() < ALIKE;
                 if along(a) && along(b) {
                     continue;
                 }
@@ -276,10 +286,10 @@ fn kept(flat: &System, rows: &[Row], joint: &str) -> Result<Vec<Row>, Spatial> {
 }
 
 /// Whether a prescribed feature keeps its component along the normal.
-fn level(flat: &System, feature: usize) -> bool {
+fn level(flat: &System, feature: FeatureId) -> bool {
     let constant =
         |curve: &Curve| matches!(curve, Curve::Polynomial(c) if c.iter().skip(1).all(|c| *c == 0.0));
-    let Some(curve) = flat.features[feature].curve else { return true };
+    let Some(curve) = flat[feature].curve else { return true };
     match &flat.curves[curve] {
         VectorCurve::Components(components) => constant(&components[2]),
         VectorCurve::Rotated(turn, components) => {
@@ -291,7 +301,7 @@ fn level(flat: &System, feature: usize) -> bool {
 
 /// Whether a factor is a vector along the normal.
 fn across(flat: &System, factor: Difference) -> bool {
-    let vector = &flat.features[factor.plus];
+    let vector = &flat[factor.plus];
     factor.minus.is_none() && !vector.point && vector.curve.is_none() && vector.local.xy().amax() < ALIKE
 }
 
@@ -302,7 +312,7 @@ fn repeats(flat: &System, one: &Form, other: &Form) -> bool {
     };
     let constant = [target, t].iter().all(|t| matches!(t, Target::Constant(_)));
     let vector = |x: Difference| {
-        let feature = &flat.features[x.plus];
+        let feature = &flat[x.plus];
         (x.minus.is_none() && !feature.point && feature.curve.is_none()).then_some(feature)
     };
     let (Some(first), Some(second)) = (vector(a), vector(c)) else { return false };
@@ -321,7 +331,7 @@ fn repeats(flat: &System, one: &Form, other: &Form) -> bool {
 fn weight(flat: &System, form: &Form) -> f64 {
     let Form::Product { a, b, .. } = *form else { return 0.0 };
     let size = |x: Difference| {
-        let feature = &flat.features[x.plus];
+        let feature = &flat[x.plus];
         if feature.point { 1.0 } else { feature.local.xy().norm() }
     };
     size(a) * size(b)

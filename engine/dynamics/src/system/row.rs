@@ -6,7 +6,8 @@
 //! statement, so they cannot disagree.
 
 use crate::system::angle::Angle;
-use crate::system::feature::{Difference, FeatureId, Target};
+use crate::system::feature::{Difference, Target};
+use crate::system::index::FeatureId;
 
 /// One form of constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,8 +83,8 @@ impl Form {
     pub fn rename(&mut self, place: &[FeatureId]) {
         match self {
             Self::Coincidence { a, b } | Self::CommonVector { a, b } => {
-                *a = place[*a];
-                *b = place[*b];
+                *a = place[a.index()];
+                *b = place[b.index()];
             }
             Self::Product { a, b, .. } => {
                 a.rename(place);

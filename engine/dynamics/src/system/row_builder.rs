@@ -3,7 +3,8 @@
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, ModelJoint};
 use crate::system::angle::Angle;
-use crate::system::feature::{Difference, Feature, FeatureId, Target, TargetCurve};
+use crate::system::feature::{Difference, Feature, Target, TargetCurve};
+use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
 use std::collections::HashMap;
@@ -69,7 +70,7 @@ impl RowBuilder {
         let key = (feature.body, feature.point, bits, feature.curve);
         *self.known.entry(key).or_insert_with(|| {
             self.features.push(feature);
-            self.features.len() - 1
+            FeatureId(self.features.len() - 1)
         })
     }
 
@@ -123,11 +124,11 @@ impl RowBuilder {
 
     /// Orders features: fixed in moving bodies, then moving as prescribed, then fixed in the ground.
     pub fn sort_features(&mut self) -> Vec<FeatureId> {
-        let mut order: Vec<FeatureId> = (0..self.features.len()).collect();
+        let mut order: Vec<usize> = (0..self.features.len()).collect();
         order.sort_by_key(|&f| (self.features[f].is_fixed(), self.features[f].curve.is_some()));
-        let mut place = vec![0; order.len()];
+        let mut place = vec![FeatureId(0); order.len()];
         for (new, &old) in order.iter().enumerate() {
-            place[old] = new;
+            place[old] = FeatureId(new);
         }
         self.features = order.iter().map(|&old| self.features[old]).collect();
         for written in self.constraints.iter_mut().flat_map(|g| &mut g.forms) {

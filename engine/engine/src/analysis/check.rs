@@ -5,10 +5,10 @@ use crate::run::Simulation;
 use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::ops::Range;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::model::Model;
 use triad_dynamics::system::System;
+use triad_dynamics::system::index::{ConstraintId, EquationId, RowId};
 
 /// Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -43,12 +43,12 @@ pub struct RedundantRows {
 /// Equations of one row form of which some depend on others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DependentSet {
-    /// The joint or driver, as an index.
-    pub constraint: usize,
-    /// The row form, as an index.
-    pub row: usize,
+    /// The joint or driver.
+    pub constraint: ConstraintId,
+    /// The row form.
+    pub row: RowId,
     /// Its equations among all rows, those of rigid bodies first.
-    pub equations: Range<usize>,
+    pub equations: Vec<EquationId>,
     /// How many of them are too many.
     pub dependent: usize,
 }
@@ -56,9 +56,9 @@ pub struct DependentSet {
 /// The equations that say again what others say.
 pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
     let mut sets = Vec::new();
-    for (constraint, joint) in system.constraints.iter().enumerate() {
-        for index in joint.forms.clone().filter(|&index| !system.rows[index].implied) {
-            let row = &system.rows[index];
+    for constraint in system.constraint_ids() {
+        for id in system[constraint].row_ids().filter(|&id| !system[id].implied) {
+            let row = &system[id];
             let dropped = (row.solver..row.solver + row.form.independent())
                 .filter(|solver| rank.dependent.contains(solver))
                 .count();
@@ -66,8 +66,8 @@ pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
             let dependent = dropped + row.form.equations() - row.form.independent();
             if dependent > 0 {
                 let first = system.rigid_rows + row.equation;
-                let equations = first..first + row.form.equations();
-                sets.push(DependentSet { constraint, row: index, equations, dependent });
+                let equations = (first..first + row.form.equations()).map(EquationId).collect();
+                sets.push(DependentSet { constraint, row: id, equations, dependent });
             }
         }
     }
@@ -93,10 +93,10 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
     let rank = simulation.rank();
     let mut redundant: Vec<RedundantRows> = Vec::new();
     for set in dependent_sets(system, rank) {
-        let label = system.rows[set.row].label;
+        let label = system[set.row].label;
         let words =
             if set.dependent == 1 { label.to_owned() } else { format!("{} of {label}", set.dependent) };
-        let joint = &system.constraints[set.constraint].name;
+        let joint = &system[set.constraint].name;
         match redundant.last_mut().filter(|last| last.joint == *joint) {
             Some(last) => last.rows.push(words),
             None => redundant.push(RedundantRows { joint: joint.clone(), rows: vec![words] }),

@@ -8,9 +8,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::state::BodyFrame;
 
-/// Most steps of the search.
+/// Greatest number of steps of the search.
 const STEPS: usize = 300;
-/// Generalized force relative to the largest force on a body below which it is none.
+/// Generalized force, relative to the largest force on a body, below which it counts as zero.
 const BALANCED: f64 = 1e-10;
 /// Largest step, relative to the length of the mechanism.
 const LARGEST: f64 = 0.2;

@@ -13,11 +13,12 @@ use serde::Serialize;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Accelerations;
 use triad_dynamics::state::BodyFrame;
+use triad_dynamics::system::index::ConstraintId;
 
 /// Violation, relative to the mechanism's length, above which a position counts as not reached.
-const OPEN: f64 = 1e-9;
-/// Most positions of one analysis.
-const MOST: usize = 100_000;
+const MAX_VIOLATION: f64 = 1e-9;
+/// Greatest number of positions of one analysis.
+const MAX_POSITIONS: usize = 100_000;
 
 /// A driven mechanism at one moment.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -71,7 +72,7 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
     let mut iterations = 0;
     let mut last = 0.0;
     let mut acceleration = vec![0.0; stage.q.len()];
-    while states.len() < MOST {
+    while states.len() < MAX_POSITIONS {
         let time = (states.len() as f64 * settings.every).min(settings.duration);
         // The next position is near the one that the last accelerations lead to.
         let h = time - last;
@@ -121,12 +122,11 @@ fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
     }
     let open = state.position_violation(system);
     // A comparison that is false for NaN as well.
-    let closed = open <= OPEN * system.length.max(1.0);
+    let closed = open <= MAX_VIOLATION * system.length.max(1.0);
     if !closed {
         let open = triad_dynamics::constraints::violation::measure(system, state);
-        let (index, violation) = open.constraints.first().copied().unwrap_or((0, open.relative));
-        let origin =
-            system.constraints.get(index).map_or_else(String::new, |constraint| constraint.name.clone());
+        let (id, violation) = open.constraints.first().copied().unwrap_or((ConstraintId(0), open.relative));
+        let origin = system.constraints.get(id.index()).map_or_else(String::new, |worst| worst.name.clone());
         return Err(AnalysisError::Unreachable { time, origin, violation });
     }
     state.commit_revolutions();

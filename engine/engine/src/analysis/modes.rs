@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::state::BodyFrame;
 
-/// Damping or asymmetry below this part of the stiffness is none.
+/// Damping or asymmetry, relative to the stiffness, below which it counts as zero.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// The position that is looked at.

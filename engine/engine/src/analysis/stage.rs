@@ -9,6 +9,7 @@ use triad_dynamics::dynamics::elimination::Accelerations;
 use triad_dynamics::model::Model;
 use triad_dynamics::state::{AppliedForces, BodyFrame};
 use triad_dynamics::system::System;
+use triad_dynamics::system::index::IncidenceId;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// A mechanism held at one position.
@@ -86,8 +87,8 @@ impl Stage {
         let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
         elimination.linearize(system, state);
         for (index, incidence) in system.incidences.iter().enumerate() {
-            let first = system.constraints[incidence.constraint].solver.start;
-            let rows = elimination.jacobian().rows_on(system, index).chunks_exact(6);
+            let first = system[incidence.constraint].solver.start;
+            let rows = elimination.jacobian().rows_on(system, IncidenceId(index)).chunks_exact(6);
             for (row, lambda) in rows.zip(&multipliers[first..]) {
                 for c in 0..6 {
                     out[6 * incidence.body + c] += row[c] * lambda;

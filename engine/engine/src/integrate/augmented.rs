@@ -14,17 +14,17 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::equations::augmented::{Normal, RankOne, RightSides};
 use triad_dynamics::ode::OdeSystem;
 
-/// Most Newton iterations of a step, each of which augments the multipliers.
+/// Greatest number of Newton iterations of a step, each of which augments the multipliers.
 const MAX_ITERATIONS: usize = 25;
 /// Iterations after which a growing change means that the step cannot be solved.
 const MIN_ITERATIONS: usize = 6;
-/// A change of more than so many lengths of the mechanism leads nowhere.
+/// Change of the coordinates, in lengths of the mechanism, above which Newton's method has diverged.
 const DIVERGED: f64 = 1e3;
-/// Most augmentations of each projection.
+/// Greatest number of augmentations of each projection.
 const MAX_PROJECTIONS: usize = 40;
 /// What a projection may leave of the constraints, relative to the largest velocity or acceleration.
 const PROJECTED: f64 = 1e-13;
-/// Part of the step that the error estimate would allow which is taken.
+/// Safety factor of the step control: the step relative to the one that the error estimate allows.
 const SAFETY: f64 = 0.9;
 /// Least and greatest change of the step, as factors.
 const CHANGE: (f64, f64) = (0.2, 3.0);
@@ -34,7 +34,7 @@ const AFTER_FAILURE: f64 = 0.25;
 const MIN_RETRY: f64 = 1e-10;
 /// Relative error below which a larger step is not considered.
 const MIN_ERROR: f64 = 1e-12;
-/// Part of the tolerance to which a step is solved.
+/// Error to which the equations of a step are solved, relative to the tolerance.
 const SOLVED: f64 = 1e-3;
 
 /// The integrator and its last step.

@@ -5,8 +5,11 @@ use super::radau::Radau;
 use super::stepper::OdeMethod;
 use triad_dynamics::ode::OdeSystem;
 
+/// Start of the runs, s: not zero, so that t enters.
 const START: f64 = 0.3;
+/// Their end, s: two steps later.
 const END: f64 = 2.3;
+/// Their fixed step, s.
 const STEP: f64 = 1.0;
 /// Relative error below which a method is exact. Measured: 6e-14 for the dense output of DOP853, 2e-14 at most elsewhere.
 const ROUNDING: f64 = 1e-12;

@@ -20,7 +20,7 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state;
 
-/// Part of the step that the error estimate would allow which is taken (Hairer, Nørsett, Wanner, section II.4).
+/// Safety factor of the step control: the step relative to the one that the error estimate allows (Hairer, Nørsett, Wanner, section II.4).
 const SAFETY: f64 = 0.9;
 /// Relative error below which a larger step is not considered: the step control would divide by zero.
 const MIN_ERROR: f64 = 1e-12;

@@ -15,15 +15,15 @@ use linear::{Factors, RateJacobian};
 use nalgebra::{Complex, DVector};
 use triad_dynamics::ode::OdeSystem;
 
-/// Rounding of the stages, relative to one: Newton's method can do no better.
+/// Relative rounding of the stages: Newton's method does not converge further.
 const ROUNDING: f64 = 1e-12;
-/// Most iterations of Newton's method for a step.
+/// Greatest number of iterations of Newton's method for a step.
 const MAX_ITERATIONS: usize = 9;
 /// Ratio of successive corrections above which the next step gets a new Jacobian matrix.
 const SLOW: f64 = 1e-3;
 /// Ratio of successive corrections above which Newton's method does not converge.
 const DIVERGING: f64 = 0.99;
-/// Part of the step that the error estimate would allow which is taken.
+/// Safety factor of the step control: the step relative to the one that the error estimate allows.
 const SAFETY: f64 = 0.9;
 /// Least and greatest change of the step, as factors.
 const CHANGE: (f64, f64) = (0.125, 6.0);

@@ -27,7 +27,7 @@ const PARTS: [f64; 5] = [
 ];
 /// Substeps of a step.
 const SUBSTEPS: usize = 9;
-/// Most iterations for the end of a substep.
+/// Greatest number of iterations for the end of a substep.
 const MAX_ITERATIONS: usize = 100;
 /// Iterations after which a growing change means that the substep cannot be solved.
 const MIN_ITERATIONS: usize = 8;
@@ -37,7 +37,7 @@ const STALLED: f64 = 1e-9;
 const ROUNDING: f64 = 1e-15;
 /// A step that is longer than what is left to the end by less than this part of itself is the last.
 const LAST_STEP: f64 = 1e-6;
-/// Most steps of the trial run from which the step size is found.
+/// Greatest number of steps of the trial run from which the step size is found.
 const TRIAL_STEPS: usize = 100;
 /// Part of the longest step of the trial below which the trial is coming to a halt, and says no more about the motion before
 /// that.

@@ -12,6 +12,7 @@ use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::equations::{column_names, row_names};
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
+use triad_dynamics::system::index::{ConstraintId, IncidenceId};
 
 /// What stands at a place of a symmetric matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -116,22 +117,22 @@ pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric 
     let mut first = vec![0; system.constraints.len()];
     let mut names = Vec::with_capacity(system.solver_rows);
     for &constraint in &order {
-        first[constraint] = names.len();
+        first[constraint.index()] = names.len();
         names.extend(solver_names(system, constraint));
     }
     let mut values = BTreeMap::<(usize, usize), f64>::new();
-    let mut joined: BTreeSet<(usize, usize)> = BTreeSet::new();
+    let mut joined: BTreeSet<(ConstraintId, ConstraintId)> = BTreeSet::new();
     for incidences in &system.incidences_of_body {
-        for &p in incidences {
-            for &q in incidences {
-                let [gp, gq] = [p, q].map(|k| system.incidences[k].constraint);
-                if first[gp] < first[gq] {
+        for p in incidences.iter().map(|&p| IncidenceId(p)) {
+            for q in incidences.iter().map(|&q| IncidenceId(q)) {
+                let [gp, gq] = [p, q].map(|id| system[id].constraint);
+                if first[gp.index()] < first[gq.index()] {
                     continue;
                 }
                 joined.insert((gp, gq));
                 for (i, a) in at.jacobian().rows_on(system, p).chunks_exact(6).enumerate() {
                     for (j, b) in at.weighted_rows_on(system, q).chunks_exact(6).enumerate() {
-                        let (row, column) = (first[gp] + i, first[gq] + j);
+                        let (row, column) = (first[gp.index()] + i, first[gq.index()] + j);
                         if column <= row {
                             *values.entry((row, column)).or_default() +=
                                 a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -144,8 +145,8 @@ pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric 
     let mut places: BTreeMap<(usize, usize), (f64, EntryKind)> =
         values.into_iter().map(|(at, value)| (at, (value, EntryKind::Own))).collect();
     for (i, j) in filled(&order, &joined) {
-        for row in first[i]..first[i] + system.constraints[i].solver.len() {
-            for column in first[j]..first[j] + system.constraints[j].solver.len() {
+        for row in first[i.index()]..first[i.index()] + system[i].solver.len() {
+            for column in first[j.index()]..first[j.index()] + system[j].solver.len() {
                 places.entry((row, column)).or_insert((0.0, EntryKind::Fill));
             }
         }
@@ -154,8 +155,8 @@ pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric 
 }
 
 /// Names of a joint's rows in the solver: two for a common vector, one for each equation of the other forms.
-fn solver_names(system: &System, constraint: usize) -> Vec<String> {
-    let constraint = &system.constraints[constraint];
+fn solver_names(system: &System, constraint: ConstraintId) -> Vec<String> {
+    let constraint = &system[constraint];
     let rows = system.rows[constraint.forms.clone()].iter();
     rows.flat_map(|row| {
         let count = row.form.independent();
@@ -169,15 +170,18 @@ fn solver_names(system: &System, constraint: usize) -> Vec<String> {
 
 /// Pairs of joints, the later one first, that meet while joints are eliminated in that order although S has nothing
 /// there.
-fn filled(order: &[usize], joined: &BTreeSet<(usize, usize)>) -> Vec<(usize, usize)> {
+fn filled(
+    order: &[ConstraintId],
+    joined: &BTreeSet<(ConstraintId, ConstraintId)>,
+) -> Vec<(ConstraintId, ConstraintId)> {
     let mut rank = vec![0; order.len()];
     for (place, &joint) in order.iter().enumerate() {
-        rank[joint] = place;
+        rank[joint.index()] = place;
     }
     let mut later = vec![BTreeSet::new(); order.len()];
     for &(i, j) in joined {
         if i != j {
-            later[rank[j]].insert(rank[i]);
+            later[rank[j.index()]].insert(rank[i.index()]);
         }
     }
     let mut fill = Vec::new();
@@ -287,9 +291,13 @@ mod tests {
 
     #[test]
     fn a_ring_of_joints_has_fill_and_a_chain_has_none() {
-        let joined = |pairs: &[(usize, usize)]| pairs.iter().copied().collect::<BTreeSet<_>>();
-        assert_eq!(filled(&[0, 1, 2, 3], &joined(&[(1, 0), (2, 1), (3, 2)])), []);
-        assert_eq!(filled(&[0, 1, 2, 3], &joined(&[(1, 0), (2, 1), (3, 2), (3, 0)])), [(3, 1)]);
-        assert_eq!(filled(&[0, 2, 1, 3], &joined(&[(1, 0), (1, 2), (3, 2), (3, 0)])), [(3, 1)]);
+        let pair = |&(i, j): &(usize, usize)| (ConstraintId(i), ConstraintId(j));
+        let fill = |order: [usize; 4], joined: &[(usize, usize)]| {
+            let fill = filled(&order.map(ConstraintId), &joined.iter().map(pair).collect());
+            fill.into_iter().map(|(i, j)| (i.index(), j.index())).collect::<Vec<_>>()
+        };
+        assert_eq!(fill([0, 1, 2, 3], &[(1, 0), (2, 1), (3, 2)]), []);
+        assert_eq!(fill([0, 1, 2, 3], &[(1, 0), (2, 1), (3, 2), (3, 0)]), [(3, 1)]);
+        assert_eq!(fill([0, 2, 1, 3], &[(1, 0), (1, 2), (3, 2), (3, 0)]), [(3, 1)]);
     }
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::model::{BodyRef, DriverKind, ModelJoint};
 use triad_dynamics::state::State;
+use triad_dynamics::system::index::SolverRow;
 use triad_dynamics::system::{Constraint, System};
 use triad_linalg::orthonormal_basis;
 
@@ -143,7 +144,7 @@ fn reaction(
         let weights: Vec<f64> = turned.iter().copied().collect();
         ReactionComponent {
             value: (turned * &lambda)[0],
-            unique: null.is_unique(constraint.solver.start, &weights),
+            unique: null.is_unique(SolverRow(constraint.solver.start), &weights),
         }
     };
     Reaction {
@@ -255,8 +256,8 @@ fn wrench_map(
 ) -> DMatrix<f64> {
     let system = at.system;
     let mut map = DMatrix::zeros(6, constraint.solver.len());
-    for index in constraint.incidences.clone() {
-        let incidence = &system.incidences[index];
+    for index in constraint.incidence_ids() {
+        let incidence = &system[index];
         let sign = match body {
             BodyRef::Ground => 1.0,
             BodyRef::Moving(own) if own == incidence.body => -1.0,

@@ -9,6 +9,7 @@ use triad_dynamics::dynamics::elimination::Accelerations;
 use triad_dynamics::equations;
 use triad_dynamics::equations::augmented::{for_mass_entries, force};
 use triad_dynamics::equations::jacobian::Jacobian;
+use triad_dynamics::system::index::RowId;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// Multipliers of a body's rigid-body rows.
@@ -30,7 +31,7 @@ pub fn rigid_multipliers(accelerations: &Accelerations) -> Vec<RigidMultipliers>
     let mut acceleration = vec![0.0; system.coordinates];
     accelerations.write(&mut acceleration);
     for_mass_entries(system, at, |row, column, value| rest[row] -= value * acceleration[column]);
-    let joint: Vec<f64> = (0..system.rows.len()).flat_map(|index| multipliers.of_row(index)).collect();
+    let joint: Vec<f64> = (0..system.rows.len()).flat_map(|index| multipliers.of_row(RowId(index))).collect();
     for entry in Jacobian::new(system, at).entries {
         if entry.row >= system.rigid_rows {
             rest[entry.column] -= entry.value * joint[entry.row - system.rigid_rows];

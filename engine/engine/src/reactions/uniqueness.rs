@@ -15,11 +15,12 @@ use serde::Serialize;
 use triad_dynamics::dynamics::elimination::TwistJacobian;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
+use triad_dynamics::system::index::{ConstraintId, IncidenceId, SolverRow};
 use triad_linalg::left_null_space;
 
-/// Most rows that are analysed: the work grows with their cube.
+/// Greatest number of rows that are analysed: the work grows with its cube.
 pub const MAX_ROWS: usize = 600;
-/// A row, scaled to unit length, of which less than this is across the others depends on them.
+/// A row, scaled to unit length, depends on the others if its component orthogonal to them is shorter than this.
 pub const RANK_TOLERANCE: f64 = 1e-9;
 /// A component that a unit null vector changes by less than this part of its own size is unique.
 pub const TOLERANCE: f64 = 1e-7;
@@ -89,8 +90,8 @@ impl NullSpace {
         }
         let mut a = DMatrix::zeros(rows, 6 * system.bodies.len());
         for (index, incidence) in system.incidences.iter().enumerate() {
-            let first = system.constraints[incidence.constraint].solver.start;
-            for (k, row) in jacobian.rows_on(system, index).chunks_exact(6).enumerate() {
+            let first = system[incidence.constraint].solver.start;
+            for (k, row) in jacobian.rows_on(system, IncidenceId(index)).chunks_exact(6).enumerate() {
                 for c in 0..6 {
                     let scale = if c < 3 { 1.0 } else { 1.0 / system.length };
                     a[(first + k, 6 * incidence.body + c)] = row[c] * scale;
@@ -133,36 +134,42 @@ impl NullSpace {
     }
 
     /// Whether a quantity Σ wₖ λₖ of the solver rows of a constraint is unique — eq. (9.2).
-    pub fn is_unique(&self, first: usize, weights: &[f64]) -> bool {
-        let size: f64 =
-            weights.iter().zip(&self.lengths[first..]).map(|(w, l)| (w / l.max(1e-300)).powi(2)).sum();
+    pub fn is_unique(&self, first: SolverRow, weights: &[f64]) -> bool {
+        let size: f64 = weights
+            .iter()
+            .zip(&self.lengths[first.index()..])
+            .map(|(w, l)| (w / l.max(1e-300)).powi(2))
+            .sum();
         self.basis.column_iter().all(|column| {
-            let change: f64 =
-                weights.iter().zip(column.rows(first, weights.len()).iter()).map(|(w, n)| w * n).sum();
+            let change: f64 = weights
+                .iter()
+                .zip(column.rows(first.index(), weights.len()).iter())
+                .map(|(w, n)| w * n)
+                .sum();
             change.abs() <= TOLERANCE * size.sqrt()
         })
     }
 
     /// The sets of joints that share redundant rows, with what would remove them.
     pub fn redundancies(&self, system: &System, at: &State) -> Vec<Redundancy> {
-        let mut sets: Vec<Vec<usize>> = Vec::new();
+        let mut sets: Vec<Vec<ConstraintId>> = Vec::new();
         let projector = &self.scaled * self.scaled.transpose();
-        let coupled = |i: usize, j: usize| {
-            let (p, q) = (&system.constraints[i].solver, &system.constraints[j].solver);
+        let coupled = |i: ConstraintId, j: ConstraintId| {
+            let (p, q) = (&system[i].solver, &system[j].solver);
             projector.view((p.start, q.start), (p.len(), q.len())).iter().any(|x| x.abs() > TOLERANCE)
         };
         let mut seen = vec![false; system.constraints.len()];
-        for start in 0..system.constraints.len() {
-            if seen[start] || !coupled(start, start) {
+        for start in system.constraint_ids() {
+            if seen[start.index()] || !coupled(start, start) {
                 continue;
             }
             let mut set = vec![start];
-            seen[start] = true;
+            seen[start.index()] = true;
             let mut next = 0;
             while next < set.len() {
-                for other in 0..system.constraints.len() {
-                    if !seen[other] && coupled(set[next], other) {
-                        seen[other] = true;
+                for other in system.constraint_ids() {
+                    if !seen[other.index()] && coupled(set[next], other) {
+                        seen[other.index()] = true;
                         set.push(other);
                     }
                 }
@@ -173,14 +180,13 @@ impl NullSpace {
         }
         sets.into_iter()
             .map(|set| {
-                let rows: Vec<usize> =
-                    set.iter().flat_map(|&g| system.constraints[g].solver.clone()).collect();
-                let trace: f64 = rows.iter().map(|&row| projector[(row, row)]).sum();
+                let rows: Vec<SolverRow> = set.iter().flat_map(|&id| system[id].solver_rows()).collect();
+                let trace: f64 = rows.iter().map(|&row| projector[(row.index(), row.index())]).sum();
                 Redundancy {
                     rows: (0..=rows.len())
                         .min_by(|a, b| distance(*a, trace).total_cmp(&distance(*b, trace)))
                         .unwrap_or(0),
-                    joints: set.iter().map(|&g| system.constraints[g].name.clone()).collect(),
+                    joints: set.iter().map(|&id| system[id].name.clone()).collect(),
                     remedies: remedy::find(system, at, &set, &self.within(&rows)),
                 }
             })
@@ -188,9 +194,9 @@ impl NullSpace {
     }
 
     /// A basis of the null vectors that live on the given rows alone, all rows kept.
-    fn within(&self, rows: &[usize]) -> DMatrix<f64> {
+    fn within(&self, rows: &[SolverRow]) -> DMatrix<f64> {
         // Of the scaled basis, restricted to these rows, all directions have length one or zero.
-        let part = self.scaled.select_rows(rows);
+        let part = self.scaled.select_rows(rows.iter().map(|row| &row.0));
         let eigen = SymmetricEigen::new(part.tr_mul(&part));
         let own: Vec<usize> = (0..part.ncols()).filter(|&k| eigen.eigenvalues[k] > 0.5).collect();
         &self.basis * eigen.eigenvectors.select_columns(&own)

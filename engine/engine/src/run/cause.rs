@@ -7,10 +7,11 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::state::{self, State};
 use triad_dynamics::system::islands;
 
-/// How far ahead a position is looked for: so many radians of the body that turns fastest.
+/// How far ahead a position is looked for, rad of the body that turns fastest.
 const AHEAD: [f64; 2] = [0.1, 0.01];
-/// A joint is told if so much is left of its hold at the start, or if it products no more than this at the start.
+/// Pivot product of a joint, relative to that at the start, below which the joint is named as the cause.
 const LOSING: f64 = 1e-4;
+/// Pivot product of a joint at the start below which the joint is named as the cause.
 const WEAK: f64 = 1e-7;
 
 impl Simulation {

@@ -26,7 +26,7 @@ fn driver_power(at: &Multipliers) -> f64 {
     let system = at.system;
     let mut power = 0.0;
     for constraint in system.constraints.iter().filter(|constraint| constraint.driver) {
-        for row in constraint.forms.clone() {
+        for row in constraint.row_ids() {
             for (component, lambda) in at.of_row(row).into_iter().enumerate() {
                 power -= lambda * equation(system, at.state, Source::Joint { row, component }).nu;
             }

@@ -9,11 +9,11 @@ use serde::Serialize;
 use std::sync::Arc;
 use triad_dynamics::system::event::EventFunction;
 
-/// Parts in which a step is looked at.
+/// Number of equal parts of a step that are searched for a passing.
 const PARTS: u32 = 12;
 /// A start nearer to the value than this, relative to its size, does not pass it by leaving.
 const AT_VALUE: f64 = 1e-10;
-/// Iterations of a root: bisection alone would need 60.
+/// Greatest number of iterations for a root: bisection alone would need 60.
 const MAX_ITERATIONS: u32 = 80;
 
 /// An event that has happened.

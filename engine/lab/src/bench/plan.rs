@@ -91,6 +91,7 @@ pub struct Wish {
     pub tolerances: Vec<f64>,
 }
 
+/// Acceleration of gravity in the built-in scenes, m/s².
 const GRAVITY: f64 = 9.81;
 
 /// κ of the N-four-bar mechanism.

@@ -7,8 +7,9 @@ use triad_plot::{Axis, PlotFrame, Style};
 use super::measure::Measured;
 use super::plan::Method;
 
-/// Width and height of a plot; left, right, top and bottom margin.
+/// Width and height of a plot, px.
 const SIZE: (f64, f64) = (720.0, 400.0);
+/// Left, right, top and bottom margin, px; the right one holds the legend.
 const MARGINS: [f64; 4] = [64.0, 256.0, 34.0, 46.0];
 
 /// The ways to run that occur, in order.

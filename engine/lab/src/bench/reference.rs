@@ -51,6 +51,7 @@ pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Positions, EngineErr
 
 /// φ̈ = κ sin φ at multiples of [`EVERY`], by its own Taylor series of order 20: exact to rounding.
 fn pendulum(kappa: f64, start: f64, rate: f64, intervals: u32) -> Vec<f64> {
+    /// Order of the Taylor series of the angle.
     const ORDER: usize = 20;
     let (mut phi, mut omega) = (start, rate);
     let mut angles = vec![phi];

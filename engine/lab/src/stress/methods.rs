@@ -7,10 +7,11 @@ use super::{StressCase, StressOutcome, StressVerdict, TrialMethod};
 use triad_scene::{ConstraintMethod, IntegratorKind};
 
 const FAMILY: &str = "treatments";
-/// Steps of a compared run, and of one whose steps are dear: more is no use of a method.
+/// Greatest number of steps of a compared run: a method that needs more is of no use.
 const STEPS: u64 = 60_000;
+/// The same for a method whose steps are expensive.
 const DEAR_STEPS: u64 = 12_000;
-/// Bodies of a method whose matrices are full: the cube of more takes hours.
+/// Greatest number of bodies for a method with dense matrices: more takes hours.
 const BODIES: usize = 50;
 
 pub(super) const CASES: &[StressCase] = &[

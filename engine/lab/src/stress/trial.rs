@@ -7,7 +7,7 @@ use triad_scene::Scene;
 
 /// Steps that a run is given unless it asks for more.
 const STEPS: u64 = 200_000;
-/// Relative violation above which a run with projection is not precise any more.
+/// Relative violation above which a run with projection counts as degraded.
 const LOOSE: f64 = 1e-8;
 
 /// Measures the shown state: its deviation from the reference, relative to the reference's size.

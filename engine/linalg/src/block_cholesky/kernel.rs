@@ -4,7 +4,8 @@
 //! vector of the processor, and what stands behind its end is zero. Products and sums are fused: the same bits on every
 //! processor.
 
-/// Pivots above this part of the diagonal let a small block be inverted by its minors, with one division.
+/// Pivots, relative to the diagonal, above which a small block is inverted by its minors, with one division; below, rounding
+/// of the minors would count, and the block is eliminated row by row.
 const FAR_FROM_SINGULAR: f64 = 1e-3;
 
 /// Inverse of a symmetric block, of which the lower triangle is read. `reference` is the diagonal of S, or infinite for

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use triad_engine::analysis::check::dependent_sets;
 use triad_engine::reactions::matrices::{EntryKind, Symmetric};
 use triad_engine::run::Simulation;
+use triad_engine::system::index::EquationId;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -83,7 +84,10 @@ pub(in crate::api) async fn jacobian_of(session: &Session, at: Option<f64>) -> R
             let sets = dependent_sets(run.system(), run.rank());
             let redundant = sets
                 .into_iter()
-                .map(|set| RedundantSet { rows: set.equations.collect(), dependent: set.dependent })
+                .map(|set| RedundantSet {
+                    rows: set.equations.into_iter().map(EquationId::index).collect(),
+                    dependent: set.dependent,
+                })
                 .collect();
             let system = run.system();
             let freedoms = 6 * system.bodies.len() - run.rank().rank;

@@ -7,6 +7,7 @@ use crate::model::BodyRef;
 use crate::scene::Coordinates;
 use crate::state::{Residual, State};
 use crate::system::System;
+use crate::system::index::{FeatureId, RowId};
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use nalgebra::{Matrix3, Vector3};
@@ -47,18 +48,19 @@ impl Elimination {
                 self.particular[place] = Vector3::zeros();
                 continue;
             };
-            let local = state.feature_local(system, place);
+            let local = state.feature_local(system, FeatureId(place));
             self.particular[place] = self.bodies[body].particular.arm(&local);
         }
         for (index, (row, r)) in system.rows.iter().zip(rows).enumerate() {
             match row.form {
                 Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                    let gamma = r - (self.particular[a] - self.particular[b]);
+                    let gamma = r - (self.particular[a.index()] - self.particular[b.index()]);
                     if matches!(row.form, Form::Coincidence { .. }) {
                         self.gamma[row.solver..row.solver + 3].copy_from_slice(gamma.as_slice());
                     } else {
                         for k in 0..2 {
-                            self.gamma[row.solver + k] = self.jacobian.transverse(index)[k].dot(&gamma);
+                            self.gamma[row.solver + k] =
+                                self.jacobian.transverse(RowId(index))[k].dot(&gamma);
                         }
                     }
                 }

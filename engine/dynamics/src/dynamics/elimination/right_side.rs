@@ -6,6 +6,7 @@ use crate::scene::Coordinates;
 use crate::state::{BodyState, State};
 use crate::system::System;
 use crate::system::feature::Difference;
+use crate::system::index::RowId;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use nalgebra::{Matrix3, Vector3};
@@ -81,12 +82,13 @@ impl Elimination {
                     let value = state.feature_value(a) - state.feature_value(b);
                     let rate = state.feature_rate(a) - state.feature_rate(b);
                     let gamma = Vector3::from_fn(|k, _| shift(value[k], rate[k]))
-                        - (self.particular[a] - self.particular[b]);
+                        - (self.particular[a.index()] - self.particular[b.index()]);
                     if matches!(row.form, Form::Coincidence { .. }) {
                         self.gamma[row.solver..row.solver + 3].copy_from_slice(gamma.as_slice());
                     } else {
                         for k in 0..2 {
-                            self.gamma[row.solver + k] = self.jacobian.transverse(index)[k].dot(&gamma);
+                            self.gamma[row.solver + k] =
+                                self.jacobian.transverse(RowId(index))[k].dot(&gamma);
                         }
                     }
                 }
@@ -116,7 +118,7 @@ impl Elimination {
     /// The second derivative of a · b along Q̈ᵖ.
     pub(super) fn particular_product(&self, state: &State, a: Difference, b: Difference) -> f64 {
         let (x, y) = (a.of(|f| state.feature_value(f)), b.of(|f| state.feature_value(f)));
-        let (xp, yp) = (a.of(|f| self.particular[f]), b.of(|f| self.particular[f]));
+        let (xp, yp) = (a.of(|f| self.particular[f.index()]), b.of(|f| self.particular[f.index()]));
         x.dot(&yp) + xp.dot(&y)
     }
 
@@ -128,7 +130,7 @@ impl Elimination {
             let features = system.angles[angle].features();
             let gradient = &state.angles()[angle].gradient;
             let particular: f64 =
-                features.iter().zip(gradient).map(|(&f, g)| g.dot(&self.particular[f])).sum();
+                features.iter().zip(gradient).map(|(&f, g)| g.dot(&self.particular[f.index()])).sum();
             sum += factor * particular;
         }
         if let Some((a, b, factor)) = slide {

@@ -4,6 +4,7 @@
 use super::{BodySolve, TwistJacobian, natural_acceleration};
 use crate::state::State;
 use crate::system::System;
+use crate::system::index::{IncidenceId, RowId};
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use nalgebra::Vector3;
@@ -32,12 +33,12 @@ impl<'a> Multipliers<'a> {
     }
 
     /// λ of the equations of a row, as written: those of a common vector are μ₁ t₁ + μ₂ t₂.
-    pub fn of_row(&self, index: usize) -> Vec<f64> {
-        let row = &self.system.rows[index];
+    pub fn of_row(&self, id: RowId) -> Vec<f64> {
+        let row = &self.system[id];
         match row.form {
             Form::Coincidence { .. } => self.lambda[row.solver..row.solver + 3].to_vec(),
             Form::CommonVector { .. } => {
-                let [t1, t2] = self.jacobian.transverse(index);
+                let [t1, t2] = self.jacobian.transverse(id);
                 let sum = t1 * self.lambda[row.solver] + t2 * self.lambda[row.solver + 1];
                 sum.as_slice().to_vec()
             }
@@ -46,9 +47,9 @@ impl<'a> Multipliers<'a> {
     }
 
     /// Force and moment about the centre of mass, −A_bᵀ λ, of a joint on a body — eq. (9.1).
-    pub fn wrench_on(&self, incidence: usize) -> [Vector3<f64>; 2] {
-        let constraint = self.system.incidences[incidence].constraint;
-        let lambda = &self.lambda[self.system.constraints[constraint].solver.clone()];
+    pub fn wrench_on(&self, incidence: IncidenceId) -> [Vector3<f64>; 2] {
+        let constraint = self.system[incidence].constraint;
+        let lambda = &self.lambda[self.system[constraint].solver.clone()];
         let mut wrench = [Vector3::zeros(); 2];
         let rows = self.jacobian.rows_on(self.system, incidence);
         for (a, lambda) in rows.chunks_exact(6).zip(lambda) {

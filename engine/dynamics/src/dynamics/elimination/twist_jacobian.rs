@@ -1,6 +1,7 @@
 //! The twist Jacobian A of the solver rows: six columns for each body — eq. (7.4).
 
 use crate::state::State;
+use crate::system::index::{FeatureId, IncidenceId, RowId};
 use crate::system::row::Form;
 use crate::system::{NO_INCIDENCE, Row, System};
 use nalgebra::Vector3;
@@ -23,14 +24,14 @@ impl TwistJacobian {
         }
     }
 
-    /// The two directions across the vector of row `index` that the solver keeps.
-    pub fn transverse(&self, index: usize) -> [Vector3<f64>; 2] {
-        self.transverse[index]
+    /// The two directions across the vector of a row that the solver keeps.
+    pub fn transverse(&self, row: RowId) -> [Vector3<f64>; 2] {
+        self.transverse[row.index()]
     }
 
     /// The rows A_b of an incidence, six numbers each: translation, then rotation.
-    pub fn rows_on(&self, system: &System, incidence: usize) -> &[f64] {
-        let incidence = &system.incidences[incidence];
+    pub fn rows_on(&self, system: &System, incidence: IncidenceId) -> &[f64] {
+        let incidence = &system[incidence];
         &self.a[incidence.offset..incidence.offset + 6 * incidence.rows]
     }
 
@@ -98,7 +99,7 @@ impl TwistJacobian {
         state: &State,
         row: &Row,
         k: usize,
-        (place, feature): (usize, usize),
+        (place, feature): (usize, FeatureId),
         g: &Vector3<f64>,
     ) {
         let incidence = row.incidence[place];
@@ -108,7 +109,7 @@ impl TwistJacobian {
         let at = system.incidences[incidence].offset + 6 * (row.local + k);
         let moment = state.feature_arm(feature).cross(g);
         let block = &mut self.a[at..at + 6];
-        if system.features[feature].point {
+        if system[feature].point {
             for c in 0..3 {
                 block[c] += g[c];
             }

@@ -4,6 +4,7 @@
 use super::{Bodies, Series};
 use crate::dynamics::elimination::TwistJacobian;
 use crate::system::System;
+use crate::system::index::RowId;
 use nalgebra::Vector3;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
@@ -83,7 +84,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             let [t1, t2] = common.expanded.map(Vector3::from);
             let first = system.rows[common.index].solver;
             let sum = t1 * lambda[first] + t2 * lambda[first + 1];
-            for (k, t) in jacobian.transverse(common.index).iter().enumerate() {
+            for (k, t) in jacobian.transverse(RowId(common.index)).iter().enumerate() {
                 lambda[first + k] = t.dot(&sum);
             }
         }

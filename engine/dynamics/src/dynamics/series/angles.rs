@@ -5,7 +5,8 @@ use super::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, valu
 use super::rows::LanePlace;
 use crate::state::AngleState;
 use crate::system::System;
-use crate::system::feature::{Difference, FeatureId};
+use crate::system::feature::Difference;
+use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
 
@@ -145,12 +146,13 @@ impl Angles {
     pub fn new(system: &System, place: &[LanePlace], stride: usize, turns: &[f64]) -> Self {
         let starts = turns.iter().copied().chain(std::iter::repeat(0.0));
         let angles = system.angles.iter().zip(starts);
-        let list = angles.map(|(a, start)| AngleSeries::new(a.features().map(|f| place[f]), stride, start));
+        let list =
+            angles.map(|(a, start)| AngleSeries::new(a.features().map(|f| place[f.index()]), stride, start));
         let relations = system.rows.iter().filter_map(|row| {
             let Form::Relation { angles, slide, constant } = row.form else { return None };
             let places: Vec<LanePlace> =
-                row.form.features(&system.angles).iter().map(|&f| place[f]).collect();
-            let at = |f: FeatureId| place[f];
+                row.form.features(&system.angles).iter().map(|&f| place[f.index()]).collect();
+            let at = |f: FeatureId| place[f.index()];
             let pair = |d: Difference| [Some(at(d.plus)), d.minus.map(at)];
             Some(Relation {
                 row: row.solver,

@@ -11,7 +11,7 @@ use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw};
 use crate::scene::LoadFrame;
 use crate::system::System;
-use crate::system::feature::FeatureId;
+use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
 use nalgebra::Vector3;
 
@@ -165,7 +165,7 @@ impl Loads {
     pub fn new(system: &System, place: &[LanePlace], lanes: usize, stride: usize) -> Self {
         let seat = |body: usize| [body / lanes, body % lanes];
         let vectors = || vec![Vector3::zeros(); stride];
-        let at = |f: FeatureId| place[f];
+        let at = |f: FeatureId| place[f.index()];
         let given =
             |body: usize, at: Option<Vector3<f64>>, curve: &VectorCurve, frame: LoadFrame| Load::Given {
                 seat: seat(body),

@@ -2,7 +2,8 @@
 
 use super::lanes::{Lane, LaneVector, add_dot, dot, scaled};
 use crate::system::System;
-use crate::system::feature::{Difference, FeatureId, Target};
+use crate::system::feature::{Difference, Target};
+use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
 use triad_linalg::orthonormal_basis;
@@ -104,7 +105,7 @@ impl<const L: usize> Rows<L> {
             stride,
             extra: vec![0.0; system.solver_rows],
         };
-        let at = |f: FeatureId| place[f];
+        let at = |f: FeatureId| place[f.index()];
         let pair = |d: Difference| [at(d.plus), d.minus.map_or(nowhere, at)];
         for (index, row) in system.rows.iter().enumerate() {
             match row.form {

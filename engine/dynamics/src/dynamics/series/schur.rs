@@ -74,7 +74,7 @@ impl Schur {
             .collect();
         let edges = touching.iter().flat_map(|incidences: &Vec<usize>| {
             incidences.iter().enumerate().flat_map(move |(k, &p)| {
-                let constraint = |i: usize| system.incidences[i].constraint;
+                let constraint = |i: usize| system.incidences[i].constraint.index();
                 incidences[k + 1..].iter().map(move |&q| (constraint(p), constraint(q)))
             })
         });
@@ -85,7 +85,10 @@ impl Schur {
         for (body, incidences) in touching.iter().enumerate() {
             for (k, &p) in incidences.iter().enumerate() {
                 for &q in &incidences[k..] {
-                    let slot = factor.slot(system.incidences[p].constraint, system.incidences[q].constraint);
+                    let slot = factor.slot(
+                        system.incidences[p].constraint.index(),
+                        system.incidences[q].constraint.index(),
+                    );
                     let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
                     let offset = slot.offset;
                     if let (Some(a), Some(b)) = (ends[left], ends[right]) {

@@ -1,6 +1,7 @@
 //! The terms of H, from which S = H Hᵀ is built: what each feature contributes to the block of its body.
 
 use super::rows::LanePlace;
+use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use crate::system::{NO_INCIDENCE, System};
 use std::ops::Range;
@@ -46,7 +47,7 @@ pub fn ends(system: &System, place: &[LanePlace]) -> Vec<Option<End>> {
         for (order, feature, sign) in [(0, a, 1.0), (1, b, -1.0)] {
             let incidence = row.incidence[order];
             if incidence != NO_INCIDENCE {
-                ends[incidence] = Some(End { place: place[feature], sign });
+                ends[incidence] = Some(End { place: place[feature.index()], sign });
             }
         }
     }
@@ -78,18 +79,18 @@ pub fn terms(system: &System, place: &[LanePlace], lanes: usize, twist: usize) -
     let mut terms = Vec::new();
     let (mut commons, mut products, mut relations) = (0, 0, 0);
     for row in &system.rows {
-        let mut add = |order: usize, feature: usize, gradient: Gradient, sign: f64| {
+        let mut add = |order: usize, feature: FeatureId, gradient: Gradient, sign: f64| {
             let place_of = row.incidence[order];
             if place_of == NO_INCIDENCE {
                 return;
             }
             let incidence = &system.incidences[place_of];
-            let point = system.features[feature].point;
+            let point = system[feature].point;
             let inverse_mass = system.bodies[incidence.body].free_inverse_mass();
             terms.push(Term {
                 incidence: place_of,
                 at: incidence.offset / 6 * twist + twist * row.local,
-                place: place[feature],
+                place: place[feature.index()],
                 gradient,
                 sign,
                 translation: if point { inverse_mass.sqrt() } else { 0.0 },

@@ -5,7 +5,7 @@
 use super::{Curve, VectorCurve};
 use nalgebra::Vector3;
 
-/// Most coefficients that an expansion has.
+/// Greatest number of coefficients of an expansion: the highest order of the integrator is 30.
 pub const MAX_TERMS: usize = 32;
 
 impl Curve {

@@ -13,12 +13,12 @@ use triad_dynamics::system::planar;
 const MAX_ORDER: usize = 30;
 /// Mean distance of breakpoints, in natural steps of the series, below which they are dense (measured: docs/PERFORMANCE.md).
 const DENSE_BREAKPOINTS: f64 = 0.1;
-/// Most breakpoints that are counted.
+/// Greatest number of breakpoints that are counted.
 const MAX_BREAKPOINTS: usize = 100_000;
 /// Part of what is left to the end below which a step is the last, if the constraints cannot be satisfied at its end, or only
 /// after [`MANY_HALVINGS`]: from there on steps lead nowhere, and spoil the state.
 const MIN_PROGRESS: f64 = 1e-9;
-/// So many halvings of a step until the constraints could be satisfied at its end show that it leads nowhere.
+/// Number of halvings of a step, until the constraints can be satisfied at its end, from which on the step leads nowhere.
 const MANY_HALVINGS: u64 = 3;
 
 /// An island and its last step.

@@ -8,11 +8,12 @@ use crate::scene::{AxisRows, JointKind};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_dynamics::model::{BodyRef, ModelJoint};
+use triad_dynamics::model::{BodyRef, JointGeometry, ModelJoint};
 use triad_dynamics::state::State;
+use triad_dynamics::system::index::{ConstraintId, SolverRow};
 use triad_dynamics::system::{Row, System};
 
-/// A functional counts as independent of others if more than this part of it is left.
+/// A functional is independent of others if its component orthogonal to them is larger than this, relative to itself.
 const INDEPENDENT: f64 = 1e-4;
 
 /// A change of one joint.
@@ -30,11 +31,11 @@ pub struct Remedy {
 struct Relaxation {
     becomes: JointKind,
     gives_up: &'static str,
-    dropped: Vec<Vec<(usize, f64)>>,
+    dropped: Vec<Vec<(SolverRow, f64)>>,
 }
 
 /// Greedy: at each turn the change that drops most without taking more than is redundant. Empty if some rows remain.
-pub fn find(system: &System, at: &State, constraints: &[usize], basis: &DMatrix<f64>) -> Vec<Remedy> {
+pub fn find(system: &System, at: &State, constraints: &[ConstraintId], basis: &DMatrix<f64>) -> Vec<Remedy> {
     let mut basis = basis.clone();
     let mut remedies = Vec::new();
     let mut changed = vec![false; constraints.len()];
@@ -56,7 +57,7 @@ pub fn find(system: &System, at: &State, constraints: &[usize], basis: &DMatrix<
         changed[k] = true;
         basis = rest;
         remedies.push(Remedy {
-            joint: system.constraints[constraints[k]].name.clone(),
+            joint: system[constraints[k]].name.clone(),
             becomes: relaxation.becomes,
             gives_up: relaxation.gives_up,
         });
@@ -65,12 +66,12 @@ pub fn find(system: &System, at: &State, constraints: &[usize], basis: &DMatrix<
 }
 
 /// The null vectors on which all dropped functionals vanish, if each functional takes away one dimension.
-fn without(basis: &DMatrix<f64>, dropped: &[Vec<(usize, f64)>]) -> Option<DMatrix<f64>> {
+fn without(basis: &DMatrix<f64>, dropped: &[Vec<(SolverRow, f64)>]) -> Option<DMatrix<f64>> {
     let mut basis = basis.clone();
     for functional in dropped {
         let values: Vec<f64> = basis
             .column_iter()
-            .map(|column| functional.iter().map(|&(row, weight)| weight * column[row]).sum())
+            .map(|column| functional.iter().map(|&(row, weight)| weight * column[row.index()]).sum())
             .collect();
         let pivot = (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()))?;
         if values[pivot].abs() <= INDEPENDENT * basis.column(pivot).amax() {
@@ -94,28 +95,29 @@ fn without(basis: &DMatrix<f64>, dropped: &[Vec<(usize, f64)>]) -> Option<DMatri
 }
 
 /// The usual kinds of joint that a joint can be weakened to.
-fn relaxations(system: &System, at: &State, constraint: usize) -> Vec<Relaxation> {
-    let Some(joint) = system.model.joints.iter().find(|j| j.name == system.constraints[constraint].name)
-    else {
+fn relaxations(system: &System, at: &State, constraint: ConstraintId) -> Vec<Relaxation> {
+    let Some(joint) = system.model.joints.iter().find(|j| j.name == system[constraint].name) else {
         return Vec::new();
     };
-    let rows = &system.rows[system.constraints[constraint].forms.clone()];
-    let of = |from: usize| -> Vec<Vec<(usize, f64)>> {
+    let rows = &system.rows[system[constraint].forms.clone()];
+    let of = |from: usize| -> Vec<Vec<(SolverRow, f64)>> {
         rows.iter()
             .skip(from)
-            .flat_map(|row| (row.solver..row.solver + row.form.independent()).map(|k| vec![(k, 1.0)]))
+            .flat_map(|row| {
+                (row.solver..row.solver + row.form.independent()).map(|k| vec![(SolverRow(k), 1.0)])
+            })
             .collect()
     };
     let relaxed = |becomes, gives_up, dropped| Relaxation { becomes, gives_up, dropped };
-    match joint.kind {
-        JointKind::Revolute => {
+    match joint.geometry {
+        JointGeometry::Revolute { rows: written } => {
             let axial = axial_force(at, joint, &rows[0]);
             let tilting = of(1);
             let mut list = vec![
                 relaxed(JointKind::Spherical, "the moments across its axis", tilting.clone()),
                 relaxed(JointKind::Cylindrical, "the force along its axis", vec![axial.clone()]),
             ];
-            if joint.rows == AxisRows::TwoCar {
+            if written == AxisRows::TwoCar {
                 for one in &tilting {
                     list.push(relaxed(
                         JointKind::Universal,
@@ -132,28 +134,37 @@ fn relaxations(system: &System, at: &State, constraint: usize) -> Vec<Relaxation
             ));
             list
         }
-        JointKind::Prismatic => vec![
+        JointGeometry::Prismatic => vec![
             relaxed(JointKind::Cylindrical, "the moment about its axis", of(4)),
             relaxed(JointKind::PointOnLine, "all moments", of(2)),
         ],
-        JointKind::Cylindrical => {
+        JointGeometry::Cylindrical => {
             vec![relaxed(JointKind::PointOnLine, "the moments across its axis", of(2))]
         }
-        JointKind::Fixed => vec![
+        JointGeometry::Fixed => vec![
             relaxed(JointKind::Revolute, "the moment about one axis", of(3)),
             relaxed(JointKind::Spherical, "all moments", of(1)),
         ],
-        JointKind::Universal => vec![relaxed(JointKind::Spherical, "the moment across its two axes", of(1))],
-        JointKind::Planar => vec![relaxed(JointKind::PointInPlane, "the moments across its normal", of(1))],
-        _ => Vec::new(),
+        JointGeometry::Universal => {
+            vec![relaxed(JointKind::Spherical, "the moment across its two axes", of(1))]
+        }
+        JointGeometry::Planar => {
+            vec![relaxed(JointKind::PointInPlane, "the moments across its normal", of(1))]
+        }
+        JointGeometry::Spherical
+        | JointGeometry::Screw { .. }
+        | JointGeometry::Rod { .. }
+        | JointGeometry::PointOnLine
+        | JointGeometry::PointInPlane
+        | JointGeometry::Gear { .. } => Vec::new(),
     }
 }
 
 /// The part along the axis of the force of a common point.
-fn axial_force(at: &State, joint: &ModelJoint, row: &Row) -> Vec<(usize, f64)> {
+fn axial_force(at: &State, joint: &ModelJoint, row: &Row) -> Vec<(SolverRow, f64)> {
     let axis = match joint.bodies[0] {
         BodyRef::Ground => joint.axes[0],
         BodyRef::Moving(body) => at.bodies()[body].q.arm(&joint.axes[0]),
     };
-    (0..3).map(|k| (row.solver + k, axis[k])).collect()
+    (0..3).map(|k| (SolverRow(row.solver + k), axis[k])).collect()
 }

@@ -4,9 +4,9 @@ use crate::system::System;
 use serde::Serialize;
 use std::ops::Range;
 
-/// Configurations for which memory is allocated at the start.
+/// Number of configurations for which memory is allocated at the start.
 const USUAL: usize = 64;
-/// Most configurations that are kept; the search ends there.
+/// Greatest number of configurations that are kept; the search ends there.
 const MAX_CONFIGURATIONS: usize = 1000;
 /// Times that are closer than this, relative to 1 s or the time itself, belong to one configuration.
 const SAME_TIME: f64 = 1e-6;

@@ -6,7 +6,7 @@ use super::probe::{self, Probe};
 use crate::integrate::Integrator;
 use triad_dynamics::constraints::mechanism::Mechanism;
 
-/// How often a step is divided.
+/// Greatest number of times that a step is halved.
 const MAX_DEPTH: usize = 8;
 /// Places for pivot products: both ends of a step, one for each division, one for the search for a zero, and one to spare.
 pub(super) const SAMPLES: usize = MAX_DEPTH + 4;
@@ -23,11 +23,11 @@ const TOGETHER: f64 = 1e3;
 const INVOLVED: f64 = 1e-6;
 /// Turn of the rows below which a part of a step is not divided, rad.
 const FINEST: f64 = 0.05;
-/// Most probes in the search for one zero.
+/// Greatest number of probes in the search for one zero.
 const MAX_PROBES: usize = 12;
 /// Factor by which each probe should bring the root of the pivot product nearer to zero.
 const CONVERGING: f64 = 0.5;
-/// So many probes that do not end the search for a zero.
+/// Number of probes that do not come nearer to a zero after which the search ends.
 const MAX_FAILURES: usize = 3;
 /// Turn of the rows, in roots of what counts as zero, below which two zeros of the same joint are one configuration.
 const SAME: f64 = 20.0;

@@ -63,6 +63,7 @@ fn body(random: &mut Random, index: usize) -> Body {
     if reduced { drawn.coordinates(Coordinates::Reduced) } else { drawn }
 }
 
+/// The kinds of joint that are drawn; gears are added afterwards, between revolute joints.
 const KINDS: [JointKind; 11] = [
     JointKind::Spherical,
     JointKind::Revolute,
@@ -96,7 +97,13 @@ fn joint(random: &mut Random, name: &str, body_i: &str, body_j: &str) -> Joint {
             joint.axis = Some(random.direction());
             joint.pitch = Some(random.between(0.2, 2.0));
         }
-        _ => joint.axis = Some(random.direction()),
+        JointKind::Cylindrical
+        | JointKind::Prismatic
+        | JointKind::Planar
+        | JointKind::Fixed
+        | JointKind::PointOnLine
+        | JointKind::PointInPlane => joint.axis = Some(random.direction()),
+        JointKind::Gear => {}
     }
     ends(random, joint)
 }

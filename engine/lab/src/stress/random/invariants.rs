@@ -9,16 +9,16 @@ use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind, Load, LoadFrame
 
 /// Steps of a random mechanism of half a second.
 const STEPS: u64 = 20_000;
-/// Deviations, relative to the size of the mechanism, that a tolerance of 1e-10 promises and that are still tolerable
-/// in an ill-conditioned mechanism.
+/// Deviation, relative to the size of the mechanism, that a tolerance of 1e-10 promises.
 const GOOD: f64 = 1e-6;
+/// Deviation that is still tolerable in an ill-conditioned mechanism.
 const POOR: f64 = 1e-2;
 /// The same for the balance of work.
 const BALANCED: (f64, f64) = (1e-6, 1e-2);
 /// The part of the total energy that counts as kinetic where nothing moves.
 const STANDING: f64 = 1e-3;
-/// How often a run is looked at.
-const LOOKS: u32 = 10;
+/// Number of times at which a run is compared.
+const COMPARISONS: u32 = 10;
 
 /// Runs a mechanism and compares: balance of energy and work; full, reduced and mixed coordinates; another integrator; the way
 /// back in time, where the mechanism is reversible; no NaN; bounded steps.
@@ -83,8 +83,8 @@ fn watched(
     let mut run = Simulation::new(scene)?;
     run.set_step_limit(STEPS);
     let (mut drift, mut kinetic, mut violation) = (0.0, 1e-3, 0.0);
-    for look in 0..=LOOKS {
-        let result = run.advance_to(run.duration() * f64::from(look) / f64::from(LOOKS));
+    for look in 0..=COMPARISONS {
+        let result = run.advance_to(run.duration() * f64::from(look) / f64::from(COMPARISONS));
         let summary = run.summary();
         (outcome.steps, outcome.rejected) = (summary.steps, summary.rejected);
         (outcome.evaluations, outcome.reached) = (summary.evaluations, run.reached());
