@@ -1,6 +1,6 @@
 //! The equations as a student writes them: Φ, ν, γ and the names of rows and columns, in the generalized coordinates, rigid-body rows first.
 //!
-//! Not used by the solver, which works in twist form; both speak of the same row forms, and tests hold them together.
+//! The solver does not use them: it works in twist form. Both are derived from the same row forms, and tests compare them.
 
 pub mod augmented;
 pub mod jacobian;

@@ -2,7 +2,7 @@
 //!
 //! A [`Model`] can only be made from a [`Scene`], and everything after it relies on what is checked here. Points and
 //! vectors of a body are from now on written in its *principal frame*: origin at the centre of mass, axes along the
-//! directors u, v, w, which the formulation wants to be principal axes of inertia — THEORY eq. (2.1).
+//! directors u, v, w, which the formulation requires to be principal axes of inertia — THEORY eq. (2.1).
 
 pub mod motion;
 
@@ -52,7 +52,7 @@ pub struct Model {
     pub drivers: Vec<ModelDriver>,
     /// The loads besides gravity, in the scene's order.
     pub loads: Vec<ModelLoad>,
-    /// Moments to look for, in the scene's order.
+    /// Events to be located, in the scene's order.
     pub events: Vec<ModelEvent>,
     /// How to run it.
     pub settings: Settings,

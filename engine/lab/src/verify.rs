@@ -74,8 +74,8 @@ impl Verifier {
         Ok(Self { second, found })
     }
 
-    /// Brings the second solution to the time that the first one shows, by at most so many steps, and compares. False
-    /// if it did not get there: ask again.
+    /// Brings the second solution to the time that the first one shows, by at most `most_steps` steps, and compares. False
+    /// if it did not get there: call it again.
     pub fn compare(&mut self, first: &mut Simulation, most_steps: u64) -> Result<bool, EngineError> {
         if !self.second.advance_towards(first.time(), most_steps)? {
             return Ok(false);

@@ -14,7 +14,7 @@ pub enum ConstraintError {
         joint: String,
         /// The joints that stay open with it: it contradicts one or more of them.
         with: Vec<String>,
-        /// Where it stands in the scene, as a JSON pointer.
+        /// Its place in the scene, as a JSON pointer.
         pointer: String,
         /// Largest violation of its rows, relative to their size.
         violation: f64,
@@ -29,14 +29,14 @@ pub enum ConstraintError {
     StartTooFar {
         /// The joint that is open most at the given start.
         joint: String,
-        /// Where it stands in the scene, as a JSON pointer.
+        /// Its place in the scene, as a JSON pointer.
         pointer: String,
         /// How far bodies would have to be moved, m.
         moved: f64,
         /// How far they may be moved, m.
         limit: f64,
     },
-    /// No velocities satisfy the joints and what drivers ask for.
+    /// No velocities satisfy both the joints and the drivers.
     #[error(
         "driver \"{driver}\" asks for a motion that the joints do not allow at t = {time:.6} s: no velocities satisfy it{}; the \
          nearest miss it by {missed:.1e}/s",
@@ -49,12 +49,12 @@ pub enum ConstraintError {
         driver: String,
         /// The joints and drivers that contradict it.
         with: Vec<String>,
-        /// Where it stands in the scene, as a JSON pointer.
+        /// Its place in the scene, as a JSON pointer.
         pointer: String,
         /// By how much the nearest velocities miss it, relative to the size of its rows, 1/s.
         missed: f64,
     },
-    /// Rounding cannot tell the rows of a joint from redundant ones.
+    /// Rounding makes the rows of a joint indistinguishable from redundant ones.
     #[error(
         "the masses are too different: between {light_mass:.1e} kg of \"{light}\" and {heavy_mass:.1e} kg of \"{heavy}\" \
          rounding cannot tell whether joint \"{joint}\" holds"
@@ -62,7 +62,7 @@ pub enum ConstraintError {
     MassesTooDifferent {
         /// The joint.
         joint: String,
-        /// Where it stands in the scene, as a JSON pointer.
+        /// Its place in the scene, as a JSON pointer.
         pointer: String,
         /// The lightest body.
         light: String,

@@ -1,4 +1,4 @@
-//! How far a state is from its constraints, each row measured by its own size, and what else speaks against a result.
+//! How far a state is from its constraints, each row relative to its own size, and what else makes a result doubtful.
 //!
 //! A distance is compared with the length of the mechanism, a product of unit vectors with one: so a mechanism of
 //! micrometres is held as strictly as one of kilometres.
@@ -144,7 +144,7 @@ fn row_size(system: &System, form: &Form) -> f64 {
     }
 }
 
-/// What a run has shown that speaks against its result.
+/// What was observed of a run that may make its result doubtful.
 #[derive(Clone, Copy, Debug)]
 pub struct Signs {
     /// Time at which it first passed a singular configuration, s.
@@ -163,7 +163,7 @@ const ALLOWED: f64 = 1e4;
 /// Least and greatest value of that bound, relative: tighter is rounding, looser is no result.
 const ALLOWED_WITHIN: (f64, f64) = (1e-6, 1e-2);
 
-/// What speaks against the result of a run, in words, with what to use instead.
+/// The reasons to doubt the result of a run, in words, with what to use instead.
 pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
     let method = settings.constraint_method;
     let projected = method == ConstraintMethod::Projection;

@@ -77,7 +77,7 @@ impl Jacobian {
 
 /// Calls `entry(column, value, constant)` for each number of an equation's row, structural zeros included.
 fn visit(system: &System, at: &State, source: Source, mut entry: impl FnMut(usize, f64, bool)) {
-    // A director that two bodies share gets what both put on it: columns are collected before they are told.
+    // A director that two bodies share gets what both put on it: columns are collected before they are handed over.
     let mut numbers: Vec<(usize, f64, bool)> = Vec::with_capacity(24);
     for own in equation(system, at, source).gradients {
         let layout = &system.bodies[own.body].layout;

@@ -3,7 +3,7 @@
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::model::motion::{Curve, VectorCurve};
-use crate::scene::{Driver, JointKind};
+use crate::scene::Driver;
 use nalgebra::Vector3;
 
 /// A checked driver.
@@ -100,13 +100,11 @@ impl ModelDriver {
                 DriverKind::Vector { body, local, motion }
             }
             Driver::Angle { joint, motion, .. } => DriverKind::Angle {
-                joint: reader
-                    .joint(joint, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])?,
+                joint: reader.joint_with_angle(joint)?,
                 motion: reader.curve("motion", motion)?,
             },
             Driver::Slide { joint, motion, .. } => DriverKind::Slide {
-                joint: reader
-                    .joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])?,
+                joint: reader.joint_with_displacement(joint)?,
                 motion: reader.curve("motion", motion)?,
             },
             Driver::AngleCosine { body_i, vector_i, body_j, vector_j, motion, .. } => {

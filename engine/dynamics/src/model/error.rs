@@ -33,7 +33,7 @@ pub enum ModelError {
     UnknownBody {
         /// The joint, driver or load.
         element: String,
-        /// Where the name stands.
+        /// JSON pointer of the name.
         pointer: String,
         /// The name.
         name: String,
@@ -113,7 +113,7 @@ pub enum ModelError {
         /// By how much the two entries differ.
         difference: f64,
     },
-    /// An orientation that is none.
+    /// Data that do not define an orientation.
     #[error("body \"{body}\": {reason}")]
     Orientation {
         /// The body.

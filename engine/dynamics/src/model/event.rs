@@ -1,8 +1,8 @@
-//! Moments to look for, with their points in principal frames.
+//! Events to be located, with their points in principal frames.
 
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
-use crate::scene::{Event, JointKind, Passing, Quantity};
+use crate::scene::{Event, Passing, Quantity};
 use nalgebra::Vector3;
 
 /// Greatest |value| that an event may wait for, m or rad.
@@ -74,14 +74,10 @@ impl ModelEvent {
                     locals: [0, 1].map(|side| reader.local_point(bodies[side], &points[side])),
                 }
             }
-            Quantity::Angle { joint } => EventQuantity::Angle {
-                joint: reader
-                    .joint(joint, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])?,
-            },
-            Quantity::Slide { joint } => EventQuantity::Slide {
-                joint: reader
-                    .joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])?,
-            },
+            Quantity::Angle { joint } => EventQuantity::Angle { joint: reader.joint_with_angle(joint)? },
+            Quantity::Slide { joint } => {
+                EventQuantity::Slide { joint: reader.joint_with_displacement(joint)? }
+            }
         };
         Ok(Self {
             name: event.name.clone(),

@@ -79,6 +79,16 @@ impl ModelReader<'_> {
         }
     }
 
+    /// A joint whose angle is measured.
+    pub fn joint_with_angle(&self, name: &str) -> Result<usize, ModelError> {
+        self.joint(name, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])
+    }
+
+    /// A joint whose displacement along its axis is measured.
+    pub fn joint_with_displacement(&self, name: &str) -> Result<usize, ModelError> {
+        self.joint(name, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])
+    }
+
     /// Finite numbers as a vector.
     pub fn vector(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
         finite(&value, &self.at(key))?;

@@ -20,7 +20,7 @@ pub struct RigidBody {
     pub coordinates: Coordinates,
     /// How its natural coordinates follow from q.
     pub layout: Layout,
-    /// How it stands in the plane, in a system that has been reduced to one.
+    /// Its pose in the plane, in a system that has been reduced to one.
     pub planar_pose: Option<PlanarPose>,
     /// The point in which a hinge fixes it to the ground, in a system that has been reduced to a plane: that joint's rows are
     /// eliminated with the rigid-body rows — eq. (7.10).
@@ -44,7 +44,7 @@ impl RigidBody {
     }
 }
 
-/// How a body stands in its plane: its directors where z = (1, 0), and its height.
+/// The pose of a body in its plane: its directors where z = (1, 0), and its height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarPose {
     /// Directions in the plane and its normal, as columns.

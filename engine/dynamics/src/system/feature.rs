@@ -1,4 +1,4 @@
-//! Features: the points C^P Q and vectors C^s Q of bodies that rows and loads speak of, and prescribed numbers.
+//! Features: the points C^P Q and vectors C^s Q of bodies from which rows and loads are built, and prescribed numbers.
 
 use crate::model::BodyRef;
 use crate::model::motion::{Curve, Jet, MAX_TERMS, sine_cosine};

@@ -8,7 +8,7 @@ use crate::system::System;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
-/// An island as a system of its own, which speaks of the coordinates of the whole.
+/// An island as a system of its own; its columns are those of the whole system.
 #[derive(Clone, Debug)]
 pub struct Island {
     /// The system.
@@ -26,7 +26,7 @@ pub struct Islands {
     pub fixed: usize,
 }
 
-/// Where a body of the whole has gone.
+/// What became of a body of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Assignment {
     /// It is ground, at its place.
@@ -35,7 +35,7 @@ enum Assignment {
     Moves { island: usize, index: usize },
 }
 
-/// Takes a system apart at positions q: into islands, and without fixed bodies, as far as asked for.
+/// Divides a system at positions q: into islands if `islands`, and without fixed bodies if `fixed`.
 pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Islands {
     let model = &system.model;
     let grounded = if fixed { tied_to_ground(model) } else { vec![false; model.bodies.len()] };
@@ -212,7 +212,7 @@ fn without_rows(model: &Model, bodies: &[usize]) -> Model {
 }
 
 impl Assignment {
-    /// The body as it is called in its island, and that island.
+    /// The body's index in its island, and that island.
     fn of(assignments: &[Self], body: BodyRef) -> (BodyRef, Option<usize>) {
         match body {
             BodyRef::Ground => (BodyRef::Ground, None),
@@ -223,13 +223,13 @@ impl Assignment {
         }
     }
 
-    /// The island that two bodies belong to, if it is not the ground, and what they are called there.
+    /// The island that two bodies belong to, if it is not the ground, and their indices there.
     fn pair(assignments: &[Self], bodies: [BodyRef; 2]) -> Option<(usize, [BodyRef; 2])> {
         let [(i, island_i), (j, island_j)] = bodies.map(|body| Self::of(assignments, body));
         Some((island_i.or(island_j)?, [i, j]))
     }
 
-    /// A point or vector of a body in the frame in which its island speaks of it.
+    /// A point or vector of a body in the frame that its island uses for it: that of the body, or the world if it is fixed.
     fn turned(assignments: &[Self], body: BodyRef, local: &Vector3<f64>, point: bool) -> Vector3<f64> {
         match body {
             BodyRef::Moving(body) => match &assignments[body] {
@@ -242,7 +242,7 @@ impl Assignment {
     }
 }
 
-/// Gives each joint, driver and load to the island that it belongs to. Those of the ground alone say nothing.
+/// Gives each joint, driver and load to the island that it belongs to. Those between ground and ground have no effect.
 fn distribute(model: &Model, assignments: &[Assignment], islands: &mut [Model]) {
     let mut places = vec![usize::MAX; model.joints.len()];
     for (index, joint) in model.joints.iter().enumerate() {

@@ -18,18 +18,7 @@ pub fn build(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
         JointGeometry::Spherical => vec![common_point(joint, builder)],
         JointGeometry::Revolute { rows } => {
             let mut forms = vec![common_point(joint, builder)];
-            match rows {
-                AxisRows::Cv => {
-                    let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
-                    forms.push(LabelledForm::new("CV", Form::CommonVector { a, b }));
-                }
-                AxisRows::Shared => {
-                    let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
-                    let form = Form::CommonVector { a, b };
-                    forms.push(LabelledForm { label: "CV (shared)", form, implied: true });
-                }
-                AxisRows::TwoCar => forms.extend(common_axis(joint, builder)),
-            }
+            forms.extend(revolute_axis(joint, rows, builder));
             forms
         }
         JointGeometry::Universal => {
@@ -78,6 +67,18 @@ pub fn build(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
 fn common_point(joint: &ModelJoint, builder: &mut RowBuilder) -> LabelledForm {
     let [a, b] = [0, 1].map(|side| builder.point(joint.bodies[side], joint.points[side]));
     LabelledForm::new("CP", Form::Coincidence { a, b })
+}
+
+/// The axis of a revolute joint: two perpendicularity rows (CAR), or a common vector (CV) that shared directors may satisfy by
+/// themselves.
+fn revolute_axis(joint: &ModelJoint, rows: AxisRows, builder: &mut RowBuilder) -> Vec<LabelledForm> {
+    let (label, implied) = match rows {
+        AxisRows::TwoCar => return common_axis(joint, builder),
+        AxisRows::Cv => ("CV", false),
+        AxisRows::Shared => ("CV (shared)", true),
+    };
+    let [a, b] = [0, 1].map(|side| builder.vector(joint.bodies[side], joint.axes[side]));
+    vec![LabelledForm { label, form: Form::CommonVector { a, b }, implied }]
 }
 
 /// The axis of body j is perpendicular to two vectors of body i (2 CAR) — eq. (5.1).

@@ -4,7 +4,7 @@
 //! n, slides across n, planar joints, rigid connections), the joints themselves keep the motion in planes across n,
 //! whatever acts. By d'Alembert's principle the motion then follows from the virtual displacements in the plane: three
 //! components of a body's twist, and the part of each row in the plane. What the other rows carry is a matter of
-//! reactions, which are found in space when somebody asks for them.
+//! reactions, which are computed in space on request.
 
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
@@ -251,7 +251,7 @@ fn directors(body: &RigidBody) -> Matrix3<f64> {
     body.planar_pose.map_or_else(Matrix3::identity, |pose| pose.directors)
 }
 
-/// The rows of a joint that say something in the plane, each thing once.
+/// The rows of a joint that constrain the motion in the plane, without repetitions.
 fn kept(flat: &System, rows: &[Row], joint: &str) -> Result<Vec<Row>, Spatial> {
     let mut kept: Vec<Row> = Vec::with_capacity(rows.len());
     for row in rows {

@@ -65,7 +65,7 @@ impl Form {
         }
     }
 
-    /// The features that the form speaks of, in the order in which their gradients are written.
+    /// The features of the form, in the order in which their gradients are written.
     pub fn features(&self, angles: &[Angle]) -> Vec<FeatureId> {
         let of = |d: Difference| [Some(d.plus), d.minus].into_iter().flatten();
         match *self {

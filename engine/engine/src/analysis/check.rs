@@ -53,7 +53,7 @@ pub struct DependentSet {
     pub dependent: usize,
 }
 
-/// The equations that say again what others say.
+/// The equations that repeat what others state.
 pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
     let mut sets = Vec::new();
     for constraint in system.constraint_ids() {

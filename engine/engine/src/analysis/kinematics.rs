@@ -44,7 +44,7 @@ pub struct Kinematics {
     pub iterations: usize,
 }
 
-/// Follows the drivers of a scene over its duration, every so many seconds as its settings say.
+/// Follows the drivers of a scene over its duration, at the interval of its settings.
 ///
 /// # Errors
 ///

@@ -11,7 +11,7 @@ use triad_dynamics::state::BodyFrame;
 /// Damping or asymmetry, relative to the stiffness, below which it counts as zero.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// The position that is looked at.
+/// The position about which the motion is linearized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ModesAbout {
@@ -233,7 +233,7 @@ fn massless(stage: &Stage) -> String {
 }
 
 fn mode(value: Complex<f64>, scale: f64, real: &DVector<f64>, imaginary: &DVector<f64>, length: f64) -> Mode {
-    // Stiffness by differences is good to about ten digits: slower motion than this is none.
+    // Stiffness by differences is good to about ten digits: slower motion than this counts as rest.
     let slow = 1e-4 * scale.sqrt();
     let (growth, turning) = (value.re, value.im.abs());
     let kind = match () {

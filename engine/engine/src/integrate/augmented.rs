@@ -90,7 +90,7 @@ impl Augmented {
         }
     }
 
-    /// Puts a state in place and takes its matrices and right-hand sides.
+    /// Sets a state and evaluates its matrices and right-hand sides.
     fn evaluate(
         &mut self,
         mechanism: &mut Mechanism,

@@ -100,7 +100,7 @@ pub trait Stepper: Debug + Send + Sync {
         None
     }
 
-    /// Whether the last step has shown by itself that the constraints hold at its end.
+    /// Whether the projection of the last step has shown that the constraints are satisfied at its end.
     fn proves_constraints(&mut self) -> bool {
         false
     }

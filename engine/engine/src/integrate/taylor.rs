@@ -23,14 +23,14 @@ pub struct Taylor {
     /// The island that took the last step.
     stepped: usize,
     skipped: SkippedWork,
-    /// Whether the last step has shown by itself that the constraints hold.
+    /// Whether the projection of the last step has shown that the constraints are satisfied.
     proven: bool,
     /// Projections so far.
     projections: u64,
 }
 
 impl Taylor {
-    /// Starts at (t, y), which must be in place in the mechanism and consistent, with relative and absolute tolerance
+    /// Starts at (t, y), which must be set in the mechanism and consistent, with relative and absolute tolerance
     /// `tolerance`.
     pub fn new(mechanism: &Mechanism, t: f64, y: &[f64], tolerance: f64) -> Self {
         let Mechanism { system, state, elimination, .. } = mechanism;

@@ -25,7 +25,7 @@ pub const RANK_TOLERANCE: f64 = 1e-9;
 /// A component that a unit null vector changes by less than this part of its own size is unique.
 pub const TOLERANCE: f64 = 1e-7;
 
-/// Why uniqueness is not told.
+/// Why uniqueness is not determined.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UniquenessError {
     /// Too many rows.

@@ -25,90 +25,71 @@ pub(super) struct Counted {
     pub outputs: [u64; 2],
     /// Steps whose constraints were measured.
     pub checks: u64,
-    /// Steps of which energy, reactions and Jacobian were found though nobody asked.
+    /// Steps of which energy, reactions and Jacobian were computed without a request.
     pub reports: u64,
+}
+
+impl SkippedItem {
+    fn new(word: &'static str, on: bool, saved: u64, of: u64, what: String) -> Self {
+        let what = if of == 0 { "this integrator knows nothing to leave out here".to_owned() } else { what };
+        Self { word, on, saved, of, what }
+    }
 }
 
 impl Simulation {
     /// What the run has left out so far, word by word.
     pub fn left_out(&self) -> Vec<SkippedItem> {
+        let mut items = self.left_out_by_the_integrator();
+        let skip = self.model().settings.skip;
+        let steps = self.integrator.last().steps.accepted;
+        let unreported = steps.saturating_sub(self.counted.reports);
+        items.push(SkippedItem::new(
+            "reports",
+            skip.reports,
+            unreported,
+            steps,
+            format!("energy, reactions and Jacobian not found for {unreported} of {steps} steps"),
+        ));
+        let [read, outputs] = self.counted.outputs;
+        items.push(SkippedItem::new(
+            "outputs",
+            skip.outputs,
+            read,
+            outputs,
+            format!("{read} of {outputs} outputs read off a step without ending one"),
+        ));
+        items
+    }
+
+    fn left_out_by_the_integrator(&self) -> Vec<SkippedItem> {
         let skip = self.model().settings.skip;
         let bodies = self.model().bodies.len() as u64;
         let steps = self.integrator.last().steps.accepted;
         let saved = self.integrator.skipped();
-        let entry = |word, on, saved: u64, of: u64, what: String| {
-            let what =
-                if of == 0 { "this integrator knows nothing to leave out here".to_owned() } else { what };
-            SkippedItem { word, on, saved, of, what }
-        };
         let s = saved.unwrap_or_default();
         let of = |n: u64| if saved.is_some() { n } else { 0 };
-        let (rows, all_rows) = (s.rows as u64, s.rows_in_space as u64);
+        let (planar, fixed, constants) = (s.planar_bodies as u64, s.fixed_bodies as u64, s.constants);
         let (taken, together) = (s.body_steps, s.body_steps_together);
-        let constants = s.constants;
-        let (read, outputs) = (self.counted.outputs[0], self.counted.outputs[1]);
+        let in_plane = format!(
+            "{planar} of {bodies} bodies solved in a plane; {} rows instead of {}",
+            s.rows, s.rows_in_space
+        );
+        let apart = format!(
+            "{} solved apart; {taken} steps of bodies instead of {together} with common steps",
+            plural(s.islands, "part")
+        );
+        let tied = format!("{fixed} of {bodies} bodies tied to the ground and left out");
+        let unchanged = format!("{constants} entries of the matrix that never change not written again");
+        let shown = format!(
+            "{} of {steps} steps shown consistent by their own projection, {} measured",
+            s.checks, self.counted.checks
+        );
         vec![
-            entry(
-                "planar",
-                skip.planar,
-                s.planar_bodies as u64,
-                of(bodies),
-                format!(
-                    "{} of {bodies} bodies solved in a plane; {rows} rows instead of {all_rows}",
-                    s.planar_bodies
-                ),
-            ),
-            entry(
-                "islands",
-                skip.islands,
-                together.saturating_sub(taken),
-                of(together),
-                format!(
-                    "{} solved apart; {taken} steps of bodies instead of {together} with common steps",
-                    plural(s.islands, "part")
-                ),
-            ),
-            entry(
-                "fixed",
-                skip.fixed,
-                s.fixed_bodies as u64,
-                of(bodies),
-                format!("{} of {bodies} bodies tied to the ground and left out", s.fixed_bodies),
-            ),
-            entry(
-                "constants",
-                skip.constants,
-                constants,
-                of(constants.max(1)),
-                format!("{constants} entries of the matrix that never change not written again"),
-            ),
-            entry(
-                "checks",
-                skip.checks,
-                s.checks,
-                of(steps),
-                format!(
-                    "{} of {steps} steps shown consistent by their own projection, {} measured",
-                    s.checks, self.counted.checks
-                ),
-            ),
-            entry(
-                "reports",
-                skip.reports,
-                steps.saturating_sub(self.counted.reports),
-                steps,
-                format!(
-                    "energy, reactions and Jacobian not found for {} of {steps} steps",
-                    steps - self.counted.reports
-                ),
-            ),
-            entry(
-                "outputs",
-                skip.outputs,
-                read,
-                outputs,
-                format!("{read} of {outputs} outputs read off a step without ending one"),
-            ),
+            SkippedItem::new("planar", skip.planar, planar, of(bodies), in_plane),
+            SkippedItem::new("islands", skip.islands, together.saturating_sub(taken), of(together), apart),
+            SkippedItem::new("fixed", skip.fixed, fixed, of(bodies), tied),
+            SkippedItem::new("constants", skip.constants, constants, of(constants.max(1)), unchanged),
+            SkippedItem::new("checks", skip.checks, s.checks, of(steps), shown),
         ]
     }
 }

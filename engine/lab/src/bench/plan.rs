@@ -76,7 +76,7 @@ pub struct BenchPlan {
     pub repeats: usize,
 }
 
-/// What a user wants of a plan instead of its own lists; an empty list wants nothing else.
+/// The user's lists in place of those of a plan; an empty list keeps the plan's own.
 #[derive(Clone, Debug, Default)]
 pub struct Wish {
     /// Parts of names of scenes.
@@ -171,7 +171,7 @@ impl BenchPlan {
         plan
     }
 
-    /// The plan with what the user wants instead; what is wanted is crossed, each with each.
+    /// The plan with the user's lists, in all combinations.
     #[must_use]
     pub fn with(mut self, wish: Wish) -> Self {
         let Wish { scenes, integrators, constraint_methods, coordinates, tolerances } = wish;

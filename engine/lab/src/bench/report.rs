@@ -113,7 +113,7 @@ pub fn csv(runs: &[Measured]) -> String {
     out
 }
 
-/// The plots and the table as a page that stands alone.
+/// The plots and the table as a self-contained page.
 pub fn html(runs: &[Measured]) -> String {
     let mut out = String::from(
         "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>Triad: run time against error</title>\n\

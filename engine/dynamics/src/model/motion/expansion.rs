@@ -1,6 +1,6 @@
 //! Power series of prescribed functions of time about any moment — THEORY section 11.
 //!
-//! Functions in pieces are expanded in the piece that holds from the moment on, and tell where it ends.
+//! Piecewise functions are expanded in the piece that begins or continues at that time; `next_break` gives its end.
 
 use super::{Curve, VectorCurve};
 use nalgebra::Vector3;
@@ -31,7 +31,7 @@ impl Curve {
         }
     }
 
-    /// The first moment after t at which another piece begins, s, or infinity.
+    /// The first time after t at which another piece begins, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
         match self {
             Self::Polynomial(_) | Self::Harmonic { .. } => f64::INFINITY,

@@ -111,28 +111,7 @@ fn relaxations(system: &System, at: &State, constraint: ConstraintId) -> Vec<Rel
     let relaxed = |becomes, gives_up, dropped| Relaxation { becomes, gives_up, dropped };
     match joint.geometry {
         JointGeometry::Revolute { rows: written } => {
-            let axial = axial_force(at, joint, &rows[0]);
-            let tilting = of(1);
-            let mut list = vec![
-                relaxed(JointKind::Spherical, "the moments across its axis", tilting.clone()),
-                relaxed(JointKind::Cylindrical, "the force along its axis", vec![axial.clone()]),
-            ];
-            if written == AxisRows::TwoCar {
-                for one in &tilting {
-                    list.push(relaxed(
-                        JointKind::Universal,
-                        "one of the moments across its axis",
-                        vec![one.clone()],
-                    ));
-                }
-            }
-            let both = tilting.into_iter().chain([axial]).collect();
-            list.push(relaxed(
-                JointKind::PointOnLine,
-                "the force along its axis and the moments across it",
-                both,
-            ));
-            list
+            revolute(written, &of(1), axial_force(at, joint, &rows[0]))
         }
         JointGeometry::Prismatic => vec![
             relaxed(JointKind::Cylindrical, "the moment about its axis", of(4)),
@@ -158,6 +137,28 @@ fn relaxations(system: &System, at: &State, constraint: ConstraintId) -> Vec<Rel
         | JointGeometry::PointInPlane
         | JointGeometry::Gear { .. } => Vec::new(),
     }
+}
+
+/// Those of a revolute joint: `tilting` gives its moments across the axis, `axial` its force along the axis.
+fn revolute(
+    rows: AxisRows,
+    tilting: &[Vec<(SolverRow, f64)>],
+    axial: Vec<(SolverRow, f64)>,
+) -> Vec<Relaxation> {
+    let relaxed = |becomes, gives_up, dropped| Relaxation { becomes, gives_up, dropped };
+    let mut list = vec![
+        relaxed(JointKind::Spherical, "the moments across its axis", tilting.to_vec()),
+        relaxed(JointKind::Cylindrical, "the force along its axis", vec![axial.clone()]),
+    ];
+    if rows == AxisRows::TwoCar {
+        for one in tilting {
+            let gives_up = "one of the moments across its axis";
+            list.push(relaxed(JointKind::Universal, gives_up, vec![one.clone()]));
+        }
+    }
+    let both = tilting.iter().cloned().chain([axial]).collect();
+    list.push(relaxed(JointKind::PointOnLine, "the force along its axis and the moments across it", both));
+    list
 }
 
 /// The part along the axis of the force of a common point.

@@ -38,7 +38,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// For so many constraints.
+    /// Allocates for a number of constraints.
     pub(super) fn new(constraints: usize) -> Self {
         Self { entries: Vec::with_capacity(USUAL), joints: Vec::with_capacity(USUAL * constraints) }
     }

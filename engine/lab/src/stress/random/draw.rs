@@ -185,7 +185,7 @@ fn load(random: &mut Random, scene: &Scene, index: usize) -> Load {
     }
 }
 
-/// A hinge or a guide is driven from where it stands.
+/// A hinge or a guide is driven from its position at the start.
 fn add_driver(random: &mut Random, scene: &mut Scene) {
     let hinges = of_kinds(scene, &[JointKind::Revolute, JointKind::Cylindrical]);
     if hinges.is_empty() {

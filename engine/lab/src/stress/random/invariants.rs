@@ -66,7 +66,7 @@ impl Findings {
         self.words.push(format!("{what} differs by {value:.1e}"));
     }
 
-    /// An error is a true answer only if it tells what stands in the way; the start of every drawn mechanism is closed.
+    /// An error is a right answer only if it names the cause; the start of every drawn mechanism satisfies its constraints.
     fn refused(&mut self, error: &EngineError) {
         let told = error.cause().is_some() || error.code() == "motion-impossible";
         self.verdict = self.verdict.max(if told { StressVerdict::Refused } else { StressVerdict::Wrong });
