@@ -1,4 +1,4 @@
-//! Numbers that look random and are the same for ever: no clock, no machine, no library version enters.
+//! Pseudo-random numbers that never change: they depend on no clock, no machine and no version of a library.
 
 /// A 64-bit linear congruential generator (Knuth's MMIX), seeded by a text.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ impl SeededRandom {
 mod tests {
     use super::*;
 
-    /// ParsedNumber down once: a change would give every student other numbers.
+    /// Recorded once: a change would give every student other numbers.
     #[test]
     fn the_numbers_stay_for_ever() {
         let mut random = SeededRandom::new("ada");

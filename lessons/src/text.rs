@@ -1,4 +1,4 @@
-//! Small pieces of text that several rooms write: shortened quotations, sentences, plain numbers.
+//! Small pieces of text that several modules write: shortened quotations, sentences, plain numbers.
 
 /// Characters of a quotation that still fit into a sentence.
 const MAX_QUOTED: usize = 24;

@@ -38,6 +38,8 @@ impl From<GradeError> for Problem {
 
 /// Reads a submission and grades it with the numbers that it is about: those of its seed if it names one, else the
 /// student's own.
+///
+/// Errors if it cannot be read, or its seed or the lesson's numbers are refused.
 pub fn grade(lesson: &Lesson, variants: &Variants, text: &str) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
     let lesson = variants.of(lesson, seed(&submission))?;
@@ -46,6 +48,8 @@ pub fn grade(lesson: &Lesson, variants: &Variants, text: &str) -> Result<(Submis
 }
 
 /// Adds the right answers to a verdict if the author opens them after so many attempts, this one included.
+///
+/// Errors if the gradebook cannot be read.
 pub fn open(
     lesson: &Lesson,
     variants: &Variants,

@@ -25,14 +25,14 @@ pub struct Limits {
     pub stalled_viewer: Duration,
     /// Submissions returned by one request.
     pub submissions: usize,
-    /// Lecture rooms at a time.
-    pub rooms: usize,
+    /// Lectures at a time.
+    pub lectures: usize,
     /// Followers of one lecture.
     pub followers: usize,
-    /// A room whose presenter has not been heard of this long is closed.
-    pub room_idle: Duration,
-    /// And so is a room of this age.
-    pub room_life: Duration,
+    /// A lecture whose presenter has not been heard of for this long is closed.
+    pub lecture_idle: Duration,
+    /// A lecture of this age is closed.
+    pub lecture_life: Duration,
 }
 
 impl Default for Limits {
@@ -47,10 +47,10 @@ impl Default for Limits {
             recording_bytes: 128 << 20,
             stalled_viewer: Duration::from_secs(30),
             submissions: 1000,
-            rooms: 16,
+            lectures: 16,
             followers: 500,
-            room_idle: Duration::from_mins(30),
-            room_life: Duration::from_hours(12),
+            lecture_idle: Duration::from_mins(30),
+            lecture_life: Duration::from_hours(12),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The one error that leaves this crate: `application/problem+json` over HTTP, the same words on a terminal.
+//! The error of all requests and commands: `application/problem+json` over HTTP, the same words on a terminal.
 //!
 //! Every error enum of the workspace is turned into a [`Problem`] in exactly one place (its `From`
 //! implementation), so that a mistake is reported with the same code, sentence and remedy in the page, over HTTP

@@ -8,9 +8,9 @@ use axum::response::{IntoResponse, Response};
 
 use crate::app::{App, REPORTS};
 
-/// Run time against error.
+/// File of the report of `triad bench`: run time against error.
 pub const BENCH: &str = "bench.html";
-/// What the engine survives.
+/// File of the report of `triad stress`: what the engine survives.
 pub const STRESS: &str = "stress.html";
 /// Largest report that is shown, bytes.
 const LARGEST: u64 = 32 << 20;
@@ -23,7 +23,7 @@ pub async fn bench(State(app): State<App>) -> Response {
     show(&app.reports, BENCH, "Run time against error", "triad bench --quick").await
 }
 
-/// What became of each attempt to break the engine, as `triad stress` last found it.
+/// The outcome of each attempt to break the engine, as `triad stress` last found it.
 pub async fn stress(State(app): State<App>) -> Response {
     let command = format!("triad stress --quick --html {REPORTS}/{STRESS}");
     show(&app.reports, STRESS, "Stress report", &command).await

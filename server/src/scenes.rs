@@ -1,4 +1,4 @@
-//! Finding scenes: built-in ones by name, others in files; and the engine's errors in this crate's words.
+//! Finding scenes: built-in ones by name, others in files; and the engine's errors as problems.
 
 use std::path::{Path, PathBuf};
 
@@ -89,11 +89,15 @@ impl From<scene::SceneError> for Problem {
 }
 
 /// The built-in scene called `name`, such as `n-four-bar:2`.
+///
+/// Errors if there is none, with the names that are near.
 pub fn builtin(name: &str) -> Result<Scene, Problem> {
     catalogue::scene(name).map_err(|error| EngineError::from(error).into())
 }
 
 /// The built-in scene of that name, or the scene in that file.
+///
+/// Errors if there is neither, or the file is no scene.
 pub fn named_or_in_file(spec: &str) -> Result<Scene, Problem> {
     let path = Path::new(spec);
     if path.is_file() {
@@ -132,6 +136,8 @@ fn in_file(path: &Path) -> Result<Scene, Problem> {
 }
 
 /// A text file of at most `limit` bytes.
+///
+/// Errors if it cannot be read, is larger, or is not UTF-8.
 pub fn read(path: &Path, limit: u64) -> Result<String, Problem> {
     let refused = |cause: String, hint: &'static str| {
         let shown: PathBuf = path.to_owned();
@@ -150,6 +156,8 @@ pub fn read(path: &Path, limit: u64) -> Result<String, Problem> {
 }
 
 /// A scene for the server: the built-in of that name, within the server's bounds.
+///
+/// Errors if there is none, or it is larger than the bounds.
 pub fn builtin_within(name: &str, limits: &Limits) -> Result<Scene, Problem> {
     let scene = builtin(name)?;
     crate::session::bounded(&scene, limits)?;

@@ -27,13 +27,15 @@ struct Kept {
 
 impl Variants {
     /// The lesson with the numbers of a seed: a student's name, or a seed that was chosen. Empty: everybody's.
+    ///
+    /// Errors if the seed is refused or the lesson has no numbers for it.
     pub fn of(&self, lesson: &Lesson, seed: &str) -> Result<Arc<Lesson>, Problem> {
         let seed = checked(seed)?;
         if seed.is_empty() {
             return Ok(Arc::new(lesson.clone()));
         }
         let key = (lesson.slug.clone(), seed.to_owned());
-        // The hash tells a lesson that was edited since from the one that is kept.
+        // A lesson that was edited since has another hash.
         let kept = self.lock().lessons.get(&key).filter(|l| l.hash == lesson.hash).cloned();
         if let Some(lesson) = kept {
             return Ok(lesson);
@@ -57,6 +59,8 @@ impl Variants {
 }
 
 /// A seed of reasonable length, without control characters.
+///
+/// Errors if it is too long or has control characters.
 pub fn checked(seed: &str) -> Result<&str, Problem> {
     let seed = seed.trim();
     if seed.chars().count() > MAX_SEED_LENGTH || seed.chars().any(char::is_control) {

@@ -73,6 +73,8 @@ impl ExpressionError {
 
 impl Expression {
     /// Reads a formula in the named symbols; the order of `symbols` is the order of the values in [`Self::eval`].
+    ///
+    /// Errors name what cannot be read, and where.
     pub fn parse(text: &str, symbols: &[&str]) -> Result<Self, ExpressionError> {
         if text.chars().count() > MAX_LENGTH {
             return Err(ExpressionError::TooLarge);

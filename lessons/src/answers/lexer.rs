@@ -1,6 +1,6 @@
-//! One way to look at typed text: signs of word processors made plain, then read from left to right.
+//! Reads typed text from left to right, with the typographic characters of word processors made plain.
 
-/// The plain ASCII sign that a typographic one stands for: minus and dash, times and dot, fraction slashes, spaces.
+/// The plain ASCII character that a typographic one stands for: minus and dash, times and dot, fraction slashes, spaces.
 pub(super) fn plain_sign(c: char) -> char {
     match c {
         '\u{2212}' | '\u{2013}' => '-',

@@ -58,6 +58,8 @@ impl NumberError {
 }
 
 /// Reads a number and hands back the text after it (a unit, perhaps), trimmed and with plain signs.
+///
+/// Errors if no finite number begins the text.
 pub fn read(text: &str) -> Result<(ParsedNumber, String), NumberError> {
     let not_a_number = || NumberError::NotANumber { text: shorten(text) };
     let normal = normalise(text);

@@ -108,6 +108,8 @@ impl SubmissionError {
 
 impl Submission {
     /// Reads a submission from JSON text.
+    ///
+    /// Errors if it is no JSON, is too large, or has unknown keys.
     pub fn from_json(text: &str) -> Result<Self, SubmissionError> {
         if text.len() > MAX_BYTES {
             return Err(SubmissionError::TooLarge { limit: format!("{} KiB", MAX_BYTES / 1024) });

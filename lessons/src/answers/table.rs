@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named_with_its_line() {
+    fn errors_of_tables_name_the_line() {
         for (text, says) in [
             ("", "empty"),
             ("0,1\n1,2", "must name the columns"),

@@ -1,4 +1,4 @@
-//! The one rule of tolerance: the struct that grades is the struct that writes the student's sentence.
+//! The tolerance of an answer: the same struct grades and writes the student's sentence, so the two agree.
 //!
 //! An answer `s` is right when `‖s − t‖ ≤ absolute + relative·‖t‖`, where `t` is the reference and ‖·‖ is the
 //! absolute value of a number, the length of a vector, or the root of the sum of squares of a matrix. A
@@ -38,7 +38,7 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 impl Tolerance {
-    /// A rule for counts: nothing but the very number will do.
+    /// A rule for counts: the number must be exact.
     pub const EXACT: Self = Self { absolute: 0.0, relative: 0.0 };
 
     /// True when only the exact value is accepted.
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn enough_digits_are_always_enough() {
+    fn the_digits_that_are_asked_for_are_enough() {
         for relative in [0.3, 0.05, 0.02, 0.01, 0.005, 0.001, 1e-4, 1e-6] {
             let rule = Tolerance { absolute: 0.0, relative };
             let digits = rule.digits().unwrap() as usize;
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn coarse_answers_are_seen_without_the_reference() {
+    fn insufficient_precision_is_found_without_the_reference() {
         let (coarse, _) = read("29").unwrap();
         let (fine, _) = read("29.4").unwrap();
         assert!(RULE.insufficient_precision(&[coarse], 1.0));

@@ -72,6 +72,8 @@ impl Unit {
     }
 
     /// Reads a unit such as `N m`, `kg·m²/s²`, `mm/s^2`, `deg`, `rpm`. Empty text and `1` are the pure number.
+    ///
+    /// Errors if a symbol is unknown or the text is too long.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let normal = normalise(text);
         if normal.chars().count() > MAX_LENGTH {
@@ -291,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_says_what_to_write() {
+    fn errors_of_units_say_what_to_write() {
         let hint = |t: &str| Unit::parse(t).unwrap_err().to_string();
         assert!(hint("n").contains("did you mean N?"), "{}", hint("n"));
         assert!(hint("Kg").contains("kg"));

@@ -15,10 +15,10 @@ use crate::tasks::misconceptions::{misconceptions, recognise};
 use crate::tasks::starter::Language;
 use crate::verdict::Mark;
 
-/// Seeds of the students whose instances are tried out.
+/// Seeds with which each misconception is tried.
 const SEEDS: usize = 200;
-/// Seeds whose answers are also sent and read as a student's are.
-const WHOLE: usize = 3;
+/// Seeds whose answers are also written as JSON and CSV and read back.
+const ROUND_TRIPS: usize = 3;
 /// Share of them in which a misconception must be recognised as itself.
 const RECOGNISED: f64 = 0.95;
 
@@ -35,7 +35,7 @@ pub(super) enum TaskError {
     Gone,
     #[error("its own reference is judged {mark:?} for the seed {seed}")]
     Reference { mark: Option<Mark>, seed: String },
-    #[error("the slip {name} is taken for {got:?} with the seed {seed}")]
+    #[error("the misconception {name} is recognised as {got:?} with the seed {seed}")]
     Misconception { name: String, got: Option<String>, seed: String },
 }
 
@@ -57,7 +57,7 @@ pub(super) fn program(found: &mut Findings, id: &str, task: &Implement) -> Resul
                 count[1] += 1;
             }
         }
-        if k < WHOLE {
+        if k < ROUND_TRIPS {
             whole_way(&lesson, question, own, &mut instances)?;
         }
     }
@@ -65,7 +65,7 @@ pub(super) fn program(found: &mut Findings, id: &str, task: &Implement) -> Resul
         if (n as f64) < RECOGNISED * of as f64 {
             found.question(
                 id,
-                format!("the slip {name} is recognised in {n} of {of} cases"),
+                format!("the misconception {name} is recognised in {n} of {of} cases"),
                 "take another mechanism",
             );
         }

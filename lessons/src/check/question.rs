@@ -57,12 +57,16 @@ fn quantity(question: &Question, q: &QuantityQuestion, found: &mut Findings) {
         }
         for other in &q.misconceptions[..k] {
             if q.tolerance.accepts(&m.value, &other.value) {
-                let what = format!("the misconceptions {} and {} cannot be told apart", other.id, m.id);
+                let what = format!("the misconceptions {} and {} cannot be distinguished", other.id, m.id);
                 found.question(id, what, "join them or change the numbers");
             }
         }
         if m.feedback.trim().is_empty() {
-            found.question(id, format!("the misconception {} has no feedback", m.id), "say what the slip is");
+            found.question(
+                id,
+                format!("the misconception {} has no feedback", m.id),
+                "say where the reasoning goes wrong",
+            );
         }
     }
 }

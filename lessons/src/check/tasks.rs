@@ -53,7 +53,7 @@ fn model(found: &mut Findings, id: &str, task: &ModelTask) {
     }
 }
 
-/// The error of the reference, and delays and factors that must be told apart.
+/// The error of the reference, and delays and factors that must be recognised as such.
 fn trajectory(found: &mut Findings, id: &str, task: &Trajectory) -> Result<(), TaskError> {
     let motion = ReferenceMotion::new(task)?;
     let (best, worst) =

@@ -1,4 +1,4 @@
-//! What stands in the files of a lesson: texts, labels, links, figures.
+//! Checks the texts, labels, links and figures of a lesson.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -31,6 +31,8 @@ impl Parameters {
     }
 
     /// The value of an expression in the parameters.
+    ///
+    /// Errors if it cannot be read or has no finite value.
     pub fn eval(&self, text: &str) -> Result<f64, ExpressionError> {
         let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
         Ok(Expression::parse(text, &names)?.eval(&self.values))

@@ -4,7 +4,7 @@ use super::context::{BuildContext, BuildError, build_error};
 use super::question::{Implement, ModelTask, QuestionBody, Trajectory, Tuning};
 use crate::files::{QuestionFile, ReferenceFile, ScoreBand, WatchFile};
 
-/// Most coordinates of a mechanism whose equations are dealt.
+/// Most coordinates of a mechanism whose equations a student's program evaluates.
 const MAX_COORDINATES: usize = 120;
 
 fn table<'a, T>(table: Option<&'a T>, name: &str) -> Result<&'a T, BuildError> {

@@ -20,7 +20,7 @@ pub struct ExerciseFile {
     /// Where the drawn numbers enter the scenario.
     #[serde(default)]
     pub scene: Vec<PatchFile>,
-    /// When the right answers and their sources are told. Without it, never.
+    /// When the right answers and their sources are shown. Without it, never.
     #[serde(default)]
     pub opens: OpensFile,
     /// The questions, in order.
@@ -28,14 +28,14 @@ pub struct ExerciseFile {
     pub questions: Vec<QuestionFile>,
 }
 
-/// When the right answers are told, with the verdict: whichever comes first.
+/// When the right answers are shown, with the verdict: whichever comes first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpensFile {
     /// To a student who has passed the lesson.
     #[serde(default)]
     pub passed: bool,
-    /// To a student who has handed in so often, passed or not.
+    /// To a student who has handed in this often, passed or not.
     #[serde(default)]
     pub attempts: Option<usize>,
 }
@@ -78,7 +78,7 @@ pub enum QuestionKind {
     Choice,
     /// An expression in named symbols, compared at random points.
     Formula,
-    /// The equations at dealt states, from the student's own program.
+    /// The equations at given states, from the student's own program.
     Implement,
     /// A table of a motion, from any program.
     Trajectory,
@@ -160,7 +160,7 @@ pub struct MisconceptionFile {
     pub value: Option<TypedValue>,
     /// In its place: a wrong model that the engine runs. The question must be `measured`.
     pub model: Option<WrongModelFile>,
-    /// What to tell the student, in Markdown: what is wrong in the thought, not the answer.
+    /// What to tell the student, in Markdown: where the reasoning goes wrong, not the answer.
     pub feedback: String,
 }
 
@@ -172,6 +172,6 @@ pub struct OptionFile {
     pub id: String,
     /// The option, in Markdown.
     pub text: String,
-    /// Why it is right or wrong, shown to who chose it, in Markdown.
+    /// Why it is right or wrong, shown to those who chose it, in Markdown.
     pub reason: String,
 }

@@ -1,4 +1,4 @@
-//! The skeleton of a new lesson: everything that the check wants, with TODO where the author's own words belong.
+//! The skeleton of a new lesson: everything that the check demands, with TODO where the author's own words belong.
 
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_lesson_says_what_is_to_be_filled_and_passes_when_it_is() {
+    fn a_new_lesson_lists_its_todos_and_passes_when_they_are_filled() {
         let open = problems(|text| text);
         assert!(!open.is_empty() && open.iter().all(|p| p.contains("TODO")), "{open:#?}");
         let filled = problems(|text| text.replace("TODO", "Written by the author, with care."));

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::measured::MeasuredFile;
 use crate::answers::TypedValue;
 
-/// `[question.implement]`: the student's own program evaluates the equations at states that are dealt.
+/// `[question.implement]`: the student's own program evaluates the equations at given states.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImplementFile {
@@ -16,10 +16,10 @@ pub struct ImplementFile {
     pub scene: Option<String>,
     /// What the program returns for each state.
     pub asks: Vec<EquationPart>,
-    /// How many states are dealt, 1 to 20.
+    /// How many states each student is given, 1 to 20.
     #[serde(default = "default_instances")]
     pub states: usize,
-    /// Deal states that satisfy the constraints; otherwise any numbers, which find more mistakes.
+    /// Draw states that satisfy the constraints; otherwise any numbers, which find more mistakes.
     #[serde(default)]
     pub consistent: bool,
     /// Largest difference of an entry, relative to the largest entry of its part (at least 1); 1e-6 if not given.

@@ -1,4 +1,4 @@
-//! Options: the one that was chosen has its own reason.
+//! Questions with options: each option has feedback of its own.
 
 use crate::answers::Answer;
 use crate::exercise::ChoiceOption;

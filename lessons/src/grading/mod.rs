@@ -46,6 +46,8 @@ impl GradeError {
 }
 
 /// Grades a submission.
+///
+/// Errors if it answers a question that does not exist.
 pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeError> {
     let judgements = judge(lesson, submission)?;
     let questions: Vec<QuestionVerdict> =

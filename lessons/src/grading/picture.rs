@@ -6,8 +6,9 @@ use triad_plot::{Axis, DASHES, PlotFrame, Style};
 
 use crate::rendering::html::escape;
 
-/// Width and height; left, right, top and bottom margin.
+/// Width and height of the picture, px.
 const SIZE: (f64, f64) = (460.0, 300.0);
+/// Left, right, top and bottom margin, px.
 const MARGINS: [f64; 4] = [58.0, 12.0, 12.0, 44.0];
 /// Colours that are seen on light and on dark paper.
 const COLOURS: [&str; 4] = ["#1c7ed6", "#2b8a3e", "#d9480f", "#9c36b5"];

@@ -88,7 +88,7 @@ fn where_off(given: &Grid, right: &Grid, tolerance: f64) -> Vec<(usize, usize)> 
     all.filter(|(row, column)| (given.at(*row, *column) - right.at(*row, *column)).abs() > allowed).collect()
 }
 
-/// Where an instance (its place, of so many) is off.
+/// Where the program is wrong, for one instance of several.
 fn discrepancy(
     (k, states): (usize, usize),
     part: EquationPart,
@@ -125,7 +125,7 @@ fn discrepancy(
     })
 }
 
-/// If all that is off lies in one block: the joint or body of its rows, and the body of its columns.
+/// Where all wrong entries lie in one block: the joint or body of its rows, and the body of its columns.
 fn block(off: &[(usize, usize)], rows: &[String], columns: &[String]) -> Option<(String, String)> {
     let owner = |name: &String| name.split([':', '.']).next().unwrap_or_default().to_owned();
     let owners: BTreeSet<(String, String)> = off

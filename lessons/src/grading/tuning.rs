@@ -11,10 +11,10 @@ use crate::scenario::measure::{MeasureError, measure, with_error};
 use crate::verdict::feedback::{Feedback, Judgement, TuningFeedback};
 use crate::verdict::invalid::InvalidSettings;
 
-/// A run is given up after so many times the budget.
-const PATIENCE: u64 = 4;
-/// Steps between two looks at the work.
-const PIECE: u64 = 16;
+/// A run ends after this many times the budget of evaluations.
+const BUDGETS: u64 = 4;
+/// Steps between two checks of the budget.
+const STEPS_PER_CHECK: u64 = 16;
 /// Tolerances of the curves in the picture.
 const CURVE: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 
@@ -39,7 +39,7 @@ pub(super) fn judge(task: &Tuning, note: &str, answer: &Answer) -> Result<Judgem
     let feedback = TuningFeedback {
         evaluations: cost.evaluations,
         budget: task.budget,
-        most: PATIENCE * task.budget,
+        most: BUDGETS * task.budget,
         error: cost.error,
         allowed: task.error,
         note: note.to_owned(),
@@ -101,9 +101,9 @@ fn positive(entry: &TypedValue, what: &'static str) -> Result<f64, InvalidSettin
 /// Makes the run, in pieces, and measures.
 fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<RunCost, MeasureError> {
     let mut simulation = Simulation::new(scene)?;
-    while !simulation.advance_towards(task.watch.time, PIECE)? {
+    while !simulation.advance_towards(task.watch.time, STEPS_PER_CHECK)? {
         let evaluations = simulation.summary().evaluations;
-        if evaluations > PATIENCE * task.budget {
+        if evaluations > BUDGETS * task.budget {
             return Ok(RunCost { evaluations, error: None });
         }
     }

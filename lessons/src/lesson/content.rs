@@ -51,6 +51,8 @@ pub(crate) struct QuestionSources {
 
 impl Lesson {
     /// Reads a lesson from its files; `folder` is `NN-slug`.
+    ///
+    /// Errors if a file is missing or cannot be read.
     pub fn from_files(folder: &str, files: Files) -> Result<Self, LessonError> {
         let split = folder.split_once('-').and_then(|(n, slug)| Some((n.parse::<u32>().ok()?, slug)));
         let Some((number, slug)) = split else {

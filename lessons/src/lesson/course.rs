@@ -78,11 +78,15 @@ impl CourseError {
 
 impl Course {
     /// The course that is built into the program.
+    ///
+    /// Errors if its files cannot be read, which a test excludes.
     pub fn embedded() -> Result<Self, CourseError> {
         Self::from_files(EMBEDDED.iter().map(|(path, bytes)| ((*path).to_owned(), bytes.to_vec())).collect())
     }
 
     /// A course from a folder.
+    ///
+    /// Errors if the folder, a file or a lesson cannot be read.
     pub fn load(folder: &Path) -> Result<Self, CourseError> {
         let mut files = Files::new();
         read_folder(folder, "", &mut files)?;
@@ -90,6 +94,8 @@ impl Course {
     }
 
     /// A course from its files; keys are paths below the course's folder, with `/`.
+    ///
+    /// Errors if a lesson cannot be read.
     pub fn from_files(files: Files) -> Result<Self, CourseError> {
         let head = files.get("course.toml").ok_or_else(|| CourseError::Head {
             problem: "it is missing; write format_version = 1 and a title into it".to_owned(),

@@ -11,7 +11,7 @@ use crate::exercise::{self, BuildContext, Exercise, Parameters, QuestionBody};
 use crate::files::ParameterFile;
 use crate::random::SeededRandom;
 
-/// Draws after which a lesson is given up.
+/// Draws after which the search for numbers ends with an error.
 const MAX_DRAWS: usize = 64;
 
 /// Why a lesson has no variant for a seed.
@@ -29,8 +29,8 @@ pub enum VariantError {
         /// What, with a remedy.
         what: String,
     },
-    /// No draw gave questions whose answers can be told apart.
-    #[error("no numbers were found for which the answers can be told apart ({reason}); change the ranges")]
+    /// No draw gave questions whose answers can be distinguished.
+    #[error("no numbers were found for which the answers can be distinguished ({reason}); change the ranges")]
     NoneFits {
         /// Why the last draw was refused.
         reason: String,
@@ -51,6 +51,8 @@ impl VariantError {
 impl Lesson {
     /// The lesson with the numbers of this seed (a student's name, say). The same seed always gives the same lesson,
     /// as long as its files do not change. A lesson without parameters is returned as it is.
+    ///
+    /// Errors if no draw gives a lesson that can be judged.
     pub fn variant(&self, seed: &str) -> Result<Self, VariantError> {
         let files = &self.sources.exercise.parameters;
         let usable = |p: &ParameterFile| {
@@ -127,7 +129,7 @@ enum DrawRefused {
     Singular,
     #[error("the answer to {question} is nearly zero")]
     NearlyZero { question: String },
-    #[error("the misconception {misconception} of {question} cannot be told apart")]
+    #[error("the misconception {misconception} of {question} cannot be distinguished")]
     Ambiguous { question: String, misconception: String },
 }
 
@@ -190,7 +192,7 @@ mod tests {
             let variant = lesson.variant(&format!("student-{seed}")).unwrap();
             let value = |name: &str| variant.parameters.iter().find(|(n, _)| *n == name).unwrap().1;
             let (phi, m) = (value("phi"), value("m"));
-            // At 45 degrees sine and cosine cannot be told apart, so nobody is given 45 degrees.
+            // At 45 degrees sine and cosine are equal, so nobody is given 45 degrees.
             assert!(phi != 45.0);
             assert_eq!(variant.scene.pointer("/bodies/0/mass").unwrap().as_f64(), Some(m));
             let view = serde_json::to_string(&variant.public_view()).unwrap();

@@ -115,6 +115,8 @@ pub struct Figure {
 
 impl Figure {
     /// Reads and checks an SVG file.
+    ///
+    /// Errors if it is not SVG, or has elements or attributes that are not on the lists.
     pub fn parse(svg: &str) -> Result<Self, FigureError> {
         if !svg.starts_with("<svg ") || !svg.trim_end().ends_with("</svg>") {
             let problem = "the file begins with <svg and ends with </svg>".to_owned();
@@ -265,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_could_run_or_load_is_refused() {
+    fn elements_that_could_run_or_load_are_refused() {
         for bad in [
             "<script>1</script>",
             "<SCRIPT/>",

@@ -1,4 +1,4 @@
-//! The equations of a mechanism at a state, right and wrong, for whoever needs more than a run.
+//! The equations of a mechanism at a state, right and wrong, for questions that need more than a run.
 
 use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::equations;

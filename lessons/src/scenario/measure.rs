@@ -48,11 +48,11 @@ impl From<EngineError> for MeasureError {
     }
 }
 
-/// Steps after which a run that an author or a student asks for is given up.
+/// Steps after which a run that an author or a student asks for ends with an error.
 pub(crate) const MAX_STEPS: u64 = 200_000;
 /// Tolerance of a run whose values are taken as references.
 const TIGHT: f64 = 1e-12;
-/// Tolerance of the run by another method that tells their error.
+/// Tolerance of the run by another method, which estimates their error.
 const LESS_TIGHT: f64 = 1e-10;
 
 /// What is seen of a mechanism at one moment.
@@ -173,7 +173,7 @@ pub(crate) fn start(scene: &Scene) -> Result<Simulation, MeasureError> {
     Ok(simulation)
 }
 
-/// The scene to be run as tightly as a reference needs; the second by another method, to tell the error of the first.
+/// The scene to be run as tightly as a reference needs; the second by another method, to estimate the error of the first.
 pub(crate) fn reference_scenes(scene: &Scene, end: f64) -> [Scene; 2] {
     let with = |integrator, tolerance| {
         let mut scene = scene.clone();

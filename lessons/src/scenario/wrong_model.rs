@@ -19,7 +19,7 @@ use crate::files::{Component, MeasuredFile, WrongModel, WrongModelFile};
 pub(crate) enum WrongModelError {
     #[error(transparent)]
     Measure(#[from] MeasureError),
-    #[error("a size has no sides; choose another slip")]
+    #[error("a size has no sides; choose another misconception")]
     SizeHasNoSides,
     #[error("wrong-end needs a measured point, or joint = the other joint")]
     NoOtherEnd,

@@ -18,7 +18,7 @@ use crate::lesson::Lesson;
 use crate::random::SeededRandom;
 use crate::scenario::equations::augmented_at;
 
-/// Draws after which a consistent state is given up.
+/// Draws after which the search for a consistent state ends with an error.
 const MAX_DRAWS: usize = 40;
 /// Largest coordinate of a state that satisfies nothing, m.
 const FREE_POSITION: f64 = 1.0;
@@ -39,16 +39,16 @@ pub enum InstanceError {
     #[error("bodies that share directors have no columns of their own; write full or reduced")]
     SharedDirectors,
     /// The augmented system is singular.
-    #[error("the equations of motion have no solution at a dealt state")]
+    #[error("the equations of motion have no solution at a state that was drawn")]
     Singular,
     /// Assembly failed for every draw.
     #[error("no state near the start satisfies the constraints")]
     NoneConsistent,
     /// A relation that a program's input cannot describe.
-    #[error("a relation of angles cannot be dealt")]
+    #[error("a relation of angles cannot be given as numbers")]
     Relation,
     /// A prescribed point or vector.
-    #[error("a point or vector that moves as prescribed cannot be dealt; use an angle")]
+    #[error("a point or vector that moves as prescribed cannot be given as numbers; use an angle")]
     MovingFeature,
     /// The scene does not start.
     #[error(transparent)]

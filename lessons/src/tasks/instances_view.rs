@@ -118,6 +118,8 @@ pub struct InstanceState {
 
 impl Lesson {
     /// The instances of a question for this lesson's seed; `None` if the question is of another kind.
+    ///
+    /// Errors if a state cannot be drawn.
     pub fn instances(&self, question: &str) -> Option<Result<InstancesView, InstanceError>> {
         let task = task(self, question)?;
         Some(Instances::new(task, &seed(self, question)).and_then(|instances| {

@@ -48,7 +48,7 @@ pub enum OutputError {
     #[error("The file has no list \u{201c}states\u{201d} with one entry for each state.")]
     NoStates,
     /// Another number of states.
-    #[error("There are {found} states in the file, {given} were dealt.")]
+    #[error("There are {found} states in the file; {given} were given.")]
     StateCount {
         /// States in the file.
         found: usize,

@@ -128,9 +128,9 @@ fn a_formula_is_judged_by_what_it_means() {
     for same in ["m*v^2/2", "0.5 m v^2", "v*m*v/2", "(m v)^2/(2 m)"] {
         assert_eq!(judged("energy", text(same), None).verdict, Mark::Right, "{same}");
     }
-    let slip = |formula: &str| judged("energy", text(formula), None).misconception;
-    assert_eq!(slip("v^2 m").as_deref(), Some("no-half"));
-    assert_eq!(slip("-m v^2/2").as_deref(), Some("opposite-sign"));
+    let misconception = |formula: &str| judged("energy", text(formula), None).misconception;
+    assert_eq!(misconception("v^2 m").as_deref(), Some("no-half"));
+    assert_eq!(misconception("-m v^2/2").as_deref(), Some("opposite-sign"));
     assert!(judged("energy", text("v^2/2"), None).message_html.contains("depends on m"));
     for (unreadable, says) in [("m v^2/2)", "bracket"), ("m*w", "known are m, v"), ("m**", "character")] {
         let verdict = judged("energy", text(unreadable), None);

@@ -1,5 +1,6 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
+mod golden_variants;
 mod kinds;
 mod properties;
 mod tasks;
@@ -47,7 +48,7 @@ fn the_folder_and_the_program_hold_the_same_course() {
 }
 
 #[test]
-fn the_tension_is_judged_in_any_unit_and_slips_are_named() {
+fn the_tension_is_judged_in_any_unit_and_misconceptions_are_recognised() {
     let tension = |value: &str, unit: &str| judged("simple-pendulum", "tension-bottom", answer(value, unit));
     assert_eq!(tension("29.43", "N").verdict, Mark::Right);
     assert_eq!(tension("0.02943", "kN").verdict, Mark::Right);
@@ -63,7 +64,7 @@ fn the_tension_is_judged_in_any_unit_and_slips_are_named() {
 }
 
 #[test]
-fn what_cannot_be_judged_costs_nothing_and_says_why() {
+fn an_answer_that_cannot_be_judged_uses_no_attempt_and_gives_the_reason() {
     let tension = |value: &str, unit: &str| judged("simple-pendulum", "tension-bottom", answer(value, unit));
     for (value, unit, says) in [
         ("28", "N", "3 significant digits"),
@@ -160,13 +161,13 @@ fn broken(path: &str, from: &str, to: &str) -> Result<Vec<String>, String> {
 }
 
 #[test]
-fn checks_complain_with_place_and_remedy() {
+fn findings_of_the_check_name_place_and_remedy() {
     for (path, from, to, says) in [
         ("exercise.toml", "value = 9.81\n", "value = 29.5\n", "the misconception static is a right answer"),
         ("reference/answers.toml", "error = 1e-12", "error = 0.1", "at least ten times the error"),
         ("scene.json", "-9.81", "-9.80", "the scene shows"),
         ("scene.json", "[0, 0, 1], \"rows\"", "[0, 0, 0], \"rows\"", "pin"),
-        ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be told apart"),
+        ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be distinguished"),
         ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
         ("reference/answers.toml", "value = \"b\"", "value = \"a\"", "judged Right"),
         ("wrong/other-side.toml", "14.21", "15.21", "recognised nothing"),
@@ -205,7 +206,7 @@ fn checks_complain_with_place_and_remedy() {
 }
 
 #[test]
-fn what_cannot_be_read_names_file_and_line() {
+fn errors_of_reading_name_file_and_line() {
     for (path, from, to, says) in [
         ("exercise.toml", "points = 3", "pionts = 3", "02-simple-pendulum/exercise.toml, line"),
         ("exercise.toml", "unit = \"N\"", "unit = \"Newton\"", "did you mean N?"),

@@ -179,7 +179,7 @@ pub(crate) struct Discrepancy {
     /// The instance, from 1, and how many there are.
     pub state: usize,
     pub states: usize,
-    /// Entries that are off, of so many.
+    /// Wrong entries, and all entries.
     pub entries: usize,
     pub of: usize,
     /// Rows that are off; of accelerations, coordinates.

@@ -1,4 +1,4 @@
-//! The one place where what is said about an answer becomes HTML.
+//! Feedback as HTML: no other module writes it.
 
 use std::fmt::Write as _;
 

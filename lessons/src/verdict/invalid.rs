@@ -86,7 +86,7 @@ pub(crate) enum InvalidClosed {
 pub(crate) enum InvalidProgram {
     #[error("This question asks for a file, JSON or CSV, that your program writes.")]
     NoFile,
-    #[error("The states could not be dealt: {0}.")]
+    #[error("The states could not be drawn: {0}.")]
     Instances(InstanceError),
     #[error("The equations could not be written: {0}.")]
     Equations(InstanceError),

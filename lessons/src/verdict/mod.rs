@@ -1,4 +1,4 @@
-//! What is said about answers. Grading says it as data (`feedback`, or `invalid` where an answer cannot be judged);
+//! Feedback on answers. Grading gives it as data (`feedback`, or `invalid` where an answer cannot be judged);
 //! `html` alone turns it into HTML. [`sent`] is the verdict that leaves the server, [`mod@reference`] adds the right
 //! answers where the author opens them.
 

@@ -1,4 +1,4 @@
-//! Middleware: bounds the size of requests, and says so in words.
+//! Middleware that bounds the size of requests and answers larger ones with a problem.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use crate::app::App;
 
 /// The longest body that is read to its end only to be refused.
 const DRAINED: u64 = 1 << 30;
-/// And for how long.
+/// How long such a body is read.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Refuses a body that announces itself as too large. The body is read and forgotten, piece by piece: a client

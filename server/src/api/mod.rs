@@ -28,7 +28,7 @@ use crate::reports;
 
 use describe::Schemas;
 pub(crate) use extract::parse;
-pub(crate) use lessons::{deal, starter_of, unknown as unknown_lesson};
+pub(crate) use lessons::{instances, starter_of, unknown as unknown_lesson};
 
 /// The head of the interface's description; addresses and schemas are added by the routes themselves.
 #[derive(OpenApi)]
@@ -108,7 +108,7 @@ async fn unknown_address(uri: axum::http::Uri) -> Response {
     .into_response()
 }
 
-/// Answers of the interface are of the moment.
+/// Responses of the interface are not to be cached: they change with each request.
 async fn uncached_interface(request: axum::extract::Request, next: Next) -> Response {
     let is_interface = request.uri().path().starts_with("/api/");
     let mut response = next.run(request).await;
@@ -118,7 +118,7 @@ async fn uncached_interface(request: axum::extract::Request, next: Next) -> Resp
     response
 }
 
-/// Closes idle sessions and rooms for as long as the server runs.
+/// Closes idle sessions and lectures for as long as the server runs.
 pub async fn keep_house(app: App) {
     let mut often = tokio::time::interval(Duration::from_secs(15));
     loop {

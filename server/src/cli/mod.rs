@@ -224,7 +224,7 @@ pub fn main() -> ExitCode {
             if json {
                 terminal::print_json(&problem.document());
             } else {
-                eprintln!("{} {problem}", terminal::error_word());
+                eprintln!("{} {problem}", terminal::error_label());
             }
             ExitCode::from(if machine_refused(&problem) { 4 } else { 3 })
         }

@@ -63,7 +63,7 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
     let limits = Limits {
         sessions: options.max_sessions,
         bodies: options.max_bodies,
-        rooms: options.max_rooms,
+        lectures: options.max_rooms,
         followers: options.max_followers,
         ..Limits::default()
     };
@@ -91,11 +91,11 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     ));
     print_line(&format!("Submissions are kept in {}", options.database.display()));
     tokio::spawn(crate::api::keep_house(app.clone()));
-    let (sessions, rooms) = (app.sessions.clone(), app.lectures.clone());
+    let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
     let stop = async move {
         stopped().await;
         // Open streams end with their sessions; otherwise they would keep the server up.
-        rooms.clear();
+        lectures.clear();
         sessions.clear();
     };
     axum::serve(listener, crate::app(app)).with_graceful_shutdown(stop).await.map_err(Problem::internal)

@@ -27,7 +27,7 @@ pub(super) fn print_line(line: &str) {
 }
 
 /// `error:`, red where colours are shown.
-pub(super) fn error_word() -> &'static str {
+pub(super) fn error_label() -> &'static str {
     let plain = std::env::var_os("NO_COLOR").is_some() || !std::io::stderr().is_terminal();
     if plain { "error:" } else { "\x1b[1;31merror:\x1b[0m" }
 }

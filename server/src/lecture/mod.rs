@@ -1,9 +1,9 @@
 //! Lectures: one session that a presenter leads and many follow.
 //!
 //! ```text
-//! session ─▶ state, encoded once ─┐
-//! presenter ─▶ board, encoded once ┼─▶ follower, follower, …   (each holds only its place)
-//! session ─▶ recording (Hub) ─────┘
+//! session ─▶ state, encoded once ──────────┐
+//! presenter ─▶ public state, encoded once ─┼─▶ follower, follower, …   (each holds only its place)
+//! session ─▶ recording (Hub) ──────────────┘
 //! ```
 //!
 //! Followers never learn the session's own name, with which it could be steered, nor the answer to a question before
@@ -31,19 +31,19 @@ use crate::problem::Problem;
 use crate::session::{Links, SceneSource, Session, SessionState};
 use question::PosedQuestion;
 
-/// Between two states that followers are sent.
+/// Pause between two states that followers are sent: ten a second, as often as tables can be read.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
-/// Bytes of what the presenter shows beside the run.
+/// Largest view that a presenter may show beside the run, bytes: time, selection, panels, changed numbers.
 const MAX_VIEW_BYTES: usize = 64 << 10;
-/// Answers about one moment that are kept for those who ask next.
+/// Responses about one state that are kept for the followers who ask next; when there are more, all are dropped.
 const MAX_CACHED_RESPONSES: usize = 64;
 
-/// A lecture lecture.
+/// A lecture: a session that a presenter leads and followers watch.
 #[derive(Debug)]
 pub struct Lecture {
     /// What followers type to join.
     pub code: String,
-    /// What shows that somebody is the presenter.
+    /// The presenter's secret.
     key: String,
     opened: Instant,
     presentation: Mutex<Presentation>,
@@ -67,12 +67,14 @@ pub enum LiveView {
     Closed,
 }
 
-/// What the presenter has laid out.
+/// What the presenter shows and asks.
 #[derive(Debug)]
 struct Presentation {
     view: Value,
     question: Option<PosedQuestion>,
+    /// Questions asked so far.
     asked: u64,
+    /// When the presenter was last heard of.
     touched: Instant,
 }
 
@@ -102,7 +104,7 @@ pub struct PresenterState {
 }
 
 impl Lecture {
-    /// Opens a room for a session, and starts to tell of it.
+    /// Opens a lecture for a session and starts to send its states.
     fn open(code: String, session: Arc<Session>, max_followers: usize) -> Arc<Self> {
         let presentation =
             Presentation { view: Value::Null, question: None, asked: 0, touched: Instant::now() };
@@ -128,7 +130,7 @@ impl Lecture {
         &self.key
     }
 
-    /// Refuses whoever is not the presenter.
+    /// Errors unless `given` is the presenter's key.
     pub fn check_key(&self, given: Option<&str>) -> Result<(), Problem> {
         if given == Some(self.key.as_str()) {
             self.presentation().touched = Instant::now();
@@ -163,7 +165,7 @@ impl Lecture {
         }
     }
 
-    /// Takes over what the presenter looks at.
+    /// Shows followers what the presenter looks at. Errors if it is too large.
     pub fn show(&self, view: Value) -> Result<(), Problem> {
         let size = view.to_string().len();
         if size > MAX_VIEW_BYTES {
@@ -185,7 +187,7 @@ impl Lecture {
         self.publish();
     }
 
-    /// Asks a question; the one before is forgotten.
+    /// Asks a question; the one before is forgotten. Errors if a text or the number of choices is out of bounds.
     pub fn ask(&self, new: NewQuestion) -> Result<(), Problem> {
         let mut presentation = self.presentation();
         let question = PosedQuestion::new(presentation.asked + 1, new, 4 * self.max_followers)?;
@@ -196,20 +198,20 @@ impl Lecture {
         Ok(())
     }
 
-    /// Takes an answer.
+    /// Counts an answer. Errors if no question is open or the choice does not exist.
     pub fn vote(&self, vote: &Vote) -> Result<(), Problem> {
-        self.presentation().question.as_mut().ok_or_else(question::none)?.take(vote)
+        self.presentation().question.as_mut().ok_or_else(question::none)?.count(vote)
     }
 
-    /// Tells everybody how the answers stand, and which is right.
+    /// Shows everybody the counts of the answers and the right one. Errors if no question is asked.
     pub fn reveal(&self) -> Result<(), Problem> {
         self.presentation().question.as_mut().ok_or_else(question::none)?.reveal();
         self.publish();
         Ok(())
     }
 
-    /// Takes the question away.
-    pub fn forget_question(&self) {
+    /// Withdraws the question.
+    pub fn withdraw_question(&self) {
         self.presentation().question = None;
         self.publish();
     }
@@ -222,10 +224,10 @@ impl Lecture {
         }
     }
 
-    /// Joins as a follower.
+    /// Joins as a follower. Errors if the lecture is full.
     pub fn join(self: &Arc<Self>) -> Result<Follower, Problem> {
         let before = self.followers.fetch_add(1, Ordering::Relaxed);
-        let seat = Follower {
+        let follower = Follower {
             live: self.live.subscribe(),
             state: self.state.subscribe(),
             public: self.public.subscribe(),
@@ -239,28 +241,30 @@ impl Lecture {
                 "look on with a neighbour; the instructor can start the server with a larger --max-followers",
             ));
         }
-        Ok(seat)
+        Ok(follower)
     }
 
-    /// An answer about the run at one moment: the session computes it once, however many followers want it.
+    /// A response about the run at its present state: the session computes it once, however many followers ask.
+    ///
+    /// Errors if no session is shown, and as `ask` does.
     pub async fn cached<T: Future<Output = Result<Value, Problem>>>(
         &self,
         what: &str,
         ask: impl FnOnce(Arc<Session>) -> T,
     ) -> Result<Value, Problem> {
         let session = self.session().ok_or_else(nothing_shown)?;
-        // Whoever asks meanwhile waits here, and finds the answer.
+        // Requests that arrive meanwhile wait here and find the response.
         let mut cached = self.cached_responses.lock().await;
         let state = session.state();
-        let moment = format!("{} {} {} {}", state.id, state.time, state.changes, state.pull.is_some());
-        if let Some((_, value)) = cached.get(what).filter(|(of, _)| *of == moment) {
+        let key = format!("{} {} {} {}", state.id, state.time, state.changes, state.pull.is_some());
+        if let Some((_, value)) = cached.get(what).filter(|(of, _)| *of == key) {
             return Ok(value.clone());
         }
         let value = ask(session).await?;
         if cached.len() >= MAX_CACHED_RESPONSES {
             cached.clear();
         }
-        cached.insert(what.to_owned(), (moment, value.clone()));
+        cached.insert(what.to_owned(), (key, value.clone()));
         Ok(value)
     }
 
@@ -269,7 +273,7 @@ impl Lecture {
         self.live.send_replace(LiveView::Closed);
     }
 
-    /// How long the presenter has not been heard of, and how old the room is.
+    /// How long the presenter has not been heard of, and how old the lecture is.
     fn ages(&self) -> (Duration, Duration) {
         (self.presentation().touched.elapsed(), self.opened.elapsed())
     }
@@ -279,19 +283,19 @@ impl Lecture {
     }
 
     fn presentation(&self) -> MutexGuard<'_, Presentation> {
-        // Every change is a single assignment or insertion.
+        // Every change is a single assignment or insertion, so a panic elsewhere leaves nothing half-done.
         self.presentation.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A follower's place: newest state, newest board, and the session whose recording is watched.
+/// What a follower receives: the newest state, the newest public state, and the session whose recording is watched.
 #[derive(Debug)]
 pub struct Follower {
     /// What is shown.
     pub live: watch::Receiver<LiveView>,
     /// The newest state as it is sent.
     pub state: watch::Receiver<Utf8Bytes>,
-    /// The newest board as it is sent.
+    /// The newest public state as it is sent.
     pub public: watch::Receiver<Utf8Bytes>,
     lecture: Arc<Lecture>,
 }
@@ -323,7 +327,7 @@ impl LectureMessage<'_> {
     }
 }
 
-/// Writes each state of the session that is shown, at most ten a second, until the room is gone.
+/// Sends each state of the session that is shown, at most ten a second, until the lecture is over.
 async fn send_states(lecture: Weak<Lecture>, mut live: watch::Receiver<LiveView>) {
     loop {
         let shown = live.borrow_and_update().clone();

@@ -1,4 +1,4 @@
-//! A quick question: asked, answered once a voter, revealed.
+//! A question to all followers: asked, answered once by each voter, revealed.
 
 use std::collections::HashMap;
 
@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
 
-/// Characters of a question.
+/// Longest question, characters.
 const MAX_TEXT: usize = 400;
-/// Characters of a choice.
+/// Longest choice, characters.
 const MAX_CHOICE: usize = 160;
-/// Bytes of a voter's name.
+/// Longest name of a voter, bytes; the page makes names of 24.
 const MAX_VOTER: usize = 64;
-/// Choices of a question.
+/// Numbers of choices that a question may have.
 const CHOICES: std::ops::RangeInclusive<usize> = 2..=8;
 
 /// A question to be asked.
@@ -101,7 +101,7 @@ impl PosedQuestion {
         Ok(Self { number, asked, votes: HashMap::new(), max_votes, revealed: false })
     }
 
-    pub(super) fn take(&mut self, vote: &Vote) -> Result<(), Problem> {
+    pub(super) fn count(&mut self, vote: &Vote) -> Result<(), Problem> {
         if vote.question != self.number || self.revealed {
             return Err(Problem::new(
                 StatusCode::CONFLICT,
@@ -184,22 +184,22 @@ mod tests {
     }
 
     #[test]
-    fn a_voter_counts_once_and_the_room_is_bounded() {
+    fn each_voter_counts_once_and_the_number_of_voters_is_bounded() {
         let mut asked = question();
         for (voter, choice) in [("a", 0), ("a", 1), ("b", 1), ("c", 2)] {
-            asked.take(&vote(voter, choice)).expect("counts");
+            asked.count(&vote(voter, choice)).expect("counts");
         }
         assert_eq!(asked.tally().counts, [0, 2, 1]);
-        assert_eq!(asked.take(&vote("d", 0)).map_err(|p| p.code()), Err("too-many-answers"));
-        assert_eq!(asked.take(&vote("a", 3)).map_err(|p| p.code()), Err("invalid-question"));
-        asked.take(&vote("a", 0)).expect("a change of mind");
+        assert_eq!(asked.count(&vote("d", 0)).map_err(|p| p.code()), Err("too-many-answers"));
+        assert_eq!(asked.count(&vote("a", 3)).map_err(|p| p.code()), Err("invalid-question"));
+        asked.count(&vote("a", 0)).expect("a change of mind");
         assert_eq!(asked.tally().counts, [1, 1, 1]);
     }
 
     #[test]
-    fn nothing_of_the_result_is_told_before_the_reveal() {
+    fn the_result_is_hidden_before_the_reveal() {
         let mut asked = question();
-        asked.take(&vote("a", 0)).expect("counts");
+        asked.count(&vote("a", 0)).expect("counts");
         let before = serde_json::to_value(asked.view()).expect("JSON");
         assert_eq!(
             before.as_object().map(|all| all.keys().cloned().collect::<Vec<_>>()),
@@ -210,6 +210,6 @@ mod tests {
             asked.view().result.map(|tally| (tally.counts, tally.right)),
             Some((vec![1, 0, 0], Some(1)))
         );
-        assert_eq!(asked.take(&vote("b", 0)).map_err(|p| p.code()), Err("question-over"));
+        assert_eq!(asked.count(&vote("b", 0)).map_err(|p| p.code()), Err("question-over"));
     }
 }

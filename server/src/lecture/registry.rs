@@ -1,4 +1,4 @@
-//! All lecture rooms, bounded in number, closed when their presenter is gone.
+//! All lectures, bounded in number, closed when their presenter is gone.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,27 +10,27 @@ use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::session::Session;
 
-/// Signs of a code: none that is taken for another, no vowel that makes a word.
-const SIGNS: &[u8; 28] = b"BCDFGHJKLMNPQRSTVWXZ23456789";
-/// Signs in a code.
-const LENGTH: usize = 5;
+/// Characters of a code: none that is mistaken for another, no vowel that makes a word.
+const CODE_CHARACTERS: &[u8; 28] = b"BCDFGHJKLMNPQRSTVWXZ23456789";
+/// Characters in a code: 17 million codes, short enough to be read aloud.
+const CODE_LENGTH: usize = 5;
 
-/// The rooms of one server.
+/// The lectures of one server.
 #[derive(Debug, Default)]
 pub struct Lectures {
     open: Mutex<BTreeMap<String, Arc<Lecture>>>,
 }
 
 impl Lectures {
-    /// Opens a room for a session. Needs the async runtime.
+    /// Opens a lecture for a session. Needs the async runtime. Errors if there are as many lectures as allowed.
     pub fn open(&self, session: Arc<Session>, limits: &Limits) -> Result<Arc<Lecture>, Problem> {
         self.expire(limits);
         let mut open = self.lock();
-        if open.len() >= limits.rooms {
+        if open.len() >= limits.lectures {
             return Err(Problem::new(
                 StatusCode::SERVICE_UNAVAILABLE,
                 "too-many-rooms",
-                format!("all {} lecture rooms of this server are in use", limits.rooms),
+                format!("all {} lecture rooms of this server are in use", limits.lectures),
                 "close a room that is no longer needed, or start the server with a larger --max-rooms",
             ));
         }
@@ -40,7 +40,7 @@ impl Lectures {
         Ok(lecture)
     }
 
-    /// The room with that code, however it was typed.
+    /// The lecture with that code, in capitals or not. Errors if there is none.
     pub fn get(&self, code: &str) -> Result<Arc<Lecture>, Problem> {
         let code = code.trim().to_uppercase();
         self.lock().get(&code).cloned().ok_or_else(|| {
@@ -60,11 +60,11 @@ impl Lectures {
         }
     }
 
-    /// Closes rooms whose presenter has not been heard of for long, and those that are too old.
+    /// Closes lectures whose presenter has not been heard of for long, and those that are too old.
     pub fn expire(&self, limits: &Limits) {
         self.lock().retain(|_, lecture| {
             let (silent, age) = lecture.ages();
-            let keep = silent < limits.room_idle && age < limits.room_life;
+            let keep = silent < limits.lecture_idle && age < limits.lecture_life;
             if !keep {
                 lecture.close();
             }
@@ -72,7 +72,7 @@ impl Lectures {
         });
     }
 
-    /// Closes all rooms.
+    /// Closes all lectures.
     pub fn clear(&self) {
         for lecture in std::mem::take(&mut *self.lock()).into_values() {
             lecture.close();
@@ -96,9 +96,9 @@ impl Lectures {
 
 fn new_code() -> String {
     let random = uuid::Uuid::new_v4();
-    // The first bytes of a random UUID hold nothing else than chance.
-    random.as_bytes()[..LENGTH]
+    // The first bytes of a random UUID are random; its version stands behind them.
+    random.as_bytes()[..CODE_LENGTH]
         .iter()
-        .map(|byte| char::from(SIGNS[usize::from(*byte) % SIGNS.len()]))
+        .map(|byte| char::from(CODE_CHARACTERS[usize::from(*byte) % CODE_CHARACTERS.len()]))
         .collect()
 }

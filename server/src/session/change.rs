@@ -52,6 +52,8 @@ impl SceneChange {
     }
 
     /// The changed scene, and what happens to its run.
+    ///
+    /// Errors if a name, a place or a value is refused.
     pub fn of(&self, scene: &Scene) -> Result<(Scene, AfterChange), Problem> {
         let values = self.values.iter().map(|(name, value)| (name.as_str(), *value));
         let places = self.places.iter().map(|(pointer, value)| (pointer.as_str(), value));
@@ -150,6 +152,8 @@ const DRAG_PERIOD: f64 = 0.6;
 
 impl Drag {
     /// The scene with the spring in it.
+    ///
+    /// Errors if there is no such body, or the stiffness is not positive.
     pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Problem> {
         let wrong = |pointer: &str, detail: String, hint: String| {
             Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "cannot-pull", detail.clone(), hint)

@@ -29,8 +29,8 @@ pub(super) enum Command {
     Drag(Option<Drag>, ReplySender<Arc<SessionState>>),
     /// Give the scene.
     Scene(ReplySender<SessionScene>),
-    /// Show the run as it is, or as it was at a time, to a function that reads from it what is wanted.
-    Look(Option<f64>, Teller),
+    /// Read something from the run as it is, or as it was at a time.
+    Query(Option<f64>, Query),
     /// Draw forces in another way; take their scale from the recording.
     Draw(Option<Arrows>, bool, ReplySender<Arc<SessionState>>),
     /// Look at the mechanism from another side.
@@ -42,13 +42,13 @@ pub(super) enum Command {
 /// Where an answer goes; the caller may have left.
 pub(super) type ReplySender<T> = oneshot::Sender<Result<T, Problem>>;
 
-/// Reads from the run at the time that was asked for.
-pub(super) type Teller = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;
+/// Reads from the run at the time that was asked for, or learns why it cannot.
+pub(super) type Query = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;
 
 /// Flags that reach a worker while it is busy.
 #[derive(Debug, Default)]
 pub(super) struct Signals {
-    /// Leave off what you are doing, the next command is urgent.
+    /// The next command is urgent: what is under way ends.
     pub interrupt: AtomicBool,
     /// The session is closed.
     pub closed: AtomicBool,

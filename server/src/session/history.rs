@@ -1,14 +1,14 @@
-//! The states that a run has gone through, for whoever looks back: a question about the past is answered from the state of then.
+//! The states of a run that are kept, so that a question about a time that has passed is answered from its state.
 
 use axum::http::StatusCode;
 use triad_engine::run::{Simulation, Snapshot};
 
 use crate::problem::Problem;
 
-/// Changes in the middle of a run that are kept apart; what came before is forgotten.
-const MAX_CHAPTERS: usize = 32;
-/// Two times that differ less are one, s.
-const SAME: f64 = 1e-9;
+/// Stretches of a run with different numbers that are kept; the oldest is forgotten first.
+const MAX_SEGMENTS: usize = 32;
+/// Times that differ by less are the same, s: far below any step, far above rounding.
+const SAME_TIME: f64 = 1e-9;
 
 /// States of a run, thinned out evenly when they become too many.
 #[derive(Debug)]
@@ -18,20 +18,20 @@ pub(super) struct History {
     bytes: usize,
     limit: usize,
     /// The run as it was at the time that was asked for last.
-    looked: Option<Box<Simulation>>,
+    recalled: Option<Box<Simulation>>,
 }
 
 #[derive(Debug)]
 struct Segment {
     /// The run when its numbers were replaced; nothing while they are those of the present.
     run: Option<Box<Simulation>>,
-    moments: Vec<Snapshot>,
+    snapshots: Vec<Snapshot>,
 }
 
 impl History {
     /// Nothing yet; at most about `limit` bytes.
     pub(super) fn new(limit: usize) -> Self {
-        Self { segments: vec![Segment { run: None, moments: Vec::new() }], bytes: 0, limit, looked: None }
+        Self { segments: vec![Segment { run: None, snapshots: Vec::new() }], bytes: 0, limit, recalled: None }
     }
 
     /// Forgets everything.
@@ -41,55 +41,55 @@ impl History {
 
     /// Keeps the state of the present.
     pub(super) fn keep(&mut self, simulation: &mut Simulation) {
-        let moment = simulation.snapshot();
-        self.bytes += moment.size();
+        let snapshot = simulation.snapshot();
+        self.bytes += snapshot.size();
         if let Some(segment) = self.segments.last_mut() {
-            segment.moments.push(moment);
+            segment.snapshots.push(snapshot);
         }
         if self.bytes > self.limit {
             self.thin();
         }
     }
 
-    /// Every second state goes.
+    /// Drops every second state.
     fn thin(&mut self) {
         for segment in &mut self.segments {
             let mut keep = false;
-            segment.moments.retain(|_| {
+            segment.snapshots.retain(|_| {
                 keep = !keep;
                 keep
             });
         }
-        self.bytes = self.segments.iter().flat_map(|segment| &segment.moments).map(Snapshot::size).sum();
+        self.bytes = self.segments.iter().flat_map(|segment| &segment.snapshots).map(Snapshot::size).sum();
     }
 
-    /// From now on the run has other numbers; `old` is how it was.
+    /// Begins a segment with other numbers; `old` is the run before the change.
     pub(super) fn start_segment(&mut self, old: Simulation) {
-        self.looked = None;
+        self.recalled = None;
         match self.segments.last_mut() {
             // Numbers that were never run with need no segment.
-            Some(last) if last.moments.is_empty() => return,
+            Some(last) if last.snapshots.is_empty() => return,
             Some(last) => last.run = Some(Box::new(old)),
             None => {}
         }
-        self.segments.push(Segment { run: None, moments: Vec::new() });
-        if self.segments.len() > MAX_CHAPTERS {
+        self.segments.push(Segment { run: None, snapshots: Vec::new() });
+        if self.segments.len() > MAX_SEGMENTS {
             self.segments.remove(0);
         }
     }
 
-    /// The run at the latest kept state that is not after `time`.
+    /// The run at the latest kept state that is not after `time`. Errors if none is kept.
     pub(super) fn at(&mut self, time: f64, present: &Simulation) -> Result<&mut Simulation, Problem> {
         let found = self.segments.iter().rev().find_map(|segment| {
-            let after = segment.moments.partition_point(|moment| moment.time <= time + SAME);
-            Some((segment, segment.moments.get(after.checked_sub(1)?)?))
+            let after = segment.snapshots.partition_point(|snapshot| snapshot.time <= time + SAME_TIME);
+            Some((segment, segment.snapshots.get(after.checked_sub(1)?)?))
         });
-        let (segment, moment) = found.ok_or_else(|| unknown(time))?;
-        if self.looked.as_ref().is_none_or(|looked| looked.time() != moment.time) {
+        let (segment, snapshot) = found.ok_or_else(|| unknown(time))?;
+        if self.recalled.as_ref().is_none_or(|recalled| recalled.time() != snapshot.time) {
             let run = segment.run.as_deref().unwrap_or(present);
-            self.looked = run.at_snapshot(moment).map(Box::new);
+            self.recalled = run.at_snapshot(snapshot).map(Box::new);
         }
-        self.looked.as_deref_mut().ok_or_else(|| unknown(time))
+        self.recalled.as_deref_mut().ok_or_else(|| unknown(time))
     }
 }
 
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_before_a_change_is_told_with_the_numbers_of_then() {
+    fn a_time_before_a_change_has_the_numbers_of_that_time() {
         let mut run = pendulum(1.0);
         let mut history = History::new(1 << 20);
         let mut then = Vec::new();

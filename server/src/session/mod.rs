@@ -34,7 +34,7 @@ use history::History;
 use recording::Recording;
 use worker::Worker;
 
-/// Commands that may wait for one session.
+/// Commands that may wait for one session; more are refused.
 const QUEUE: usize = 32;
 
 /// A handle on a live simulation; dropping the last one ends its thread.
@@ -49,6 +49,8 @@ pub struct Session {
 
 impl Session {
     /// Assembles a scene and starts its thread. Blocks until the scene is assembled.
+    ///
+    /// Errors if the scene or the change of it is refused, or the thread cannot be started.
     pub fn start(
         original: Scene,
         change: &SceneChange,
@@ -112,62 +114,83 @@ impl Session {
     }
 
     /// Takes integrator steps.
+    ///
+    /// Errors if the engine cannot go on, the time budget is spent, or the session is busy or closed.
     pub async fn steps(&self, count: u32) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Steps(count, reply)).await
     }
 
     /// Lets simulated seconds pass.
+    ///
+    /// Errors as [`Self::steps`] does.
     pub async fn seconds(&self, seconds: f64) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Seconds(seconds, reply)).await
     }
 
     /// Lets time run, `speed` simulated seconds a second.
+    ///
+    /// Errors if the run has stopped, or the session is busy or closed.
     pub async fn play(&self, speed: f64) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Play(speed, reply)).await
     }
 
     /// Stops time, also in the middle of a long step.
+    ///
+    /// Errors if the session is busy or closed.
     pub async fn pause(&self) -> Result<Arc<SessionState>, Problem> {
         self.signals.interrupt.store(true, Ordering::Relaxed);
         self.ask(Command::Pause).await
     }
 
     /// Goes back to the start and begins another recording.
+    ///
+    /// Errors if the scene cannot be assembled again, or the session is busy or closed.
     pub async fn reset(&self) -> Result<Arc<SessionState>, Problem> {
         self.signals.interrupt.store(true, Ordering::Relaxed);
         self.ask(Command::Reset).await
     }
 
     /// Changes numbers of the scene; the run starts over or goes on.
+    ///
+    /// Errors if a change is refused, the run cannot go on with it, or the session is busy or closed.
     pub async fn change(&self, change: SceneChange) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Change(change, reply)).await
     }
 
     /// Drags a body by a spring, or lets it go.
+    ///
+    /// Errors as [`Self::change`] does.
     pub async fn drag(&self, drag: Option<Drag>) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Drag(drag, reply)).await
     }
 
     /// The scene as it is now.
+    ///
+    /// Errors if the session is busy or closed.
     pub async fn scene(&self) -> Result<SessionScene, Problem> {
         self.ask(Command::Scene).await
     }
 
-    /// Asks something of the run as it is, or as it was at a time that it has passed.
-    pub async fn look<T: Send + 'static>(
+    /// Reads something from the run as it is, or as it was at a time that it has passed. Errors if that time is not
+    /// kept, and as `read` does.
+    pub async fn query<T: Send + 'static>(
         &self,
         at: Option<f64>,
-        tell: impl FnOnce(&mut Simulation) -> Result<T, Problem> + Send + 'static,
+        read: impl FnOnce(&mut Simulation) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        self.ask(|reply| Command::Look(at, Box::new(move |run| drop(reply.send(run.and_then(tell)))))).await
+        self.ask(|reply| Command::Query(at, Box::new(move |run| drop(reply.send(run.and_then(read)))))).await
     }
 
     /// Draws forces in another way, in every picture; `fit` takes their scale from the recording.
+    ///
+    /// Errors if the recording is full, or the session is busy or closed.
     pub async fn draw(&self, arrows: Option<Arrows>, fit: bool) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::Draw(arrows, fit, reply)).await
     }
 
     /// Looks at the mechanism from another side.
+    ///
+    /// Errors as [`Self::draw`] does.
     pub async fn look_from(&self, camera: Camera) -> Result<Arc<SessionState>, Problem> {
         self.ask(|reply| Command::LookFrom(camera, reply)).await
     }

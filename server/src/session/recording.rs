@@ -23,11 +23,11 @@ pub(crate) struct Recording {
     camera: Camera,
     hub: Arc<Hub>,
     id: String,
-    /// Counts recordings: a viewer must not join one after a reset to the one before.
+    /// Incremented by each reset, so that viewers do not join a recording to the one before.
     generation: u64,
     recorder: Option<Recorder>,
     samples: Vec<Sample>,
-    /// Of the samples, so many are encoded.
+    /// How many of the samples are encoded.
     samples_encoded: usize,
     bytes: usize,
     limit: usize,
@@ -36,22 +36,24 @@ pub(crate) struct Recording {
     redrawn: usize,
     /// The scale of forces was taken from the recording.
     fitted: bool,
-    /// When blocks were last made, and how long to wait until the next.
+    /// When blocks were last made.
     encoded_at: Instant,
+    /// How long to wait until the next blocks.
     pace: Duration,
 }
 
-/// How often a playing session goes on: about thirty times a second.
+/// Time between two ticks of a playing session: about thirty a second, as smooth as a page draws.
 pub(super) const TICK: Duration = Duration::from_millis(33);
 
-/// A block costs some kilobytes an entity whatever it holds: so many entities are streamed at the full rate,
-/// larger scenes more seldom.
+/// Entities that are streamed at each tick; larger scenes are streamed less often. A block costs some kilobytes for
+/// each entity, whatever it holds.
 const ENTITIES_AT_FULL_RATE: usize = 16;
 /// The longest wait between two blocks.
 const MAX_WAIT: Duration = Duration::from_millis(500);
-/// So many samples make a recording that a scale can be taken from.
+/// Samples from which the scale of forces can be taken.
 const SAMPLES_FOR_SCALE: usize = 32;
-/// When arrows that were drawn again fill this part of the bound, the recording is written anew without the old ones.
+/// Where arrows that were drawn again fill the bound divided by this, the recording is written anew without the old
+/// ones.
 const REDRAWN_PART: usize = 16;
 
 impl Recording {
@@ -79,7 +81,8 @@ impl Recording {
         }
     }
 
-    /// Records the simulation as it stands, unless that instant is recorded already. Tells whether it was not.
+    /// Records the simulation at its present time, unless that is recorded already; returns whether it was not. Errors
+    /// if the recording is full.
     pub(crate) fn record(&mut self, simulation: &mut Simulation) -> Result<bool, Problem> {
         if self.samples.last().is_some_and(|last| simulation.time() <= last.time) {
             return Ok(false);

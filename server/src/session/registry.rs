@@ -25,6 +25,8 @@ struct Sessions {
 
 impl Registry {
     /// Starts a session. Blocks until its scene is assembled.
+    ///
+    /// Errors if there are as many as allowed, or the scene is refused.
     pub fn start(
         &self,
         scene: Scene,
@@ -57,11 +59,15 @@ impl Registry {
     }
 
     /// The session called `id`.
+    ///
+    /// Errors if there is none.
     pub fn get(&self, id: &str) -> Result<Arc<Session>, Problem> {
         self.lock().live.get(id).cloned().ok_or_else(|| unknown(id))
     }
 
     /// Closes the session called `id`.
+    ///
+    /// Errors if there is none.
     pub fn remove(&self, id: &str) -> Result<(), Problem> {
         let session = self.lock().live.remove(id).ok_or_else(|| unknown(id))?;
         session.close();

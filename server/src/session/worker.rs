@@ -1,4 +1,4 @@
-//! The thread that owns a session's simulation: it waits for commands, and lets time run while the session plays.
+//! The thread that owns a session's simulation: it serves commands, and advances time while the session plays.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -17,8 +17,8 @@ use super::recording::{Recording, TICK, describe};
 use super::state::{Drawing, SceneSource, SessionFacts, SessionState};
 use crate::problem::Problem;
 
-/// Integrator steps between two looks at the clock and at what callers want.
-const PIECE: u64 = 32;
+/// Integrator steps between two checks of the clock and of the signals of callers.
+const STEPS_PER_CHECK: u64 = 32;
 
 /// A session's simulation with all that belongs to it.
 pub(super) struct Worker {
@@ -43,7 +43,7 @@ pub(super) struct Worker {
     pub error: Option<Problem>,
 }
 
-/// Time that runs: simulated time `from` was at the wall clock's `since`.
+/// A session that plays: the simulated time was `from`, in s, when the wall clock was at `since`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Play {
     since: Instant,
@@ -108,9 +108,9 @@ impl Worker {
                 drop(reply.send(self.answer_to_change(result)));
             }
             Command::Scene(reply) => drop(reply.send(Ok(SessionScene::new(&self.scene, &self.original)))),
-            Command::Look(at, tell) => match at.filter(|at| *at < self.simulation.time()) {
-                None => tell(Ok(&mut self.simulation)),
-                Some(time) => tell(self.history.at(time, &self.simulation)),
+            Command::Query(at, read) => match at.filter(|at| *at < self.simulation.time()) {
+                None => read(Ok(&mut self.simulation)),
+                Some(time) => read(self.history.at(time, &self.simulation)),
             },
             Command::Draw(arrows, fit, reply) => {
                 let drawn = arrows.map_or(Ok(()), |arrows| self.recording.draw(arrows));
@@ -258,7 +258,7 @@ impl Worker {
         while self.simulation.time() < target && !self.signals.interrupt.load(Ordering::Relaxed) {
             // The next of the scene's output times; the slack keeps rounding from making one twice.
             let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
-            if self.simulation.advance_towards(next.min(target), PIECE)? {
+            if self.simulation.advance_towards(next.min(target), STEPS_PER_CHECK)? {
                 self.record()?;
             }
             self.in_time(deadline)?;

@@ -100,6 +100,8 @@ pub struct Store {
 
 impl Store {
     /// Opens the file, making it if it is not there, and brings its tables up to date.
+    ///
+    /// Errors if it cannot be opened, is no database, or is of a later version.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let connection =
             Connection::open(path).map_err(|cause| StoreError::Open { path: path.to_owned(), cause })?;
@@ -110,6 +112,8 @@ impl Store {
     }
 
     /// A gradebook that is forgotten when it is dropped.
+    ///
+    /// Errors if SQLite refuses it.
     pub fn in_memory() -> Result<Self, StoreError> {
         Self::prepare(Connection::open_in_memory()?)
     }
@@ -128,7 +132,9 @@ impl Store {
         self.connection.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Keeps a submission for good.
+    /// Keeps a submission; it can neither be changed nor removed.
+    ///
+    /// Errors if it cannot be written.
     pub fn add(&self, submission: &StoredSubmission) -> Result<(), StoreError> {
         self.lock().execute(
             "INSERT INTO submission (id, lesson, student, submitted_at, answers, verdict) \
@@ -146,6 +152,8 @@ impl Store {
     }
 
     /// How often a student has handed in a lesson.
+    ///
+    /// Errors if the file cannot be read.
     pub fn attempts(&self, student: &str, lesson: &str) -> Result<usize, StoreError> {
         let connection = self.lock();
         let mut statement = connection
@@ -155,6 +163,8 @@ impl Store {
     }
 
     /// Lists submissions, newest first.
+    ///
+    /// Errors if the file cannot be read.
     pub fn list(&self, query: &Query) -> Result<Vec<StoredSubmission>, StoreError> {
         let connection = self.lock();
         let mut statement = connection.prepare_cached(

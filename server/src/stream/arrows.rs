@@ -1,7 +1,7 @@
 //! How forces are drawn: which of them, on which side, about which point, and how long.
 //!
 //! One scale for the whole scene. An arrow that would be longer than the longest is drawn as two in a row. A moment is
-//! three quarters of a circle that turns as it does; one that would be larger than the largest is drawn as two circles.
+//! three quarters of a circle in its sense; one that would be larger than the largest is drawn as two circles.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,7 @@ pub enum DrawnForces {
     Body(String),
 }
 
-/// What an arrow stands for.
+/// What an arrow shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArrowKind {
     /// A joint's force.
@@ -68,7 +68,7 @@ pub enum ArrowKind {
 /// A piece of an arrow as the viewer draws it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// What it stands for.
+    /// What it shows.
     pub kind: ArrowKind,
     /// Where it starts, m.
     pub from: [f64; 3],

@@ -1,4 +1,4 @@
-//! Who appears in a recording: the bodies with their shapes, the joints with their rows, and the scales.
+//! What appears in a recording: the bodies with their shapes, the joints with their rows, and the scales.
 
 use triad_engine::model::{BodyRef, Model};
 use triad_engine::scene::{Scene, Shape};
@@ -44,7 +44,7 @@ pub struct Pattern {
     pub entries: Vec<(usize, usize, bool)>,
 }
 
-/// All that a recording says once.
+/// What a recording states once.
 #[derive(Debug, Clone)]
 pub struct SceneDescription {
     /// Title of the recording.

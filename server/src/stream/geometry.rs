@@ -18,8 +18,9 @@ const PALETTE: [[u8; 3]; 6] =
 const PIN: [u8; 3] = [120, 120, 120];
 /// Weight and loads of a body that is cut free.
 pub(super) const FREE_BODY: &str = "world/cut-free";
-/// Rings about the joint that somebody selected, and their colour: blue, as selected rows are framed.
+/// Rings about the joint that somebody selected.
 pub(super) const MARK: &str = "world/marked";
+/// Colour of the rings: blue, as selected rows are framed.
 const MARKED: [u8; 3] = [20, 120, 215];
 /// Directors u, v, w: red, green, blue as everywhere.
 const AXES: [[u8; 3]; 3] = [[220, 60, 60], [60, 170, 60], [70, 110, 230]];

@@ -29,8 +29,8 @@ pub(super) fn send(
         ContainerLike::View(view) => format!("{}/EyeControls3D", view.blueprint_path()),
         _ => return Ok(()),
     };
-    // The library writes a layout only into a recording, and has no word for the camera: it is written into one
-    // in memory, and the camera is added under the same name.
+    // The library writes a layout only into a recording, and cannot set the camera: the layout is written into a
+    // recording in memory, and the camera is added under the same name.
     let (_scratch, written) =
         RecordingStreamBuilder::new(APPLICATION).with_blueprint(blueprint(mechanism)).memory()?;
     let is_layout = |message: &LogMsg| message.store_id().kind() == StoreKind::Blueprint;
@@ -70,7 +70,7 @@ fn eye(description: &SceneDescription, from: Camera) -> EyeControls3D {
         (Camera::Front, true) => [0.0, 0.0, 2.6],
         (Camera::Front, false) => [0.0, -2.6, 0.0],
         (Camera::Side, _) => [2.6, 0.0, 0.0],
-        // Not quite along the upward axis, which would leave the picture's own turn open.
+        // Not quite along the upward axis, which would leave the turn of the picture about it undetermined.
         (Camera::Above, true) => [0.0, 2.6, 0.02],
         (Camera::Above, false) => [0.0, -0.02, 2.6],
     };

@@ -51,6 +51,8 @@ pub struct Recorder {
 
 impl Recorder {
     /// A recording whose blocks are taken with [`Recorder::block`]. `id` tells it from others in one viewer.
+    ///
+    /// Errors if the viewer's library refuses it.
     pub fn to_blocks(id: &str, description: SceneDescription) -> Result<Self, RecordError> {
         let recording = builder(id, &description).buffered()?;
         let sink = Sink::Blocks(recording.binary_stream());
@@ -58,12 +60,16 @@ impl Recorder {
     }
 
     /// A recording in a file.
+    ///
+    /// Errors if the file cannot be written.
     pub fn to_file(file: &Path, id: &str, description: SceneDescription) -> Result<Self, RecordError> {
         let recording = builder(id, &description).save(file)?;
         Self::start(recording, Sink::Elsewhere, description)
     }
 
     /// A recording in a native viewer that listens at `url`, like `rerun+http://127.0.0.1:9876/proxy`.
+    ///
+    /// Errors if the address cannot be understood.
     pub fn to_viewer(url: &str, id: &str, description: SceneDescription) -> Result<Self, RecordError> {
         let recording = builder(id, &description).connect_grpc_opts(url)?;
         Self::start(recording, Sink::Elsewhere, description)
@@ -85,6 +91,8 @@ impl Recorder {
     }
 
     /// Writes samples, which must be in the order of time.
+    ///
+    /// Errors if the viewer's library refuses them.
     pub fn write(&mut self, samples: &[Sample]) -> Result<(), RecordError> {
         if samples.is_empty() {
             return Ok(());
@@ -130,6 +138,8 @@ impl Recorder {
     }
 
     /// Draws forces and the mark in another way, also those that were drawn already: what is written last counts.
+    ///
+    /// Errors as [`Self::write`] does.
     pub fn redraw(&mut self, arrows: Arrows, scale: Scale, samples: &[Sample]) -> Result<(), RecordError> {
         let alike = self.arrows.draw_as(&arrows) && self.description.scale == scale;
         self.description.scale = scale;
@@ -142,6 +152,8 @@ impl Recorder {
     }
 
     /// Looks at the mechanism from another side.
+    ///
+    /// Errors as [`Self::write`] does.
     pub fn look_from(&self, camera: Camera) -> Result<(), RecordError> {
         Ok(layout::send(&self.recording, &self.description, camera)?)
     }
@@ -221,6 +233,8 @@ impl Recorder {
     }
 
     /// Everything written since the last call, as one complete block; nothing if the recording goes elsewhere.
+    ///
+    /// Errors if the encoder does not finish in time.
     pub fn block(&self) -> Result<Option<Vec<u8>>, RecordError> {
         self.flush()?;
         Ok(match &self.sink {
@@ -230,6 +244,8 @@ impl Recorder {
     }
 
     /// Waits until everything written has left this process or reached the disk.
+    ///
+    /// Errors if that takes longer than ten seconds.
     pub fn flush(&self) -> Result<(), RecordError> {
         self.recording
             .flush_with_timeout(Duration::from_secs(10))

@@ -14,7 +14,7 @@ pub struct Scale {
     pub longest: f64,
 }
 
-/// The part of the forces of a recording that are drawn no longer than at full length.
+/// The part of the forces of a recording that are drawn at full length or shorter: outliers do not set the scale.
 const PERCENTILE: f64 = 0.95;
 /// Full length of a force's arrow, relative to the size of the mechanism.
 const FULL: f64 = 0.5;
@@ -53,7 +53,7 @@ impl Scale {
         }
     }
 
-    /// Whether another scale differs so little that eyes would not see it.
+    /// Whether another scale differs too little to be seen.
     pub fn is_near(self, other: Self) -> bool {
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.2;
         near(self.force, other.force) && near(self.moment, other.moment)

@@ -17,7 +17,7 @@ export function questionDialog(
     class: "field",
     id: "ask-text",
     maxlength: "400",
-    value: joint ? `Which sign has Fx of ${joint} at this moment?` : "What happens next?",
+    value: joint ? `Which sign does Fx of ${joint} have at this moment?` : "What happens next?",
   });
   const choices = h("textarea", { class: "field", id: "ask-choices", rows: "4" }, "positive\nnegative\nzero");
   const right = h("input", {

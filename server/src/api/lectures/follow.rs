@@ -1,4 +1,4 @@
-//! The stream of a lecture room, over a WebSocket.
+//! The stream of a lecture, over a WebSocket.
 //!
 //! Text messages are JSON: `{"type":"room",…}` when the presenter shows or asks something else, `{"type":"state",…}` at
 //! most ten times a second, `{"type":"reset"}` when a recording begins (the viewer must forget the old one),
@@ -35,7 +35,7 @@ struct Wish {
     recording: bool,
 }
 
-/// Follow a lecture: a WebSocket of boards and states (text) and, if wanted, of RRD blocks (binary).
+/// Follow a lecture: a WebSocket of what is shown and asked and of states (text) and, if wanted, of RRD blocks (binary).
 #[utoipa::path(get, path = "/rooms/{code}/stream", operation_id = "follow_lecture", tag = "rooms", params(("code" = String, Path),
     ("recording" = Option<bool>, Query, description = "Send the recording for the 3-D view too")), responses(
     (status = 101, description = "The socket is open"),
@@ -48,10 +48,10 @@ async fn follow(
     Query(wish): Query<Wish>,
     request: Request,
 ) -> Result<Response, Problem> {
-    let room = app.lectures.get(&code)?;
+    let lecture = app.lectures.get(&code)?;
     let upgrade = upgrade(&app, request).await?;
-    let follower = room.join()?;
-    drop(room);
+    let follower = lecture.join()?;
+    drop(lecture);
     let patience = app.limits.stalled_viewer;
     Ok(upgrade.on_upgrade(move |socket| async move {
         // However it ends, the follower is given back.
@@ -73,7 +73,7 @@ async fn follow_on(
     loop {
         tokio::select! {
             received = viewer.socket.recv() => match received {
-                // Nothing that a follower says here changes anything.
+                // Messages of followers are ignored.
                 Some(Ok(message)) if !matches!(message, Message::Close(_)) => {}
                 _ => return Ok(()),
             },

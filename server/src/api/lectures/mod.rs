@@ -1,4 +1,4 @@
-//! Lecture rooms: open, join, show, ask, answer, reveal, close.
+//! Lectures: open, join, show, ask, answer, reveal, close.
 
 pub(in crate::api) mod follow;
 
@@ -35,9 +35,9 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<Vote>();
     OpenApiRouter::new()
         .routes(routes!(open))
-        .routes(routes!(board, close))
+        .routes(routes!(public_state, close))
         .routes(routes!(show))
-        .routes(routes!(desk))
+        .routes(routes!(presenter_state))
         .routes(routes!(ask, forget))
         .routes(routes!(reveal))
         .routes(routes!(answer))
@@ -74,11 +74,11 @@ struct OpenedLecture {
     (status = 404, description = "No such session", body = ref(PROBLEM)),
     (status = 503, description = "All rooms are in use", body = ref(PROBLEM))))]
 async fn open(State(app): State<App>, Json(new): Json<NewLecture>) -> Result<impl IntoResponse, Problem> {
-    let room = app.lectures.open(app.sessions.get(&new.session)?, &app.limits)?;
+    let lecture = app.lectures.open(app.sessions.get(&new.session)?, &app.limits)?;
     let opened = OpenedLecture {
-        code: room.code.clone(),
-        key: room.key().to_owned(),
-        page: format!("/room/{}", room.code),
+        code: lecture.code.clone(),
+        key: lecture.key().to_owned(),
+        page: format!("/room/{}", lecture.code),
     };
     Ok((StatusCode::CREATED, axum::Json(opened)))
 }
@@ -87,7 +87,7 @@ async fn open(State(app): State<App>, Json(new): Json<NewLecture>) -> Result<imp
 #[utoipa::path(get, path = "/rooms/{code}", operation_id = "get_lecture", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 200, description = "What followers see", body = ref(of::<PublicState>())),
     (status = 404, description = "No such room", body = ref(PROBLEM))))]
-async fn board(
+async fn public_state(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
 ) -> Result<axum::Json<PublicState>, Problem> {
@@ -103,8 +103,8 @@ async fn close(
     PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
-    let room = led(&app, &code, &headers)?;
-    app.lectures.close(&room.code);
+    let lecture = as_presenter(&app, &code, &headers)?;
+    app.lectures.close(&lecture.code);
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -129,12 +129,12 @@ async fn show(
     headers: HeaderMap,
     Json(new): Json<NewLectureView>,
 ) -> Result<StatusCode, Problem> {
-    let room = led(&app, &code, &headers)?;
+    let lecture = as_presenter(&app, &code, &headers)?;
     if let Some(session) = new.session {
-        room.show_session(app.sessions.get(&session)?);
+        lecture.show_session(app.sessions.get(&session)?);
     }
     if let Some(view) = new.view {
-        room.show(view)?;
+        lecture.show(view)?;
     }
     Ok(StatusCode::NO_CONTENT)
 }
@@ -143,12 +143,12 @@ async fn show(
 #[utoipa::path(get, path = "/rooms/{code}/desk", operation_id = "get_presenter_state", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 200, description = "Followers and answers", body = ref(of::<PresenterState>())),
     (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM))))]
-async fn desk(
+async fn presenter_state(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<axum::Json<PresenterState>, Problem> {
-    Ok(axum::Json(led(&app, &code, &headers)?.presenter_state()))
+    Ok(axum::Json(as_presenter(&app, &code, &headers)?.presenter_state()))
 }
 
 /// Ask a question. For the presenter.
@@ -163,7 +163,7 @@ async fn ask(
     headers: HeaderMap,
     Json(new): Json<NewQuestion>,
 ) -> Result<StatusCode, Problem> {
-    led(&app, &code, &headers)?.ask(new)?;
+    as_presenter(&app, &code, &headers)?.ask(new)?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -176,7 +176,7 @@ async fn forget(
     PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
-    led(&app, &code, &headers)?.forget_question();
+    as_presenter(&app, &code, &headers)?.withdraw_question();
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -189,7 +189,7 @@ async fn reveal(
     PathParameters(code): PathParameters<String>,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
-    led(&app, &code, &headers)?.reveal()?;
+    as_presenter(&app, &code, &headers)?.reveal()?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -207,12 +207,12 @@ async fn answer(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// The room, for its presenter.
-fn led(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Lecture>, Problem> {
-    let room = app.lectures.get(code)?;
+/// The lecture, if the request has its presenter's key.
+fn as_presenter(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Lecture>, Problem> {
+    let lecture = app.lectures.get(code)?;
     let given = headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
-    room.check_key(given.and_then(|value| value.strip_prefix("Bearer ")))?;
-    Ok(room)
+    lecture.check_key(given.and_then(|value| value.strip_prefix("Bearer ")))?;
+    Ok(lecture)
 }
 
 /// The scene that is shown, as it is now.
@@ -277,8 +277,8 @@ async fn symmetric(
     matrix: fn(&Simulation) -> triad_engine::reactions::matrices::Symmetric,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("{name} {:?}", when.at);
-    let room = app.lectures.get(code)?;
-    let answer = room
+    let lecture = app.lectures.get(code)?;
+    let answer = lecture
         .cached(&what, |session| async move { as_json(symmetric_of(&session, when.at, matrix).await?) })
         .await;
     answer.map(axum::Json)
@@ -294,9 +294,10 @@ async fn multipliers(
     QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("multipliers {:?}", when.at);
-    let room = app.lectures.get(&code)?;
-    let answer =
-        room.cached(&what, |session| async move { as_json(multipliers_of(&session, when.at).await?) }).await;
+    let lecture = app.lectures.get(&code)?;
+    let answer = lecture
+        .cached(&what, |session| async move { as_json(multipliers_of(&session, when.at).await?) })
+        .await;
     answer.map(axum::Json)
 }
 
@@ -311,9 +312,9 @@ async fn reactions(
     QueryParameters(wanted): QueryParameters<ReactionQuery>,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("reactions {wanted:?}");
-    let room = app.lectures.get(&code)?;
+    let lecture = app.lectures.get(&code)?;
     let answer =
-        room.cached(&what, |session| async move { as_json(reactions_of(&session, wanted).await?) }).await;
+        lecture.cached(&what, |session| async move { as_json(reactions_of(&session, wanted).await?) }).await;
     answer.map(axum::Json)
 }
 

@@ -151,17 +151,17 @@ async fn states(
     PathParameters((slug, id)): PathParameters<(String, String)>,
     QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<InstancesView>, Problem> {
-    let dealt = blocking(move || {
+    let instances = blocking(move || {
         let lesson = variant(&app, &slug, whose.seed())?;
-        deal(&lesson, &id)
+        instances(&lesson, &id)
     });
-    Ok(Answer(dealt.await?))
+    Ok(Answer(instances.await?))
 }
 
 /// The states of a question.
-pub(crate) fn deal(lesson: &Lesson, id: &str) -> Result<InstancesView, Problem> {
-    let dealt = lesson.instances(id).ok_or_else(|| not_to_implement(lesson, id))?;
-    dealt.map_err(Problem::internal)
+pub(crate) fn instances(lesson: &Lesson, id: &str) -> Result<InstancesView, Problem> {
+    let instances = lesson.instances(id).ok_or_else(|| not_to_implement(lesson, id))?;
+    instances.map_err(Problem::internal)
 }
 
 /// A program that reads the states and writes the answer, without the equations.

@@ -19,7 +19,7 @@ use crate::session::Session;
 
 /// Rows of the largest matrix that is sent in full.
 const MAX_ROWS: usize = 3_000;
-/// Its largest number of places.
+/// Largest number of entries that is sent.
 const MAX_PLACES: usize = 60_000;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -79,7 +79,7 @@ async fn jacobian(
 
 pub(in crate::api) async fn jacobian_of(session: &Session, at: Option<f64>) -> Result<JacobianView, Problem> {
     session
-        .look(at, |run| {
+        .query(at, |run| {
             let time = run.time();
             let sets = dependent_sets(run.system(), run.rank());
             let redundant = sets
@@ -151,7 +151,7 @@ pub(in crate::api) async fn symmetric_of(
     matrix: fn(&Simulation) -> Symmetric,
 ) -> Result<SymmetricView, Problem> {
     session
-        .look(at, move |run| {
+        .query(at, move |run| {
             let system = run.system();
             let rows = system.coordinates + system.rigid_rows + system.equations;
             if rows > MAX_ROWS {

@@ -1,4 +1,4 @@
-//! Live sessions: create, look, step, play, pause, reset, delete.
+//! Live sessions: create, read, step, play, pause, reset, delete.
 
 pub(in crate::api) mod changes;
 pub(in crate::api) mod matrices;

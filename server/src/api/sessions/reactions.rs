@@ -89,7 +89,8 @@ pub(in crate::api) async fn reactions_of(
 ) -> Result<ReactionsView, Problem> {
     let about = about(wanted.about.as_deref())?;
     let convention = Convention { on: wanted.on, about, expressed_in: wanted.expressed_in };
-    let report = session.look(wanted.at, move |run| run.reactions(convention).map_err(Problem::from)).await?;
+    let report =
+        session.query(wanted.at, move |run| run.reactions(convention).map_err(Problem::from)).await?;
     Ok(ReactionsView { time: report.time, reactions: report.reactions, redundancies: report.redundancies })
 }
 
@@ -135,7 +136,7 @@ pub(in crate::api) async fn multipliers_of(
     session: &Session,
     at: Option<f64>,
 ) -> Result<MultipliersList, Problem> {
-    let found = session.look(at, |run| Ok(run.multipliers())).await?;
+    let found = session.query(at, |run| Ok(run.multipliers())).await?;
     let joints = found.into_iter().map(|joint| MultipliersView {
         joint: joint.joint,
         rows: joint.rows,

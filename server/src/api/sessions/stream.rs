@@ -26,9 +26,9 @@ use crate::problem::Problem;
 use crate::session::SessionState;
 use crate::stream::{Delivery, Watcher};
 
-/// Between two states on one socket.
+/// Pause between two states on one socket: ten a second, as often as tables can be read.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
-/// Between two pings, so that nobody between us closes a quiet connection.
+/// Time between two pings, so that no proxy closes a quiet connection.
 pub(in crate::api) const PING_INTERVAL: Duration = Duration::from_secs(20);
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -88,11 +88,11 @@ pub(in crate::api) async fn upgrade(app: &App, request: Request) -> Result<WebSo
 /// The open socket of one viewer.
 pub(in crate::api) struct ViewerSocket {
     pub socket: WebSocket,
-    /// How long a message may wait for a viewer that takes nothing.
+    /// How long a message may wait for a viewer that reads nothing.
     pub patience: Duration,
 }
 
-/// The other side has gone, or takes nothing.
+/// The other side has gone, or reads nothing.
 pub(in crate::api) struct Disconnected;
 
 impl ViewerSocket {

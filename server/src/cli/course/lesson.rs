@@ -141,8 +141,8 @@ pub(in crate::cli) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome
 pub(in crate::cli) fn starter(course: &Course, options: &Starter, json: bool) -> Result<Outcome, Problem> {
     let lesson = Variants::default().of(find(course, &options.lesson)?, &options.student)?;
     let (name, text) = crate::api::starter_of(&lesson, &options.question, &options.language)?;
-    let dealt = crate::api::deal(&lesson, &options.question)?;
-    let states = serde_json::to_string_pretty(&dealt).map_err(Problem::internal)?;
+    let instances = crate::api::instances(&lesson, &options.question)?;
+    let states = serde_json::to_string_pretty(&instances).map_err(Problem::internal)?;
     write(&options.out.join(name), &text)?;
     write(&options.out.join("states.json"), &states)?;
     if json {

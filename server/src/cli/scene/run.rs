@@ -293,7 +293,7 @@ fn report(
         say(&format!("  written                {}", file.display()));
     }
     if let Some(problem) = stopped {
-        eprintln!("{} {problem}", crate::cli::terminal::error_word());
+        eprintln!("{} {problem}", crate::cli::terminal::error_label());
     }
 }
 

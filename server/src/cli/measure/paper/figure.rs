@@ -13,8 +13,9 @@ pub(super) struct PlottedCurve {
     points: Vec<(f64, f64)>,
 }
 
-/// Width and height; left, right, top and bottom margin.
+/// Width and height of the picture, px.
 const SIZE: (f64, f64) = (720.0, 460.0);
+/// Left, right, top and bottom margin, px; the names of the curves stand in the right one.
 const MARGINS: [f64; 4] = [70.0, 250.0, 30.0, 50.0];
 /// Numbers of bodies that have a line, if there are as many.
 const BODIES: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];

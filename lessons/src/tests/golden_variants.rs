@@ -1,0 +1,51 @@
+//! The numbers that students get, as they were recorded.
+
+use super::course;
+
+/// Recorded once: a change would give every student other numbers, and last year's grades other questions.
+#[test]
+fn variants_never_change() {
+    let numbers = |slug: &str, seed: &str| {
+        let lesson = course().lesson(slug).unwrap().variant(seed).unwrap();
+        lesson.parameters.iter().map(|(name, x)| format!("{name}={x}")).collect::<Vec<_>>().join(" ")
+    };
+    for (slug, seed, golden) in GOLDEN {
+        assert_eq!(numbers(slug, seed), *golden, "{slug} {seed}");
+    }
+    let states =
+        course().lesson("jacobian").unwrap().variant("ada").unwrap().instances("program").unwrap().unwrap();
+    assert_eq!((states.seed.as_str(), states.rows.len(), states.columns.len()), ("ada", 21, 24));
+    assert_eq!(states.states[0].q[..4], GOLDEN_STATE, "the first numbers of the first state");
+}
+
+/// Lesson, seed and its numbers.
+const GOLDEN: &[(&str, &str, &str)] = &[
+    ("spherical-joint", "ada", "m=2 phi=40"),
+    ("spherical-joint", "emmy", "m=2.5 phi=50"),
+    ("inverse-dynamics", "ada", "m=3"),
+    ("inverse-dynamics", "emmy", "m=5.5"),
+    ("equations-of-motion", "ada", "m=5.5"),
+    ("equations-of-motion", "emmy", "m=1"),
+    ("joint-reactions", "ada", "m=1 v=5"),
+    ("joint-reactions", "emmy", "m=2.5 v=4.5"),
+    ("generic-rigid-body", "ada", "a=1.75 b=1.5 c=3"),
+    ("generic-rigid-body", "emmy", "a=1 b=1.5 c=2.5"),
+    ("points-and-vectors", "ada", "s=2 x=0.5"),
+    ("points-and-vectors", "emmy", "s=1.5 x=1"),
+    ("reduced-body", "ada", "a=1.75 b=2.25 c=2"),
+    ("reduced-body", "emmy", "a=1 b=2.5 c=2"),
+    ("composing-joints", "ada", "n=10"),
+    ("composing-joints", "emmy", "n=14"),
+    ("mass-matrix", "ada", "s=3.5 t=2.25"),
+    ("mass-matrix", "emmy", "s=3.5 t=3"),
+    ("forces-and-moments", "ada", "f=16.5 q=7"),
+    ("forces-and-moments", "emmy", "f=12 q=5"),
+    ("singular-positions", "ada", "w=1.4"),
+    ("singular-positions", "emmy", "w=0.8"),
+    ("redundant-constraints", "ada", "m=27.5"),
+    ("redundant-constraints", "emmy", "m=15"),
+    ("screw", "ada", "m=2.5 p=0.6"),
+    ("screw", "emmy", "m=3 p=0.5"),
+];
+/// The first coordinates of the first state that a seed gets.
+const GOLDEN_STATE: [f64; 4] = [0.968, -0.938, 0.385, -0.472];
