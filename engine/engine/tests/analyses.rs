@@ -31,7 +31,7 @@ fn a_pendulum_comes_to_rest_below_its_pin() {
     }
 }
 
-/// A free body has no equilibrium, and is told so.
+/// A free body has no equilibrium, and is refused with the reason.
 #[test]
 fn a_falling_body_has_no_equilibrium() {
     let error = equilibrium(&catalogue::scene("free-fall").unwrap()).unwrap_err();

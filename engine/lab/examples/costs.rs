@@ -111,9 +111,10 @@ fn large() -> Result<(), EngineError> {
             least = least.min(began.elapsed().as_secs_f64());
         }
         let memory = own(&["hold", name]).and_then(|mut own| own.output().ok());
-        let memory = memory.and_then(|told| String::from_utf8(told.stdout).ok()?.trim().parse::<f64>().ok());
         let memory =
-            memory.map_or_else(|| "not told".to_owned(), |kilobytes| format!("{:.1}", kilobytes / 1e3));
+            memory.and_then(|output| String::from_utf8(output.stdout).ok()?.trim().parse::<f64>().ok());
+        let memory =
+            memory.map_or_else(|| "not measured".to_owned(), |kilobytes| format!("{:.1}", kilobytes / 1e3));
         println!("| {name} | {bodies} | {:.1} | {memory} |", 1e3 * least);
     }
     Ok(())
@@ -177,7 +178,7 @@ fn counted(words: &[&str]) -> Option<f64> {
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(env::current_exe().ok()?)
         .args(words);
-    let told = String::from_utf8(valgrind.output().ok()?.stderr).ok()?;
-    let (_, count) = told.rsplit_once("Collected : ")?;
+    let report = String::from_utf8(valgrind.output().ok()?.stderr).ok()?;
+    let (_, count) = report.rsplit_once("Collected : ")?;
     count.split_whitespace().next()?.parse().ok()
 }

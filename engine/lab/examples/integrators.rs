@@ -207,9 +207,9 @@ fn measure(name: &str, scene: &Scene) {
     }
     print!("{name:<28}");
     for (best, bound) in best.iter().zip(ERRORS) {
-        let mut asked = scene.clone();
-        asked.simulation.tolerance = bound;
-        let chosen = Simulation::new(&asked).map(|mut run| run.summary().integrator);
+        let mut scene = scene.clone();
+        scene.simulation.tolerance = bound;
+        let chosen = Simulation::new(&scene).map(|mut run| run.summary().integrator);
         let fastest = best.iter().copied().fold(f64::INFINITY, f64::min);
         let own = KINDS
             .iter()
@@ -222,11 +222,11 @@ fn measure(name: &str, scene: &Scene) {
 }
 
 fn main() -> Result<(), EngineError> {
-    let asked: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
     println!(
         "microseconds to reach 1e-4 | 1e-6 | 1e-9 with taylor, dop853, dopri5, radau; auto: slower than the fastest by"
     );
-    if asked.is_empty() {
+    if arguments.is_empty() {
         for name in BUILT_IN {
             measure(name, &catalogue::scene(name)?);
         }
@@ -234,7 +234,7 @@ fn main() -> Result<(), EngineError> {
             measure(name, &acted(&action)?);
         }
     }
-    if asked.is_empty() || asked == ["stiff"] {
+    if arguments.is_empty() || arguments == ["stiff"] {
         for damping in [1e1, 1e2, 1e3, 1e4, 1e5] {
             let load =
                 serde_json::json!({ "type": "torsion", "name": "t", "joint": "h1", "damping": damping });
@@ -252,7 +252,7 @@ fn main() -> Result<(), EngineError> {
             );
         }
     }
-    for name in asked.iter().filter(|name| *name != "stiff") {
+    for name in arguments.iter().filter(|name| *name != "stiff") {
         measure(name, &catalogue::scene(name)?);
     }
     Ok(())

@@ -184,8 +184,8 @@ fn a_run_that_cannot_go_on_ends_soon_and_says_where() {
         assert!((summary.time - 0.09016).abs() < 1e-4, "{}", summary.time);
         assert!(summary.position_violation < 1e-6, "{summary:?}");
         // A step whose end was refused counts among the steps, but not among the good ones.
-        let told = |steps: u64| error.to_string().contains(&format!("(after {steps} steps"));
-        assert!(told(summary.steps) || told(summary.steps - 1), "{error}");
+        let names_steps = |steps: u64| error.to_string().contains(&format!("(after {steps} steps"));
+        assert!(names_steps(summary.steps) || names_steps(summary.steps - 1), "{error}");
     }
 }
 

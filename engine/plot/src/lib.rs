@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// Colours of lines, told apart by those who do not see all of them.
+/// Colours of lines, distinguishable by colour-blind readers.
 pub const COLOURS: [&str; 7] = ["#0a6e5c", "#b4491c", "#4657b8", "#8a6d00", "#a02c6a", "#3b7ea1", "#555555"];
 /// Dashes of lines; they repeat with another period than the colours.
 pub const DASHES: [&str; 3] = ["none", "7 3", "2 3"];

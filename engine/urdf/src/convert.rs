@@ -107,16 +107,7 @@ fn place<'a>(robot: &'a Robot, side_car: &SideCar) -> Result<Vec<Placed<'a>>, Ur
         }
         children.entry(&joint.parent).or_default().push(joint);
     }
-    let roots: Vec<&Link> =
-        robot.links.iter().filter(|link| !carried.contains_key(link.name.as_str())).collect();
-    let [root] = roots[..] else {
-        let line = roots.get(1).map_or(1, |link| link.line);
-        let what = match roots.len() {
-            0 => "no link is the root: the joints make a ring".to_owned(),
-            n => format!("{n} links have no parent, among them {} and {}", roots[0].name, roots[1].name),
-        };
-        return Err(UrdfError::Wrong { line, what, hint: "every link but one must be the child of a joint" });
-    };
+    let root = root(robot, &carried)?;
     let mut placed: Vec<Placed> = Vec::with_capacity(robot.links.len());
     let own = Carrier { name: root.name.clone(), frame: Isometry3::identity() };
     let carrier = match side_car.root {
@@ -149,6 +140,23 @@ fn place<'a>(robot: &'a Robot, side_car: &SideCar) -> Result<Vec<Placed<'a>>, Ur
         return Err(UrdfError::Wrong { line, what, hint: "close loops by joints of the side-car instead" });
     }
     Ok(placed)
+}
+
+/// The one link that is nobody's child.
+fn root<'a>(robot: &'a Robot, carried: &BTreeMap<&str, &UrdfJoint>) -> Result<&'a Link, UrdfError> {
+    let roots: Vec<&Link> =
+        robot.links.iter().filter(|link| !carried.contains_key(link.name.as_str())).collect();
+    if let [root] = roots[..] {
+        return Ok(root);
+    }
+    let line = roots.get(1).map_or(1, |link| link.line);
+    let what = match &roots[..] {
+        [first, second, ..] => {
+            format!("{} links have no parent, among them {} and {}", roots.len(), first.name, second.name)
+        }
+        [] | [_] => "no link is the root: the joints make a ring".to_owned(),
+    };
+    Err(UrdfError::Wrong { line, what, hint: "every link but one must be the child of a joint" })
 }
 
 /// The child of a joint, in its place.

@@ -1,7 +1,7 @@
 //! Robots described in URDF, read as scenes.
 //!
 //! URDF describes a tree; loops are closed by a side-car: JSON with joints, drivers and loads in the words of a scene,
-//! whose bodies are the robot's links. What a scene has no word for is told, with its line, never dropped in silence.
+//! whose bodies are the robot's links. What a scene cannot express is reported with its line, never dropped in silence.
 
 mod read;
 

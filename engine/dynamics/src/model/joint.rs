@@ -1,6 +1,6 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
-use super::joint_keys::{AxisKeys, KnownKeys, PointKeys, refuse_strangers};
+use super::joint_keys::{AxisKeys, KnownKeys, OwnKeys, PointKeys, refuse_strangers};
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
@@ -87,7 +87,7 @@ impl ModelJoint {
     ) -> Result<Self, ModelError> {
         let keys = KnownKeys::of(joint.kind);
         refuse_strangers(joint, &keys, reader)?;
-        if keys.gear {
+        if keys.own == OwnKeys::Gear {
             return gear(joint, reader);
         }
         let bodies = [reader.body("body_i", &joint.body_i)?, reader.body("body_j", &joint.body_j)?];

@@ -28,32 +28,36 @@ pub(super) enum AxisKeys {
     None(&'static str),
 }
 
+/// The keys that one kind of joint knows alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OwnKeys {
+    /// None.
+    None,
+    /// `rows`.
+    Rows,
+    /// `length`.
+    Length,
+    /// `pitch`.
+    Pitch,
+    /// `joints` and `ratio` in place of two bodies.
+    Gear,
+}
+
 /// The keys that a kind of joint knows besides its name, its type and its two bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KnownKeys {
     pub point: PointKeys,
     pub axis: AxisKeys,
-    rows: bool,
-    length: bool,
-    pitch: bool,
-    /// Two joints and their ratio in place of two bodies.
-    pub gear: bool,
+    pub own: OwnKeys,
 }
 
 impl KnownKeys {
     /// Those of a kind of joint.
     pub fn of(kind: JointKind) -> Self {
-        let plain = Self {
-            point: PointKeys::Common,
-            axis: AxisKeys::Common,
-            rows: false,
-            length: false,
-            pitch: false,
-            gear: false,
-        };
+        let plain = Self { point: PointKeys::Common, axis: AxisKeys::Common, own: OwnKeys::None };
         match kind {
             JointKind::Spherical => Self { axis: AxisKeys::None("a spherical joint has no axis"), ..plain },
-            JointKind::Revolute => Self { rows: true, ..plain },
+            JointKind::Revolute => Self { own: OwnKeys::Rows, ..plain },
             JointKind::Universal => {
                 Self { axis: AxisKeys::Two("a universal joint has two axes: give \"axes\""), ..plain }
             }
@@ -62,21 +66,19 @@ impl KnownKeys {
             | JointKind::Planar
             | JointKind::PointOnLine
             | JointKind::PointInPlane => plain,
-            JointKind::Screw => Self { pitch: true, ..plain },
+            JointKind::Screw => Self { own: OwnKeys::Pitch, ..plain },
             JointKind::Fixed => Self { axis: AxisKeys::Optional, ..plain },
             JointKind::Rod => Self {
                 point: PointKeys::Two(
                     "a rod has two points: give \"points\", or \"point_i\" and \"point_j\"",
                 ),
                 axis: AxisKeys::None("a rod has no axis"),
-                length: true,
-                ..plain
+                own: OwnKeys::Length,
             },
             JointKind::Gear => Self {
                 point: PointKeys::None("a gear has no point: it couples the angles of two joints"),
                 axis: AxisKeys::None("a gear has no axis: it couples the angles of two joints"),
-                gear: true,
-                ..plain
+                own: OwnKeys::Gear,
             },
         }
     }
@@ -101,16 +103,17 @@ pub(super) fn refuse_strangers(
         AxisKeys::None(reason) => Some(reason),
         AxisKeys::Common | AxisKeys::Optional | AxisKeys::Two(_) => None,
     };
-    let only = |allowed: bool, reason: &'static str| (!allowed).then_some(reason);
+    let only = |own: OwnKeys, reason: &'static str| (keys.own != own).then_some(reason);
+    let no_bodies = (keys.own == OwnKeys::Gear).then_some("a gear names two joints, not two bodies");
     let rules = [
-        ("rows", joint.rows.is_some(), only(keys.rows, "only a revolute joint chooses its rows")),
-        ("length", joint.length.is_some(), only(keys.length, "only a rod has a length")),
-        ("pitch", joint.pitch.is_some(), only(keys.pitch, "only a screw has a pitch")),
-        ("joints", joint.joints.is_some(), only(keys.gear, "only a gear couples two joints")),
-        ("ratio", joint.ratio.is_some(), only(keys.gear, "only a gear has a ratio")),
+        ("rows", joint.rows.is_some(), only(OwnKeys::Rows, "only a revolute joint chooses its rows")),
+        ("length", joint.length.is_some(), only(OwnKeys::Length, "only a rod has a length")),
+        ("pitch", joint.pitch.is_some(), only(OwnKeys::Pitch, "only a screw has a pitch")),
+        ("joints", joint.joints.is_some(), only(OwnKeys::Gear, "only a gear couples two joints")),
+        ("ratio", joint.ratio.is_some(), only(OwnKeys::Gear, "only a gear has a ratio")),
         ("point", has_point, no_point),
         ("axis", has_axis, no_axis),
-        ("body_i", named, only(!keys.gear, "a gear names two joints, not two bodies")),
+        ("body_i", named, no_bodies),
     ];
     let broken =
         rules.into_iter().find_map(|(key, given, refused)| refused.filter(|_| given).map(|why| (key, why)));

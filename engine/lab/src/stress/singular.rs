@@ -208,11 +208,11 @@ fn slider_crank(method: &TrialMethod, _: bool) -> StressOutcome {
 }
 
 /// At rest in the horizontal position several branches begin. Any of them is a solution; the result must be one, and
-/// the author must be told.
+/// a note must say so.
 fn at_rest(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = windows(1, FRAC_PI_2, 0.0);
     scene.simulation.duration = 3.0;
-    let told = triad_engine::run::Simulation::new(&scene)
+    let has_note = triad_engine::run::Simulation::new(&scene)
         .is_ok_and(|run| run.notes().iter().any(|note| note.contains("singular")));
     let mut outcome = Trial::new(scene, method)
         .against("a branch: parallel or crossed", (1e-6, 1e-3), |run| {
@@ -227,7 +227,7 @@ fn at_rest(method: &TrialMethod, _: bool) -> StressOutcome {
         })
         .conserving((1e-6, 1e-3))
         .run();
-    if !told && outcome.verdict == StressVerdict::Survived {
+    if !has_note && outcome.verdict == StressVerdict::Survived {
         outcome.verdict = StressVerdict::Wrong;
         "the start is singular, and nothing is said about it".clone_into(&mut outcome.reason);
     }

@@ -75,10 +75,11 @@ fn double_pendulum() -> Scene {
     scene
 }
 
-/// The corrected start must be told in a note, be consistent, and stay near what was given; from there energy holds.
+/// The corrected start must be named in a note, be consistent, and stay near what was given; from there energy holds.
 fn corrected(scene: Scene, far: f64, word: &str, method: &TrialMethod) -> StressOutcome {
     let given: Vec<_> = scene.bodies.iter().map(|b| b.position).collect();
-    let told = Simulation::new(&scene).is_ok_and(|run| run.notes().iter().any(|note| note.contains(word)));
+    let has_note =
+        Simulation::new(&scene).is_ok_and(|run| run.notes().iter().any(|note| note.contains(word)));
     let mut first = true;
     let mut outcome = Trial::new(scene, method)
         .against("the start stays near the given one", (0.0, 0.0), move |run| {
@@ -89,7 +90,7 @@ fn corrected(scene: Scene, far: f64, word: &str, method: &TrialMethod) -> Stress
         })
         .conserving((1e-6, 1e-3))
         .run();
-    if !told && outcome.verdict == StressVerdict::Survived {
+    if !has_note && outcome.verdict == StressVerdict::Survived {
         outcome.verdict = StressVerdict::Wrong;
         "the start was corrected, and nothing is said about it".clone_into(&mut outcome.reason);
     }

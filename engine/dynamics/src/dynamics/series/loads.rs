@@ -44,17 +44,23 @@ enum Load {
         between: Vectors,
         square: Vec<f64>,
         over_length: Vec<f64>,
-        law: Law,
+        law: LawSeries,
     },
     /// About the axis of a joint.
-    Torsion { angle: usize, axis: LanePlace, seats: [Option<Seat>; 2], direction: Vectors, law: Law },
+    Torsion { angle: usize, axis: LanePlace, seats: [Option<Seat>; 2], direction: Vectors, law: LawSeries },
     /// Along the axis of a joint.
-    Slider { axis: LanePlace, ends: [Option<LanePlace>; 2], direction: Vectors, between: Vectors, law: Law },
+    Slider {
+        axis: LanePlace,
+        ends: [Option<LanePlace>; 2],
+        direction: Vectors,
+        between: Vectors,
+        law: LawSeries,
+    },
 }
 
 /// −k (x − x₀) − d ẋ + f*(t) − friction, as a series of x.
 #[derive(Clone, Debug)]
-struct Law {
+struct LawSeries {
     law: ForceLaw,
     x: Vec<f64>,
     drive: Vec<f64>,
@@ -67,7 +73,7 @@ struct Law {
     other: Vec<f64>,
 }
 
-impl Law {
+impl LawSeries {
     fn new(law: &ForceLaw, stride: usize) -> Self {
         let zeros = || vec![0.0; stride];
         Self {
@@ -185,7 +191,7 @@ impl Loads {
                 between: vectors(),
                 square: vec![0.0; stride],
                 over_length: vec![0.0; stride],
-                law: Law::new(law, stride),
+                law: LawSeries::new(law, stride),
             },
             SystemLoad::Torsion { angle, bodies, law, .. } => Load::Torsion {
                 angle: *angle,
@@ -195,14 +201,14 @@ impl Loads {
                     BodyRef::Moving(body) => Some(seat(body)),
                 }),
                 direction: vectors(),
-                law: Law::new(law, stride),
+                law: LawSeries::new(law, stride),
             },
             SystemLoad::Slider { axis, between, law } => Load::Slider {
                 axis: at(*axis),
                 ends: [Some(at(between.plus)), between.minus.map(at)],
                 direction: vectors(),
                 between: vectors(),
-                law: Law::new(law, stride),
+                law: LawSeries::new(law, stride),
             },
         });
         Self { list: list.collect() }
@@ -230,7 +236,7 @@ impl Loads {
             match load {
                 Load::Given { curve, local, .. } => curve.expand(t, local),
                 Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
-                    law.expand(t)
+                    law.expand(t);
                 }
             }
         }
@@ -365,7 +371,12 @@ impl Loads {
 }
 
 /// The force on the second point of a spring: f / l times the way between its points.
-fn spring_force(n: usize, between: &[Vector3<f64>], over_length: &mut [f64], law: &mut Law) -> Vector3<f64> {
+fn spring_force(
+    n: usize,
+    between: &[Vector3<f64>],
+    over_length: &mut [f64],
+    law: &mut LawSeries,
+) -> Vector3<f64> {
     if law.is_linear() {
         return between[n] * -law.law.stiffness;
     }

@@ -88,7 +88,7 @@ fn joint(random: &mut Random, name: &str, body_i: &str, body_j: &str) -> Joint {
             let helper = if first.x.abs() < 0.5 { Vector3::x() } else { Vector3::y() };
             joint.axes = Some([first.into(), first.cross(&helper).normalize().into()]);
         }
-        JointKind::Spherical | JointKind::Rod => {}
+        JointKind::Spherical | JointKind::Rod | JointKind::Gear => {}
         JointKind::Revolute => {
             joint.axis = Some(random.direction());
             joint.rows = Some(if random.chance(0.5) { AxisRows::Cv } else { AxisRows::TwoCar });
@@ -103,7 +103,6 @@ fn joint(random: &mut Random, name: &str, body_i: &str, body_j: &str) -> Joint {
         | JointKind::Fixed
         | JointKind::PointOnLine
         | JointKind::PointInPlane => joint.axis = Some(random.direction()),
-        JointKind::Gear => {}
     }
     ends(random, joint)
 }

@@ -68,8 +68,9 @@ impl Findings {
 
     /// An error is a right answer only if it names the cause; the start of every drawn mechanism satisfies its constraints.
     fn refused(&mut self, error: &EngineError) {
-        let told = error.cause().is_some() || error.code() == "motion-impossible";
-        self.verdict = self.verdict.max(if told { StressVerdict::Refused } else { StressVerdict::Wrong });
+        let is_explained = error.cause().is_some() || error.code() == "motion-impossible";
+        self.verdict =
+            self.verdict.max(if is_explained { StressVerdict::Refused } else { StressVerdict::Wrong });
         self.words.push(error.to_string());
     }
 }
