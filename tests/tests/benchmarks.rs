@@ -30,7 +30,7 @@ fn compare(
     tolerance: f64,
     reference: &Reference,
     until: f64,
-    mut error: impl FnMut(&mut Simulation, &[f64]) -> f64,
+    mut error: impl FnMut(&Simulation, &[f64]) -> f64,
 ) -> (f64, Summary) {
     let mut scene = scene.clone();
     scene.simulation.tolerance = tolerance;

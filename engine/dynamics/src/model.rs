@@ -7,6 +7,7 @@
 pub mod motion;
 
 mod body;
+mod custom_load;
 mod driver;
 mod error;
 mod event;
@@ -17,6 +18,7 @@ mod parameter;
 mod reader;
 
 pub use body::ModelBody;
+pub use custom_load::{BodyMotion, CustomLoad, CustomLoadError, LoadState, ModelCustomLoad, Motions, Wrench};
 pub use driver::{DriverKind, ModelDriver};
 pub use error::ModelError;
 pub use event::{EventQuantity, ModelEvent};
@@ -52,6 +54,8 @@ pub struct Model {
     pub drivers: Vec<ModelDriver>,
     /// The loads besides gravity, in the scene's order.
     pub loads: Vec<ModelLoad>,
+    /// Loads that a program gives as functions of the state: [`Model::with_loads`].
+    pub custom_loads: Vec<ModelCustomLoad>,
     /// Events to be located, in the scene's order.
     pub events: Vec<ModelEvent>,
     /// How to run it.
@@ -118,6 +122,7 @@ impl Model {
             joints,
             drivers,
             loads,
+            custom_loads: Vec::new(),
             events,
             settings: scene.simulation.clone(),
             notes,

@@ -321,6 +321,7 @@ impl System {
     pub fn is_conservative(&self) -> bool {
         !self.constraints.iter().any(|constraint| constraint.driver)
             && self.loads.iter().all(SystemLoad::is_conservative)
+            && self.model.custom_loads.is_empty()
     }
 
     /// Whether any body has no inertia about some axis.

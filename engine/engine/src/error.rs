@@ -10,7 +10,7 @@ use crate::reactions::uniqueness::UniquenessError;
 use crate::scene::SceneError;
 use crate::scene::text::nearest_name;
 use triad_dynamics::constraints::ConstraintError;
-use triad_dynamics::model::ModelError;
+use triad_dynamics::model::{CustomLoadError, ModelError};
 
 /// Any failure of the engine: what, where, and what to try.
 ///
@@ -42,6 +42,14 @@ pub enum EngineError {
     Constraint {
         /// Which, and how far they are from it.
         error: Box<ConstraintError>,
+        /// What the last good state tells, where there is one.
+        last: Option<LastGood>,
+    },
+    /// A load that is a function of the state cannot act.
+    #[error("{error}{}", last.as_ref().map(ToString::to_string).unwrap_or_default())]
+    CustomLoad {
+        /// Which, and why.
+        error: CustomLoadError,
         /// What the last good state tells, where there is one.
         last: Option<LastGood>,
     },
@@ -139,6 +147,12 @@ impl From<ConstraintError> for EngineError {
     }
 }
 
+impl From<CustomLoadError> for EngineError {
+    fn from(error: CustomLoadError) -> Self {
+        Self::CustomLoad { error, last: None }
+    }
+}
+
 impl EngineError {
     /// A stop of an integrator, told with the last good state.
     pub fn stopped(stop: StopReason, last: LastGood) -> Self {
@@ -179,6 +193,7 @@ impl EngineError {
             Self::Model(error) => error.code(),
             Self::Uniqueness(error) => error.code(),
             Self::Constraint { error, .. } => error.code(),
+            Self::CustomLoad { error, .. } => error.code(),
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
             Self::NoConvergence { .. } => "no-convergence",
@@ -245,6 +260,7 @@ impl EngineError {
             Self::Model(error) => error.hint(),
             Self::Uniqueness(error) => error.hint(),
             Self::Constraint { error, .. } => error.hint().to_owned(),
+            Self::CustomLoad { error, .. } => error.hint(),
             Self::StepTooSmall { .. } | Self::Stalled { .. } | Self::Diverged { .. } => {
                 "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
                  joint that locks or a body that is far too light."

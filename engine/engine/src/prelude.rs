@@ -10,6 +10,7 @@
 
 pub use crate::catalogue;
 pub use crate::error::EngineError;
+pub use crate::model::{CustomLoad, LoadState, Wrench};
 pub use crate::run::Simulation;
 pub use crate::scene::{
     Body, Coordinates, Driver, Event, Friction, Ground, Inertia, IntegratorKind, Joint, JointKind, Load,

@@ -17,6 +17,7 @@ mod state;
 pub use state::SolutionState;
 
 use crate::error::EngineError;
+use crate::model::CustomLoad;
 use crate::reactions::report::{Convention, Reaction as ReportedReaction, ReactionReport};
 use crate::run::{EventOccurrence, Simulation, Summary};
 use crate::scene::{DriverHandle, EventHandle, JointHandle, Scene, Triple};
@@ -44,16 +45,48 @@ pub trait Simulate {
     /// let error = scene.simulate(0.0..1.0).unwrap_err();
     /// assert!(error.to_string().contains("lamp"), "{error}");
     /// ```
-    fn simulate(&self, times: Range<f64>) -> Result<Solution, EngineError>;
+    fn simulate(&self, times: Range<f64>) -> Result<Solution, EngineError> {
+        self.simulate_with([], times)
+    }
+
+    /// The same with further loads, each a function of the state: see [`CustomLoad`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Simulate::simulate`], and [`EngineError::CustomLoad`] with the name of the load, the time and the reason.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let mut scene = Scene::new("drop").gravity([0.0, 0.0, -9.81]);
+    /// let ball = scene.add(Body::sphere("ball", 0.5, 0.1, [0.0; 3]));
+    /// let falling = ball.clone();
+    /// let drag = CustomLoad::new("drag", &ball, move |state| {
+    ///     Wrench::force(state.velocity(&falling).map(|v| -0.2 * v * v.abs()))
+    /// });
+    /// let motion = scene.simulate_with([drag], 0.0..5.0)?;
+    /// let limit = f64::sqrt(0.5 * 9.81 / 0.2);
+    /// assert!((motion.at(5.0)?.velocity(&ball)?[2] + limit).abs() < 1e-6);
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    fn simulate_with(
+        &self,
+        loads: impl IntoIterator<Item = CustomLoad>,
+        times: Range<f64>,
+    ) -> Result<Solution, EngineError>;
 }
 
 impl Simulate for Scene {
-    fn simulate(&self, times: Range<f64>) -> Result<Solution, EngineError> {
+    fn simulate_with(
+        &self,
+        loads: impl IntoIterator<Item = CustomLoad>,
+        times: Range<f64>,
+    ) -> Result<Solution, EngineError> {
         if !(0.0 <= times.start && times.start < times.end) {
             return Err(EngineError::TimeOutside { time: times.start, from: 0.0, to: times.end });
         }
         let scene = self.clone().duration(times.end);
-        let mut solution = Solution::new(Simulation::new(&scene)?)?;
+        let mut solution = Solution::new(Simulation::with_loads(&scene, loads)?)?;
         solution.start = times.start.min(solution.end());
         Ok(solution)
     }
@@ -290,7 +323,7 @@ impl Solution {
     }
 
     /// Energy at the end less that at the start and the work of drivers and loads between, J: zero but for errors —
-    /// eq. (6.1).
+    /// eq. (6.10).
     ///
     /// ```
     /// use triad_engine::prelude::*;

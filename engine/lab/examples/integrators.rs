@@ -209,7 +209,7 @@ fn measure(name: &str, scene: &Scene) {
     for (best, bound) in best.iter().zip(ERRORS) {
         let mut scene = scene.clone();
         scene.simulation.tolerance = bound;
-        let chosen = Simulation::new(&scene).map(|mut run| run.summary().integrator);
+        let chosen = Simulation::new(&scene).map(|run| run.summary().integrator);
         let fastest = best.iter().copied().fold(f64::INFINITY, f64::min);
         let own = KINDS
             .iter()

@@ -48,7 +48,7 @@ pub struct Verifier {
 impl Verifier {
     /// Starts the second solution of the scene that `first` runs: by dop853 if that is a Taylor series, by radau if
     /// it is stiff, else by a series; a thousand times tighter, always with projection.
-    pub fn new(scene: &Scene, first: &mut Simulation) -> Result<Self, EngineError> {
+    pub fn new(scene: &Scene, first: &Simulation) -> Result<Self, EngineError> {
         let mut scene = scene.clone();
         let settings = &mut scene.simulation;
         let by_first = first.summary().integrator;
@@ -60,7 +60,7 @@ impl Verifier {
             IntegratorKind::Radau => IntegratorKind::Radau,
             _ => IntegratorKind::Taylor,
         };
-        let mut second = Simulation::new(&scene)?;
+        let second = Simulation::new(&scene)?;
         let bodies =
             scene.bodies.iter().map(|b| BodyError { body: b.name.clone(), position: 0.0, turn: 0.0 });
         let found = Verification {
@@ -76,7 +76,7 @@ impl Verifier {
 
     /// Brings the second solution to the time that the first one shows, by at most `most_steps` steps, and compares. False
     /// if it did not get there: call it again.
-    pub fn compare(&mut self, first: &mut Simulation, most_steps: u64) -> Result<bool, EngineError> {
+    pub fn compare(&mut self, first: &Simulation, most_steps: u64) -> Result<bool, EngineError> {
         if !self.second.advance_towards(first.time(), most_steps)? {
             return Ok(false);
         }

@@ -102,6 +102,12 @@ handles! {
     EventHandle of Event in events;
 }
 
+impl AsRef<str> for Ground {
+    fn as_ref(&self) -> &str {
+        GROUND
+    }
+}
+
 impl From<Ground> for BodyHandle {
     fn from(_: Ground) -> Self {
         Self(GROUND.to_owned())

@@ -38,7 +38,7 @@ pub(super) fn scene(found: &mut Findings) {
         if let Err(error) = simulation.advance_to(measured.time) {
             return found.add("scene.json", 0, error.to_string(), remedy);
         }
-        let outcome = measure(&scene, &mut simulation, measured)
+        let outcome = measure(&scene, &simulation, measured)
             .map_err(Disagreement::from)
             .and_then(|value| compare(found, id, &value));
         if let Err(problem) = outcome {

@@ -108,7 +108,7 @@ fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<RunCost, Meas
         }
     }
     let evaluations = simulation.summary().evaluations;
-    let value = measure(scene, &mut simulation, &task.watch)?;
+    let value = measure(scene, &simulation, &task.watch)?;
     Ok(RunCost { evaluations, error: Some(distance(&value, reference)) })
 }
 

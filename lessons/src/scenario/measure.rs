@@ -65,7 +65,7 @@ pub(crate) struct Observation {
 
 impl Observation {
     /// What a run shows.
-    pub(crate) fn of(simulation: &mut Simulation) -> Self {
+    pub(crate) fn of(simulation: &Simulation) -> Self {
         Self { bodies: simulation.frame().bodies, reactions: simulation.multipliers() }
     }
 
@@ -136,7 +136,7 @@ pub(crate) fn component(vector: [f64; 3], component: Option<Component>) -> Vec<f
 /// The value of a measurement at the run's moment.
 pub(crate) fn measure(
     scene: &Scene,
-    simulation: &mut Simulation,
+    simulation: &Simulation,
     measured: &MeasuredFile,
 ) -> Result<Vec<f64>, MeasureError> {
     if let Some(count) = measured.count {
@@ -192,8 +192,8 @@ pub(crate) fn reference_scenes(scene: &Scene, end: f64) -> [Scene; 2] {
 pub(crate) fn with_error(scene: &Scene, measured: &MeasuredFile) -> Result<(Vec<f64>, f64), MeasureError> {
     let mut values: Vec<Vec<f64>> = Vec::with_capacity(2);
     for scene in reference_scenes(scene, measured.time) {
-        let mut simulation = run_to(&scene, measured.time)?;
-        values.push(measure(&scene, &mut simulation, measured)?);
+        let simulation = run_to(&scene, measured.time)?;
+        values.push(measure(&scene, &simulation, measured)?);
     }
     let second = values.pop().unwrap_or_default();
     let first = values.pop().unwrap_or_default();

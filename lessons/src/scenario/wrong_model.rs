@@ -51,8 +51,8 @@ pub(crate) fn value(
     wrong: &WrongModelFile,
 ) -> Result<Vec<f64>, WrongModelError> {
     let of = |scene: &Scene, measured: &MeasuredFile| {
-        let mut simulation = run_to(scene, measured.time)?;
-        measure(scene, &mut simulation, measured).map_err(WrongModelError::from)
+        let simulation = run_to(scene, measured.time)?;
+        measure(scene, &simulation, measured).map_err(WrongModelError::from)
     };
     match wrong.kind {
         WrongModel::OtherSide if measured.component == Some(Component::Size) => {
@@ -82,7 +82,7 @@ pub(crate) fn value(
 
 /// The vector's components along the directors of the body that it belongs to.
 fn in_body_frame(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, WrongModelError> {
-    let seen = Observation::of(&mut run_to(scene, measured.time)?);
+    let seen = Observation::of(&run_to(scene, measured.time)?);
     let vector = seen.vector(scene, measured)?;
     let name = match (&measured.body, &measured.joint) {
         (Some(body), _) => body.clone(),

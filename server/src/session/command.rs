@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use tokio::sync::oneshot;
-use triad_engine::run::Simulation;
+use triad_engine::run::StateView;
 
 use super::change::{Drag, SceneChange, SessionScene};
 use super::state::SessionState;
@@ -42,8 +42,8 @@ pub(super) enum Command {
 /// Where an answer goes; the caller may have left.
 pub(super) type ReplySender<T> = oneshot::Sender<Result<T, Problem>>;
 
-/// Reads from the run at the time that was asked for, or learns why it cannot.
-pub(super) type Query = Box<dyn FnOnce(Result<&mut Simulation, Problem>) + Send>;
+/// Reads from the state of the time that was asked for, or learns why it cannot.
+pub(super) type Query = Box<dyn FnOnce(Result<StateView<'_>, Problem>) + Send>;
 
 /// Flags that reach a worker while it is busy.
 #[derive(Debug, Default)]

@@ -1,7 +1,7 @@
 //! The states of a run that are kept, so that a question about a time that has passed is answered from its state.
 
 use axum::http::StatusCode;
-use triad_engine::run::{Simulation, Snapshot};
+use triad_engine::run::{Simulation, Snapshot, StateView};
 
 use crate::problem::Problem;
 
@@ -17,8 +17,6 @@ pub(super) struct History {
     segments: Vec<Segment>,
     bytes: usize,
     limit: usize,
-    /// The run as it was at the time that was asked for last.
-    recalled: Option<Box<Simulation>>,
 }
 
 #[derive(Debug)]
@@ -31,7 +29,7 @@ struct Segment {
 impl History {
     /// Nothing yet; at most about `limit` bytes.
     pub(super) fn new(limit: usize) -> Self {
-        Self { segments: vec![Segment { run: None, snapshots: Vec::new() }], bytes: 0, limit, recalled: None }
+        Self { segments: vec![Segment { run: None, snapshots: Vec::new() }], bytes: 0, limit }
     }
 
     /// Forgets everything.
@@ -40,7 +38,7 @@ impl History {
     }
 
     /// Keeps the state of the present.
-    pub(super) fn keep(&mut self, simulation: &mut Simulation) {
+    pub(super) fn keep(&mut self, simulation: &Simulation) {
         let snapshot = simulation.snapshot();
         self.bytes += snapshot.size();
         if let Some(segment) = self.segments.last_mut() {
@@ -65,7 +63,6 @@ impl History {
 
     /// Begins a segment with other numbers; `old` is the run before the change.
     pub(super) fn start_segment(&mut self, old: Simulation) {
-        self.recalled = None;
         match self.segments.last_mut() {
             // Numbers that were never run with need no segment.
             Some(last) if last.snapshots.is_empty() => return,
@@ -78,18 +75,15 @@ impl History {
         }
     }
 
-    /// The run at the latest kept state that is not after `time`. Errors if none is kept.
-    pub(super) fn at(&mut self, time: f64, present: &Simulation) -> Result<&mut Simulation, Problem> {
+    /// The latest kept state that is not after `time`. Errors if none is kept.
+    pub(super) fn at<'a>(&'a self, time: f64, present: &'a Simulation) -> Result<StateView<'a>, Problem> {
         let found = self.segments.iter().rev().find_map(|segment| {
             let after = segment.snapshots.partition_point(|snapshot| snapshot.time <= time + SAME_TIME);
             Some((segment, segment.snapshots.get(after.checked_sub(1)?)?))
         });
         let (segment, snapshot) = found.ok_or_else(|| unknown(time))?;
-        if self.recalled.as_ref().is_none_or(|recalled| recalled.time() != snapshot.time) {
-            let run = segment.run.as_deref().unwrap_or(present);
-            self.recalled = run.at_snapshot(snapshot).map(Box::new);
-        }
-        self.recalled.as_deref_mut().ok_or_else(|| unknown(time))
+        let run = segment.run.as_deref().unwrap_or(present);
+        run.at_snapshot(snapshot).ok_or_else(|| unknown(time))
     }
 }
 
@@ -113,8 +107,8 @@ mod tests {
         Simulation::new(&scene).expect("runs")
     }
 
-    fn tension(simulation: &mut Simulation) -> f64 {
-        let force = simulation.multipliers()[0].force;
+    fn tension(state: &StateView) -> f64 {
+        let force = state.multipliers()[0].force;
         force.iter().map(|x| x * x).sum::<f64>().sqrt()
     }
 
@@ -125,20 +119,20 @@ mod tests {
         let mut then = Vec::new();
         for k in 0..3 {
             run.advance_to(0.1 * f64::from(k)).expect("runs");
-            history.keep(&mut run);
-            then.push(tension(&mut run));
+            history.keep(&run);
+            then.push(tension(&run.state()));
         }
         let mut heavy = pendulum(10.0);
         heavy.continue_from(&run).expect("goes on");
         history.start_segment(std::mem::replace(&mut run, heavy));
         run.advance_to(0.3).expect("runs");
-        history.keep(&mut run);
+        history.keep(&run);
         for (k, force) in then.iter().enumerate() {
-            let found = tension(history.at(0.1 * k as f64 + 0.05, &run).expect("is kept"));
+            let found = tension(&history.at(0.1 * k as f64 + 0.05, &run).expect("is kept"));
             assert!((found / force - 1.0).abs() < 1e-9, "{found} {force}");
         }
-        let now = tension(&mut run);
-        assert!((tension(history.at(5.0, &run).expect("is kept")) / now - 1.0).abs() < 1e-9);
+        let now = tension(&run.state());
+        assert!((tension(&history.at(5.0, &run).expect("is kept")) / now - 1.0).abs() < 1e-9);
         assert!(now > 5.0 * then[2]);
         history.clear();
         assert!(history.at(0.1, &run).is_err());
@@ -150,7 +144,7 @@ mod tests {
         let mut history = History::new(64 * run.snapshot().size());
         for k in 0..1000 {
             run.advance_to(1e-3 * f64::from(k)).expect("runs");
-            history.keep(&mut run);
+            history.keep(&run);
             assert!(history.bytes <= history.limit);
         }
         assert!(history.at(0.0, &run).is_ok(), "the start stays");

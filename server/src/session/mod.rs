@@ -22,7 +22,7 @@ use axum::http::StatusCode;
 use tokio::sync::{oneshot, watch};
 use triad_engine::EngineError;
 use triad_engine::model::Model;
-use triad_engine::run::Simulation;
+use triad_engine::run::{Simulation, StateView};
 use triad_engine::scene::Scene;
 
 use crate::limits::Limits;
@@ -69,13 +69,13 @@ impl Session {
         let hub = Arc::new(Hub::default());
         let mut recording =
             Recording::new(&id, describe(&scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
-        recording.record(&mut simulation)?;
+        recording.record(&simulation)?;
         let mut history = History::new(limits.recording_bytes / 4);
-        history.keep(&mut simulation);
+        history.keep(&simulation);
         let signals = Arc::new(Signals::default());
         let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
         let facts = state::SessionFacts::at_start(&id, &source, &title, Drawing::of(&recording));
-        let (sender, state) = watch::channel(Arc::new(SessionState::of(&mut simulation, &facts)));
+        let (sender, state) = watch::channel(Arc::new(SessionState::of(&simulation, &facts)));
         let worker = Worker {
             id,
             source,
@@ -176,9 +176,12 @@ impl Session {
     pub async fn query<T: Send + 'static>(
         &self,
         at: Option<f64>,
-        read: impl FnOnce(&mut Simulation) -> Result<T, Problem> + Send + 'static,
+        read: impl FnOnce(&StateView<'_>) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        self.ask(|reply| Command::Query(at, Box::new(move |run| drop(reply.send(run.and_then(read)))))).await
+        self.ask(|reply| {
+            Command::Query(at, Box::new(move |state| drop(reply.send(state.and_then(|state| read(&state))))))
+        })
+        .await
     }
 
     /// Draws forces in another way, in every picture; `fit` takes their scale from the recording.

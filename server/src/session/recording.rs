@@ -83,7 +83,7 @@ impl Recording {
 
     /// Records the simulation at its present time, unless that is recorded already; returns whether it was not. Errors
     /// if the recording is full.
-    pub(crate) fn record(&mut self, simulation: &mut Simulation) -> Result<bool, Problem> {
+    pub(crate) fn record(&mut self, simulation: &Simulation) -> Result<bool, Problem> {
         if self.samples.last().is_some_and(|last| simulation.time() <= last.time) {
             return Ok(false);
         }
@@ -239,7 +239,7 @@ impl Recording {
 }
 
 /// The description of a simulation at its start.
-pub(crate) fn describe(scene: &Scene, simulation: &mut Simulation) -> SceneDescription {
+pub(crate) fn describe(scene: &Scene, simulation: &Simulation) -> SceneDescription {
     let bodies: Vec<String> = simulation.model().bodies.iter().map(|body| body.name.clone()).collect();
     let body = |name: &str| bodies.iter().position(|body| body == name);
     let joints = simulation.multipliers().into_iter().map(|joint| JointVisual {
@@ -258,7 +258,7 @@ pub(crate) fn describe(scene: &Scene, simulation: &mut Simulation) -> SceneDescr
 }
 
 /// The simulation at its current time, as it is recorded.
-pub(crate) fn sample(simulation: &mut Simulation) -> Sample {
+pub(crate) fn sample(simulation: &Simulation) -> Sample {
     let frame = simulation.frame();
     let summary = simulation.summary();
     let accelerations = simulation.mass_accelerations();

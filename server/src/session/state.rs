@@ -235,7 +235,7 @@ impl SessionFacts {
 
 impl SessionState {
     /// The state of a simulation.
-    pub(super) fn of(simulation: &mut Simulation, facts: &SessionFacts) -> Self {
+    pub(super) fn of(simulation: &Simulation, facts: &SessionFacts) -> Self {
         let summary = simulation.summary();
         let frame = simulation.frame();
         let accelerations = simulation.mass_accelerations();
@@ -289,7 +289,7 @@ impl SessionState {
     }
 }
 
-fn forces(simulation: &mut Simulation) -> Vec<JointForce> {
+fn forces(simulation: &Simulation) -> Vec<JointForce> {
     if simulation.system().constraints.len() > MAX_FORCES {
         return Vec::new();
     }

@@ -109,7 +109,7 @@ impl Worker {
             }
             Command::Scene(reply) => drop(reply.send(Ok(SessionScene::new(&self.scene, &self.original)))),
             Command::Query(at, read) => match at.filter(|at| *at < self.simulation.time()) {
-                None => read(Ok(&mut self.simulation)),
+                None => read(Ok(self.simulation.state())),
                 Some(time) => read(self.history.at(time, &self.simulation)),
             },
             Command::Draw(arrows, fit, reply) => {
@@ -146,7 +146,7 @@ impl Worker {
             self.drag = None;
         }
         let mut next = self.assembled(&scene, self.drag.as_ref())?;
-        let description = describe(&scene, &mut next);
+        let description = describe(&scene, &next);
         match then {
             AfterChange::Restart => self.error = None,
             AfterChange::Continue => self.transfer_state(&mut next)?,
@@ -170,8 +170,8 @@ impl Worker {
 
     /// Keeps the present, if it is one of the moments that are kept.
     fn record(&mut self) -> Result<(), Problem> {
-        if self.recording.record(&mut self.simulation)? {
-            self.history.keep(&mut self.simulation);
+        if self.recording.record(&self.simulation)? {
+            self.history.keep(&self.simulation);
         }
         Ok(())
     }
@@ -365,6 +365,6 @@ impl Worker {
             drag: self.drag.clone(),
             error: self.error.clone(),
         };
-        self.state.send_replace(Arc::new(SessionState::of(&mut self.simulation, &facts)));
+        self.state.send_replace(Arc::new(SessionState::of(&self.simulation, &facts)));
     }
 }

@@ -14,6 +14,7 @@ mod twist_jacobian;
 pub use solution::{Accelerations, Multipliers};
 pub use twist_jacobian::TwistJacobian;
 
+use crate::model::CustomLoadError;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
 use crate::system::index::{ConstraintId, IncidenceId};
@@ -183,6 +184,11 @@ impl Elimination {
         self.set_gamma(system, state, true, correction);
         self.solve(system);
         self.counters.evaluations += 1;
+        self.last_accelerations(system, state)
+    }
+
+    /// What [`Elimination::accelerate`] has found last, at the state that it was given.
+    pub fn last_accelerations<'a>(&'a self, system: &'a System, state: &'a State) -> Accelerations<'a> {
         let multipliers = Multipliers::new(system, state, &self.jacobian, &self.lambda);
         Accelerations::new(multipliers, &self.bodies)
     }
@@ -301,6 +307,11 @@ impl Elimination {
     /// What was solved for each body.
     pub fn bodies(&self) -> &[BodySolve] {
         &self.bodies
+    }
+
+    /// Why a load that a program gives could not act at the last state where one could not.
+    pub fn load_failure(&self) -> Option<&CustomLoadError> {
+        self.forces.failure()
     }
 
     /// A at the positions that were linearized last.

@@ -4,7 +4,7 @@
 //! its direction — eq. (6.8).
 
 use super::{Stage, State};
-use crate::model::BodyRef;
+use crate::model::{BodyRef, CustomLoadError, ModelCustomLoad, Motions};
 use crate::scene::LoadFrame;
 use crate::system::System;
 use crate::system::index::FeatureId;
@@ -17,12 +17,14 @@ use nalgebra::Vector3;
 pub struct AppliedForces {
     /// G of each body.
     pub bodies: Vec<NaturalCoordinates>,
+    /// The last failure of a load that a program gives.
+    failure: Option<CustomLoadError>,
 }
 
 impl AppliedForces {
     /// Room for the bodies of a system, without forces.
     pub fn none(system: &System) -> Self {
-        Self { bodies: vec![NaturalCoordinates::default(); system.bodies.len()] }
+        Self { bodies: vec![NaturalCoordinates::default(); system.bodies.len()], failure: None }
     }
 
     /// Weights and loads at a state.
@@ -41,6 +43,24 @@ impl AppliedForces {
         for load in &system.loads {
             load.apply(system, state, self);
         }
+        for load in &system.model.custom_loads {
+            self.add_custom(system, state, load);
+        }
+    }
+
+    /// Adds a load that a program gives; one that fails makes the accelerations NaN, so that no step is taken with it.
+    fn add_custom(&mut self, system: &System, state: &State, load: &ModelCustomLoad) {
+        let [force, moment] = load.at(&system.model, state.time, state).unwrap_or_else(|failure| {
+            self.failure = Some(failure);
+            [Vector3::repeat(f64::NAN); 2]
+        });
+        self.add_force(load.body, &load.local, &force);
+        self.add_moment(load.body, &moment, &state.bodies[load.body].q);
+    }
+
+    /// Why a load that a program gives could not act at the last state where one could not.
+    pub fn failure(&self) -> Option<&CustomLoadError> {
+        self.failure.as_ref()
     }
 
     /// Cᵀ f for the point or vector of a feature.
@@ -199,6 +219,17 @@ impl SystemLoad {
             }
         };
         0.5 * law.stiffness * (value - law.free).powi(2)
+    }
+}
+
+impl ModelCustomLoad {
+    /// Its power f · v + τ · ω, W.
+    pub fn power(&self, system: &System, at: &State) -> f64 {
+        let Ok([force, moment]) = self.at(&system.model, at.time, at) else { return f64::NAN };
+        let motion = at.motion(self.body);
+        let arm = at.bodies[self.body].q.arm(&self.local);
+        force.dot(&(motion.velocity + motion.angular_velocity.cross(&arm)))
+            + moment.dot(&motion.angular_velocity)
     }
 }
 

@@ -1,6 +1,8 @@
 //! A body at one state as pictures and tables show it.
 
-use super::BodyState;
+use super::{BodyState, Stage, State};
+use crate::model::{BodyMotion, Motions};
+use crate::scene::Triple;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -26,16 +28,26 @@ pub struct BodyFrame {
 impl BodyFrame {
     /// Of the natural coordinates Q and Q̇.
     pub fn new(q: &NaturalCoordinates, q_dot: &NaturalCoordinates) -> Self {
-        let e = q.e;
-        // ω = ½ Σ e_k × ė_k — eq. (6.4).
-        let omega: Vector3<f64> = (0..3).map(|k| e[k].cross(&q_dot.e[k])).sum::<Vector3<f64>>() * 0.5;
-        Self {
-            position: q.r.into(),
-            u: e[0].into(),
-            v: e[1].into(),
-            w: e[2].into(),
-            velocity: q_dot.r.into(),
-            angular_velocity: omega.into(),
+        let [u, v, w] = q.e.map(Triple::from);
+        let angular_velocity = angular_velocity(q, q_dot).into();
+        Self { position: q.r.into(), u, v, w, velocity: q_dot.r.into(), angular_velocity }
+    }
+}
+
+/// ω = ½ Σ e_k × ė_k — eq. (6.4).
+fn angular_velocity(q: &NaturalCoordinates, q_dot: &NaturalCoordinates) -> Vector3<f64> {
+    (0..3).map(|k| q.e[k].cross(&q_dot.e[k])).sum::<Vector3<f64>>() * 0.5
+}
+
+impl Motions for State {
+    fn motion(&self, body: usize) -> BodyMotion {
+        self.require(Stage::Velocities);
+        let BodyState { q, q_dot } = &self.bodies[body];
+        BodyMotion {
+            position: q.r,
+            directors: q.e,
+            velocity: q_dot.r,
+            angular_velocity: angular_velocity(q, q_dot),
         }
     }
 }

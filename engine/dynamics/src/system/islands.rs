@@ -205,6 +205,7 @@ fn without_rows(model: &Model, bodies: &[usize]) -> Model {
         joints: Vec::new(),
         drivers: Vec::new(),
         loads: Vec::new(),
+        custom_loads: Vec::new(),
         events: Vec::new(),
         settings: model.settings.clone(),
         notes: Vec::new(),

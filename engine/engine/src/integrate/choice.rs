@@ -34,7 +34,9 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
     }
-    let obstacle = if method == ConstraintMethod::Projection {
+    let obstacle = if let Some(load) = mechanism.system.model.custom_loads.first() {
+        Some(format!("load \"{}\" is a function without a power series", load.name))
+    } else if method == ConstraintMethod::Projection {
         settings.step.map(|_| "its steps have no fixed size".to_owned())
     } else {
         Some(format!("{method} belongs to Runge-Kutta methods"))

@@ -33,15 +33,15 @@ impl Simulation {
             return None;
         }
         // Where nothing moves yet, the run's own time must do.
-        let pace = state::fastest(system, &self.shown).max(self.duration().recip());
+        let pace = state::fastest(system, self.shown.y()).max(self.duration().recip());
         let mut found = None;
         for ahead in AHEAD {
             let h = ahead / pace;
-            let time = self.time + h;
+            let time = self.time() + h;
             if h.is_nan() || time > self.duration() {
                 continue;
             }
-            let mut y = self.shown.clone();
+            let mut y = self.shown.y().to_vec();
             let (q, q_dot) = y.split_at_mut(system.coordinates);
             q.iter_mut().zip(q_dot).for_each(|(q, v)| *q += h * *v);
             let open = match self.mechanism.clone().assemble_at(time, &mut y) {
@@ -63,7 +63,7 @@ impl Simulation {
             return None;
         }
         let start = self.pivot_products_at(0.0, &self.start);
-        let here = self.pivot_products_at(self.time, &self.shown);
+        let here = self.pivot_products_at(self.time(), self.shown.y());
         let constraints = &self.mechanism.system.constraints;
         let named = |index: usize| constraints[index].name.clone();
         let least = |products: &[f64]| {

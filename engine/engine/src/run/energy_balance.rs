@@ -2,6 +2,7 @@
 //!
 //! The total energy of a run changes by exactly the work that these do. What is left over is the error of the run.
 
+use super::Simulation;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::equations::{Source, equation};
@@ -17,7 +18,9 @@ const NODES: [(f64, f64); 5] = [
 
 /// Power of drivers and of loads without potential, W.
 pub fn power(at: &Multipliers) -> f64 {
-    let loads: f64 = at.system.loads.iter().map(|load| load.power(at.state)).sum();
+    let (system, state) = (at.system, at.state);
+    let custom = system.model.custom_loads.iter().map(|load| load.power(system, state));
+    let loads: f64 = system.loads.iter().map(|load| load.power(state)).chain(custom).sum();
     loads + driver_power(at)
 }
 
@@ -33,6 +36,47 @@ fn driver_power(at: &Multipliers) -> f64 {
         }
     }
     power
+}
+
+impl Simulation {
+    /// Work of drivers and of loads without potential from the start of the last step to time t, J. Counters stay.
+    pub(super) fn work_of_last_step(&mut self, t: f64) -> f64 {
+        if let Some(work) = self.known_work(t) {
+            return work;
+        }
+        let counters = self.mechanism.elimination.counters;
+        let Self { mechanism, integrator, scratch, .. } = self;
+        let start = integrator.last().t - integrator.last().h;
+        let work = work(mechanism, (start, t), scratch, |mechanism, t, state| {
+            integrator.interpolate(mechanism, t, state);
+        });
+        self.mechanism.elimination.counters = counters;
+        work
+    }
+
+    /// The same to the time that is shown, found once.
+    pub(super) fn work_up_to_shown(&self) -> f64 {
+        let t = self.time();
+        self.shown.work(|| self.known_work(t).unwrap_or_else(|| self.clone().work_with_dense_output(t)))
+    }
+
+    /// The same with the dense output of the step prepared before: preparing it leaves independent coordinates with
+    /// another first guess, which the last bits of the first state would show.
+    fn work_with_dense_output(&mut self, t: f64) -> f64 {
+        let Self { mechanism, integrator, scratch, .. } = self;
+        let middle = integrator.last().t - 0.5 * integrator.last().h;
+        integrator.interpolate(mechanism, middle, scratch);
+        self.work_of_last_step(t)
+    }
+
+    /// The same where no evaluation is needed.
+    fn known_work(&self, t: f64) -> Option<f64> {
+        let start = self.integrator.last().t - self.integrator.last().h;
+        if self.conservative || t <= start {
+            return Some(0.0);
+        }
+        self.integrator.work_to(t)
+    }
 }
 
 /// Work over a step whose states `state(t)` writes, J.

@@ -32,7 +32,7 @@ pub struct EventOccurrence {
 impl Simulation {
     /// Events up to the shown time, in the order of time.
     pub fn events(&self) -> &[EventOccurrence] {
-        let count = self.happened.partition_point(|event| event.time <= self.time);
+        let count = self.happened.partition_point(|event| event.time <= self.time());
         &self.happened[..count]
     }
 
@@ -40,10 +40,10 @@ impl Simulation {
     pub(super) fn restart_events(&mut self) {
         self.happened.clear();
         self.end = self.duration();
-        let Self { mechanism, current, last_numbers, .. } = self;
+        let Self { mechanism, shown, last_numbers, .. } = self;
         last_numbers.clear();
         last_numbers.extend(mechanism.system.event_functions.iter().map(|function| {
-            let mut number = function.evaluate(current);
+            let mut number = function.evaluate(shown.state());
             if number[0].abs() < AT_VALUE * (1.0 + function.value.abs()) {
                 number[0] = 0.0;
             }

@@ -1,6 +1,7 @@
 //! A state of a run, kept so that it can be looked at again after the run has gone on.
 
-use super::Simulation;
+use super::{Simulation, StateView};
+use std::borrow::Cow;
 
 /// A state of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,52 +24,27 @@ impl Snapshot {
 impl Simulation {
     /// The state that is shown, to be looked at again with [`Simulation::at_snapshot`].
     pub fn snapshot(&self) -> Snapshot {
-        let angles = self.current.angles().iter().map(|angle| angle.value).collect();
-        Snapshot { time: self.time, state: self.shown.clone(), angles }
+        let angles = self.shown.state().angles().iter().map(|angle| angle.value).collect();
+        Snapshot { time: self.time(), state: self.shown.y().to_vec(), angles }
     }
 
-    /// This run as it was at a snapshot: whatever is asked of it is told for that state. It is for looking only: its
-    /// integrator and counters are those of the present. `None` if the snapshot belongs to other coordinates.
-    pub fn at_snapshot(&self, snapshot: &Snapshot) -> Option<Self> {
-        let angles = self.current.angles();
-        if snapshot.state.len() != self.shown.len() || snapshot.angles.len() != angles.len() {
+    /// The state of a snapshot, with all that can be asked of it. `None` if the snapshot belongs to other coordinates.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let mut run = Simulation::new(&catalogue::scene("free-fall")?)?;
+    /// let start = run.snapshot();
+    /// run.advance_to(0.5)?;
+    /// assert_eq!(run.at_snapshot(&start).map(|state| state.time()), Some(0.0));
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn at_snapshot(&self, snapshot: &Snapshot) -> Option<StateView<'_>> {
+        let Snapshot { time, state, angles } = snapshot;
+        if state.len() != self.shown.y().len() || angles.len() != self.shown.state().angles().len() {
             return None;
         }
-        let mut then = self.clone();
-        then.time = snapshot.time;
-        then.shown.copy_from_slice(&snapshot.state);
-        then.mechanism.state.set_revolutions(snapshot.angles.iter().copied());
-        then.evaluate_current();
-        Some(then)
-    }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)] // a test that cannot go on says so
-mod tests {
-    use super::*;
-    use crate::catalogue;
-
-    #[test]
-    fn a_snapshot_tells_what_was_told_then() {
-        let mut run = Simulation::new(&catalogue::scene("spatial-slider-crank").unwrap()).unwrap();
-        run.advance_to(0.3).unwrap();
-        let snapshot = run.snapshot();
-        let (then, matrix) = (run.multipliers(), run.jacobian());
-        run.advance_to(0.7).unwrap();
-        let now = run.multipliers();
-        assert_ne!(now, then);
-        let looked = run.at_snapshot(&snapshot).unwrap();
-        assert_eq!(looked.time(), 0.3);
-        let again = looked.multipliers();
-        for (a, b) in again.iter().zip(&then) {
-            for k in 0..3 {
-                assert!((a.force[k] - b.force[k]).abs() < 1e-9 * (1.0 + b.force[k].abs()), "{a:?} {b:?}");
-            }
-        }
-        assert_eq!(looked.jacobian().entries, matrix.entries);
-        assert_eq!(run.multipliers(), now, "looking back changes nothing");
-        let other = Simulation::new(&catalogue::scene("free-body").unwrap()).unwrap();
-        assert!(other.at_snapshot(&snapshot).is_none());
+        let shown = self.shown.at(self.system(), *time, state, angles);
+        Some(StateView::new(self, Cow::Owned(shown)))
     }
 }

@@ -63,15 +63,20 @@ fn swallowed(system: &System) -> f64 {
 }
 
 impl Simulation {
-    /// How far the shown state is from its constraints, each row relative to its size.
-    pub fn violation(&self) -> violation::ConstraintViolation {
-        violation::measure(self.system(), &self.current)
-    }
-
     /// Cost and trust at the shown state.
-    pub fn summary(&mut self) -> Summary {
-        let work = self.work + self.work_of_last_step(self.time);
-        let (system, current) = (&self.mechanism.system, &self.current);
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let mut run = Simulation::new(&catalogue::scene("simple-pendulum")?)?;
+    /// run.advance_to(1.0)?;
+    /// let summary = run.summary();
+    /// assert!(summary.energy_drift.abs() < 1e-6 && summary.steps > 0);
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn summary(&self) -> Summary {
+        let work = self.work + self.work_up_to_shown();
+        let (system, current) = (&self.mechanism.system, self.shown.state());
         let energy = current.energy(system);
         let position_violation = current.position_violation(system);
         let velocity_violation = current.velocity_violation(system);
@@ -81,7 +86,7 @@ impl Simulation {
         let singularities = self.singularities.configurations(system);
         let doubts = self.doubts(&singularities, energy_drift);
         Summary {
-            time: self.time,
+            time: self.time(),
             energy,
             work,
             energy_drift,
@@ -108,7 +113,7 @@ impl Simulation {
         if self.kind == IntegratorKind::Taylor {
             return Vec::new();
         }
-        let (system, current) = (&self.mechanism.system, &self.current);
+        let (system, current) = (&self.mechanism.system, self.shown.state());
         let kinetic = self.kinetic.max(current.kinetic_energy(system));
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time),

@@ -27,7 +27,7 @@ impl Checkpoint {
     pub fn cover(&mut self, t: f64) -> Result<(), EngineError> {
         while self.run.reached() < t {
             self.from = self.run.reached();
-            self.run.take_step()?;
+            self.run.take_step(self.run.duration())?;
         }
         Ok(())
     }

@@ -70,7 +70,7 @@ pub fn measure(plan: &BenchPlan, mut progress: impl FnMut(f64, &str)) -> Result<
     }
     Ok(ready
         .into_iter()
-        .map(|Ready { mut simulation, mut measured }| {
+        .map(|Ready { simulation, mut measured }| {
             measured.times.sort_by(f64::total_cmp);
             measured.work = simulation.summary();
             measured
@@ -96,7 +96,7 @@ fn prepare(
             scene.simulation.constraint_method = method.constraint_method;
             scene.simulation.tolerance = tolerance;
             let error = reference::positions(&scene, compared).ok().map(|run| distance(&run, &truth));
-            let mut simulation = Simulation::new(&scene)?;
+            let simulation = Simulation::new(&scene)?;
             let work = simulation.summary();
             let times = Vec::with_capacity(plan.repeats);
             let measured = Measured { scene: case.scene, method, tolerance, error, times, work };

@@ -70,7 +70,7 @@ fn free_body(omega: [f64; 3], quick: bool, method: &TrialMethod) -> StressOutcom
     free.velocity = [1e-3, 0.0, 0.0];
     scene.bodies.push(free);
     let mut start = None;
-    let momentum = move |run: &mut Simulation| -> Vector3<f64> {
+    let momentum = move |run: &Simulation| -> Vector3<f64> {
         let shown = run.frame().bodies[0];
         let omega = Vector3::from(shown.angular_velocity);
         [shown.u, shown.v, shown.w]

@@ -192,7 +192,7 @@ fn triangle(method: &TrialMethod, _: bool) -> StressOutcome {
     }
     scene.bodies.push(body("hung", 1.0, [1e-12, 1.0, 1.0], [0.0, 5.0, 0.0]));
     scene.joints.push(joint("ball", JointKind::Spherical, GROUND, "hung", [-0.5, 5.0, 0.0]));
-    let momentum = |run: &mut triad_engine::run::Simulation| -> Vec<nalgebra::Vector3<f64>> {
+    let momentum = |run: &triad_engine::run::Simulation| -> Vec<nalgebra::Vector3<f64>> {
         let frame = run.frame();
         let moments = inertias.iter().zip(&frame.bodies).map(|(principal, shown)| {
             let omega = nalgebra::Vector3::from(shown.angular_velocity);

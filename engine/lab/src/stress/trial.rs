@@ -11,7 +11,7 @@ const STEPS: u64 = 200_000;
 const LOOSE: f64 = 1e-8;
 
 /// Measures the shown state: its deviation from the reference, relative to the reference's size.
-type Measure<'a> = Box<dyn FnMut(&mut Simulation) -> f64 + 'a>;
+type Measure<'a> = Box<dyn FnMut(&Simulation) -> f64 + 'a>;
 
 /// A scene, what it is compared with, and which error is good, and which still tolerable.
 pub struct Trial<'a> {
@@ -51,7 +51,7 @@ impl<'a> Trial<'a> {
         mut self,
         reference: &str,
         (good, poor): (f64, f64),
-        measure: impl FnMut(&mut Simulation) -> f64 + 'a,
+        measure: impl FnMut(&Simulation) -> f64 + 'a,
     ) -> Self {
         reference.clone_into(&mut self.reference);
         self.measure = Some(Box::new(measure));
@@ -116,11 +116,11 @@ impl<'a> Trial<'a> {
                 break;
             }
             if let Some(measure) = &mut self.measure {
-                outcome.error = Some(larger(outcome.error.unwrap_or(0.0), measure(&mut simulation)));
+                outcome.error = Some(larger(outcome.error.unwrap_or(0.0), measure(&simulation)));
             }
             let summary = simulation.summary();
             drift = larger(drift, summary.energy_drift.abs());
-            kinetic = kinetic.max(kinetic_energy(&mut simulation));
+            kinetic = kinetic.max(kinetic_energy(&simulation));
             let open = simulation.violation().relative;
             outcome.violation = Some(larger(outcome.violation.unwrap_or(0.0), open));
         }
@@ -207,7 +207,7 @@ pub fn must_be_refused(scene: &Scene, method: &TrialMethod, code: &str, names: &
 }
 
 /// Kinetic energy from the bodies as they are shown, J.
-pub fn kinetic_energy(simulation: &mut Simulation) -> f64 {
+pub fn kinetic_energy(simulation: &Simulation) -> f64 {
     let frame = simulation.frame();
     let mut sum = 0.0;
     for (shown, body) in frame.bodies.iter().zip(&simulation.model().bodies) {

@@ -10,7 +10,7 @@ use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use triad_engine::run::Simulation;
+use triad_engine::run::StateView;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -255,7 +255,7 @@ async fn augmented(
     PathParameters(code): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
-    symmetric(&app, &code, "augmented", when, Simulation::augmented).await
+    symmetric(&app, &code, "augmented", when, |state| state.augmented()).await
 }
 
 /// The matrix that the solver factors, of the session that is shown.
@@ -266,7 +266,7 @@ async fn schur(
     PathParameters(code): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<Value>, Problem> {
-    symmetric(&app, &code, "schur", when, Simulation::schur).await
+    symmetric(&app, &code, "schur", when, |state| state.schur()).await
 }
 
 async fn symmetric(
@@ -274,7 +274,7 @@ async fn symmetric(
     code: &str,
     name: &str,
     when: AtTime,
-    matrix: fn(&Simulation) -> triad_engine::reactions::matrices::Symmetric,
+    matrix: fn(&StateView) -> triad_engine::reactions::matrices::Symmetric,
 ) -> Result<axum::Json<Value>, Problem> {
     let what = format!("{name} {:?}", when.at);
     let lecture = app.lectures.get(code)?;

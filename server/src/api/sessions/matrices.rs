@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_engine::analysis::check::dependent_sets;
 use triad_engine::reactions::matrices::{EntryKind, Symmetric};
-use triad_engine::run::Simulation;
+use triad_engine::run::StateView;
 use triad_engine::system::index::EquationId;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -129,7 +129,7 @@ async fn augmented(
     PathParameters(id): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<SymmetricView>, Problem> {
-    Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::augmented).await?))
+    Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, |state| state.augmented()).await?))
 }
 
 /// The matrix S that the solver factors, in its order of elimination, with the fill of its factor.
@@ -142,13 +142,13 @@ async fn schur(
     PathParameters(id): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
 ) -> Result<axum::Json<SymmetricView>, Problem> {
-    Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, Simulation::schur).await?))
+    Ok(axum::Json(symmetric_of(&*app.sessions.get(&id)?, when.at, |state| state.schur()).await?))
 }
 
 pub(in crate::api) async fn symmetric_of(
     session: &Session,
     at: Option<f64>,
-    matrix: fn(&Simulation) -> Symmetric,
+    matrix: fn(&StateView) -> Symmetric,
 ) -> Result<SymmetricView, Problem> {
     session
         .query(at, move |run| {

@@ -32,8 +32,8 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
     if let Some(steps) = options.most_steps {
         simulation.set_step_limit(steps);
     }
-    let mut verifier = options.verify.then(|| Verifier::new(&scene, &mut simulation)).transpose()?;
-    let mut outputs = Outputs::open(options, &scene, &mut simulation)?;
+    let mut verifier = options.verify.then(|| Verifier::new(&scene, &simulation)).transpose()?;
+    let mut outputs = Outputs::open(options, &scene, &simulation)?;
     let bar = progress(&scene.name, simulation.duration(), json);
     let bounds = Bounds::new(options);
     let stopped =
@@ -47,7 +47,7 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
         Err(Stop::Output(problem)) => return Err(problem),
     };
     let verified = verifier.as_ref().map(Verifier::found);
-    report(&scene, &mut simulation, options, (stopped.as_ref(), verified), json);
+    report(&scene, &simulation, options, (stopped.as_ref(), verified), json);
     Ok(if stopped.is_none() { Outcome::Done } else { Outcome::No })
 }
 
@@ -176,7 +176,7 @@ struct Outputs {
 }
 
 impl Outputs {
-    fn open(options: &Run, scene: &Scene, simulation: &mut Simulation) -> Result<Self, Problem> {
+    fn open(options: &Run, scene: &Scene, simulation: &Simulation) -> Result<Self, Problem> {
         let mut table = None;
         if let Some(path) = &options.out {
             make_room(path)?;
@@ -199,7 +199,7 @@ impl Outputs {
         Ok(Self { table, recorders, waiting: Vec::new() })
     }
 
-    fn write(&mut self, simulation: &mut Simulation) -> Result<(), Problem> {
+    fn write(&mut self, simulation: &Simulation) -> Result<(), Problem> {
         if let Some(table) = &mut self.table {
             let frame = simulation.frame();
             let joints = simulation.multipliers();
@@ -252,7 +252,7 @@ fn output_failed(error: &impl std::fmt::Display) -> Problem {
 
 fn report(
     scene: &Scene,
-    simulation: &mut Simulation,
+    simulation: &Simulation,
     options: &Run,
     (stopped, verified): (Option<&Problem>, Option<&Verification>),
     json: bool,

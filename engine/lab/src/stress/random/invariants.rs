@@ -92,7 +92,7 @@ fn watched(
         result?;
         drift = larger(drift, summary.energy_drift.abs());
         // Structures that cannot move have no kinetic energy, but springs whose force times a tolerance is energy too.
-        kinetic = larger(larger(kinetic, kinetic_energy(&mut run)), STANDING * summary.energy.abs());
+        kinetic = larger(larger(kinetic, kinetic_energy(&run)), STANDING * summary.energy.abs());
         violation = larger(violation, run.violation().relative);
     }
     outcome.energy_drift = Some(drift / kinetic);
@@ -102,7 +102,7 @@ fn watched(
 }
 
 /// Other coordinates and another integrator must give the same positions.
-fn compare(scene: &Scene, run: &mut Simulation, findings: &mut Findings) {
+fn compare(scene: &Scene, run: &Simulation, findings: &mut Findings) {
     let all = |coordinates| {
         let mut other = scene.clone();
         other.bodies.iter_mut().for_each(|b| b.coordinates = Some(coordinates));

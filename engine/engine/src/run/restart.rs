@@ -1,0 +1,96 @@
+//! Runs that begin anew: at the start, from another run, or backwards.
+
+use super::{Simulation, explain};
+use crate::error::EngineError;
+use crate::integrate::Integrator;
+use nalgebra::{Matrix3, Vector3};
+use triad_dynamics::dynamics::elimination::Counters;
+use triad_dynamics::model::ModelBody;
+use triad_dynamics::state::BodyFrame;
+
+impl Simulation {
+    /// Back to the start; counters begin anew.
+    pub fn reset(&mut self) {
+        self.mechanism.state.reset_revolutions();
+        let start = std::mem::take(&mut self.start);
+        self.begin(0.0, &start);
+        self.start = start;
+    }
+
+    /// Goes on from where another run of the same scene stands, whose numbers may differ: bodies keep their places
+    /// and velocities as far as the constraints allow. Counters and energies are counted from here. Returns what was
+    /// corrected, in words.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::Constraint`] if no state near that of the other run satisfies the constraints of this one.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let scene = catalogue::scene("simple-pendulum")?;
+    /// let mut light = Simulation::new(&scene)?;
+    /// light.advance_to(0.4)?;
+    /// let mut heavy = Simulation::new(&scene.changed([], [("/bodies/0/mass", &10.into())])?)?;
+    /// heavy.continue_from(&light)?;
+    /// assert_eq!(heavy.time(), 0.4);
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn continue_from(&mut self, other: &Self) -> Result<Vec<String>, EngineError> {
+        let time = other.time().min(self.duration());
+        let frames = other.frame().bodies;
+        let n = self.system().coordinates;
+        let mut y = vec![0.0; 2 * n];
+        let (q, q_dot) = y.split_at_mut(n);
+        let system = &self.mechanism.system;
+        let places = system.model.bodies.iter().zip(&other.model().bodies).zip(&frames);
+        let moved: Vec<ModelBody> = places.map(|((body, old), frame)| placed_as(body, old, frame)).collect();
+        system.start_of(&moved, q, q_dot);
+        self.mechanism.state.copy_revolutions(other.shown.state());
+        let notes = self.mechanism.assemble_at(time, &mut y)?;
+        self.mechanism.state.commit_revolutions();
+        self.begin(time, &y);
+        Ok(notes)
+    }
+
+    /// A run that starts where this one stands, velocities reversed: without drivers and losses it goes the way back.
+    #[must_use]
+    pub fn turned_back(&self) -> Self {
+        let mut back = self.clone();
+        let n = self.system().coordinates;
+        back.start.copy_from_slice(self.shown.y());
+        back.start[n..].iter_mut().for_each(|v| *v = -*v);
+        back.reset();
+        back
+    }
+
+    /// Starts to integrate at a consistent state.
+    fn begin(&mut self, time: f64, y: &[f64]) {
+        self.mechanism.elimination.counters = Counters::default();
+        self.mechanism.projections = 0;
+        self.counted = explain::Counted::default();
+        (self.work, self.kinetic) = (0.0, 0.0);
+        self.singularities.reset();
+        self.mechanism.set_state(time, y);
+        self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
+        self.show_state(time, y);
+        self.start_energy = self.shown.state().energy(self.system());
+        self.restart_events();
+    }
+}
+
+/// A body where `old`, a body of the same frame, stands in a run. Centre of mass and principal axes may differ between
+/// the two: what stays in place is the author's frame.
+fn placed_as(body: &ModelBody, old: &ModelBody, frame: &BodyFrame) -> ModelBody {
+    let axes = [frame.u, frame.v, frame.w].map(Vector3::from);
+    let turn = Matrix3::from_columns(&axes) * old.principal_axes.transpose();
+    let angular_velocity = Vector3::from(frame.angular_velocity);
+    let arm = turn * (body.center_of_mass - old.center_of_mass);
+    ModelBody {
+        position: Vector3::from(frame.position) + arm,
+        directors: turn * body.principal_axes,
+        velocity: Vector3::from(frame.velocity) + angular_velocity.cross(&arm),
+        angular_velocity,
+        ..body.clone()
+    }
+}

@@ -1,0 +1,149 @@
+//! How a run begins: the scene is checked and assembled, its rank found, its integrator chosen.
+
+use super::singularity::SingularityMonitor;
+use super::state_view::Shown;
+use super::{Simulation, explain};
+use crate::error::EngineError;
+use crate::integrate::{self, Integrator};
+use crate::model::{CustomLoad, CustomLoadError, Model};
+use crate::scene::{IntegratorKind, Scene};
+use triad_dynamics::constraints::ConstraintError;
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::constraints::rank::{self, Rank};
+use triad_dynamics::dynamics::elimination::Counters;
+use triad_dynamics::system::System;
+
+impl Simulation {
+    /// Checks, assembles and starts a scene.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::Model`] for a scene that cannot be, [`EngineError::Constraint`] for constraints that cannot be met,
+    /// each with the body or joint and its place in the scene.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let mut scene = Scene::new("apart");
+    /// let rod = scene.add(Body::rod("rod", 1.0, [0.0; 3], [1.0, 0.0, 0.0]));
+    /// scene.add(Joint::spherical("left", Ground, &rod).at([0.0; 3]));
+    /// assert_eq!(Simulation::new(&scene)?.system().coordinates, 12);
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn new(scene: &Scene) -> Result<Self, EngineError> {
+        Self::from_model(Model::new(scene)?)
+    }
+
+    /// Starts a scene on which further loads act, each a function of the state: see [`CustomLoad`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Simulation::new`], and [`EngineError::CustomLoad`] with the name of the load.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let scene = catalogue::scene("free-fall")?;
+    /// let push = CustomLoad::new("push", "stone", |_| Wrench::force([1.0, 0.0, 0.0]));
+    /// let error = Simulation::with_loads(&scene, [push]).unwrap_err();
+    /// assert_eq!(error.to_string(), "load \"push\" asks for body \"stone\", which the scene does not have");
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn with_loads(
+        scene: &Scene,
+        loads: impl IntoIterator<Item = CustomLoad>,
+    ) -> Result<Self, EngineError> {
+        Self::from_model(Model::new(scene)?.with_loads(loads)?)
+    }
+
+    /// Assembles and starts a checked model.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::Constraint`] and [`EngineError::CustomLoad`].
+    pub fn from_model(model: Model) -> Result<Self, EngineError> {
+        let mut notes = model.notes.clone();
+        let (mut mechanism, start) = assembled(model, &mut notes)?;
+        let rank = analyzed(&mut mechanism, &start, &mut notes)?;
+        mechanism.set_state(0.0, &start);
+        let state = &mechanism.state;
+        let (shown, start_energy) = (Shown::new(0.0, &start, state), state.energy(&mechanism.system));
+        check_loads(&mechanism)?;
+        let (kind, reason) = integrate::choose(&mut mechanism, &start);
+        mechanism.elimination.counters = Counters::default();
+        let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
+        let singularities = SingularityMonitor::new(&mut mechanism, &rank);
+        let conservative = mechanism.system.is_conservative();
+        let looks = !conservative || !mechanism.system.event_functions.is_empty();
+        let scratch = vec![0.0; if looks { start.len() } else { 0 }];
+        let end = mechanism.system.model.settings.duration;
+        let mut simulation = Self {
+            mechanism,
+            integrator,
+            kind,
+            reason,
+            start,
+            rank,
+            notes,
+            shown,
+            start_energy,
+            kinetic: 0.0,
+            conservative,
+            work: 0.0,
+            scratch,
+            step_limit: u64::MAX,
+            happened: Vec::new(),
+            last_numbers: Vec::new(),
+            end,
+            counted: explain::Counted::default(),
+            singularities,
+        };
+        simulation.restart_events();
+        Ok(simulation)
+    }
+}
+
+/// A mechanism with its start (q, q̇), which satisfies the constraints.
+fn assembled(model: Model, notes: &mut Vec<String>) -> Result<(Mechanism, Vec<f64>), ConstraintError> {
+    let mut mechanism = Mechanism::new(System::new(model));
+    let n = mechanism.system.coordinates;
+    let mut start = vec![0.0; 2 * n];
+    let (q, q_dot) = start.split_at_mut(n);
+    mechanism.system.start(q, q_dot);
+    notes.extend(mechanism.assemble(&mut start)?);
+    Ok((mechanism, start))
+}
+
+/// The rank of a mechanism near its start, from which it knows its dependent rows; counters begin anew.
+fn analyzed(
+    mechanism: &mut Mechanism,
+    start: &[f64],
+    notes: &mut Vec<String>,
+) -> Result<Rank, ConstraintError> {
+    let Mechanism { system, state, elimination, .. } = mechanism;
+    let rank = rank::analyze(system, state, elimination, &start[..system.coordinates]);
+    rank::check(system, &rank)?;
+    if rank.at_start < rank.rank {
+        notes.push(format!(
+            "the start is a singular position: {} rows lose their hold there, and several branches of motion may \
+             begin; without a velocity that chooses one, which of them is followed is not determined",
+            rank.rank - rank.at_start
+        ));
+    }
+    elimination.set_dependent(&rank.dependent);
+    elimination.counters = Counters::default();
+    Ok(rank)
+}
+
+/// Refuses loads that cannot act at the start, or whose integrator cannot know them.
+fn check_loads(mechanism: &Mechanism) -> Result<(), CustomLoadError> {
+    let model = &mechanism.system.model;
+    let Some(load) = model.custom_loads.first() else { return Ok(()) };
+    if model.settings.integrator == IntegratorKind::Taylor {
+        return Err(CustomLoadError::NoSeries { load: load.name.clone() });
+    }
+    for load in &model.custom_loads {
+        load.at(model, 0.0, &mechanism.state)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,205 @@
+//! The state that a run shows, or has shown, and what can be asked of it.
+
+use super::{Frame, Simulation};
+use crate::error::EngineError;
+use crate::reactions::matrices::{self, Symmetric};
+use crate::reactions::report::{Convention, ReactionReport, report};
+use crate::reactions::{self, JointMultipliers};
+use std::borrow::Cow;
+use std::sync::OnceLock;
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::constraints::rank::Rank;
+use triad_dynamics::dynamics::elimination::{Accelerations, Elimination};
+use triad_dynamics::equations::jacobian::Jacobian;
+use triad_dynamics::state::{BodyFrame, State};
+use triad_dynamics::system::System;
+
+/// The state that is shown, and what has been found there because somebody asked.
+#[derive(Debug)]
+pub(super) struct Shown {
+    time: f64,
+    y: Vec<f64>,
+    state: State,
+    answers: Answers,
+}
+
+/// What is found once for each state that is shown.
+#[derive(Debug, Default)]
+struct Answers {
+    /// A solver with the accelerations and multipliers of the state.
+    solved: OnceLock<Box<Elimination>>,
+    /// Work of drivers and of loads without potential since the start of the last step, J.
+    work: OnceLock<f64>,
+}
+
+/// Answers stay behind: a copy of a run is made to go on from there, and can find them again.
+impl Clone for Shown {
+    fn clone(&self) -> Self {
+        Self { time: self.time, y: self.y.clone(), state: self.state.clone(), answers: Answers::default() }
+    }
+}
+
+impl Shown {
+    /// The state y = (q, q̇) at time t, s, which is in place in `state`.
+    pub fn new(time: f64, y: &[f64], state: &State) -> Self {
+        Self { time, y: y.to_vec(), state: state.clone(), answers: Answers::default() }
+    }
+
+    /// Shows the state y = (q, q̇) at another time, s, which `write` fills in; whole turns of angles are counted as the run
+    /// has counted them.
+    pub fn replace(
+        &mut self,
+        mechanism: &mut Mechanism,
+        time: f64,
+        write: impl FnOnce(&mut Mechanism, &mut [f64]),
+    ) {
+        self.answers = Answers::default();
+        self.time = time;
+        write(mechanism, &mut self.y);
+        let turns = mechanism.state.angles().iter().map(|angle| angle.reference);
+        self.state.set_revolutions(turns);
+        let (q, q_dot) = self.y.split_at(mechanism.system.coordinates);
+        self.state.set(&mechanism.system, time, q, q_dot);
+    }
+
+    /// The state y = (q, q̇) at another time, s, whose angles, rad, are known to less than half a turn.
+    pub fn at(&self, system: &System, time: f64, y: &[f64], angles: &[f64]) -> Self {
+        let mut state = self.state.clone();
+        state.set_revolutions(angles.iter().copied());
+        let (q, q_dot) = y.split_at(system.coordinates);
+        state.set(system, time, q, q_dot);
+        Self { time, y: y.to_vec(), state, answers: Answers::default() }
+    }
+
+    /// Time t, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// y = (q, q̇).
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// The state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Work since the start of the last step, J, which `find` finds if nobody has asked for it yet.
+    pub fn work(&self, find: impl FnOnce() -> f64) -> f64 {
+        *self.answers.work.get_or_init(find)
+    }
+}
+
+/// A state of a run, and what can be asked of it: [`Simulation::state`] and [`Simulation::at_snapshot`] give it.
+///
+/// Accelerations and multipliers are solved for once, when the first question needs them. No question changes the run, its
+/// counters or the bits that it goes on with.
+///
+/// ```
+/// use triad_engine::prelude::*;
+///
+/// let mut run = Simulation::new(&catalogue::scene("simple-pendulum")?)?;
+/// run.advance_to(0.3)?;
+/// let state = run.state();
+/// assert_eq!(state.q().len(), state.accelerations().len());
+/// assert_eq!(state.multipliers()[0].force, state.multipliers()[0].force);
+/// # Ok::<(), EngineError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct StateView<'a> {
+    run: &'a Simulation,
+    shown: Cow<'a, Shown>,
+}
+
+impl<'a> StateView<'a> {
+    pub(super) fn new(run: &'a Simulation, shown: Cow<'a, Shown>) -> Self {
+        Self { run, shown }
+    }
+
+    /// The assembled system.
+    pub fn system(&self) -> &'a System {
+        self.run.system()
+    }
+
+    /// Rank of the joint rows near the start — THEORY section 8.
+    pub fn rank(&self) -> &'a Rank {
+        self.run.rank()
+    }
+
+    /// Time t, s.
+    pub fn time(&self) -> f64 {
+        self.shown.time
+    }
+
+    /// Generalized coordinates q, in the order of the columns of [`StateView::jacobian`]: m for positions, 1 for directors.
+    pub fn q(&self) -> &[f64] {
+        &self.shown.y[..self.system().coordinates]
+    }
+
+    /// Generalized velocities q̇: m/s and 1/s.
+    pub fn q_dot(&self) -> &[f64] {
+        &self.shown.y[self.system().coordinates..]
+    }
+
+    /// All bodies in the world: position, directors, velocity, angular velocity.
+    pub fn frame(&self) -> Frame {
+        let bodies = self.shown.state.bodies().iter().map(BodyFrame::from).collect();
+        Frame { time: self.shown.time, bodies }
+    }
+
+    /// The constraint Jacobian Φ_q, rigid-body rows first — eq. (4.1).
+    pub fn jacobian(&self) -> Jacobian {
+        Jacobian::new(self.system(), &self.shown.state)
+    }
+
+    /// Accelerations q̈ — eq. (7.2): m/s² for positions, 1/s² for directors.
+    pub fn accelerations(&self) -> Vec<f64> {
+        let mut q_ddot = vec![0.0; self.system().coordinates];
+        self.solved().write(&mut q_ddot);
+        q_ddot
+    }
+
+    /// Accelerations r̈ of the centres of mass in the world, m/s², in the scene's order of bodies.
+    pub fn mass_accelerations(&self) -> Vec<[f64; 3]> {
+        let q_ddot = self.accelerations();
+        self.system().bodies.iter().map(|body| body.layout.position(&q_ddot).r.into()).collect()
+    }
+
+    /// Multipliers λ and reactions of each joint and driver — eqs. (6.6) and (9.1).
+    pub fn multipliers(&self) -> Vec<JointMultipliers> {
+        reactions::multipliers(&self.solved().multipliers)
+    }
+
+    /// Reactions of joints and drivers as the convention names bodies, points and frames, with what is unique about
+    /// them — THEORY section 9.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::Uniqueness`] where it cannot be told which of them are unique.
+    pub fn reactions(&self, convention: Convention) -> Result<ReactionReport, EngineError> {
+        Ok(report(&self.solved().multipliers, convention)?)
+    }
+
+    /// The augmented matrix of the equations of motion — eq. (6.6).
+    pub fn augmented(&self) -> Symmetric {
+        matrices::augmented(self.system(), &self.shown.state)
+    }
+
+    /// S, which the solver factors — eq. (7.6).
+    pub fn schur(&self) -> Symmetric {
+        matrices::schur(self.system(), &self.shown.state, &mut self.run.mechanism.elimination.clone())
+    }
+
+    /// Accelerations and multipliers of the state.
+    fn solved(&self) -> Accelerations<'_> {
+        let (mechanism, Shown { state, answers, .. }) = (&self.run.mechanism, &*self.shown);
+        let solver = answers.solved.get_or_init(|| {
+            let mut solver = Box::new(mechanism.elimination.clone());
+            solver.accelerate(&mechanism.system, state, mechanism.baumgarte());
+            solver
+        });
+        solver.last_accelerations(&mechanism.system, state)
+    }
+}
