@@ -17,9 +17,6 @@ mod taylor;
 mod choice;
 mod integrator;
 
-#[cfg(test)]
-mod exactness;
-
 pub use augmented::Augmented;
 pub use choice::choose;
 pub use explicit::{DOP853, DOPRI5, Explicit, ODE45_TOLERANCE, Tableau};

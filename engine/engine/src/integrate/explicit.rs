@@ -5,8 +5,6 @@ mod dop853;
 mod dopri5;
 mod ode45;
 mod tableau;
-#[cfg(test)]
-mod tests;
 
 pub use dop853::DOP853;
 pub use dopri5::DOPRI5;

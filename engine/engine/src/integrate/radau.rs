@@ -362,6 +362,3 @@ impl OdeMethod for Radau {
         self.factors = None;
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -121,20 +121,3 @@ pub(super) fn weighted_norm(x: impl Iterator<Item = f64>, y: &[f64], y_new: &[f6
         .sum();
     (sum / y.len().max(1) as f64).sqrt()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_last_step_ends_at_the_end_without_a_sliver() {
-        let mut record = StepRecord::new(0.1, &[0.0]);
-        assert_eq!(record.next_size(0.2, 1.0), Ok(0.2));
-        assert_eq!(record.next_size(0.895, 1.0), Ok(0.9));
-        record.advance(0.9, 1.0);
-        assert_eq!((record.t, record.t_old, record.steps.accepted), (1.0, 0.1, 1));
-        assert!(record.has_ended(1.0) && !record.has_ended(0.5));
-        assert!((record.part(0.55) - 0.5).abs() < 1e-15);
-        assert!(record.next_size(1e-17, 2.0).is_err());
-    }
-}

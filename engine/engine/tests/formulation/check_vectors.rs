@@ -83,7 +83,7 @@ struct ExactMechanism {
 
 #[allow(clippy::unwrap_used)] // a helper of tests
 fn vectors() -> Vectors {
-    serde_json::from_str(include_str!("data/check-vectors.json")).unwrap()
+    serde_json::from_str(include_str!("../data/check-vectors.json")).unwrap()
 }
 
 fn coordinates(word: &str) -> &'static str {
@@ -325,7 +325,7 @@ fn chain(name: &str) -> Value {
 fn mechanisms_start_as_the_check_vectors_say() {
     let cases = vectors().mechanisms;
     assert_eq!(cases.len(), 10);
-    let exact: Exact = serde_json::from_str(include_str!("data/exact-accelerations.json")).unwrap();
+    let exact: Exact = serde_json::from_str(include_str!("../data/exact-accelerations.json")).unwrap();
     let exact = exact.mechanisms;
     for case in cases {
         let mut scene = mechanism(&case.model);

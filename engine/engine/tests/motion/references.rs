@@ -1,9 +1,7 @@
 //! Built-in scenes against references that were made with minimal coordinates or closed forms.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
-mod common;
-
-use common::table;
+use crate::common::table;
 use triad_engine::catalogue;
 use triad_engine::run::{Frame, Simulation};
 use triad_engine::scene::Coordinates;
@@ -41,7 +39,7 @@ const KINDS: [Coordinates; 3] = [Coordinates::Full, Coordinates::Reduced, Coordi
 fn the_falling_body_follows_its_reference() {
     for kind in KINDS {
         let columns = ["x", "y", "z[m]", "px", "py", "pz[m]"];
-        let found = deviation("free-fall", kind, include_str!("data/free-fall.csv"), &columns, |frame| {
+        let found = deviation("free-fall", kind, include_str!("../data/free-fall.csv"), &columns, |frame| {
             let body = &frame.bodies[0];
             let point =
                 [0, 1, 2].map(|k| body.position[k] + 0.3 * body.u[k] - 0.2 * body.v[k] + 0.5 * body.w[k]);
@@ -55,7 +53,7 @@ fn the_falling_body_follows_its_reference() {
 fn the_heavy_top_follows_its_scalar_equation() {
     for kind in KINDS {
         let columns = ["rx[m]", "ry", "rz", "px[m]", "py", "pz"];
-        let found = deviation("heavy-top", kind, include_str!("data/heavy-top.csv"), &columns, |frame| {
+        let found = deviation("heavy-top", kind, include_str!("../data/heavy-top.csv"), &columns, |frame| {
             let top = &frame.bodies[0];
             let rim = [0, 1, 2].map(|k| top.position[k] + 0.15 * top.u[k]);
             [top.position, rim].concat()

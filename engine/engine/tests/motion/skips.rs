@@ -1,6 +1,6 @@
 //! What is left out changes no result, and counters show that it was left out.
 
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used)]
 
 use triad_engine::catalogue;
 use triad_engine::run::{Simulation, SkippedItem};

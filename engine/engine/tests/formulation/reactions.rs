@@ -1,9 +1,7 @@
 //! Reactions against references and equilibrium, and what is told of their uniqueness.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-mod common;
-
-use common::{random_scene, start, table};
+use crate::common::{random_scene, start, table};
 use nalgebra::Vector3;
 use triad_engine::analysis::check::check;
 use triad_engine::catalogue;
@@ -57,7 +55,7 @@ fn four_bar_at(phi: f64) -> Scene {
 
 #[test]
 fn the_pins_of_the_double_four_bar_match_their_reference() {
-    let (names, rows) = table(include_str!("data/four-bar-reactions.csv"));
+    let (names, rows) = table(include_str!("../data/four-bar-reactions.csv"));
     // The reference's column, our joint, and the side of the link that its name tells first.
     let pins = [
         ("A0_F", "A0", Side::J),
@@ -97,7 +95,7 @@ fn the_seventeen_reactions_of_the_slider_crank_match_their_reference() {
     let mut scene = catalogue::scene("spatial-slider-crank").unwrap();
     scene.simulation.tolerance = 1e-11;
     let mut simulation = Simulation::new(&scene).unwrap();
-    let (names, rows) = table(include_str!("../../../tests/data/b01-slider-crank.csv"));
+    let (names, rows) = table(include_str!("../../../../tests/data/b01-slider-crank.csv"));
     let column = |row: &[f64], name: &str| row[names.iter().position(|n| *n == name).unwrap()];
     let mut largest = 0.0f64;
     for row in &rows {

@@ -1,6 +1,6 @@
 //! Every integrator with every constraint method keeps its order, and the structure-preserving ones their invariants.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use triad_engine::Scene;
 use triad_engine::catalogue;
@@ -40,7 +40,7 @@ fn order(name: &str, integrator: IntegratorKind, method: ConstraintMethod, step:
     let error = |step: f64| {
         let mut scene = scene.clone();
         scene.simulation.step = Some(step);
-        let (frame, mut run) = end(&scene);
+        let (frame, run) = end(&scene);
         assert_eq!(run.summary().integrator, integrator, "{}", run.summary().reason);
         apart(&frame, &reference)
     };
@@ -92,7 +92,7 @@ fn floating() -> Scene {
     treated(scene, IntegratorKind::Rattle, ConstraintMethod::Projection)
 }
 
-fn angular_momentum(run: &mut Simulation) -> [f64; 3] {
+fn angular_momentum(run: &Simulation) -> [f64; 3] {
     let frame = run.frame();
     let mut sum = nalgebra::Vector3::zeros();
     for (body, shown) in run.model().bodies.iter().zip(&frame.bodies) {
@@ -111,14 +111,14 @@ fn rattle_keeps_momentum_and_its_energy_error_has_no_slope() {
     let mut scene = floating();
     scene.simulation.step = Some(0.1);
     let mut run = Simulation::new(&scene).unwrap();
-    let momentum = angular_momentum(&mut run);
+    let momentum = angular_momentum(&run);
     // Largest energy errors of the quarters of the run.
     let mut errors = [0.0f64; 4];
     for step in 1..=600usize {
         run.advance_to(step as f64 * 0.1).unwrap();
         let quarter = &mut errors[(step - 1) / 150];
         *quarter = quarter.max(run.summary().energy_drift.abs());
-        let now = angular_momentum(&mut run);
+        let now = angular_momentum(&run);
         for k in 0..3 {
             assert!((now[k] - momentum[k]).abs() < 1e-11, "{now:?} {momentum:?}");
         }
@@ -192,7 +192,7 @@ fn the_augmented_lagrangian_follows_its_tolerance_and_keeps_all_constraints() {
     for tolerance in [1e-5, 1e-7, 1e-9] {
         let mut scene = treated(plain.clone(), IntegratorKind::Auto, augmented);
         scene.simulation.tolerance = tolerance;
-        let (frame, mut run) = end(&scene);
+        let (frame, run) = end(&scene);
         let summary = run.summary();
         let error = apart(&frame, &reference);
         println!(
@@ -255,7 +255,7 @@ fn stiff_loads_cost_few_steps_and_auto_knows_them() {
     ];
     for (load, speed, duration, travel, bound) in cases {
         let scene = guided(&load, speed, duration, "auto");
-        let (frame, mut run) = end(&scene);
+        let (frame, run) = end(&scene);
         let summary = run.summary();
         println!(
             "{load}: {} steps, {} rejected, {} evaluations",

@@ -2,15 +2,15 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
-#[path = "../examples/driver_torque.rs"]
+#[path = "../../examples/driver_torque.rs"]
 mod driver_torque;
-#[path = "../examples/event.rs"]
+#[path = "../../examples/event.rs"]
 mod event;
-#[path = "../examples/four_bar_reactions.rs"]
+#[path = "../../examples/four_bar_reactions.rs"]
 mod four_bar_reactions;
-#[path = "../examples/own_load.rs"]
+#[path = "../../examples/own_load.rs"]
 mod own_load;
-#[path = "../examples/pendulum.rs"]
+#[path = "../../examples/pendulum.rs"]
 mod pendulum;
 
 #[test]
@@ -34,6 +34,6 @@ fn an_event_stops_the_run() {
 }
 
 #[test]
-fn a_table_is_a_load() {
+fn a_function_of_the_state_is_a_load() {
     own_load::main().unwrap();
 }

@@ -1,6 +1,6 @@
 //! Events against moments known in closed form, with each integrator.
 
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used)]
 
 use serde_json::{Value, json};
 use triad_engine::catalogue;

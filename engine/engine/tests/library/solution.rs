@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use triad_engine::prelude::*;
 use triad_engine::reactions::report::{Convention, ReactionReport};
 use triad_engine::run::Frame;

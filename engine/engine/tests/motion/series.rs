@@ -1,6 +1,6 @@
 //! The Taylor integrator against closed forms and against the elimination that it shares nothing with but the rows.
 
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used)]
 
 use triad_engine::catalogue;
 use triad_engine::dynamics::series::IslandSeries;

@@ -1,8 +1,7 @@
 //! The augmented system and the elimination of the rigid-body rows give the same accelerations.
 
-mod common;
 
-use common::{Random, random_scene, start};
+use crate::common::{Random, random_scene, start};
 use nalgebra::DVector;
 use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations::augmented::AugmentedSystem;

@@ -8,18 +8,26 @@ use std::path::Path;
 const FORBIDDEN: [&str; 8] =
     ["std::fs", "std::time", "std::thread", "std::env", "std::net", "std::process", "std::io", "println!("];
 
-fn read(folder: &Path, found: &mut Vec<String>) {
+fn find(folder: &Path, words: &[&str], found: &mut Vec<String>) {
     for entry in folder.read_dir().unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            read(&path, found);
+            find(&path, words, found);
         } else if path.extension().is_some_and(|e| e == "rs") {
             let text = std::fs::read_to_string(&path).unwrap();
             let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-            let bad = code.filter(|line| FORBIDDEN.iter().any(|word| line.contains(word)));
+            let bad = code.filter(|line| words.iter().any(|word| line.contains(word)));
             found.extend(bad.map(|line| format!("{}: {}", path.display(), line.trim())));
         }
     }
+}
+
+/// With `test = false` they would never run.
+#[test]
+fn the_library_has_no_tests_in_its_sources() {
+    let mut found = Vec::new();
+    find(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &["#[test]", "cfg(test)"], &mut found);
+    assert!(found.is_empty(), "{found:#?}");
 }
 
 #[test]
@@ -27,7 +35,7 @@ fn the_engine_reads_no_clock_and_no_file_and_starts_no_thread() {
     let engine = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let mut found = Vec::new();
     for name in ["scene", "linalg", "dynamics", "engine"] {
-        read(&engine.join(name).join("src"), &mut found);
+        find(&engine.join(name).join("src"), &FORBIDDEN, &mut found);
     }
     assert!(found.is_empty(), "{found:#?}");
 }

@@ -1,0 +1,11 @@
+//! The formulation: rows, Jacobians, accelerations, multipliers and reactions, at single states.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod augmented;
+mod check_vectors;
+mod matrices;
+mod reactions;
+mod rows;
+mod shared;

@@ -1,0 +1,13 @@
+//! The library as a program uses it: scenes, motions that are kept, analyses, the examples.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod analyses;
+mod catalogue;
+mod custom_loads;
+mod examples;
+mod parameters;
+mod pure;
+mod snapshots;
+mod solution;

@@ -1,0 +1,16 @@
+//! Motions in time: integrators, events, and what is left out on the way.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod closed_forms;
+mod events;
+mod exactness;
+mod explicit;
+mod integrators;
+mod parts;
+mod radau;
+mod references;
+mod series;
+mod series_catalogue;
+mod skips;
