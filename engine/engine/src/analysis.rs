@@ -1,7 +1,7 @@
 //! Analyses other than running forward in time — THEORY section 10.
 //!
 //! All of them work where the rigid-body rows have been eliminated: a small motion of the mechanism is a twist (ṙ, ω) of
-//! each body with A ξ = 0, and an orthonormal basis of such twists, the [`tangent`](Stage::tangent), turns forces,
+//! each body with A ξ = 0, and an orthonormal basis of such twists, the tangent, turns forces,
 //! masses and stiffnesses into small dense matrices.
 
 pub mod check;
@@ -16,6 +16,7 @@ pub use assembly::{Assembly, Placement, assemble};
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use kinematics::{KinematicState, Kinematics, kinematics};
 pub use modes::{Mode, ModeShape, Modes, ModesAbout, modes};
+#[doc(hidden)]
 pub use stage::Stage;
 
 use crate::error::EngineError;

@@ -18,7 +18,7 @@ use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::model::BodyRef;
 use triad_dynamics::system::row::equation_labels;
 
-/// One multiplier with the label of its equation.
+/// One multiplier λ of eq. (6.6) with the label of its equation.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Multiplier {
     /// Label of the equation within its joint.
@@ -27,28 +27,42 @@ pub struct Multiplier {
     pub value: f64,
 }
 
-/// Multipliers of a joint and the reaction that they make.
+/// Multipliers λ of a joint or driver and the reaction that they make — eq. (9.1): vectors in the world.
+///
+/// ```
+/// use triad_engine::prelude::*;
+///
+/// let mut scene = Scene::new("hanging").gravity([0.0, 0.0, -9.81]);
+/// let ball = scene.add(Body::sphere("ball", 2.0, 0.1, [0.0; 3]));
+/// scene.add(Joint::spherical("hook", Ground, &ball).at([0.0, 0.0, 0.5]));
+/// let hook = &Simulation::new(&scene)?.multipliers()[0];
+/// assert_eq!((hook.on.as_str(), hook.by.as_str(), hook.rows.len()), ("ball", "ground", 3));
+/// // The rows say P_i − P_j = 0: λ is the force on body j, the ball.
+/// assert!((hook.force[2] - 2.0 * 9.81).abs() < 1e-12 && hook.rows[2].value == hook.force[2]);
+/// # Ok::<(), EngineError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointMultipliers {
-    /// The joint.
+    /// The joint or driver.
     pub joint: String,
-    /// Its multipliers.
+    /// Its multipliers λ, in the order of its equations.
     pub rows: Vec<Multiplier>,
     /// The body that the reaction acts on: body j, or body i if j is the ground.
     pub on: String,
     /// The body that exerts it.
     pub by: String,
-    /// Force on that body, N.
+    /// Force f on that body, N.
     pub force: [f64; 3],
-    /// Moment on that body about the joint's point, N m.
+    /// Moment τ on that body about the joint's point, N m.
     pub moment: [f64; 3],
-    /// The joint's point, m.
+    /// The joint's point on that body in the world, m.
     pub about: [f64; 3],
-    /// Frame of the components.
+    /// Frame of the components: `world`.
     pub expressed_in: &'static str,
 }
 
-/// Multipliers and reactions of all joints.
+/// Multipliers and reactions of all joints and drivers.
+#[doc(hidden)]
 pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
     let system = at.system;
     let name = |body: BodyRef| match body {

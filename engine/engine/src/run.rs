@@ -1,8 +1,7 @@
 //! A scene that runs: it stands at a time, goes on by steps, and can be asked about the state where it stands.
 
-pub mod energy_balance;
-
-pub mod singularity;
+mod energy_balance;
+mod singularity;
 
 mod frame;
 mod state_view;
@@ -19,6 +18,7 @@ mod summary;
 pub use events::EventOccurrence;
 pub use explain::SkippedItem;
 pub use frame::Frame;
+pub use singularity::SingularConfiguration;
 pub use snapshot::Snapshot;
 pub use state_view::StateView;
 pub use summary::Summary;
@@ -26,8 +26,8 @@ pub use summary::Summary;
 use crate::error::{EngineError, LastGood};
 use crate::integrate::Integrator;
 use crate::model::{CustomLoadError, Model};
-use crate::run::singularity::{SingularConfiguration, SingularityMonitor};
 use crate::scene::IntegratorKind;
+use singularity::SingularityMonitor;
 use state_view::Shown;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
@@ -78,6 +78,7 @@ pub struct Simulation {
 
 impl Simulation {
     /// The assembled system.
+    #[doc(hidden)]
     pub fn system(&self) -> &System {
         &self.mechanism.system
     }

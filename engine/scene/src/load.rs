@@ -148,7 +148,7 @@ pub enum Load {
 
 /// Loads add up: a joint with a spring, a motor and friction has three of them.
 impl Load {
-    /// A force, N, at a point of a body (in its frame, m); it keeps its direction in the world, or turns with the body.
+    /// A force, N, at a point of a body (in its frame, m); it keeps its direction in the world, or turns with the body — eq. (6.7).
     ///
     /// ```
     /// use triad_scene::{Load, LoadFrame};
@@ -166,7 +166,7 @@ impl Load {
         Self::Force { name: name.into(), body: body.into().into(), point, force: force.into(), frame }
     }
 
-    /// A moment, N m, on a body.
+    /// A moment τ, N m, on a body — eq. (6.8).
     pub fn moment(
         name: impl Into<String>,
         body: impl Into<BodyHandle>,
@@ -177,7 +177,7 @@ impl Load {
     }
 
     /// A spring and a damper between a point of each of two bodies (in their frames, m), without force at the length of
-    /// the start: stiffness k in N/m, damping d in N s/m.
+    /// the start: stiffness k in N/m, damping d in N s/m — eq. (6.9).
     ///
     /// ```
     /// use triad_scene::{Ground, Load};
@@ -205,7 +205,7 @@ impl Load {
         }
     }
 
-    /// A spring and a damper about a revolute or cylindrical joint: k in N m/rad, d in N m s/rad.
+    /// A spring and a damper about a revolute or cylindrical joint: k in N m/rad, d in N m s/rad — eq. (6.9).
     pub fn torsion(
         name: impl Into<String>,
         joint: impl Into<JointHandle>,
@@ -216,7 +216,7 @@ impl Load {
         Self::Torsion { name, joint, stiffness, free_angle: 0.0, damping, torque: None, friction: None }
     }
 
-    /// A spring and a damper along a prismatic or cylindrical joint: k in N/m, d in N s/m.
+    /// A spring and a damper along a prismatic or cylindrical joint: k in N/m, d in N s/m — eq. (6.9).
     pub fn slider(
         name: impl Into<String>,
         joint: impl Into<JointHandle>,
@@ -247,7 +247,7 @@ impl Load {
         }
     }
 
-    /// Friction about a revolute or cylindrical joint.
+    /// Friction about a revolute or cylindrical joint — eq. (6.9).
     pub fn turning_friction(
         name: impl Into<String>,
         joint: impl Into<JointHandle>,
@@ -264,7 +264,7 @@ impl Load {
         }
     }
 
-    /// Friction along a prismatic or cylindrical joint.
+    /// Friction along a prismatic or cylindrical joint — eq. (6.9).
     pub fn sliding_friction(
         name: impl Into<String>,
         joint: impl Into<JointHandle>,

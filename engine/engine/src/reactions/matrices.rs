@@ -42,7 +42,18 @@ pub struct MatrixEntry {
     pub part: EntryKind,
 }
 
-/// A symmetric matrix whose rows, and columns alike, have names.
+/// A symmetric matrix whose rows, and columns alike, have names: [`StateView::augmented`](crate::run::StateView::augmented)
+/// and [`StateView::schur`](crate::run::StateView::schur) give it.
+///
+/// ```
+/// use triad_engine::prelude::*;
+///
+/// let run = Simulation::new(&catalogue::scene("simple-pendulum")?)?;
+/// let (augmented, s) = (run.state().augmented(), run.state().schur());
+/// assert_eq!(augmented.names[0], "bob.rx");
+/// assert!(s.names.len() < augmented.names.len() && s.fill() == 0);
+/// # Ok::<(), EngineError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Symmetric {
     /// Names of the rows, which are those of the columns too.
@@ -58,6 +69,7 @@ impl Symmetric {
     }
 }
 
+#[doc(hidden)]
 /// The augmented matrix [M Φ_qᵀ; Φ_q 0] with the fill of eliminating coordinates first: Φ_q M⁻¹ Φ_qᵀ stands where the
 /// zeros are.
 pub fn augmented(system: &System, at: &State) -> Symmetric {
@@ -110,6 +122,7 @@ fn columns_by_body(system: &System) -> Vec<usize> {
     body_of
 }
 
+#[doc(hidden)]
 /// S = A D⁻¹ Aᵀ in the order in which the solver eliminates joints, with the fill of its factor.
 pub fn schur(system: &System, state: &State, at: &mut Elimination) -> Symmetric {
     at.linearize(system, state);

@@ -48,7 +48,21 @@ pub enum ExpressedIn {
     Body,
 }
 
-/// How reactions are wanted.
+/// How reactions are wanted: on body j, about the joint's point, in the world, unless it says otherwise.
+///
+/// ```
+/// use triad_engine::prelude::*;
+/// use triad_engine::reactions::report::{Convention, ExpressedIn};
+///
+/// let mut scene = Scene::new("tilted").gravity([0.0, 0.0, -10.0]);
+/// let block = scene.add(Body::sphere("block", 3.0, 0.1, [0.0; 3]));
+/// scene.add(Joint::prismatic("rail", Ground, &block).at([0.0; 3]).about([0.6, 0.0, -0.8]));
+/// let along_rail = Convention { expressed_in: ExpressedIn::Joint, ..Convention::default() };
+/// let rail = &Simulation::new(&scene)?.reactions(along_rail)?.reactions[0];
+/// let [x, y, z] = rail.force.map(|component| component.value);
+/// assert!(x.abs() < 1e-12 && (f64::hypot(y, z) - 0.6 * 30.0).abs() < 1e-12, "none along the rail");
+/// # Ok::<(), EngineError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Convention {
@@ -69,7 +83,7 @@ pub struct ReactionComponent {
     pub unique: bool,
 }
 
-/// The reaction of a joint or driver.
+/// The reaction of a joint or driver: what body `by` does to body `on` through it — eq. (9.1).
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Reaction {
     /// The joint or driver.
@@ -86,18 +100,18 @@ pub struct Reaction {
     pub about_at: [f64; 3],
     /// The frame of the components, in words.
     pub expressed_in: String,
-    /// Its axes in the world.
+    /// Its axes x, y, z in the world: unit vectors.
     pub axes: [[f64; 3]; 3],
-    /// Force, N.
+    /// Force f, N, along those axes.
     pub force: [ReactionComponent; 3],
-    /// Moment, N m.
+    /// Moment τ about that point, N m, along those axes.
     pub moment: [ReactionComponent; 3],
 }
 
-/// Every reaction at one moment.
+/// Every reaction at one moment, and what is not unique about them — THEORY section 9.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ReactionReport {
-    /// Time, s.
+    /// Time t, s.
     pub time: f64,
     /// The reactions, joints before drivers.
     pub reactions: Vec<Reaction>,
@@ -110,6 +124,7 @@ pub struct ReactionReport {
 }
 
 /// All reactions of multipliers.
+#[doc(hidden)]
 pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport, UniquenessError> {
     let system = at.system;
     let null = NullSpace::new(system, at.jacobian)?;

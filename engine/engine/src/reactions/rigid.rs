@@ -13,6 +13,7 @@ use triad_dynamics::system::index::RowId;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// Multipliers of a body's rigid-body rows.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RigidMultipliers {
     /// The body.
@@ -21,6 +22,7 @@ pub struct RigidMultipliers {
     pub rows: Vec<Multiplier>,
 }
 
+#[doc(hidden)]
 /// The rigid-body multipliers that belong to accelerations and joint multipliers.
 ///
 /// With p = g − Φ_J,qᵀ λ_J − M q̈ of a body, λ_kk = ½ p_k · eᵏ and λ_kl = p_k · eˡ, eˡ being the dual of the directors.

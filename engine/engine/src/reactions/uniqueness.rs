@@ -60,6 +60,17 @@ impl UniquenessError {
 }
 
 /// A set of joints and drivers whose rows repeat each other.
+///
+/// ```
+/// use triad_engine::prelude::*;
+/// use triad_engine::reactions::report::Convention;
+///
+/// let report = Simulation::new(&catalogue::scene("n-four-bar:1")?)?.reactions(Convention::default())?;
+/// let set = &report.redundancies[0];
+/// assert_eq!((set.rows, set.joints.len()), (3, 4), "four hinges hold the plane three times too often");
+/// assert!(!set.remedies.is_empty());
+/// # Ok::<(), EngineError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Redundancy {
     /// How many rows are too many.
@@ -70,6 +81,7 @@ pub struct Redundancy {
     pub remedies: Vec<Remedy>,
 }
 
+#[doc(hidden)]
 /// All multipliers that do nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NullSpace {

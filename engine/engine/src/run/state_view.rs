@@ -119,6 +119,7 @@ impl<'a> StateView<'a> {
     }
 
     /// The assembled system.
+    #[doc(hidden)]
     pub fn system(&self) -> &'a System {
         self.run.system()
     }

@@ -1,8 +1,7 @@
 //! What a run has cost and how far it can be trusted.
 
-use super::Simulation;
+use super::{Simulation, SingularConfiguration};
 use crate::integrate::PenaltyParameters;
-use crate::run::singularity::SingularConfiguration;
 use crate::scene::{ConstraintMethod, IntegratorKind};
 use serde::Serialize;
 use triad_dynamics::constraints::violation;

@@ -1,6 +1,5 @@
 //! The augmented system and the elimination of the rigid-body rows give the same accelerations.
 
-
 use crate::common::{Random, random_scene, start};
 use nalgebra::DVector;
 use triad_engine::dynamics::elimination::Elimination;
