@@ -1332,7 +1332,7 @@ export interface components {
             /** @description What has to be known of the result. */
             notes: string[];
         };
-        /** @description The position that is looked at. */
+        /** @description The position about which the motion is linearized. */
         ModesAbout: "equilibrium" | "start";
         /** @description The point about which moments are taken. */
         MomentPoint: "joint" | "center";
