@@ -8,48 +8,42 @@
 //!
 //! Bodies lie side by side in bundles of L, so that the convolutions run on vector instructions.
 
-mod acting;
-mod angles;
-mod bodies;
-mod bundle;
-mod convolution;
-mod expand;
-mod inertia;
-mod island;
 mod lanes;
-mod layout;
-mod loads;
-mod pair;
-mod planar;
-mod prescribed;
-mod probe;
-mod projection;
+
 mod recurrence;
-mod rows;
-mod schur;
-mod slot;
+
+mod bodies;
+
+mod constraints;
+
+mod loads;
+
+mod layout;
+
+mod acting;
+
+mod expand;
+
+mod projection;
+
 mod step;
-mod terms;
+
+mod probe;
+
+mod island;
 
 pub use island::IslandSeries;
 pub use step::{StepPlan, Taken};
 
-use bodies::Bodies;
-use bundle::Bundle;
-use planar::Planar;
-
 use crate::dynamics::elimination::Counters;
 use crate::model::BodyRef;
 use crate::system::System;
-use angles::Angles;
+use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar};
+use constraints::{Angles, Prescribed, Rows, Schur};
 use lanes::{LaneVector, largest};
 use layout::bundles;
 use loads::Loads;
-use prescribed::Prescribed;
 use pulp::Simd;
-use rows::{LanePlace, Rows};
-use schur::Schur;
-use slot::FeatureSlot;
 
 /// Regularization of S where rows are redundant, relative to its diagonal; refinement takes its effect out again.
 ///

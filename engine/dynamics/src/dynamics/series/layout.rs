@@ -1,10 +1,8 @@
 //! Between the numbers of the system, body after body, and those of the series, side by side in lanes.
 
 use super::Series;
-use super::bodies::Bodies;
+use super::bodies::{Bodies, FeatureSlot, LanePlace};
 use super::expand::Value;
-use super::rows::LanePlace;
-use super::slot::FeatureSlot;
 use crate::model::BodyRef;
 use crate::system::System;
 use pulp::Arch;

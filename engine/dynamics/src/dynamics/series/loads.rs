@@ -1,12 +1,11 @@
 //! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
 
-use super::angles::AngleSeries;
-use super::bodies::Bodies;
+use super::bodies::{Bodies, LanePlace};
+use super::constraints::AngleSeries;
 use super::lanes::LaneVector;
 use super::recurrence::{
     Vectors, dot, product, product_with_rate, quotient, rate, root, scaled, value, vector_value,
 };
-use super::rows::LanePlace;
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw};
 use crate::scene::LoadFrame;

@@ -1,10 +1,10 @@
 //! The matrix S = A D⁻¹ Aᵀ of the joints' rows, as H Hᵀ with H = A C⁻ᵀ and D = C Cᵀ.
 
 use super::angles::Angles;
-use super::bodies::Bodies;
-use super::lanes::{plus, rows_of_lanes};
-use super::rows::{LanePlace, Rows};
+use super::rows::Rows;
 use super::terms::{Gradient, Term, changing, ends, terms};
+use crate::dynamics::series::bodies::{Bodies, LanePlace};
+use crate::dynamics::series::lanes::{plus, rows_of_lanes};
 use crate::system::System;
 use pulp::Simd;
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Vectors in the plane, L side by side, and the convolutions of planar bodies.
 
-use super::lanes::{Lane, less, plus, sum, times};
+use crate::dynamics::series::lanes::{Lane, less, plus, sum, times};
 
 /// A vector in the plane for each lane.
 pub type Pair<const L: usize> = [Lane<L>; 2];

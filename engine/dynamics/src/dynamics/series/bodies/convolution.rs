@@ -1,6 +1,6 @@
 //! What bodies in space know of an order from all orders before it: sums over products of coefficients.
 
-use super::lanes::{Lane, LaneVector, Natural, add_cross, negative, plus, sum};
+use crate::dynamics::series::lanes::{Lane, LaneVector, Natural, add_cross, negative, plus, sum};
 
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]

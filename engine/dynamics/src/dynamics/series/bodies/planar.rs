@@ -3,10 +3,10 @@
 //! A point is P = r + a z + b J z with J a quarter turn, the only rigid-body row is z · z = 1, the twist is
 //! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
 
-use super::bodies::Bodies;
-use super::lanes::{Lane, LaneVector};
+use super::kernels::Bodies;
 use super::pair::{Pair, cross, each, gram, moment, turned};
 use super::slot::FeatureSlot;
+use crate::dynamics::series::lanes::{Lane, LaneVector};
 use crate::system::System;
 use crate::system::body::{PlanarPose, RigidBody};
 use crate::system::natural::NaturalCoordinates;

@@ -1,13 +1,13 @@
 //! L bodies side by side: the part of the equations of motion that concerns each body alone — THEORY sections 7, 11.
 
-use super::bodies::Bodies;
 use super::convolution::{gram, moment, symmetric};
 use super::inertia::{invert_inertia, products_of_inertia};
-use super::lanes::{
+use super::kernels::Bodies;
+use super::slot::FeatureSlot;
+use crate::dynamics::series::lanes::{
     Lane, LaneVector, Natural, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus,
     scaled, sum, times, zero,
 };
-use super::slot::FeatureSlot;
 use crate::system::{System, body::RigidBody, natural::NaturalCoordinates};
 use nalgebra::Vector3;
 use std::ops::Range;

@@ -1,50 +1,13 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
-use super::lanes::{Lane, LaneVector, add_dot, dot, scaled};
+use crate::dynamics::series::bodies::LanePlace;
+use crate::dynamics::series::lanes::{Lane, LaneVector, add_dot, dot, scaled};
 use crate::system::System;
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
 use triad_linalg::orthonormal_basis;
-
-/// Where a feature's numbers stand: a slot and a lane of it.
-#[derive(Clone, Copy, Debug)]
-pub struct LanePlace {
-    /// Slot.
-    pub slot: usize,
-    /// Lane.
-    pub lane: usize,
-}
-
-impl LanePlace {
-    /// The numbers there.
-    #[inline(always)]
-    pub fn get<const L: usize>(self, values: &[LaneVector<L>]) -> [f64; 3] {
-        let value = &values[self.slot];
-        let lane = self.lane % L;
-        [value[0][lane], value[1][lane], value[2][lane]]
-    }
-
-    /// Replaces the numbers there.
-    #[inline(always)]
-    pub fn set<const L: usize>(self, values: &mut [LaneVector<L>], x: [f64; 3]) {
-        let value = &mut values[self.slot];
-        for c in 0..3 {
-            value[c][self.lane % L] = x[c];
-        }
-    }
-
-    /// Adds to the numbers there.
-    #[inline(always)]
-    pub fn add<const L: usize>(self, values: &mut [LaneVector<L>], x: [f64; 3]) {
-        let value = &mut values[self.slot];
-        let lane = self.lane % L;
-        for c in 0..3 {
-            value[c][lane] += x[c];
-        }
-    }
-}
 
 /// a − b = 0 for points.
 #[derive(Clone, Copy, Debug)]
@@ -197,7 +160,11 @@ impl<const L: usize> Rows<L> {
             let mut sum = [[[0.0; L]; 3]; 2];
             for i in 1..=n {
                 for side in 0..2 {
-                    super::lanes::add_scaled(&mut sum[side], &lambda[n - i], &series[i][1 - side]);
+                    crate::dynamics::series::lanes::add_scaled(
+                        &mut sum[side],
+                        &lambda[n - i],
+                        &series[i][1 - side],
+                    );
                 }
             }
             product.add_forces(&sum, forces);

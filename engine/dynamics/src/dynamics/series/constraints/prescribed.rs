@@ -4,11 +4,9 @@
 //! A driven feature is x = C(t) Q with local coordinates that are series themselves. In order m it has, besides
 //! C₀ Q_m, the part Σ C_i Q_(m−i), i > 0, which is known beforehand; likewise the generalized force on it.
 
-use super::bodies::Bodies;
-use super::lanes::LaneVector;
-use super::recurrence::{Vectors, product_with_rate, value, vector_value};
-use super::rows::LanePlace;
-use super::slot::FeatureSlot;
+use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
+use crate::dynamics::series::lanes::LaneVector;
+use crate::dynamics::series::recurrence::{Vectors, product_with_rate, value, vector_value};
 use crate::model::BodyRef;
 use crate::model::motion::VectorCurve;
 use crate::system::System;

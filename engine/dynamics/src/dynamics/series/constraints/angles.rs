@@ -1,8 +1,8 @@
 //! Joint angles as series, and the rows that relate them: gears and screws — eq. (11.6), (11.7).
 
-use super::lanes::LaneVector;
-use super::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, value};
-use super::rows::LanePlace;
+use crate::dynamics::series::bodies::LanePlace;
+use crate::dynamics::series::lanes::LaneVector;
+use crate::dynamics::series::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, value};
 use crate::state::AngleState;
 use crate::system::System;
 use crate::system::feature::Difference;

@@ -1,6 +1,8 @@
 //! Inertia of bodies about the centre of mass, and its inverse, L side by side.
 
-use super::lanes::{Lane, LaneVector, Natural, inverse_root, less, negative, plus, scaled, sum, times};
+use crate::dynamics::series::lanes::{
+    Lane, LaneVector, Natural, inverse_root, less, negative, plus, scaled, sum, times,
+};
 
 /// Σ Ī_k e_k e_kᵀ, the second term of I_g = Σ Ī_k (|e_k|² 1 − e_k e_kᵀ): xx, xy, yy, xz, yz, zz.
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! The terms of H, from which S = H Hᵀ is built: what each feature contributes to the block of its body.
 
-use super::rows::LanePlace;
+use crate::dynamics::series::bodies::LanePlace;
 use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use crate::system::{NO_INCIDENCE, System};

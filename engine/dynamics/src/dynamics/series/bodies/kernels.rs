@@ -1,0 +1,123 @@
+//! What the series ask of L bodies side by side, whether they move in space or in a plane.
+
+use super::slot::FeatureSlot;
+use crate::dynamics::series::lanes::{Lane, LaneVector};
+use crate::system::System;
+use crate::system::body::RigidBody;
+use crate::system::natural::NaturalCoordinates;
+use nalgebra::Vector3;
+use std::fmt::Debug;
+use std::ops::Range;
+
+/// A bundle of L bodies with the kernels that concern each body alone.
+///
+/// Features, rows and loads are the same for all kinds of bundles: vectors of three components. In a plane these are
+/// components along two directions in the plane and along its normal; the last never changes.
+pub trait Bodies<const L: usize>: Clone + Debug + Sized {
+    /// Coordinates of the bodies, or anything that lives on them.
+    type Natural: Copy + Debug;
+    /// Right-hand sides of the rigid-body rows.
+    type Rigid: Copy;
+    /// Moments about the centres of mass.
+    type Moment: Copy;
+    /// Director forces less the directors' inertia: what moments are made of.
+    type Directors: Copy + Debug;
+    /// C⁻¹ s̃ of a feature's arm s.
+    type Mobility: Copy + Debug;
+    /// Directions in which a point can move.
+    const DIRECTIONS: usize;
+    /// Components of a twist.
+    const TWIST: usize;
+    /// Strips of four numbers in a block of S for points.
+    const STRIPS: usize;
+
+    /// Bodies of mass 1 and no inertia, to be filled in lane by lane.
+    fn empty(bodies: Range<usize>, slots: Range<usize>) -> Self;
+    /// Takes over the constants of a body.
+    fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody);
+    /// The bodies; fewer than L in the last bundle, whose other lanes hold bodies at rest without joints.
+    fn bodies(&self) -> Range<usize>;
+    /// Their features.
+    fn slots(&self) -> Range<usize>;
+
+    /// Zero.
+    fn zero() -> Self::Natural;
+    /// Bodies at rest.
+    fn at_rest() -> Self::Natural;
+    /// Zero.
+    fn no_directors() -> Self::Directors;
+    /// Zero.
+    fn no_mobility() -> Self::Mobility;
+    /// All components.
+    fn lanes(x: &Self::Natural) -> &[Lane<L>];
+    /// All components.
+    fn lanes_mut(x: &mut Self::Natural) -> &mut [Lane<L>];
+
+    /// Takes over the position or velocity of a body.
+    fn read(&self, lane: usize, lift: &NaturalCoordinates, out: &mut Self::Natural);
+    /// Position (`rate` false), velocity or acceleration of a body.
+    fn write(&self, lane: usize, x: &Self::Natural, rate: bool) -> NaturalCoordinates;
+
+    /// Value of a feature of the bodies at x, without what never changes.
+    fn value(slot: &FeatureSlot<L>, x: &Self::Natural) -> LaneVector<L>;
+    /// Adds to the value of a feature what never changes.
+    fn add_constant(&self, slot: &FeatureSlot<L>, value: &mut LaneVector<L>);
+    /// Adds the generalized force of a force on a feature.
+    fn pull_back(slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut Self::Natural);
+
+    /// Coefficient of a vector with the given local coordinates that the bodies' coefficient q of an order makes.
+    fn arm(local: &Vector3<f64>, q: &Self::Natural, lane: usize, order: usize) -> Vector3<f64>;
+    /// The part of the centre of mass.
+    fn center(q: &Self::Natural, lane: usize) -> Vector3<f64>;
+    /// ½ Σ e_k × f_k: ω for e = Q and f = Q̇ — eq. (6.4).
+    fn spin(e: &Self::Natural, f: &Self::Natural, lane: usize) -> Vector3<f64>;
+    /// Adds a force at a point of a body.
+    fn add_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>);
+    /// Adds a force on a vector of a body.
+    fn add_director_force(&mut self, lane: usize, at: &Vector3<f64>, force: &Vector3<f64>);
+    /// Adds a moment on a body.
+    fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>);
+
+    /// Dual basis and inertia at the position q.
+    fn linearize(&mut self, q: &Self::Natural);
+    /// C⁻¹ s̃ of a feature's arm s.
+    fn half_mobility(&self, slot: &FeatureSlot<L>, q: &Self::Natural) -> Self::Mobility;
+    /// Adds to a row of H its part of the translation: the gradient g with respect to a feature times ±1/√m, or 0 for
+    /// vectors.
+    fn add_translation(g: &[f64; 3], factor: f64, row: &mut [f64]);
+    /// Writes the part of the rotation of the rows along all directions.
+    fn set_unit_rotations(mobility: &Self::Mobility, lane: usize, sign: f64, block: &mut [f64]);
+    /// Adds to a row of H its part of the rotation, sign · gᵀ s̃ᵀ C⁻ᵀ.
+    fn add_rotation(mobility: &Self::Mobility, lane: usize, g: &[f64; 3], sign: f64, row: &mut [f64]);
+
+    /// s̃_aᵀ I⁻¹ s̃_b of two features, in strips of four numbers as they stand in a block of S.
+    fn pair(a: &Self::Mobility, b: &Self::Mobility) -> [[Lane<L>; 4]; 3];
+
+    /// Forgets the force at hand.
+    fn clear_force(&mut self);
+    /// Adds the weight.
+    fn add_weight(&mut self);
+    /// The generalized force at hand.
+    fn force_mut(&mut self) -> &mut Self::Natural;
+    /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
+    fn begin(&mut self, q: &Self::Natural, gamma: &Self::Rigid, moment: Self::Moment);
+    /// Adds what further generalized forces do.
+    fn apply(&mut self, q: &Self::Natural, force: &Self::Natural);
+    /// One proximal step for bodies whose inertia is regularized.
+    fn remove_regularization(&mut self, q: &Self::Natural);
+    /// The solution.
+    fn solution(&self) -> &Self::Natural;
+    /// p_k = P_k − Ī_k ë_k of the solution.
+    fn director_forces(&self) -> Self::Directors;
+
+    /// κ times −Σ e_k(i) · e_l(n−i) over 0 < i < n for the rigid-body rows, from the series q.
+    fn gram(q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
+    /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
+    fn moment(q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
+    /// No moment.
+    fn no_moment() -> Self::Moment;
+    /// Right-hand sides that correct positions.
+    fn position_correction(&self, q: &Self::Natural) -> Self::Rigid;
+    /// Right-hand sides that correct velocities.
+    fn velocity_correction(&self, q: &Self::Natural, q_dot: &Self::Natural) -> Self::Rigid;
+}

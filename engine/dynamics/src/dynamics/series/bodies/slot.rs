@@ -1,0 +1,50 @@
+//! A feature of each of L bodies, and where the numbers of one of them stand.
+
+use crate::dynamics::series::lanes::{Lane, LaneVector};
+
+/// A feature of each of L bodies (or of none: all zero).
+#[derive(Clone, Copy, Debug)]
+pub struct FeatureSlot<const L: usize> {
+    /// Local coordinates (ξ, η, ζ); of a planar body those along its director, across it and along the normal.
+    pub local: LaneVector<L>,
+    /// 1 for a point, 0 for a vector.
+    pub point: Lane<L>,
+}
+
+/// Where a feature's numbers stand: a slot and a lane of it.
+#[derive(Clone, Copy, Debug)]
+pub struct LanePlace {
+    /// Slot.
+    pub slot: usize,
+    /// Lane.
+    pub lane: usize,
+}
+
+impl LanePlace {
+    /// The numbers there.
+    #[inline(always)]
+    pub fn get<const L: usize>(self, values: &[LaneVector<L>]) -> [f64; 3] {
+        let value = &values[self.slot];
+        let lane = self.lane % L;
+        [value[0][lane], value[1][lane], value[2][lane]]
+    }
+
+    /// Replaces the numbers there.
+    #[inline(always)]
+    pub fn set<const L: usize>(self, values: &mut [LaneVector<L>], x: [f64; 3]) {
+        let value = &mut values[self.slot];
+        for c in 0..3 {
+            value[c][self.lane % L] = x[c];
+        }
+    }
+
+    /// Adds to the numbers there.
+    #[inline(always)]
+    pub fn add<const L: usize>(self, values: &mut [LaneVector<L>], x: [f64; 3]) {
+        let value = &mut values[self.slot];
+        let lane = self.lane % L;
+        for c in 0..3 {
+            value[c][lane] += x[c];
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The rows of joints and drivers on series, and the matrix S that their multipliers follow from.
+
+mod rows;
+
+mod angles;
+
+mod prescribed;
+
+mod terms;
+
+mod schur;
+
+pub use angles::{AngleSeries, Angles};
+pub use prescribed::Prescribed;
+pub use rows::Rows;
+pub use schur::Schur;
