@@ -1,5 +1,7 @@
 //! Accelerations and multipliers: at one state by elimination, and as power series about one.
 
+mod blocks;
+
 pub mod elimination;
 
 pub mod series;

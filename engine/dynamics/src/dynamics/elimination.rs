@@ -14,6 +14,7 @@ mod twist_jacobian;
 pub use solution::{Accelerations, Multipliers};
 pub use twist_jacobian::TwistJacobian;
 
+use crate::dynamics::blocks::{BlockProduct, SchurLayout};
 use crate::model::CustomLoadError;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
@@ -22,7 +23,6 @@ use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
 use triad_linalg::BlockCholesky;
-use triad_linalg::block_cholesky::BlockSlot;
 
 /// Regularization of S where rows are redundant, relative to its diagonal.
 ///
@@ -44,14 +44,6 @@ pub struct Counters {
     pub factorizations: u64,
     /// Back-solves with its factor.
     pub solves: u64,
-}
-
-/// A product A_p D⁻¹ A_qᵀ that is added to a block of S.
-#[derive(Clone, Copy, Debug)]
-struct Contribution {
-    slot: BlockSlot,
-    left: usize,
-    right: usize,
 }
 
 /// What is solved for a body.
@@ -82,7 +74,7 @@ pub struct Elimination {
     jacobian: TwistJacobian,
     b: Vec<f64>,
     factor: BlockCholesky,
-    contributions: Vec<Contribution>,
+    products: Vec<BlockProduct>,
     /// γ' of the solver rows.
     gamma: Vec<f64>,
     /// Multipliers of the solver rows.
@@ -100,28 +92,7 @@ pub struct Elimination {
 impl Elimination {
     /// Allocates for a system.
     pub fn new(system: &System) -> Self {
-        let sizes: Vec<usize> = system.constraints.iter().map(|g| g.solver.len()).collect();
-        let edges = system.incidences_of_body.iter().flat_map(|incidences| {
-            incidences.iter().enumerate().flat_map(move |(k, &p)| {
-                incidences[k + 1..].iter().map(move |&q| {
-                    (system.incidences[p].constraint.index(), system.incidences[q].constraint.index())
-                })
-            })
-        });
-        let factor = BlockCholesky::new(&sizes, edges);
-        let mut contributions = Vec::new();
-        for incidences in &system.incidences_of_body {
-            for (k, &p) in incidences.iter().enumerate() {
-                for &q in &incidences[k..] {
-                    let slot = factor.slot(
-                        system.incidences[p].constraint.index(),
-                        system.incidences[q].constraint.index(),
-                    );
-                    let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
-                    contributions.push(Contribution { slot, left, right });
-                }
-            }
-        }
+        let SchurLayout { factor, products } = SchurLayout::new(system);
         let rows = system.solver_rows;
         Self {
             bodies: vec![BodySolve::default(); system.bodies.len()],
@@ -130,7 +101,7 @@ impl Elimination {
             jacobian: TwistJacobian::new(system),
             b: vec![0.0; system.block_entries],
             factor,
-            contributions,
+            products,
             gamma: vec![0.0; rows],
             lambda: vec![0.0; rows],
             residual: vec![0.0; rows],

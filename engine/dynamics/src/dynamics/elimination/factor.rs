@@ -76,12 +76,11 @@ impl Elimination {
     fn assemble(&mut self, system: &System) {
         self.factor.clear();
         let values = self.factor.values_mut();
-        for contribution in &self.contributions {
-            let (left, right) =
-                (&system.incidences[contribution.left], &system.incidences[contribution.right]);
+        for product in &self.products {
+            let (left, right) = (&system.incidences[product.left], &system.incidences[product.right]);
             let a = &self.jacobian.a[left.offset..left.offset + 6 * left.rows];
             let b = &self.b[right.offset..right.offset + 6 * right.rows];
-            let target = &mut values[contribution.slot.offset..];
+            let target = &mut values[product.offset..];
             for (a, out) in a.chunks_exact(6).zip(target.chunks_exact_mut(stride(right.rows))) {
                 for (b, out) in b.chunks_exact(6).zip(out) {
                     *out += a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

@@ -3,6 +3,7 @@
 use super::angles::Angles;
 use super::rows::Rows;
 use super::terms::{Gradient, Term, changing, ends, terms};
+use crate::dynamics::blocks::{BlockProduct, SchurLayout};
 use crate::dynamics::series::bodies::{Bodies, LanePlace};
 use crate::dynamics::series::lanes::{plus, rows_of_lanes};
 use crate::system::System;
@@ -65,49 +66,26 @@ pub struct Schur {
 impl Schur {
     /// Writes the program of S for twists of so many components.
     pub fn new(system: &System, place: &[LanePlace], lanes: usize, twist: usize) -> Self {
-        let sizes: Vec<usize> = system.constraints.iter().map(|g| g.solver.len()).collect();
-        // A joint without rows (in the plane) meets nobody.
-        let touching: Vec<Vec<usize>> = system
-            .incidences_of_body
-            .iter()
-            .map(|list| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect())
-            .collect();
-        let edges = touching.iter().flat_map(|incidences: &Vec<usize>| {
-            incidences.iter().enumerate().flat_map(move |(k, &p)| {
-                let constraint = |i: usize| system.incidences[i].constraint.index();
-                incidences[k + 1..].iter().map(move |&q| (constraint(p), constraint(q)))
-            })
-        });
-        let factor = BlockCholesky::new(&sizes, edges);
+        let SchurLayout { factor, products } = SchurLayout::new(system);
         let ends = ends(system, place);
         let mut contributions = Vec::new();
         let mut pairs: BTreeMap<[usize; 2], Vec<Target>> = BTreeMap::new();
-        for (body, incidences) in touching.iter().enumerate() {
-            for (k, &p) in incidences.iter().enumerate() {
-                for &q in &incidences[k..] {
-                    let slot = factor.slot(
-                        system.incidences[p].constraint.index(),
-                        system.incidences[q].constraint.index(),
-                    );
-                    let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
-                    let offset = slot.offset;
-                    if let (Some(a), Some(b)) = (ends[left], ends[right]) {
-                        let sign = a.sign * b.sign;
-                        let constant = sign * system.bodies[body].free_inverse_mass();
-                        let target = Target { lane: a.place.lane, sign, offset, constant };
-                        pairs.entry([a.place.slot, b.place.slot]).or_default().push(target);
-                        continue;
-                    }
-                    let (left, right) = (&system.incidences[left], &system.incidences[right]);
-                    contributions.push(Contribution {
-                        offset,
-                        left: left.offset / 6 * twist,
-                        right: right.offset / 6 * twist,
-                        rows: left.rows,
-                        columns: right.rows,
-                    });
-                }
+        for BlockProduct { body, offset, left, right } in products {
+            if let (Some(a), Some(b)) = (ends[left], ends[right]) {
+                let sign = a.sign * b.sign;
+                let constant = sign * system.bodies[body].free_inverse_mass();
+                let target = Target { lane: a.place.lane, sign, offset, constant };
+                pairs.entry([a.place.slot, b.place.slot]).or_default().push(target);
+                continue;
             }
+            let (left, right) = (&system.incidences[left], &system.incidences[right]);
+            contributions.push(Contribution {
+                offset,
+                left: left.offset / 6 * twist,
+                right: right.offset / 6 * twist,
+                rows: left.rows,
+                columns: right.rows,
+            });
         }
         // In the order of memory, so that the sums run through the store once.
         contributions.sort_by_key(|c| c.offset);
@@ -118,7 +96,8 @@ impl Schur {
         // Joints that are only a common point need no rows in H unless they meet others.
         let mixed = |unit: &Term| {
             let body = system.incidences[unit.incidence].body;
-            touching[body].iter().any(|&i| ends[i].is_none())
+            let own = &system.incidences_of_body[body];
+            own.iter().any(|&i| system.incidences[i].rows > 0 && ends[i].is_none())
         };
         let units = units.into_iter().filter(mixed).collect();
         let changing = changing(&terms, twist);
