@@ -41,6 +41,13 @@ impl TestMechanism {
         self
     }
 
+    /// Number of rows of joints that depend on others. The state is left elsewhere.
+    pub fn dependent_rows(&mut self) -> usize {
+        let n = self.n();
+        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
+        rank::analyze(system, state, elimination, &self.y[..n]).dependent.len()
+    }
+
     /// Number of generalized coordinates.
     pub fn n(&self) -> usize {
         self.mechanism.system.coordinates

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use proptest::prelude::*;
+use triad_engine::dynamics::series::IslandSeries;
+use triad_engine::newton::{StopRule, project_positions, project_velocities, rules};
 use triad_engine::run::Simulation;
 use triad_engine::scene::IntegratorKind;
 use triad_engine::state::BodyFrame;
@@ -95,6 +97,65 @@ proptest! {
         let error = (&ours - &dense).amax();
         let allowed = (1e-10 + 1e-14 * condition) * (1.0 + dense.amax());
         prop_assert!(error < allowed, "{error} of {}, condition {condition:.1e}", dense.amax());
+    }
+
+    /// The projection (10.2) is one: a second one finds nothing to do. And it is the shortest in the sense of the masses: the
+    /// velocities lose the kinetic energy of their change.
+    #[test]
+    fn a_projection_is_idempotent_and_orthogonal(
+        scene in scenes(),
+        shift in prop::collection::vec(-0.01..0.01f64, 96),
+    ) {
+        let choice = Choice { coordinates: Some("full"), ..Choice::default() };
+        let mut probe = TestMechanism::new(&scene.scene(choice)).assembled();
+        let mut y = probe.along(&shift[..probe.y.len()], 1.0);
+        let (n, length) = (probe.n(), probe.mechanism.system.length);
+        let mechanism = &mut probe.mechanism;
+        mechanism.set_state(0.0, &y);
+        let there = project_positions(&mut mechanism.projectable(&mut y), &rules::ASSEMBLY_POSITIONS, length);
+        prop_assert!(there.has_converged() && there.moved > 1e-4);
+        mechanism.set_state(0.0, &y);
+        let given = y[n..].to_vec();
+        project_velocities(&mut mechanism.projectable(&mut y), &rules::ASSEMBLY_VELOCITIES, length);
+        let energy = |v: &[f64]| -> f64 {
+            let bodies = mechanism.system.bodies.iter();
+            let parts = bodies.map(|body| {
+                let v = body.layout.velocity(&body.layout.position(&y), v);
+                let turning: f64 = (0..3).map(|k| body.ibar[k] * v.e[k].norm_squared()).sum();
+                body.mass * v.r.norm_squared() + turning
+            });
+            parts.sum()
+        };
+        let change: Vec<f64> = given.iter().zip(&y[n..]).map(|(given, v)| given - v).collect();
+        let lost = energy(&given) - energy(&y[n..]);
+        prop_assert!((lost - energy(&change)).abs() < 1e-9 * energy(&given), "{lost}");
+        mechanism.set_state(0.0, &y);
+        let mut again = y.clone();
+        let mut on = mechanism.projectable(&mut again);
+        let once_more = StopRule { max_corrections: 1, ..rules::ASSEMBLY_VELOCITIES };
+        let moved = project_velocities(&mut on, &once_more, length).moved
+            + project_positions(&mut on, &once_more, length).moved;
+        prop_assert!(moved < 1e-11, "{moved}");
+    }
+
+    /// The rank (8.1) is the same by elimination and by the series, which are written independently; a joint that is written
+    /// twice adds all its rows to those that depend on others.
+    #[test]
+    fn both_evaluations_find_the_same_rank(scene in scenes(), which in any::<prop::sample::Index>()) {
+        let mut scene = scene.scene(Choice::default());
+        let once = TestMechanism::new(&scene).assembled().dependent_rows();
+        prop_assume!(!scene.joints.is_empty());
+        let joint = which.index(scene.joints.len());
+        let mut copy = scene.joints[joint].clone();
+        copy.name = "again".to_owned();
+        scene.joints.push(copy);
+        let mut probe = TestMechanism::new(&scene).assembled();
+        let dependent = probe.dependent_rows();
+        let system = &probe.mechanism.system;
+        prop_assert_eq!(dependent, once + system.constraints[joint].solver.len());
+        let mut series = IslandSeries::in_space(system, 2, &[]);
+        series.place(system, 0.0, &probe.y);
+        prop_assert_eq!(series.find_dependent(system.length, true), dependent);
     }
 
     /// Joints do no work: dE/dt = 0 under gravity alone.

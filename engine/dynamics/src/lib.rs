@@ -13,6 +13,8 @@ pub mod state;
 
 pub mod equations;
 
+pub mod newton;
+
 pub mod dynamics;
 
 pub mod ode;

@@ -35,7 +35,7 @@
 //! may change at any time.
 
 #[doc(hidden)]
-pub use triad_dynamics::{constraints, dynamics, equations, ode, state, system};
+pub use triad_dynamics::{constraints, dynamics, equations, newton, ode, state, system};
 
 #[doc(inline)]
 pub use triad_dynamics::model;

@@ -35,8 +35,8 @@ struct Pivot {
     diagonal: usize,
     beside: Range<usize>,
     updates: Range<usize>,
-    /// Rows that depend on others at every state.
-    dependent: usize,
+    /// How many of its rows are left out, whichever they are.
+    left_out: usize,
 }
 
 /// A block in the rows of a pivot and the columns of one that is eliminated later.
@@ -84,8 +84,8 @@ pub struct BlockCholesky {
     relative: Vec<f64>,
     /// A diagonal block, where rows that depend on others are looked for.
     scratch: Vec<f64>,
-    /// Scalar rows that are known to depend on others at every state.
-    known_dependent: Vec<usize>,
+    /// Scalar rows that are left out.
+    rows_left_out: Vec<usize>,
     /// Products of the relative pivots of each block, if they are wanted.
     pivot_products: Option<Vec<f64>>,
 }
@@ -124,7 +124,7 @@ impl BlockCholesky {
             diagonal_at: vec![0; sizes.iter().sum()],
             relative: vec![0.0; sizes.iter().sum()],
             scratch: vec![0.0; sizes.iter().map(|size| size * size).max().unwrap_or(0)],
-            known_dependent: Vec::new(),
+            rows_left_out: Vec::new(),
             pivot_products: None,
         };
         factor.lay_out(sizes, &start, &order, &fill);
@@ -155,7 +155,7 @@ impl BlockCholesky {
                 diagonal,
                 beside,
                 updates: 0..0,
-                dependent: 0,
+                left_out: 0,
             });
         }
         self.values = vec![0.0; next];
@@ -235,10 +235,27 @@ impl BlockCholesky {
         self.pivots.len() + self.beside.len()
     }
 
-    /// Says which scalar rows, in ascending order, depend on others at every state. [`Self::factor`] leaves them out when it
-    /// is called with ε = 0 and `skip` = 0.
-    pub fn set_dependent(&mut self, rows: &[usize]) {
-        self.known_dependent = rows.to_vec();
+    /// The scalar rows that depend on others, in ascending order: those whose pivots are at most the part `least` of their
+    /// diagonal entries. Each is dropped for those after it. S is used up, and the factor is none to solve with.
+    pub fn dependent_rows(&mut self, least: f64) -> Vec<usize> {
+        self.factor(0.0, least);
+        let rows = self.relative.iter().enumerate();
+        rows.filter(|(_, relative)| **relative <= least).map(|(row, _)| row).collect()
+    }
+
+    /// From now on leaves these scalar rows, in ascending order, out of factorizations without regularization: they depend on
+    /// others at every state. Pivot products are without them in any case, and comparable along a run.
+    pub fn leave_out(&mut self, rows: &[usize]) {
+        self.rows_left_out = rows.to_vec();
+    }
+
+    /// The same for as many rows of each block, whichever say least beside the others of their block at the state at hand:
+    /// what is solved then has the least rounding.
+    pub fn leave_out_weakest(&mut self, rows: &[usize]) {
+        let before = |row: usize| rows.partition_point(|&left_out| left_out < row);
+        for pivot in &mut self.pivots {
+            pivot.left_out = before(pivot.start + pivot.size) - before(pivot.start);
+        }
     }
 
     /// From now on keeps the products of the pivots.
@@ -253,30 +270,15 @@ impl BlockCholesky {
     }
 
     fn find_pivot_products(&mut self) {
-        let Self { pivot_products: Some(products), pivots, rank, relative, known_dependent, .. } = self
-        else {
+        let Self { pivot_products: Some(products), pivots, rank, relative, rows_left_out, .. } = self else {
             return;
         };
         for (product, &place) in products.iter_mut().zip(&*rank) {
             let Pivot { size, start, .. } = pivots[place];
             let counts =
-                |row: &usize| relative[*row].is_finite() && known_dependent.binary_search(row).is_err();
+                |row: &usize| relative[*row].is_finite() && rows_left_out.binary_search(row).is_err();
             *product = (start..start + size).filter(counts).map(|row| relative[row]).product();
         }
-    }
-
-    /// Finds out how many rows of each block depend on others, at a state that stands for all; S is used up. Returns how
-    /// many there are. [`Self::factor`] then leaves as many out, those that say least beside the others of their block.
-    pub fn find_dependent(&mut self, skip: f64) -> usize {
-        self.pivots.iter_mut().for_each(|pivot| pivot.dependent = 0);
-        self.factor(0.0, skip);
-        let mut all = 0;
-        for pivot in &mut self.pivots {
-            let own = &self.relative[pivot.start..pivot.start + pivot.size];
-            pivot.dependent = own.iter().filter(|&&relative| relative <= skip).count();
-            all += pivot.dependent;
-        }
-        all
     }
 }
 
@@ -331,6 +333,49 @@ mod tests {
             factor.factor(0.0, 0.0);
             factor.solve(x.as_mut_slice());
             prop_assert!((dense * x - b).amax() < 1e-12);
+        }
+    }
+
+    /// S = A Aᵀ with a row of A that repeats two others: consistent equations are solved without one of the three, whichever.
+    #[test]
+    fn dependent_rows_are_found_and_left_out() {
+        let sizes = [3, 2];
+        let mut random = Random::new(7);
+        let mut a = DMatrix::<f64>::from_fn(5, 6, |_, _| random.between(-1.0, 1.0));
+        let sum = a.row(0) * 2.0 + a.row(2);
+        a.row_mut(4).copy_from(&sum);
+        let s = &a * a.transpose();
+        let mut factor = BlockCholesky::new(&sizes, std::iter::once((0, 1)));
+        let fill = |factor: &mut BlockCholesky| {
+            factor.clear();
+            for (i, j) in [(0, 0), (0, 1), (1, 1)] {
+                let BlockSlot { offset, transposed } = factor.slot(i, j);
+                let block = s.view((3 * i, 3 * j), (sizes[i], sizes[j]));
+                let block = if transposed { block.transpose() } else { block.clone_owned() };
+                for (row, numbers) in block.row_iter().enumerate() {
+                    for (column, number) in numbers.iter().enumerate() {
+                        factor.values_mut()[offset + row * stride(block.ncols()) + column] = *number;
+                    }
+                }
+            }
+        };
+        fill(&mut factor);
+        let dependent = factor.dependent_rows(1e-10);
+        assert!(matches!(dependent[..], [0 | 2 | 4]), "{dependent:?}");
+        let b = &s * DVector::from_fn(5, |i, _| 1.0 + (i as f64).sin());
+        for weakest in [false, true] {
+            let mut factor = factor.clone();
+            if weakest {
+                factor.leave_out_weakest(&dependent);
+            } else {
+                factor.leave_out(&dependent);
+            }
+            fill(&mut factor);
+            assert!(factor.factor(0.0, 0.0) > 1e-3);
+            let mut x = b.clone();
+            factor.solve(x.as_mut_slice());
+            assert!((&s * x - &b).amax() < 1e-12);
+            assert_eq!(factor.relative_pivots().iter().filter(|pivot| !pivot.is_finite()).count(), 1);
         }
     }
 

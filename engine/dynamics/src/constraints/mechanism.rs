@@ -2,7 +2,9 @@
 
 use crate::constraints::ConstraintError;
 use crate::constraints::violation;
-use crate::dynamics::elimination::{Accelerations, Elimination};
+use crate::dynamics::elimination::{Accelerations, Elimination, ProjectableState};
+use crate::newton::rules::{self, CONSISTENT};
+use crate::newton::{project_positions, project_velocities};
 use crate::ode::OdeSystem;
 use crate::scene::ConstraintMethod;
 use crate::state::{self, State};
@@ -11,17 +13,10 @@ use crate::system::index::ConstraintId;
 
 /// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
 const NEGLIGIBLE: f64 = 0.1;
-/// |Φ| and |Φ̇| relative to the size of the mechanism below which a state is consistent.
-const CONSISTENT: f64 = 1e-13;
-/// A step of assembly that is below this part of the mechanism's size and does not shrink any more is rounding.
-const STALLED: f64 = 1e-9;
-/// Newton steps of an assembly.
-const MAX_ASSEMBLY_STEPS: usize = 40;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
-/// Most corrections of the velocities of a start. They have failed if they leave more than these parts of the largest rate
-/// that was to be made up for, and of the fastest turning body.
-const MAX_CORRECTIONS: usize = 12;
+/// Corrections of the velocities of a start have failed if they leave more than these parts of the largest rate that was to
+/// be made up for, and of the fastest turning body.
 const MAX_RATE_LEFT: f64 = 1e-6;
 const RATE_ROUNDING: f64 = 1e-9;
 /// Rates that are left at the end of a step, 1/s, for each part of the tolerance, are none.
@@ -52,6 +47,13 @@ impl Mechanism {
     pub fn set_state(&mut self, t: f64, y: &[f64]) {
         let (q, q_dot) = y.split_at(self.system.coordinates);
         self.state.set(&self.system, t, q, q_dot);
+    }
+
+    /// The state in place with its numbers y = (q, q̇), to be moved onto the constraints.
+    pub fn projectable<'a>(&'a mut self, y: &'a mut [f64]) -> ProjectableState<'a> {
+        let Self { system, state, elimination, .. } = self;
+        let (q, q_dot) = y.split_at_mut(system.coordinates);
+        ProjectableState { system, state, elimination, q, q_dot }
     }
 
     /// Accelerations and multipliers at t and y = (q, q̇), with the terms of Baumgarte's stabilization where it is used.
@@ -94,21 +96,10 @@ impl Mechanism {
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
         let violated = self.state.position_violation(&self.system);
-        let mut last = f64::INFINITY;
         // Differences of large numbers are never smaller than these are exact.
         let rounding = |x: &[f64]| 2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
-        let most =
-            if violated <= CONSISTENT * length + rounding(&given[..n]) { 0 } else { MAX_ASSEMBLY_STEPS };
-        for _ in 0..most {
-            self.elimination.linearize(&self.system, &self.state);
-            let step = self.elimination.correct_positions(&self.system, &self.state, &mut y[..n]);
-            self.state.set_positions(&self.system, &y[..n]);
-            // In a long chain rounding keeps the steps from shrinking further.
-            let stalled = step > 0.5 * last && step <= STALLED * length;
-            if step.is_nan() || step <= CONSISTENT * length || stalled {
-                break;
-            }
-            last = step;
+        if violated > CONSISTENT * length + rounding(&given[..n]) {
+            project_positions(&mut self.projectable(y), &rules::ASSEMBLY_POSITIONS, length);
         }
         let left = violation::measure(&self.system, &self.state).relative;
         let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
@@ -133,14 +124,7 @@ impl Mechanism {
         let rate = self.state.velocity_violation(&self.system);
         if rate > CONSISTENT * length + rounding(&given[n..]) {
             let rate = violation::rates(&self.system, &self.state).into_iter().fold(0.0, f64::max);
-            self.elimination.linearize(&self.system, &self.state);
-            for _ in 0..MAX_CORRECTIONS {
-                let step = self.elimination.correct_velocities(&self.system, &self.state, &mut y[n..]);
-                self.state.set_velocities(&self.system, &y[n..]);
-                if step <= CONSISTENT * length {
-                    break;
-                }
-            }
+            project_velocities(&mut self.projectable(y), &rules::ASSEMBLY_VELOCITIES, length);
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
         let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
@@ -214,26 +198,10 @@ impl OdeSystem for Mechanism {
         self.projections += 1;
         let n = self.system.coordinates;
         let length = self.system.length;
-        let (mut moved, mut least) = (0.0, f64::INFINITY);
-        for _ in 0..3 {
-            let step = self.elimination.correct_positions(&self.system, &self.state, &mut y[..n]);
-            self.state.set_positions(&self.system, &y[..n]);
-            moved += step;
-            // Stop when consistent, or when rounding keeps the correction from shrinking.
-            if step <= CONSISTENT * length || step > 0.5 * least {
-                break;
-            }
-            least = step;
-        }
+        let moved = project_positions(&mut self.projectable(y), &rules::STEP_POSITIONS, length).moved;
         self.state.set_velocities(&self.system, &y[n..]);
-        for _ in 0..2 {
-            let step = self.elimination.correct_velocities(&self.system, &self.state, &mut y[n..]);
-            self.state.set_velocities(&self.system, &y[n..]);
-            moved += step;
-            if step <= CONSISTENT * length {
-                break;
-            }
-        }
+        let moved =
+            moved + project_velocities(&mut self.projectable(y), &rules::STEP_VELOCITIES, length).moved;
         let tolerance = self.system.model.settings.tolerance;
         if moved > NEGLIGIBLE * tolerance {
             self.rhs(t, y, rate);

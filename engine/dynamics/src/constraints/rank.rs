@@ -4,15 +4,11 @@
 //! singular position, where it would mislead. The dependent rows are those that the factorization of S has to drop.
 
 use crate::constraints::ConstraintError;
-use crate::dynamics::elimination::Elimination;
+use crate::dynamics::elimination::{Elimination, ProjectableState};
+use crate::newton::{DEPENDENT, find_dependent_rows};
 use crate::state::State;
 use crate::system::System;
 use crate::system::islands;
-
-/// A relative pivot below this belongs to a dependent row.
-const DEPENDENT: f64 = 1e-10;
-/// How far the position is moved away from the given one, relative to the size of the mechanism.
-const AWAY: f64 = 0.03;
 
 /// What the pivots say.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,25 +26,15 @@ pub fn analyze(system: &System, state: &mut State, elimination: &mut Elimination
     let was_redundant = elimination.is_redundant();
     elimination.set_redundant(true);
     state.set_positions(system, q);
-    let lost =
-        elimination.pivots(system, state, DEPENDENT).iter().filter(|(_, pivot)| *pivot <= DEPENDENT).count();
-    if lost == 0 {
-        // Rows that are independent somewhere are so nearly everywhere.
-        elimination.set_redundant(was_redundant);
-        return Rank { rank: system.solver_rows, at_start: system.solver_rows, dependent: Vec::new() };
+    let lost = elimination.dependent_rows(system, state, DEPENDENT).len();
+    let mut dependent = Vec::new();
+    // Rows that are independent somewhere are so nearly everywhere.
+    if lost > 0 {
+        let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
+        let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
+        dependent = find_dependent_rows(&mut on, system.length);
     }
-    let mut nearby = moved_away(system, state, elimination, q);
-    state.set_positions(system, &nearby);
-    if state.position_violation(system) > 1e-9 {
-        nearby.copy_from_slice(q);
-        state.set_positions(system, &nearby);
-    }
-    let pivots = elimination.pivots(system, state, DEPENDENT);
     elimination.set_redundant(was_redundant);
-    let dependent: Vec<usize> =
-        pivots.iter().filter(|(_, pivot)| *pivot <= DEPENDENT).map(|(row, _)| *row).collect();
-    let mut dependent = dependent;
-    dependent.sort_unstable();
     Rank { rank: system.solver_rows - dependent.len(), at_start: system.solver_rows - lost, dependent }
 }
 
@@ -73,41 +59,4 @@ pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
         heavy: heavy.1,
         heavy_mass: heavy.0,
     })
-}
-
-/// A consistent position a little away from q, along an arbitrary admissible velocity.
-fn moved_away(system: &System, state: &mut State, elimination: &mut Elimination, q: &[f64]) -> Vec<f64> {
-    let mut q = q.to_vec();
-    state.set_positions(system, &q);
-    let mut velocity = vec![0.0; q.len()];
-    // Any fixed direction that no mechanism is built along will do; this one has no symmetry.
-    for (i, v) in velocity.iter_mut().enumerate() {
-        *v = (1.0 + i as f64 * 0.754_877_666_2).sin();
-    }
-    state.set_velocities(system, &velocity);
-    elimination.linearize(system, state);
-    for _ in 0..2 {
-        elimination.correct_velocities(system, state, &mut velocity);
-        state.set_velocities(system, &velocity);
-    }
-    let largest = velocity.iter().fold(0.0f64, |a, v| a.max(v.abs()));
-    if largest < 1e-9 {
-        return q;
-    }
-    let scale = AWAY * system.length / largest;
-    for (q, v) in q.iter_mut().zip(&velocity) {
-        *q += scale * v;
-    }
-    let mut last = f64::INFINITY;
-    for _ in 0..12 {
-        state.set_positions(system, &q);
-        elimination.linearize(system, state);
-        let step = elimination.correct_positions(system, state, &mut q);
-        // Close enough for a rank, or no longer shrinking.
-        if step < 1e-14 || (step < 1e-10 * system.length && step > 0.5 * last) {
-            break;
-        }
-        last = step;
-    }
-    q
 }

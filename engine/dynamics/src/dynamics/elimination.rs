@@ -7,10 +7,12 @@
 
 mod factor;
 mod increment;
+mod projectable;
 mod right_side;
 mod solution;
 mod twist_jacobian;
 
+pub use projectable::ProjectableState;
 pub use solution::{Accelerations, Multipliers};
 pub use twist_jacobian::TwistJacobian;
 
@@ -120,7 +122,7 @@ impl Elimination {
     /// Says which solver rows depend on others at every state, so that S is singular there.
     pub fn set_dependent(&mut self, rows: &[usize]) {
         self.redundant = !rows.is_empty();
-        self.factor.set_dependent(rows);
+        self.factor.leave_out(rows);
     }
 
     /// The pivot products of the joints at the positions that were factored last: see [`BlockCholesky::pivot_products`].

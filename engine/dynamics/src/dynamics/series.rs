@@ -89,6 +89,9 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     correction: Vec<f64>,
     /// Whether rows that depend on others at every state are left out.
     rows_left_out: bool,
+    /// Whether S is known to be singular: always regularized.
+    redundant: bool,
+    /// Whether the current factor is that of a regularized S.
     regularized: bool,
     /// Whether bodies have inertia regularization, which proximal steps take out again.
     regularizes_inertia: bool,
@@ -156,6 +159,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             lambda: vec![0.0; system.solver_rows * stride],
             correction: vec![0.0; system.solver_rows],
             rows_left_out: false,
+            redundant: false,
             regularized: false,
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),
@@ -173,11 +177,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.schur.constants_kept
     }
 
-    /// Builds and factors S at the point of expansion, regularized where it is nearly singular, or from the beginning.
+    /// Builds and factors S at the point of expansion, regularized where it is nearly singular, or always.
     #[inline(always)]
-    fn linearize_here<S: Simd>(&mut self, simd: S, regularized: bool) {
+    fn linearize_here<S: Simd>(&mut self, simd: S) {
         self.set_up();
-        self.regularized = regularized;
+        self.regularized = self.redundant;
         loop {
             self.schur.assemble::<S, L, B>(simd, &self.rows, &self.angles, &self.mobility);
             let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };

@@ -8,13 +8,16 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::dynamics::elimination::ProjectableState;
 use triad_dynamics::model::Model;
+use triad_dynamics::newton::{Projectable, project_positions, project_velocities, rules};
 use triad_dynamics::system::System;
 
 /// How much heavier a body is made that is to keep its velocity.
 const HEAVY: f64 = 1e8;
-/// Most Newton steps.
-const STEPS: usize = 200;
+/// Longest step of Newton's method, m or, of directors, without a unit: a rotation that is cut short stays near a rotation only
+/// if the step is short.
+const MAX_STEP: f64 = 0.3;
 
 /// A body's place after assembly, in the terms in which its author writes it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -70,7 +73,7 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
     let (q, q_dot) = y.split_at_mut(n);
     mechanism.system.start(q, q_dot);
     mechanism.set_state(0.0, &y);
-    let (violation, iterations, left) = close(&mut mechanism, &mut y[..n]);
+    let (violation, iterations, left) = close(&mut mechanism, &mut y);
     // A comparison that is false for NaN as well.
     let closed = left <= 1e-9 * mechanism.system.length.max(1.0);
     if !closed {
@@ -98,40 +101,52 @@ fn velocities(scene: &Scene, pinned: &[String], mut y: Vec<f64>) -> Result<Vec<P
         body.mass *= HEAVY;
     }
     let mut mechanism = Mechanism::new(System::new(model));
-    let n = mechanism.system.coordinates;
     mechanism.set_state(0.0, &y);
-    let Mechanism { system, state, elimination, .. } = &mut mechanism;
-    elimination.set_redundant(true);
-    elimination.linearize(system, state);
-    for _ in 0..6 {
-        elimination.correct_velocities(system, state, &mut y[n..]);
-        state.set_velocities(system, &y[n..]);
-    }
+    mechanism.elimination.set_redundant(true);
+    let length = mechanism.system.length;
+    project_velocities(&mut mechanism.projectable(&mut y), &rules::ROUGH_VELOCITIES, length);
     Ok(placements(&mechanism, &y))
 }
 
-/// Newton's method with steps no longer than the mechanism. Returns the violation at the start, the steps taken and what is left.
-fn close(mechanism: &mut Mechanism, q: &mut [f64]) -> (f64, usize, f64) {
-    let Mechanism { system, state, elimination, .. } = mechanism;
-    elimination.set_redundant(true);
-    let violation = state.position_violation(system);
-    let mut steps = 0;
-    while steps < STEPS {
-        elimination.linearize(system, state);
-        let mut there = q.to_vec();
-        let step = elimination.correct_positions(system, state, &mut there);
-        // A rotation that is cut short stays near a rotation only if the step is short.
-        let part = if step > 0.3 { 0.3 / step } else { 1.0 };
-        for (q, there) in q.iter_mut().zip(&there) {
-            *q += part * (there - *q);
+/// A rough start, which is moved onto the constraints by steps no longer than [`MAX_STEP`].
+struct Damped<'a> {
+    on: ProjectableState<'a>,
+    /// q before a step.
+    from: Vec<f64>,
+}
+
+impl Projectable for Damped<'_> {
+    fn linearize(&mut self) {
+        self.on.linearize();
+    }
+
+    /// q ← q + min(1, MAX_STEP/|Δq|) Δq; the size of the whole Δq.
+    fn correct_positions(&mut self) -> f64 {
+        let ProjectableState { system, state, elimination, q, .. } = &mut self.on;
+        self.from.copy_from_slice(q);
+        let step = elimination.correct_positions(system, state, q);
+        let part = if step > MAX_STEP { MAX_STEP / step } else { 1.0 };
+        for (q, from) in q.iter_mut().zip(&self.from) {
+            *q = from + part * (*q - from);
         }
         state.set_positions(system, q);
-        steps += 1;
-        if step.is_nan() || step <= 1e-13 * system.length {
-            break;
-        }
+        step
     }
-    (violation, steps, state.position_violation(system))
+
+    fn correct_velocities(&mut self) -> f64 {
+        self.on.correct_velocities()
+    }
+}
+
+/// Newton's method with short steps. Returns the violation at the start, the steps taken and what is left.
+fn close(mechanism: &mut Mechanism, y: &mut [f64]) -> (f64, usize, f64) {
+    mechanism.elimination.set_redundant(true);
+    let violation = mechanism.state.position_violation(&mechanism.system);
+    let length = mechanism.system.length;
+    let from = vec![0.0; mechanism.system.coordinates];
+    let mut damped = Damped { on: mechanism.projectable(y), from };
+    let projected = project_positions(&mut damped, &rules::ROUGH_POSITIONS, length);
+    (violation, projected.corrections, mechanism.state.position_violation(&mechanism.system))
 }
 
 fn placements(mechanism: &Mechanism, y: &[f64]) -> Vec<Placement> {

@@ -10,8 +10,8 @@ use crate::scene::Scene;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::dynamics::elimination::Accelerations;
+use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
+use triad_dynamics::newton::{project_positions, project_velocities, rules};
 use triad_dynamics::state::BodyFrame;
 use triad_dynamics::system::index::ConstraintId;
 
@@ -103,23 +103,12 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
 
 /// Newton-Raphson to Φ(q, t) = 0. Returns the number of steps.
 fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
-    let time = stage.time;
-    let Mechanism { system, state, elimination, .. } = &mut stage.mechanism;
-    state.set_time(system, time);
-    state.set_positions(system, &stage.q);
-    let mut steps = 0;
-    let mut smallest = f64::INFINITY;
-    while steps < 60 {
-        elimination.linearize(system, state);
-        let step = elimination.correct_positions(system, state, &mut stage.q);
-        state.set_positions(system, &stage.q);
-        steps += 1;
-        let stalled = step <= 1e-9 * system.length && step >= 0.5 * smallest;
-        if step <= 1e-14 * system.length || stalled || step.is_nan() {
-            break;
-        }
-        smallest = step.min(smallest);
-    }
+    let (time, length) = (stage.time, stage.mechanism.system.length);
+    let mut on = stage.projectable();
+    on.state.set_time(on.system, time);
+    on.state.set_positions(on.system, on.q);
+    let steps = project_positions(&mut on, &rules::KINEMATICS_POSITIONS, length).corrections;
+    let ProjectableState { system, state, .. } = on;
     let open = state.position_violation(system);
     // A comparison that is false for NaN as well.
     let closed = open <= MAX_VIOLATION * system.length.max(1.0);
@@ -133,14 +122,12 @@ fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
     Ok(steps)
 }
 
+/// Φ_q q̇ = ν at the positions that were found.
 fn velocities(stage: &mut Stage) {
-    let Mechanism { system, state, elimination, .. } = &mut stage.mechanism;
-    elimination.linearize(system, state);
-    state.set_velocities(system, &stage.q_dot);
-    for _ in 0..4 {
-        elimination.correct_velocities(system, state, &mut stage.q_dot);
-        state.set_velocities(system, &stage.q_dot);
-    }
+    let length = stage.mechanism.system.length;
+    let mut on = stage.projectable();
+    on.state.set_velocities(on.system, on.q_dot);
+    project_velocities(&mut on, &rules::KINEMATICS_VELOCITIES, length);
 }
 
 /// Accelerations of the centres of mass and angular accelerations.

@@ -5,8 +5,9 @@ use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::tangent;
-use triad_dynamics::dynamics::elimination::Accelerations;
+use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
 use triad_dynamics::model::Model;
+use triad_dynamics::newton::{project_positions, rules};
 use triad_dynamics::state::{AppliedForces, BodyFrame};
 use triad_dynamics::system::System;
 use triad_dynamics::system::index::IncidenceId;
@@ -51,6 +52,12 @@ impl Stage {
         self.q_dot.fill(0.0);
         let y = [self.q.as_slice(), self.q_dot.as_slice()].concat();
         self.mechanism.set_state(self.time, &y);
+    }
+
+    /// The held state, to be moved onto the constraints.
+    pub fn projectable(&mut self) -> ProjectableState<'_> {
+        let Self { mechanism: Mechanism { system, state, elimination, .. }, q, q_dot, .. } = self;
+        ProjectableState { system, state, elimination, q, q_dot }
     }
 
     /// Evaluates accelerations and multipliers at the held state.
@@ -131,21 +138,16 @@ impl Stage {
     }
 
     /// Takes over a position after closing the joints. Returns the violation that is left.
-    pub fn assemble(&mut self, mut q: Vec<f64>) -> f64 {
-        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
-        state.set_time(system, self.time);
-        state.set_positions(system, &q);
-        for _ in 0..40 {
-            elimination.linearize(system, state);
-            let step = elimination.correct_positions(system, state, &mut q);
-            state.set_positions(system, &q);
-            if step.is_nan() || step <= 1e-13 * system.length {
-                break;
-            }
-        }
-        state.commit_revolutions();
-        state.set_velocities(system, &vec![0.0; q.len()]);
+    pub fn assemble(&mut self, q: Vec<f64>) -> f64 {
+        let (time, length) = (self.time, self.mechanism.system.length);
         self.q = q;
+        let mut on = self.projectable();
+        on.state.set_time(on.system, time);
+        on.state.set_positions(on.system, on.q);
+        project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        state.commit_revolutions();
+        state.set_velocities(system, &vec![0.0; self.q.len()]);
         state.position_violation(system)
     }
 

@@ -75,19 +75,20 @@ impl BlockCholesky {
                 self.values[at] += epsilon * entry;
             }
         }
-        if epsilon == 0.0 && skip == 0.0 {
-            self.known_dependent.iter().for_each(|&row| self.diagonal[row] = f64::INFINITY);
+        let leaves_out = epsilon == 0.0 && skip == 0.0;
+        if leaves_out {
+            self.rows_left_out.iter().for_each(|&row| self.diagonal[row] = f64::INFINITY);
         }
         let mut smallest = f64::INFINITY;
         for place in 0..self.pivots.len() {
-            let Pivot { size, start, diagonal, dependent, .. } = self.pivots[place];
-            if dependent > 0 && epsilon == 0.0 {
+            let Pivot { size, start, diagonal, left_out, .. } = self.pivots[place];
+            if leaves_out && left_out > 0 {
                 let block = &mut self.scratch[..size * size];
                 let rows = self.values[diagonal..].chunks_exact(stride(size));
                 for (own, row) in block.chunks_exact_mut(size).zip(rows) {
                     own.copy_from_slice(&row[..size]);
                 }
-                wide::leave_out(dependent, block, &mut self.diagonal[start..start + size]);
+                wide::leave_out(left_out, block, &mut self.diagonal[start..start + size]);
             }
             by_size!(
                 size,

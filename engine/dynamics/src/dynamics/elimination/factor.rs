@@ -24,13 +24,12 @@ impl Elimination {
         }
     }
 
-    /// Relative pivots of S at the positions of a state, with dependent rows dropped: (solver row, pivot). The factor is
-    /// none to solve with.
-    pub fn pivots(&mut self, system: &System, state: &State, skip: f64) -> Vec<(usize, f64)> {
+    /// The solver rows that depend on others at the positions of a state, by the pivots of S below the part `least` of its
+    /// diagonal — eq. (8.1). The factor is none to solve with.
+    pub fn dependent_rows(&mut self, system: &System, state: &State, least: f64) -> Vec<usize> {
         self.set_up(system, state);
         self.assemble(system);
-        self.factor.factor(0.0, skip);
-        self.factor.relative_pivots().iter().copied().enumerate().collect()
+        self.factor.dependent_rows(least)
     }
 
     /// From now on each factorization keeps its pivot products.

@@ -2,6 +2,7 @@
 
 use super::{Planar, Series, StepPlan, Taken};
 use crate::dynamics::elimination::{Counters, TwistJacobian};
+use crate::newton::Projectable;
 use crate::system::System;
 
 /// The series, bundled as suits the number of bodies.
@@ -71,8 +72,8 @@ impl IslandSeries {
     }
 
     /// Finds the rows that depend on others everywhere, which are then left out; `expected` tells that there are some. Returns
-    /// whether there are any.
-    pub fn find_dependent(&mut self, length: f64, expected: bool) -> bool {
+    /// how many there are.
+    pub fn find_dependent(&mut self, length: f64, expected: bool) -> usize {
         with!(&mut self.0, s => s.find_dependent(length, expected))
     }
 

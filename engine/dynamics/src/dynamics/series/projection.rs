@@ -3,33 +3,40 @@
 use super::lanes::{largest, sum};
 use super::step::Which;
 use super::{Bodies, Series};
+use crate::newton::{Movable, Projectable, find_dependent_rows};
 
-/// Relative pivot below which a row depends on others.
-const DEPENDENT: f64 = 1e-10;
-/// Distance from a state at which the rank is taken, in lengths of the mechanism.
-const AWAY: f64 = 0.03;
-/// Largest velocity below which no motion leads away from the state.
-const AT_REST: f64 = 1e-9;
-/// Most corrections of the positions at that distance.
-const MAX_CORRECTIONS: usize = 12;
-/// Correction, in lengths of the mechanism, below which the positions there are consistent.
-const CONSISTENT: f64 = 1e-12;
-/// Phase between the velocities of successive coordinates, rad: the inverse of the plastic number, so that the motion has no
-/// symmetry.
-const PHASE: f64 = 0.754_877_666_2;
+impl<const L: usize, B: Bodies<L>> Projectable for Series<L, B> {
+    fn linearize(&mut self) {
+        self.piece(Which::Linearize);
+    }
 
-impl<const L: usize, B: Bodies<L>> Series<L, B> {
-    /// One mass-orthogonal Newton step of the positions towards Φ = 0, with the present factor of S. Returns its size.
-    pub fn correct_positions(&mut self) -> f64 {
+    fn correct_positions(&mut self) -> f64 {
         self.piece(Which::Correct(0))
     }
 
-    /// One mass-orthogonal Newton step of the velocities towards Φ̇ = 0, with the present factor of S.
-    pub fn correct_velocities(&mut self) -> f64 {
+    fn correct_velocities(&mut self) -> f64 {
         self.piece(Which::Correct(1))
     }
+}
 
-    /// The one of the positions (0) or of the velocities (1); one body of code, because it is compiled many times.
+impl<const L: usize, B: Bodies<L>> Movable for Series<L, B> {
+    fn for_each(&mut self, mut change: impl FnMut(&mut f64, &mut f64)) {
+        for [position, rate] in &mut self.state {
+            let rates = B::lanes_mut(rate).as_flattened_mut();
+            for (x, v) in B::lanes_mut(position).as_flattened_mut().iter_mut().zip(rates) {
+                change(x, v);
+            }
+        }
+    }
+
+    fn dependent_rows(&mut self, least: f64) -> Vec<usize> {
+        self.piece(Which::Assemble);
+        self.schur.factor.dependent_rows(least)
+    }
+}
+
+impl<const L: usize, B: Bodies<L>> Series<L, B> {
+    /// One mass-orthogonal Newton step of the positions (0) or of the velocities (1), with the factor at hand; one body of code, because it is compiled many times.
     #[inline(always)]
     pub(super) fn correct_here(&mut self, which: usize) -> f64 {
         self.place_values();
@@ -71,37 +78,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         moved
     }
 
-    /// Finds the rows that depend on others everywhere, which the factorization then leaves out: those that do a little away
-    /// from the state, along an admissible velocity without symmetry. Returns whether there are any. S must be factored
-    /// afterwards. Where some are expected, S is regularized from the beginning.
-    pub fn find_dependent(&mut self, length: f64, expected: bool) -> bool {
+    /// Finds the rows that depend on others everywhere, which the factorization then leaves out. Returns how many there
+    /// are. S must be factored afterwards. Where some are expected, S is regularized from the beginning.
+    pub fn find_dependent(&mut self, length: f64, expected: bool) -> usize {
         let state = self.state.clone();
-        self.piece(Which::Linearize { regularized: expected });
-        let velocities = self.state.iter_mut().flat_map(|[_, rate]| B::lanes_mut(rate).as_flattened_mut());
-        for (i, v) in velocities.enumerate() {
-            *v = (1.0 + i as f64 * PHASE).sin();
-        }
-        self.correct_velocities();
-        self.correct_velocities();
-        let largest = self.state.iter().map(|[_, rate]| largest(B::lanes(rate))).fold(0.0, f64::max);
-        if largest > AT_REST {
-            let scale = AWAY * length / largest;
-            for [position, rate] in &mut self.state {
-                let rates = B::lanes(rate).as_flattened();
-                for (x, v) in B::lanes_mut(position).as_flattened_mut().iter_mut().zip(rates) {
-                    *x += scale * v;
-                }
-            }
-            for _ in 0..MAX_CORRECTIONS {
-                self.piece(Which::Linearize { regularized: expected });
-                if self.correct_positions() < CONSISTENT * length {
-                    break;
-                }
-            }
-        }
-        self.piece(Which::Assemble);
-        self.rows_left_out = self.schur.factor.find_dependent(DEPENDENT) > 0;
+        self.redundant = expected;
+        let rows = find_dependent_rows(self, length);
+        self.redundant = false;
+        self.schur.factor.leave_out_weakest(&rows);
+        self.rows_left_out = !rows.is_empty();
         self.state = state;
-        self.rows_left_out
+        rows.len()
     }
 }

@@ -2,14 +2,11 @@
 
 use super::lanes::largest;
 use super::{Bodies, Series};
+use crate::newton::{Ending, Projectable, Projected, project_positions, project_velocities, rules};
 use pulp::{Arch, Simd, WithSimd};
 
 /// Correction of the positions, in tolerances, above which S is factored again.
 const NEGLIGIBLE: f64 = 0.01;
-/// Size of a Newton step, in lengths of the mechanism, after which the error, its square, is rounding.
-const CONSISTENT: f64 = 1e-7;
-/// Most Newton steps of the positions at the end of a step.
-const MAX_CORRECTIONS: usize = 3;
 /// Order up to which the series is always expanded.
 const MIN_ORDER: usize = 8;
 /// Distance of a step's end from its constraints, or of a prescribed function from its series, in tolerances, above which the
@@ -68,21 +65,21 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     type Output = Taken;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Taken {
-        self.0.step_here(simd, self.1)
+    fn with_simd<S: Simd>(self, _: S) -> Taken {
+        self.0.step_here(self.1)
     }
 }
 
-/// A piece of a step on its own, likewise: all of them together, so that each is compiled once.
+/// A piece of a step, likewise: all of them together, so that each is compiled once.
 struct Piece<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Which);
 
 /// Which piece.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Which {
     /// Builds S.
     Assemble,
-    /// Builds S and factors it, regularized from the beginning or where it is nearly singular.
-    Linearize { regularized: bool },
+    /// Builds S and factors it.
+    Linearize,
     /// Corrects the positions (0) or the velocities (1).
     Correct(usize),
 }
@@ -94,22 +91,21 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Piece<'_, L, B> {
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         match self.1 {
             Which::Assemble => self.0.assemble_here(simd),
-            Which::Linearize { regularized } => self.0.linearize_here(simd, regularized),
+            Which::Linearize => self.0.linearize_here(simd),
             Which::Correct(which) => return self.0.correct_here(which),
         }
         0.0
     }
 }
 
-/// An evaluation of the accelerations, likewise.
+/// Order 0 of the series, likewise.
 struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        self.0.linearize_here(simd, false);
+    fn with_simd<S: Simd>(self, _: S) {
         self.0.expand(2, |_, _| false);
     }
 }
@@ -117,15 +113,11 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Accelerations and multipliers at the state: builds and factors S, then order 0.
     pub fn evaluate(&mut self) {
+        self.linearize();
         Arch::new().dispatch(Evaluate(self));
     }
 
-    /// Builds and factors S at the point of expansion.
-    pub fn linearize(&mut self) {
-        self.piece(Which::Linearize { regularized: false });
-    }
-
-    /// Pieces on their own are for the start of a run and for tests.
+    /// Pieces are called, not inlined: a step would otherwise have several copies of each.
     #[inline(never)]
     pub(super) fn piece(&mut self, which: Which) -> f64 {
         Arch::new().dispatch(Piece(self, which))
@@ -142,7 +134,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     #[inline(always)]
-    fn step_here<S: Simd>(&mut self, simd: S, plan: StepPlan) -> Taken {
+    fn step_here(&mut self, plan: StepPlan) -> Taken {
         // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
@@ -180,7 +172,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             let met = rejected == MAX_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
             if met {
                 let most = (rejected < MAX_REJECTED).then_some(FAR * plan.tolerance);
-                if let Some((moved, closed)) = self.arrive(simd, h, time, order, plan, most) {
+                if let Some((moved, closed)) = self.arrive(h, time, order, plan, most) {
                     // Rows that are left out are measured.
                     let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
@@ -197,9 +189,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// moved, which is what the terms that were left out would have added, and whether Newton's method has converged; `None`
     /// if it moved them by more than `most`.
     #[inline(always)]
-    fn arrive<S: Simd>(
+    fn arrive(
         &mut self,
-        simd: S,
         h: f64,
         time: f64,
         order: usize,
@@ -208,23 +199,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     ) -> Option<(f64, bool)> {
         self.advance(h, order);
         self.set_time(time);
-        let (mut moved, mut closed) = (0.0f64, false);
-        for round in 0..=MAX_CORRECTIONS {
-            let last = closed || round == MAX_CORRECTIONS;
-            if last && most.is_some_and(|most| moved.is_nan() || moved > most) {
-                return None;
-            }
-            if round == 0 || (last && moved > NEGLIGIBLE * plan.tolerance) {
-                self.linearize_here(simd, false);
-            }
-            let step = self.correct_here(usize::from(last));
-            if last {
-                break;
-            }
-            moved += step;
-            closed = step <= CONSISTENT * plan.length;
+        let Projected { moved, ending, .. } = project_positions(self, &rules::SERIES_POSITIONS, plan.length);
+        if most.is_some_and(|most| moved.is_nan() || moved > most) {
+            return None;
         }
-        Some((moved, closed))
+        if moved > NEGLIGIBLE * plan.tolerance {
+            self.linearize();
+        }
+        project_velocities(self, &rules::SERIES_VELOCITIES, plan.length);
+        Some((moved, ending == Ending::Consistent))
     }
 
     /// The largest terms of positions and velocities that a tolerance allows.
@@ -298,6 +281,10 @@ mod tests {
                     taken.h.to_bits(),
                     Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits()
                 );
+                for which in [Which::Linearize, Which::Correct(0), Which::Correct(1)] {
+                    let moved = Piece(&mut plain, which).with_simd(pulp::Scalar::new());
+                    assert_eq!(own.piece(which).to_bits(), moved.to_bits(), "{name}: {which:?}");
+                }
             }
             let mut other = y.clone();
             own.store(system, &mut y);

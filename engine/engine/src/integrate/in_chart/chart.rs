@@ -8,22 +8,10 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank;
 use triad_dynamics::constraints::tangent;
+use triad_dynamics::newton::{Projectable, Projected, project_positions, project_velocities, rules};
 use triad_dynamics::system::natural::NaturalCoordinates;
 use triad_linalg::independent_rows;
 
-/// Corrections of positions, in lengths of the mechanism, and of velocities, relative to the fastest, below which the state is
-/// consistent to rounding.
-const CONSISTENT: f64 = 1e-13;
-/// A correction below this part of the same sizes that no longer halves has stalled at rounding, and is accepted.
-const STALLED: f64 = 1e-9;
-/// Iterations after which a correction may count as stalled.
-const MIN_ITERATIONS: usize = 4;
-/// Most iterations for a position, and again for its velocity.
-const MAX_ITERATIONS: usize = 30;
-/// Iterations for each linearization of the constraints.
-const LINEARIZE_EVERY: usize = 4;
-/// A correction of more than so many lengths of the mechanism leads nowhere.
-const DIVERGED: f64 = 1e3;
 /// Iterations of one solution above which the chart is taken anew at the current state.
 const SLOW: usize = 9;
 /// Largest entry of Z above which other independent coordinates are chosen.
@@ -32,8 +20,6 @@ const ILL_CONDITIONED: f64 = 4.0;
 const DEPENDENT: f64 = 1e-9;
 /// Distance beyond a singular configuration at which the basis is taken instead, in lengths of the mechanism.
 const AHEAD: f64 = 1e-3;
-/// Corrections of the position at that distance.
-const AHEAD_CORRECTIONS: usize = 4;
 
 /// How the independent coordinates are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +62,11 @@ impl Guess {
     /// Whether searches have become slow: a new chart at the current state will be better.
     pub fn needs_refresh(&self) -> bool {
         self.iterations > SLOW
+    }
+
+    /// Remembers how many times a search went on.
+    fn note(&mut self, projected: Projected) {
+        self.iterations = self.iterations.max(projected.corrections.saturating_sub(1));
     }
 }
 
@@ -209,66 +200,73 @@ impl Chart {
         found
     }
 
+    /// Φ(q, t) = 0 with L (q − q₀) = η, from the last position and Z times the change of η — eq. (10.4).
     fn find_position(&self, mechanism: &mut Mechanism, t: f64, eta: &[f64], guess: &mut Guess) -> bool {
-        let Mechanism { system, state, elimination, .. } = mechanism;
-        let Guess { q, eta: known, gap, iterations, .. } = guess;
-        let scale = system.length.max(1.0);
+        let Mechanism { system, state, .. } = mechanism;
+        let Guess { q, eta: known, gap, .. } = guess;
         state.set_time(system, t);
         gap.copy_from_slice(eta);
         *gap -= &*known;
         q.gemv(1.0, &self.basis, gap, 1.0);
-        let mut last = f64::INFINITY;
-        for iteration in 0..MAX_ITERATIONS {
-            state.set_positions(system, q.as_slice());
-            if iteration % LINEARIZE_EVERY == 0 {
-                elimination.linearize(system, state);
-            }
-            let mut step = elimination.correct_positions(system, state, q.as_mut_slice());
-            gap.copy_from_slice(eta);
-            *gap -= &self.functionals * (&*q - &self.base);
-            q.gemv(1.0, &self.basis, gap, 1.0);
-            step += gap.amax();
-            *iterations = (*iterations).max(iteration);
-            if is_solved(step, last, iteration, scale) {
-                known.copy_from_slice(eta);
-                state.set_positions(system, q.as_slice());
-                return true;
-            }
-            if !step.is_finite() || step > DIVERGED * scale {
-                return false;
-            }
-            last = step;
+        state.set_positions(system, q.as_slice());
+        let size = system.length.max(1.0);
+        let mut on = AtCoordinates { chart: self, mechanism, guess, wanted: eta };
+        let projected = project_positions(&mut on, &rules::CHART_POSITIONS, size);
+        guess.note(projected);
+        if projected.has_converged() {
+            guess.eta.copy_from_slice(eta);
         }
-        false
+        projected.has_converged()
     }
 
+    /// Φ_q q̇ = ν with L q̇ = η̇ — eq. (10.4).
     fn find_velocity(&self, mechanism: &mut Mechanism, eta_dot: &[f64], guess: &mut Guess) -> bool {
-        let Mechanism { system, state, elimination, .. } = mechanism;
-        let Guess { q_dot, gap, iterations, .. } = guess;
-        let mut last = f64::INFINITY;
-        for iteration in 0..MAX_ITERATIONS {
-            gap.copy_from_slice(eta_dot);
-            gap.gemv(-1.0, &self.functionals, q_dot, 1.0);
-            q_dot.gemv(1.0, &self.basis, gap, 1.0);
-            state.set_velocities(system, q_dot.as_slice());
-            let step = elimination.correct_velocities(system, state, q_dot.as_mut_slice()) + gap.amax();
-            *iterations = (*iterations).max(iteration);
-            let scale = system.length.max(1.0).max(q_dot.amax());
-            if is_solved(step, last, iteration, scale) {
-                return true;
-            }
-            if !step.is_finite() {
-                return false;
-            }
-            last = step;
-        }
-        false
+        let mut on = AtCoordinates { chart: self, mechanism, guess, wanted: eta_dot };
+        let projected = project_velocities(&mut on, &rules::CHART_VELOCITIES, 1.0);
+        guess.note(projected);
+        projected.has_converged()
     }
 }
 
-/// Whether a correction leaves nothing to correct, or has stalled at rounding.
-fn is_solved(step: f64, last: f64, iteration: usize, scale: f64) -> bool {
-    step <= CONSISTENT * scale || (iteration > MIN_ITERATIONS && step > 0.5 * last && step < STALLED * scale)
+/// A guess that is moved onto the constraints and to given η, or η̇, in turn — eq. (10.4).
+struct AtCoordinates<'a> {
+    chart: &'a Chart,
+    mechanism: &'a mut Mechanism,
+    guess: &'a mut Guess,
+    /// η, or η̇.
+    wanted: &'a [f64],
+}
+
+impl Projectable for AtCoordinates<'_> {
+    fn linearize(&mut self) {
+        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
+        elimination.linearize(system, state);
+    }
+
+    /// q ← q + Δq, then q ← q + Z (η − L (q − q₀)); the sizes of both together.
+    fn correct_positions(&mut self) -> f64 {
+        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
+        let Guess { q, gap, .. } = &mut *self.guess;
+        let step = elimination.correct_positions(system, state, q.as_mut_slice());
+        gap.copy_from_slice(self.wanted);
+        *gap -= &self.chart.functionals * (&*q - &self.chart.base);
+        q.gemv(1.0, &self.chart.basis, gap, 1.0);
+        state.set_positions(system, q.as_slice());
+        step + gap.amax()
+    }
+
+    /// q̇ ← q̇ + Z (η̇ − L q̇), then q̇ ← q̇ + Δq̇, which the state has not taken over yet; the sizes of both together, relative to
+    /// the fastest.
+    fn correct_velocities(&mut self) -> f64 {
+        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
+        let Guess { q_dot, gap, .. } = &mut *self.guess;
+        gap.copy_from_slice(self.wanted);
+        gap.gemv(-1.0, &self.chart.functionals, q_dot, 1.0);
+        q_dot.gemv(1.0, &self.chart.basis, gap, 1.0);
+        state.set_velocities(system, q_dot.as_slice());
+        let step = elimination.correct_velocities(system, state, q_dot.as_mut_slice()) + gap.amax();
+        step / system.length.max(1.0).max(q_dot.amax())
+    }
 }
 
 /// Weights W of the coordinates: places are measured in lengths of the mechanism.
@@ -292,15 +290,12 @@ fn allowed_motions(mechanism: &mut Mechanism, t: f64, y: &[f64], f: usize) -> Op
         let speed = y[n..].iter().fold(0.0f64, |a, v| a.max(v.abs()));
         if speed > 0.0 {
             let step = AHEAD * mechanism.system.length / speed;
-            let mut ahead: Vec<f64> = y[..n].iter().zip(&y[n..]).map(|(q, v)| q + step * v).collect();
-            let Mechanism { system, state, elimination, .. } = mechanism;
-            for _ in 0..AHEAD_CORRECTIONS {
-                state.set_positions(system, &ahead);
-                elimination.linearize(system, state);
-                elimination.correct_positions(system, state, &mut ahead);
-            }
-            state.set_positions(system, &ahead);
-            twists = tangent::twists(system, state, elimination);
+            let mut ahead = y.to_vec();
+            ahead.iter_mut().zip(&y[n..]).for_each(|(q, v)| *q += step * v);
+            mechanism.state.set_positions(&mechanism.system, &ahead[..n]);
+            let length = mechanism.system.length;
+            project_positions(&mut mechanism.projectable(&mut ahead), &rules::AHEAD_POSITIONS, length);
+            twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
         }
     }
     if twists.ncols() != f {

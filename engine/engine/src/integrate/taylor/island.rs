@@ -69,7 +69,7 @@ impl IslandStepper {
         };
         series.keep_constants(skip.constants);
         series.place(system, t, y);
-        let redundant = (flat.is_some() || redundant) && series.find_dependent(system.length, redundant);
+        let redundant = (flat.is_some() || redundant) && series.find_dependent(system.length, redundant) > 0;
         if loops {
             series.enable_probes();
         }

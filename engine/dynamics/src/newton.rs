@@ -1,0 +1,155 @@
+//! Newton's method onto the constraints, along the smallest change in the sense of the masses — eq. (10.2): one loop for
+//! every use, over the scalar evaluation and over the series.
+
+pub mod rules;
+
+mod redundancy;
+
+pub use redundancy::{DEPENDENT, Movable, find_dependent_rows};
+pub use rules::{Linearize, StopRule};
+
+/// A state that can be moved onto its constraints, with the matrices that do it.
+pub trait Projectable {
+    /// Builds and factors S at the positions in place — eq. (7.6).
+    fn linearize(&mut self);
+
+    /// Moves the positions by the Δq of eq. (10.2), Φ_q Δq = −Φ, with the factor at hand. Returns the largest change of a
+    /// number, in the unit of the size that [`project_positions`] is given.
+    fn correct_positions(&mut self) -> f64;
+
+    /// Moves the velocities by the Δq̇ of eq. (10.2), Φ_q Δq̇ = −(Φ_q q̇ − ν), with the factor at hand. Returns the largest
+    /// change of a number, in the unit of the size that [`project_velocities`] is given.
+    fn correct_velocities(&mut self) -> f64;
+}
+
+/// How a projection ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The last correction was small enough.
+    Consistent,
+    /// Rounding keeps corrections from shrinking further.
+    Stalled,
+    /// All corrections that the rule allows were made.
+    Exhausted,
+    /// A correction was too large, or no number.
+    Diverged,
+}
+
+/// What a projection did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projected {
+    /// How it ended.
+    pub ending: Ending,
+    /// Corrections made.
+    pub corrections: usize,
+    /// The sum of their sizes.
+    pub moved: f64,
+}
+
+impl Projected {
+    /// Whether nothing is left to correct but rounding.
+    pub fn has_converged(&self) -> bool {
+        matches!(self.ending, Ending::Consistent | Ending::Stalled)
+    }
+}
+
+/// Moves the positions onto Φ(q, t) = 0 by repeated corrections (10.2), until one is small as `rule` says, relative to
+/// `size`: the length of the mechanism, m.
+#[inline]
+pub fn project_positions<P: Projectable>(on: &mut P, rule: &StopRule, size: f64) -> Projected {
+    repeat(on, rule, size, P::correct_positions)
+}
+
+/// Moves the velocities onto Φ_q q̇ = ν likewise. The problem is linear: corrections after the first take out what
+/// rounding, a regularized factor (7.7) or one from nearby positions have left.
+#[inline]
+pub fn project_velocities<P: Projectable>(on: &mut P, rule: &StopRule, size: f64) -> Projected {
+    repeat(on, rule, size, P::correct_velocities)
+}
+
+#[inline]
+fn repeat<P: Projectable>(
+    on: &mut P,
+    rule: &StopRule,
+    size: f64,
+    correct: impl Fn(&mut P) -> f64,
+) -> Projected {
+    let (mut moved, mut last) = (0.0, f64::INFINITY);
+    for corrections in 1..=rule.max_corrections {
+        if rule.linearize.is_due(corrections - 1) {
+            on.linearize();
+        }
+        let step = correct(on);
+        moved += step;
+        if let Some(ending) = rule.ending(corrections, step, last, size) {
+            return Projected { ending, corrections, moved };
+        }
+        last = step;
+    }
+    Projected { ending: Ending::Exhausted, corrections: rule.max_corrections, moved }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One unknown x with x² = 2, corrected by Newton's method with the slope where it was linearized.
+    struct Root {
+        x: f64,
+        slope: f64,
+        linearized: usize,
+    }
+
+    impl Projectable for Root {
+        fn linearize(&mut self) {
+            self.slope = 2.0 * self.x;
+            self.linearized += 1;
+        }
+        fn correct_positions(&mut self) -> f64 {
+            let step = (self.x * self.x - 2.0) / self.slope;
+            self.x -= step;
+            step.abs()
+        }
+        fn correct_velocities(&mut self) -> f64 {
+            f64::NAN
+        }
+    }
+
+    fn root(rule: &StopRule) -> (Root, Projected) {
+        let mut root = Root { x: 1.0, slope: 2.5, linearized: 0 };
+        let projected = project_positions(&mut root, rule, 1.0);
+        (root, projected)
+    }
+
+    const RULE: StopRule = StopRule {
+        linearize: Linearize::Every(1),
+        consistent: 1e-13,
+        patience: 0,
+        diverged: 10.0,
+        max_corrections: 40,
+    };
+
+    #[test]
+    fn it_stops_where_the_state_is_consistent() {
+        let (exact, projected) = root(&RULE);
+        assert_eq!((projected.ending, projected.corrections), (Ending::Consistent, 6));
+        assert!((exact.x - 2.0f64.sqrt()).abs() < 1e-15);
+        assert_eq!(exact.linearized, 6);
+        // With one slope convergence is linear.
+        let (same, projected) = root(&StopRule { linearize: Linearize::Never, ..RULE });
+        assert!(projected.has_converged() && projected.corrections > 10 && same.linearized == 0);
+        assert_eq!(root(&StopRule { linearize: Linearize::Once, ..RULE }).0.linearized, 1);
+    }
+
+    #[test]
+    fn it_stops_where_rounding_stalls_where_it_diverges_and_when_corrections_are_used_up() {
+        let stalled = StopRule { consistent: -1.0, ..RULE };
+        assert_eq!(root(&stalled).1.ending, Ending::Stalled);
+        assert_eq!(root(&StopRule { patience: 40, ..stalled }).1.corrections, 40);
+        assert_eq!(root(&StopRule { max_corrections: 2, ..RULE }).1.ending, Ending::Exhausted);
+        assert_eq!(root(&StopRule { diverged: 0.1, ..RULE }).1.ending, Ending::Diverged);
+        let mut none = Root { x: 1.0, slope: 1.0, linearized: 0 };
+        let projected = project_velocities(&mut none, &RULE, 1.0);
+        assert_eq!((projected.ending, projected.corrections), (Ending::Diverged, 1));
+    }
+}
