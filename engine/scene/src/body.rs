@@ -1,11 +1,9 @@
 //! Bodies as their author writes them.
 
-use crate::text::{UnknownWord, choice};
+use crate::text::words;
 use crate::{Orientation, Triple, is_default};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
 
 /// Which generalized coordinates describe a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -21,29 +19,7 @@ pub enum Coordinates {
     Shared,
 }
 
-impl fmt::Display for Coordinates {
-    /// As a scene writes it.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Full => "full",
-            Self::Reduced => "reduced",
-            Self::Shared => "shared",
-        })
-    }
-}
-
-impl FromStr for Coordinates {
-    type Err = UnknownWord;
-
-    /// ```
-    /// use triad_scene::Coordinates;
-    ///
-    /// assert_eq!("reduced".parse(), Ok(Coordinates::Reduced));
-    /// ```
-    fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        choice(word, [Self::Full, Self::Reduced, Self::Shared].into_iter())
-    }
-}
+words!(Coordinates { Full => "full", Reduced => "reduced", Shared => "shared" });
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

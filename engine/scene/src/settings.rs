@@ -1,10 +1,8 @@
 //! How to run a scene.
 
-use crate::text::{UnknownWord, choice};
+use crate::text::words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
 
 /// How to run a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -70,28 +68,7 @@ pub enum IntegratorKind {
     Trapezoidal,
 }
 
-impl IntegratorKind {
-    /// All but `auto`.
-    pub const ALL: [Self; 7] =
-        [Self::Taylor, Self::Dop853, Self::Dopri5, Self::Ode45, Self::Radau, Self::Rattle, Self::Trapezoidal];
-
-    /// What a scene writes for it.
-    const fn as_str(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Taylor => "taylor",
-            Self::Dop853 => "dop853",
-            Self::Dopri5 => "dopri5",
-            Self::Ode45 => "ode45",
-            Self::Radau => "radau",
-            Self::Rattle => "rattle",
-            Self::Trapezoidal => "trapezoidal",
-        }
-    }
-}
-
-impl fmt::Display for IntegratorKind {
-    /// As a scene writes it.
+words!(
     ///
     /// ```
     /// use triad_scene::IntegratorKind;
@@ -100,18 +77,17 @@ impl fmt::Display for IntegratorKind {
     /// assert_eq!("radau".parse(), Ok(IntegratorKind::Radau));
     /// assert!("euler".parse::<IntegratorKind>().is_err());
     /// ```
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
+    IntegratorKind {
+        Auto => "auto",
+        Taylor => "taylor",
+        Dop853 => "dop853",
+        Dopri5 => "dopri5",
+        Ode45 => "ode45",
+        Radau => "radau",
+        Rattle => "rattle",
+        Trapezoidal => "trapezoidal",
     }
-}
-
-impl FromStr for IntegratorKind {
-    type Err = UnknownWord;
-
-    fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        choice(word, [Self::Auto].into_iter().chain(Self::ALL))
-    }
-}
+);
 
 /// What keeps the constraints satisfied during a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -169,44 +145,21 @@ const fn augmented_alpha() -> f64 {
     1e9
 }
 
-impl ConstraintMethod {
-    /// All of them, each with its usual strength.
-    pub const ALL: [Self; 5] = [
-        Self::Projection,
-        Self::Baumgarte { alpha: 10.0, beta: 10.0 },
-        Self::Partitioning,
-        Self::Penalty { alpha: penalty_alpha(), omega: penalty_omega(), mu: penalty_mu() },
-        Self::AugmentedLagrangian { alpha: augmented_alpha() },
-    ];
-}
-
-impl fmt::Display for ConstraintMethod {
-    /// The `kind` that a scene writes, without its numbers.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Projection => "projection",
-            Self::Baumgarte { .. } => "baumgarte",
-            Self::Partitioning => "partitioning",
-            Self::Penalty { .. } => "penalty",
-            Self::AugmentedLagrangian { .. } => "augmented-lagrangian",
-        })
-    }
-}
-
-impl FromStr for ConstraintMethod {
-    type Err = UnknownWord;
-
-    /// The one of that `kind` with its usual strength.
+words!(
     ///
     /// ```
     /// use triad_scene::ConstraintMethod;
     ///
     /// assert_eq!("baumgarte".parse(), Ok(ConstraintMethod::Baumgarte { alpha: 10.0, beta: 10.0 }));
     /// ```
-    fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        choice(word, Self::ALL.into_iter())
+    ConstraintMethod {
+        Projection => "projection",
+        Baumgarte { alpha: 10.0, beta: 10.0 } => "baumgarte",
+        Partitioning => "partitioning",
+        Penalty { alpha: penalty_alpha(), omega: penalty_omega(), mu: penalty_mu() } => "penalty",
+        AugmentedLagrangian { alpha: augmented_alpha() } => "augmented-lagrangian",
     }
-}
+);
 
 /// What is left out because nothing depends on it. Every word is true unless it is switched off; then the run takes
 /// longer and gives the same motion. `triad run --explain` tells what each word saved.

@@ -18,6 +18,44 @@ pub(crate) fn choice<T: fmt::Display>(
     })
 }
 
+/// Gives a choice of a scene its words from one table: `ALL`, `Display` and `FromStr`. A variant that the table lacks does
+/// not compile; one with numbers stands there with its usual ones.
+macro_rules! words {
+    ($(#[$example:meta])* $choice:ident {
+        $($variant:ident $({ $($field:ident: $usual:expr),+ })? => $word:literal),+ $(,)?
+    }) => {
+        impl $choice {
+            /// All of them, where they have numbers with the usual ones.
+            $(#[$example])*
+            pub const ALL: [Self; [$($word),+].len()] =
+                [$(Self::$variant $({ $($field: $usual),+ })?),+];
+
+            /// What a scene writes for it.
+            const fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => $word,)+
+                }
+            }
+        }
+
+        impl std::fmt::Display for $choice {
+            /// As a scene writes it.
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.pad(self.as_str())
+            }
+        }
+
+        impl std::str::FromStr for $choice {
+            type Err = $crate::text::UnknownWord;
+
+            fn from_str(word: &str) -> Result<Self, Self::Err> {
+                $crate::text::choice(word, Self::ALL.into_iter())
+            }
+        }
+    };
+}
+pub(crate) use words;
+
 /// The candidate that differs from `name` in the fewest letters, if it is near.
 pub fn nearest_name<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     candidates

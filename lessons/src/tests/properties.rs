@@ -68,13 +68,6 @@ fn unit() -> impl Strategy<Value = (String, [i32; 3], f64)> {
 }
 
 proptest! {
-    // The same inputs every time: a test must not depend on luck.
-    #![proptest_config(ProptestConfig {
-        rng_seed: proptest::test_runner::RngSeed::Fixed(20_260_521),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
-
     #[test]
     fn nothing_that_is_typed_makes_a_reader_panic(text in typed()) {
         if let Ok((parsed, _)) = number::read(&text) {

@@ -116,7 +116,7 @@ impl BenchPlan {
     /// The whole sweep: all integrators, the other constraint methods with one of them, and the other kinds of bodies with the
     /// two best.
     pub fn full() -> Self {
-        use IntegratorKind::{Auto, Dop853, Taylor, Trapezoidal};
+        use IntegratorKind::{Dop853, Taylor, Trapezoidal};
         let pendulum =
             Truth::Angle { kappa: GRAVITY, start: -std::f64::consts::FRAC_PI_2, rate: 0.0, arm: 1.0 };
         // The augmented Lagrangian brings its own integrator along.
@@ -144,9 +144,8 @@ impl BenchPlan {
                 converged("spatial-chain:10", 2.0),
                 converged("spatial-chain:100", 2.0),
             ],
-            methods: [Auto]
+            methods: IntegratorKind::ALL
                 .into_iter()
-                .chain(IntegratorKind::ALL)
                 .map(method)
                 .chain(constraint_methods)
                 .chain(others)
