@@ -9,6 +9,8 @@ pub mod probe;
 pub mod program;
 pub mod random;
 pub mod reference;
+pub mod refusals;
+pub mod reviewed;
 
 pub mod lecture;
 

@@ -3,6 +3,7 @@
 mod golden_variants;
 mod kinds;
 mod properties;
+mod refusals;
 mod tasks;
 
 use std::collections::BTreeMap;
@@ -29,6 +30,14 @@ fn judged(lesson: &str, id: &str, answer: Answer) -> crate::QuestionVerdict {
         Submission { answers: BTreeMap::from([(id.to_owned(), answer)]), ..Submission::default() };
     let verdict = grade(course.lesson(lesson).unwrap(), &submission).unwrap();
     verdict.questions.into_iter().find(|q| q.id == id).unwrap()
+}
+
+/// A language that the list lacks does not compile here; one that `ALL` lacks fails.
+#[test]
+fn every_language_is_listed() {
+    use crate::tasks::starter::Language;
+    let languages = triad_tests::variants!(Language: Python, Octave, Julia);
+    assert_eq!(Language::ALL.map(|language| (languages.of)(&language)), languages.all);
 }
 
 #[test]
