@@ -9,7 +9,8 @@ import { chromium } from "playwright-core";
 
 const [visit, address, profile, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
-const PATIENCE = 90_000;
+// Ends a visit that hangs, and decides nothing else.
+const PATIENCE = 300_000;
 
 const context = await chromium.launchPersistentContext(profile, {
   executablePath: "/usr/bin/chromium",
@@ -50,6 +51,8 @@ async function until(what, read, good) {
   throw new Error(`${what}: still ${JSON.stringify(last)} after ${PATIENCE / 1000} s`);
 }
 
+// A blank or broken picture has fewer colours.
+const BLANK = 40;
 /** How many different colours a screenshot of the viewer has: a blank or broken picture has a handful. */
 async function colours(target) {
   const png = (await target.screenshot()).toString("base64");
@@ -99,8 +102,7 @@ async function first() {
 
   const viewer = page.locator("[data-viewer]");
   await viewer.locator("canvas").waitFor();
-  const blank = 40;
-  const drawn = await until("the viewer draws", () => colours(viewer), (count) => count > blank);
+  const drawn = await until("the viewer draws", () => colours(viewer), (count) => count > BLANK);
   say(`the viewer shows ${drawn} colours`);
   await picture("viewer");
 
@@ -166,8 +168,8 @@ async function later() {
   await picture("phone");
   assert(width <= 390, `the page is ${width} px wide on a screen of 390 px`);
   await page.goto(`${address}/scenes/heavy-top`);
-  await page.locator(".has-viewer").waitFor({ state: "attached", timeout: 120_000 });
-  await page.waitForTimeout(2_000);
+  await page.locator(".has-viewer").waitFor({ state: "attached" });
+  await until("the viewer draws", () => colours(page.locator("[data-viewer]")), (count) => count > BLANK);
   const place = await page.evaluate(() => [scrollY, document.activeElement?.tagName]);
   assert.deepEqual(place, [0, "BODY"], "the viewer starts below the text and takes neither the place nor the focus");
   say("the results are there after the restart");

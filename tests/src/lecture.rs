@@ -1,6 +1,6 @@
 //! Followers of a lecture on loopback sockets: what each receives, and when.
 
-use crate::program::Server;
+use crate::program::{HANG, Server};
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -31,7 +31,7 @@ impl FollowerPage {
     /// Joins a room.
     pub fn join(address: &str, code: &str, recording: bool) -> Self {
         let mut socket = TcpStream::connect(address).unwrap();
-        socket.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        socket.set_read_timeout(Some(HANG)).unwrap();
         write!(
             socket,
             "GET /api/v1/rooms/{code}/stream?recording={recording} HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\n\

@@ -1,4 +1,4 @@
-//! What the build is made of: one build for the program and its tests, one version of the viewer.
+//! What the build is made of: one build for the program and its tests, one version of the viewer, licences and sources.
 
 #![allow(clippy::unwrap_used)] // a test stops where something is missing
 
@@ -10,10 +10,14 @@ use triad_tests::root;
 /// Packages with their versions and features, as `cargo` builds them for the whole workspace.
 fn packages(edges: &str) -> BTreeSet<String> {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["tree", "--offline", "--workspace", "--edges", edges, "--prefix", "none", "--no-dedupe"]);
+    cargo.args(["tree", "--offline", "--workspace", "--edges", edges, "--prefix", "none"]);
     let output = cargo.args(["--format", "{p} {f}"]).current_dir(root()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+    String::from_utf8(output.stdout)
+        .unwrap()
+        .lines()
+        .map(|line| line.trim_end_matches(" (*)").to_owned())
+        .collect()
 }
 
 /// A feature that only a dev-dependency turns on would have the second command compile a crate, and all that use it, a
@@ -45,4 +49,69 @@ fn recordings_and_viewer_are_of_one_version() {
         }
     }
     assert!(seen > 20, "{seen} crates of the viewer's SDK");
+}
+
+/// Whether a licence expression allows a use under licences of which `allowed` holds.
+fn permits(expression: &str, allowed: &dyn Fn(&str) -> bool) -> bool {
+    let expression = expression.trim();
+    let inner = expression
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'))
+        .filter(|inner| !inner.contains('('));
+    let expression = inner.unwrap_or(expression).replace(") AND ", ")\u{0}").replace(" OR ", "/");
+    if let Some((left, right)) = expression.split_once('\u{0}') {
+        return permits(left, allowed) && permits(right, allowed);
+    }
+    let choices = || expression.split('/').map(str::trim);
+    choices().any(|choice| choice.split(" AND ").all(|one| allowed(one.trim())))
+}
+
+/// What `cargo verify deny` finds out with cargo-deny, without it: `deny.toml` says what may be used.
+#[test]
+fn packages_have_licences_and_sources_that_are_allowed() {
+    let rules: toml::Table = fs::read_to_string(root().join("deny.toml")).unwrap().parse().unwrap();
+    let words = |value: &toml::Value| -> Vec<String> {
+        value.as_array().unwrap().iter().map(|word| word.as_str().unwrap().to_owned()).collect()
+    };
+    let allow = words(&rules["licenses"]["allow"]);
+    let exceptions = rules["licenses"]["exceptions"].as_array().unwrap();
+    let registries = words(&rules["sources"]["allow-registry"]);
+    let mut cargo = Command::new(env!("CARGO"));
+    let output =
+        cargo.args(["metadata", "--offline", "--format-version", "1"]).current_dir(root()).output().unwrap();
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let mut wrong = Vec::new();
+    let packages = all["packages"].as_array().unwrap();
+    assert!(packages.len() > 100);
+    for package in packages {
+        let (name, source) = (package["name"].as_str().unwrap(), package["source"].as_str());
+        let also = exceptions.iter().filter(|rule| rule["crate"].as_str() == Some(name));
+        let also: Vec<String> = also.flat_map(|rule| words(&rule["allow"])).collect();
+        let licence = package["license"].as_str().unwrap_or("none");
+        if !permits(licence, &|one| allow.iter().chain(&also).any(|allowed| allowed == one)) {
+            wrong.push(format!("{name}: {licence}"));
+        }
+        let known = |source: &str| registries.iter().any(|registry| source == format!("registry+{registry}"));
+        wrong.extend(source.filter(|source| !known(source)).map(|source| format!("{name}: {source}")));
+    }
+    assert!(wrong.is_empty(), "deny.toml does not allow {wrong:#?}");
+}
+
+#[test]
+fn licence_expressions_are_read() {
+    let allowed = |one: &str| ["MIT", "Unicode-3.0"].contains(&one);
+    for good in [
+        "MIT",
+        "GPL-3.0 OR MIT",
+        "Apache-2.0/MIT",
+        "(MIT OR Apache-2.0) AND Unicode-3.0",
+        "MIT AND Unicode-3.0",
+    ] {
+        assert!(permits(good, &allowed), "{good}");
+    }
+    for bad in
+        ["GPL-3.0", "MIT AND GPL-3.0", "(MIT OR Apache-2.0) AND GPL-3.0", "none", "BSD-3-Clause OR GPL-3.0"]
+    {
+        assert!(!permits(bad, &allowed), "{bad}");
+    }
 }

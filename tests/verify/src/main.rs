@@ -1,9 +1,10 @@
 //! `cargo verify`: everything that must hold before a change is taken, step by step, with the time of each.
 //!
-//! `cargo verify setup` alone installs what the tests need and the machine lacks; no test installs anything itself. All
-//! steps build in the release profile, so that build scripts and macros are compiled once. A step that fails does not stop
+//! `cargo verify setup` alone installs what the tests need and the machine lacks; no test installs anything itself. Steps
+//! that need the network are done only where they are named: `cargo verify deny peers`, before a release. All steps build in the release profile, so that build scripts and macros are compiled once. A step that fails does not stop
 //! those after it, but the program ends with a failure.
 
+mod deny;
 mod setup;
 
 use std::ffi::OsStr;
@@ -16,30 +17,39 @@ struct Step {
     name: &'static str,
     purpose: &'static str,
     run: fn(&Path) -> Result<(), String>,
+    /// Whether it is done only where it is named: it needs the network, and programs or packages that nothing else needs.
+    named: bool,
 }
 
-const STEPS: [Step; 6] = [
-    Step {
-        name: "setup",
-        purpose: "install what the tests need: Chromium, Octave, npm packages",
-        run: setup::run,
-    },
-    Step { name: "format", purpose: "cargo fmt", run: |root| cargo(root, "fmt --all --check") },
-    Step {
-        name: "test",
-        purpose: "all tests of all crates",
-        run: |root| cargo(root, "test --release --workspace"),
-    },
-    Step {
-        name: "lint",
-        purpose: "clippy on all targets, the fuzz targets included, without warnings",
-        run: |root| {
-            let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
-            cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))
-        },
-    },
-    Step { name: "doc", purpose: "cargo doc, without warnings", run: documentation },
-    Step { name: "page", purpose: "types, lints and tests of the web page", run: page },
+impl Step {
+    const fn new(name: &'static str, purpose: &'static str, run: fn(&Path) -> Result<(), String>) -> Self {
+        Self { name, purpose, run, named: false }
+    }
+
+    const fn if_named(self) -> Self {
+        Self { named: true, ..self }
+    }
+}
+
+const STEPS: [Step; 8] = [
+    Step::new("setup", "install what the tests need: Chromium, Octave, npm packages", setup::run),
+    Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
+    Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
+    Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
+        let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
+        cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))
+    }),
+    Step::new("doc", "cargo doc, without warnings", documentation),
+    Step::new("page", "types, lints and tests of the web page", page),
+    Step::new("deny", "licences, sources and known weaknesses of all packages, by cargo-deny", deny::run)
+        .if_named(),
+    Step::new("peers", "the comparison with a sparse library compiles", |root| {
+        cargo(
+            root,
+            "check --release --quiet --manifest-path tests/peers/sparse/Cargo.toml --target-dir target/peers",
+        )
+    })
+    .if_named(),
 ];
 
 fn documentation(root: &Path) -> Result<(), String> {
@@ -107,15 +117,15 @@ fn main() -> ExitCode {
         if !help {
             eprintln!("verify: there is no step \"{unknown}\"");
         }
-        println!("cargo verify [STEP…]: without a step, all of them in this order");
+        println!("cargo verify [STEP…]: without a step, all but those with a star, in this order");
         for step in &STEPS {
-            println!("  {:<8} {}", step.name, step.purpose);
+            println!("{} {:<8} {}", if step.named { '*' } else { ' ' }, step.name, step.purpose);
         }
         return if help { ExitCode::SUCCESS } else { ExitCode::from(2) };
     }
     let chosen: Vec<&Step> = STEPS
         .iter()
-        .filter(|step| wanted.is_empty() || wanted.iter().any(|name| name == step.name))
+        .filter(|step| (wanted.is_empty() && !step.named) || wanted.iter().any(|name| name == step.name))
         .collect();
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     if all_pass(&chosen, &root) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -127,8 +137,8 @@ mod tests {
 
     #[test]
     fn one_failing_step_fails_the_whole() {
-        let good = Step { name: "good", purpose: "", run: |_| Ok(()) };
-        let bad = Step { name: "bad", purpose: "", run: |_| must(&mut Command::new("false")) };
+        let good = Step::new("good", "", |_| Ok(()));
+        let bad = Step::new("bad", "", |_| must(&mut Command::new("false")));
         let root = Path::new(".");
         assert!(all_pass(&[&good, &good], root));
         assert!(!all_pass(&[&bad, &good], root));
