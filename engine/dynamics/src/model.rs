@@ -81,14 +81,7 @@ impl Model {
         }
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
-        let mut joints = Vec::with_capacity(scene.joints.len());
-        for (index, written) in scene.joints.iter().enumerate() {
-            unique_name(&mut row_names, "joints", index, &written.name)?;
-            let (list, name) = ("joints", written.name.as_str());
-            let reader = ModelReader { list, index, name, names: &names, bodies: &bodies, joints: &joints };
-            let joint = ModelJoint::new(written, &reader, &mut notes)?;
-            joints.push(joint);
-        }
+        let joints = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
         let reader = |list, index, name| ModelReader {
             list,
             index,
@@ -128,6 +121,27 @@ impl Model {
             notes,
         })
     }
+}
+
+/// The joints of a scene. A gear refers to joints that stand before it.
+fn read_joints(
+    scene: &Scene,
+    names: &HashMap<String, usize>,
+    bodies: &[ModelBody],
+    row_names: &mut HashMap<String, usize>,
+    notes: &mut Vec<String>,
+) -> Result<Vec<ModelJoint>, ModelError> {
+    let mut joints = Vec::with_capacity(scene.joints.len());
+    for (index, written) in scene.joints.iter().enumerate() {
+        unique_name(row_names, "joints", index, &written.name)?;
+        let (list, name) = ("joints", written.name.as_str());
+        let joint = {
+            let reader = ModelReader { list, index, name, names, bodies, joints: &joints };
+            ModelJoint::new(written, &reader, notes)?
+        };
+        joints.push(joint);
+    }
+    Ok(joints)
 }
 
 fn unique_name(

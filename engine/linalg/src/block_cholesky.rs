@@ -35,7 +35,7 @@ struct Pivot {
     diagonal: usize,
     beside: Range<usize>,
     updates: Range<usize>,
-    /// How many of its rows are left out, whichever they are.
+    /// How many of its rows are left out: those with the smallest pivots.
     left_out: usize,
 }
 
@@ -72,21 +72,21 @@ pub struct BlockCholesky {
     updates: Vec<Update>,
     /// Place of each block in the elimination order.
     rank: Vec<usize>,
-    /// S, used up by the factorization.
+    /// The entries of S; the factorization overwrites them.
     values: Vec<f64>,
     /// D⁻¹ on the diagonal, blocks of U beside it.
     factors: Vec<f64>,
     /// Diagonal of S before the factorization, or infinite for rows that are left out.
     diagonal: Vec<f64>,
-    /// Where that diagonal stands, by scalar row.
+    /// Place of each diagonal entry in `values`, by scalar row.
     diagonal_at: Vec<usize>,
     /// Pivots of the last factorization relative to that diagonal, by scalar row; infinite for rows that were left out.
     relative: Vec<f64>,
-    /// A diagonal block, where rows that depend on others are looked for.
+    /// A copy of a diagonal block, in which dependent rows are searched for.
     scratch: Vec<f64>,
     /// Scalar rows that are left out.
     rows_left_out: Vec<usize>,
-    /// Products of the relative pivots of each block, if they are wanted.
+    /// Products of the relative pivots of each block, if they are kept.
     pivot_products: Option<Vec<f64>>,
 }
 
@@ -236,7 +236,7 @@ impl BlockCholesky {
     }
 
     /// The scalar rows that depend on others, in ascending order: those whose pivots are at most the part `least` of their
-    /// diagonal entries. Each is dropped for those after it. S is used up, and the factor is none to solve with.
+    /// diagonal entries. Each of them is left out while those after it are judged. S is overwritten, and the factor cannot be used to solve.
     pub fn dependent_rows(&mut self, least: f64) -> Vec<usize> {
         self.factor(0.0, least);
         let rows = self.relative.iter().enumerate();
@@ -245,20 +245,21 @@ impl BlockCholesky {
 
     /// From now on leaves these scalar rows, in ascending order, out of factorizations without regularization: they depend on
     /// others at every state. Pivot products are without them in any case, and comparable along a run.
-    pub fn leave_out(&mut self, rows: &[usize]) {
-        self.rows_left_out = rows.to_vec();
+    pub fn leave_out(&mut self, rows: impl IntoIterator<Item = usize>) {
+        self.rows_left_out = rows.into_iter().collect();
     }
 
-    /// The same for as many rows of each block, whichever say least beside the others of their block at the state at hand:
-    /// what is solved then has the least rounding.
-    pub fn leave_out_weakest(&mut self, rows: &[usize]) {
+    /// Leaves out as many rows of each block, but chooses in each factorization those with the smallest pivots beside the
+    /// others of their block: the solution then has the least rounding.
+    pub fn leave_out_weakest(&mut self, rows: impl IntoIterator<Item = usize>) {
+        let rows: Vec<usize> = rows.into_iter().collect();
         let before = |row: usize| rows.partition_point(|&left_out| left_out < row);
         for pivot in &mut self.pivots {
             pivot.left_out = before(pivot.start + pivot.size) - before(pivot.start);
         }
     }
 
-    /// From now on keeps the products of the pivots.
+    /// From now on each factorization keeps its pivot products.
     pub fn keep_pivot_products(&mut self) {
         self.pivot_products = Some(vec![1.0; self.pivots.len()]);
     }
@@ -359,9 +360,9 @@ mod tests {
         for weakest in [false, true] {
             let mut factor = factor.clone();
             if weakest {
-                factor.leave_out_weakest(&dependent);
+                factor.leave_out_weakest(dependent.iter().copied());
             } else {
-                factor.leave_out(&dependent);
+                factor.leave_out(dependent.iter().copied());
             }
             fill(&mut factor);
             assert!(factor.factor(0.0, 0.0) > 1e-3);

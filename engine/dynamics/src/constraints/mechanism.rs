@@ -15,11 +15,13 @@ use crate::system::index::ConstraintId;
 const NEGLIGIBLE: f64 = 0.1;
 /// |Φ| of each row relative to its size below which a start is assembled.
 const CLOSED: f64 = 1e-9;
-/// Corrections of the velocities of a start have failed if they leave more than these parts of the largest rate that was to
-/// be made up for, and of the fastest turning body.
+/// |Φ̇| of a row, relative to its size, that the correction of the velocities of a start may leave, as a part of the largest one
+/// before it.
 const MAX_RATE_LEFT: f64 = 1e-6;
+/// The same as a part of the angular velocity of the fastest body, where rounding does not let it become smaller.
 const RATE_ROUNDING: f64 = 1e-9;
-/// Rates that are left at the end of a step, 1/s, for each part of the tolerance, are none.
+/// |Φ̇| of a row, relative to its size, below which the velocities at the end of a step satisfy the constraints, 1/s for each
+/// unit of the tolerance.
 const RATE_TOLERANCE: f64 = 1e3;
 /// A start that must be moved by more than this part of the mechanism's size is not corrected but refused.
 const MAX_MOVE: f64 = 0.35;
@@ -29,7 +31,7 @@ const MAX_MOVE: f64 = 0.35;
 pub struct Mechanism {
     /// What never changes.
     pub system: System,
-    /// The state that was taken over last.
+    /// The state that was set last.
     pub state: State,
     /// The solver.
     pub elimination: Elimination,
@@ -43,7 +45,7 @@ impl Mechanism {
         Self { state: State::new(&system), elimination: Elimination::new(&system), system, projections: 0 }
     }
 
-    /// Takes over t and y = (q, q̇) without evaluating anything else.
+    /// Sets t and y = (q, q̇) without evaluating anything else.
     pub fn set_state(&mut self, t: f64, y: &[f64]) {
         let (q, q_dot) = y.split_at(self.system.coordinates);
         self.state.set(&self.system, t, q, q_dot);
@@ -72,7 +74,7 @@ impl Mechanism {
         {
             return Ok(());
         }
-        // What a projection leaves of the rates, no velocities satisfy.
+        // What remains after a projection cannot be removed by any choice of velocities.
         let most = RATE_TOLERANCE * settings.tolerance + MAX_RATE_LEFT * state::fastest(&self.system, y);
         if violation::largest_rate(&self.system, &self.state) <= most {
             return Ok(());
@@ -88,38 +90,57 @@ impl Mechanism {
 
     /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.
     pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
-        let n = self.system.coordinates;
-        let length = self.system.length;
-        let mut notes = Vec::new();
         let given = y.to_vec();
         self.set_state(t, y);
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
+        let positions = self.assemble_positions(t, &given, y)?;
+        let velocities = self.assemble_velocities(t, &given, y)?;
+        self.elimination.set_redundant(was_redundant);
+        Ok(positions.into_iter().chain(velocities).collect())
+    }
+
+    /// Moves the positions of the state in place onto the constraints, and says so if it had to.
+    fn assemble_positions(
+        &mut self,
+        t: f64,
+        given: &[f64],
+        y: &mut [f64],
+    ) -> Result<Option<String>, ConstraintError> {
+        let (n, length) = (self.system.coordinates, self.system.length);
         let violated = self.state.position_violation(&self.system);
-        // Differences of large numbers are never smaller than these are exact.
-        let rounding = |x: &[f64]| 2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
         if violated > CONSISTENT * length + rounding(&given[..n]) {
             project_positions(&mut self.projectable(y), &rules::ASSEMBLY_POSITIONS, length);
         }
         let left = violation::measure(&self.system, &self.state).relative;
-        let moved = given[..n].iter().zip(&*y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+        let moved = largest_difference(&given[..n], y);
         // A comparison that is false for NaN as well.
         let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
         if !solved {
-            return Err(self.assembly_error(t, &given, y, moved));
+            return Err(self.assembly_error(t, given, y, moved));
         }
         let limit = MAX_MOVE * length.max(1.0);
         if moved > limit {
-            self.set_state(t, &given);
+            self.set_state(t, given);
             let violated = violation::measure(&self.system, &self.state);
             let (joint, pointer) = (violated.names(&self.system).0, violated.pointer(&self.system));
             return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
         }
-        if violated > 1e-9 * length {
-            notes.push(format!(
+        Ok((violated > 1e-9 * length).then(|| {
+            format!(
                 "positions violated the constraints by {violated:.3e}; bodies were moved by up to {moved:.3e} onto them"
-            ));
-        }
+            )
+        }))
+    }
+
+    /// Moves the velocities onto the constraints, with the positions in place, and says so if it had to.
+    fn assemble_velocities(
+        &mut self,
+        t: f64,
+        given: &[f64],
+        y: &mut [f64],
+    ) -> Result<Option<String>, ConstraintError> {
+        let (n, length) = (self.system.coordinates, self.system.length);
         self.state.set_velocities(&self.system, &y[n..]);
         let rate = self.state.velocity_violation(&self.system);
         if rate > CONSISTENT * length + rounding(&given[n..]) {
@@ -127,14 +148,12 @@ impl Mechanism {
             project_velocities(&mut self.projectable(y), &rules::ASSEMBLY_VELOCITIES, length);
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
-        let changed = given[n..].iter().zip(&y[n..]).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
-        if rate > 1e-9 * length {
-            notes.push(format!(
+        let changed = largest_difference(&given[n..], &y[n..]);
+        Ok((rate > 1e-9 * length).then(|| {
+            format!(
                 "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
-            ));
-        }
-        self.elimination.set_redundant(was_redundant);
-        Ok(notes)
+            )
+        }))
     }
 
     /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
@@ -179,6 +198,15 @@ impl Mechanism {
             _ => (0.0, 0.0),
         }
     }
+}
+
+/// What rounding makes of differences of these numbers: differences of large numbers are no more exact than the numbers.
+fn rounding(x: &[f64]) -> f64 {
+    2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()))
+}
+
+fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()))
 }
 
 impl OdeSystem for Mechanism {

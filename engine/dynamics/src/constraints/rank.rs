@@ -8,6 +8,7 @@ use crate::dynamics::elimination::{Elimination, ProjectableState};
 use crate::newton::{DEPENDENT, find_dependent_rows};
 use crate::state::State;
 use crate::system::System;
+use crate::system::index::SolverRow;
 use crate::system::islands;
 
 /// What the pivots say.
@@ -18,7 +19,7 @@ pub struct Rank {
     /// The same exactly at the start: less where that is a singular position.
     pub at_start: usize,
     /// The solver rows that depend on others.
-    pub dependent: Vec<usize>,
+    pub dependent: Vec<SolverRow>,
 }
 
 /// Finds the rank near the consistent position q; `state` and `elimination` are left elsewhere.
@@ -50,7 +51,10 @@ pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
     let by_mass = || bodies.iter().zip(&model.bodies).map(|(body, named)| (body.mass, named.name.clone()));
     let light = by_mass().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     let heavy = by_mass().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
-    let joint = constraints.iter().position(|constraint| constraint.solver.contains(row)).unwrap_or_default();
+    let joint = constraints
+        .iter()
+        .position(|constraint| constraint.solver.contains(&row.index()))
+        .unwrap_or_default();
     Err(ConstraintError::MassesTooDifferent {
         joint: constraints[joint].name.clone(),
         pointer: format!("/joints/{joint}"),

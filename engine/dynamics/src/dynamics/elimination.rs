@@ -20,7 +20,7 @@ use crate::dynamics::blocks::{BlockProduct, SchurLayout};
 use crate::model::CustomLoadError;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
-use crate::system::index::{ConstraintId, IncidenceId};
+use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
@@ -120,9 +120,9 @@ impl Elimination {
     }
 
     /// Says which solver rows depend on others at every state, so that S is singular there.
-    pub fn set_dependent(&mut self, rows: &[usize]) {
+    pub fn set_dependent(&mut self, rows: &[SolverRow]) {
         self.redundant = !rows.is_empty();
-        self.factor.leave_out(rows);
+        self.factor.leave_out(rows.iter().map(|row| row.index()));
     }
 
     /// The pivot products of the joints at the positions that were factored last: see [`BlockCholesky::pivot_products`].

@@ -57,6 +57,7 @@ pub const MIN_TOLERANCE_REDUNDANT: f64 = 1e-11;
 
 /// The series of all bodies and multipliers, and the state that they are expanded about.
 #[derive(Clone, Debug)]
+#[allow(clippy::struct_excessive_bools, reason = "independent properties of the factorization")]
 struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     /// Coefficients kept for each body: order plus one.
     stride: usize,
@@ -64,22 +65,25 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     slots: Vec<FeatureSlot<L>>,
     /// Position and velocity at the point of expansion, bundle by bundle.
     state: Vec<[B::Natural; 2]>,
-    /// Coefficients of Q and of the directors' forces p, `stride` for each bundle.
+    /// Coefficients of Q, `stride` for each bundle.
     q: Vec<B::Natural>,
+    /// Coefficients of the directors' forces p, likewise.
     p: Vec<B::Directors>,
     /// C⁻¹ s̃ of all features.
     mobility: Vec<B::Mobility>,
-    /// Values of features (or their rates, or second derivatives) and generalized forces on them. Those of the ground
-    /// stand behind those of bodies.
+    /// Values of features (or their rates, or second derivatives), those of the ground behind those of bodies.
     values: Vec<LaneVector<L>>,
+    /// Generalized forces on features, in the same order.
     forces: Vec<LaneVector<L>>,
+    /// Constant values of the ground's features.
     ground: Vec<LaneVector<L>>,
     rows: Rows<L>,
     angles: Angles,
     prescribed: Prescribed,
     loads: Loads,
-    /// Time of the state, and of the next break in a prescribed function, s.
+    /// Time of the state, s.
     time: f64,
+    /// Time of the next breakpoint of a prescribed function, s.
     next_break: f64,
     /// Coefficients of the power of drivers and of loads without potential, if there are any.
     power: Vec<f64>,

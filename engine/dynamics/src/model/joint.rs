@@ -60,6 +60,64 @@ pub enum JointGeometry {
     },
 }
 
+impl JointGeometry {
+    /// Whether its axis is the normal of the plane in which one body moves relative to the other.
+    pub fn has_plane_normal(&self) -> bool {
+        match self {
+            Self::Revolute { .. } | Self::Planar => true,
+            Self::Spherical
+            | Self::Universal
+            | Self::Cylindrical
+            | Self::Prismatic
+            | Self::Screw { .. }
+            | Self::Fixed
+            | Self::Rod { .. }
+            | Self::PointOnLine
+            | Self::PointInPlane
+            | Self::Gear { .. } => false,
+        }
+    }
+
+    /// Whether it makes one rigid body of its two bodies.
+    pub fn is_rigid(&self) -> bool {
+        match self {
+            Self::Fixed => true,
+            Self::Spherical
+            | Self::Revolute { .. }
+            | Self::Universal
+            | Self::Cylindrical
+            | Self::Prismatic
+            | Self::Planar
+            | Self::Screw { .. }
+            | Self::Rod { .. }
+            | Self::PointOnLine
+            | Self::PointInPlane
+            | Self::Gear { .. } => false,
+        }
+    }
+
+    /// Whether its two bodies share the coordinates of the director along its axis.
+    pub fn shares_director(&self) -> bool {
+        match self {
+            Self::Revolute { rows } => match rows {
+                AxisRows::Shared => true,
+                AxisRows::TwoCar | AxisRows::Cv => false,
+            },
+            Self::Spherical
+            | Self::Universal
+            | Self::Cylindrical
+            | Self::Prismatic
+            | Self::Planar
+            | Self::Screw { .. }
+            | Self::Fixed
+            | Self::Rod { .. }
+            | Self::PointOnLine
+            | Self::PointInPlane
+            | Self::Gear { .. } => false,
+        }
+    }
+}
+
 /// A checked joint. Ground points and vectors are in the world frame, others in the principal frame of the body.
 #[derive(Clone, Debug)]
 pub struct ModelJoint {

@@ -4,6 +4,7 @@
 //! pivots as well. Therefore the pivots are taken at a consistent position a little away from the given one.
 
 use super::{Projectable, project_positions, project_velocities, rules};
+use crate::system::index::SolverRow;
 
 /// Relative pivot of S below which a row depends on others — eq. (8.1).
 pub const DEPENDENT: f64 = 1e-10;
@@ -22,12 +23,12 @@ pub trait Movable: Projectable {
 
     /// The solver rows, in ascending order, that depend on those before them at the positions in place: with pivots of S of
     /// at most the part `least` of its diagonal. The factor is none to solve with.
-    fn dependent_rows(&mut self, least: f64) -> Vec<usize>;
+    fn dependent_rows(&mut self, least: f64) -> Vec<SolverRow>;
 }
 
 /// The solver rows that depend on others everywhere: rank A in (8.1) is the number of the other rows. Leaves the state
 /// elsewhere.
-pub fn find_dependent_rows(on: &mut impl Movable, length: f64) -> Vec<usize> {
+pub fn find_dependent_rows(on: &mut impl Movable, length: f64) -> Vec<SolverRow> {
     let mut start = Vec::new();
     on.for_each(|x, _| start.push(*x));
     if !move_away(on, length) {

@@ -101,7 +101,7 @@ fn tied_to_ground(model: &Model) -> Vec<bool> {
     let mut changed = true;
     while changed {
         changed = false;
-        for joint in model.joints.iter().filter(|joint| joint.geometry == JointGeometry::Fixed) {
+        for joint in model.joints.iter().filter(|joint| joint.geometry.is_rigid()) {
             let tied = |grounded: &[bool], body: BodyRef| match body {
                 BodyRef::Ground => true,
                 BodyRef::Moving(body) => grounded[body],

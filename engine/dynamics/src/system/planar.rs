@@ -65,10 +65,8 @@ pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
         };
         place.arm(&joint.axes[side])
     };
-    let has_normal = |joint: &&ModelJoint| {
-        matches!(joint.geometry, JointGeometry::Revolute { .. } | JointGeometry::Planar)
-    };
-    let normal = system.model.joints.iter().find(has_normal).map(axis).ok_or(Spatial::NoNormal)?;
+    let with_normal = system.model.joints.iter().find(|joint| joint.geometry.has_plane_normal());
+    let normal = with_normal.map(axis).ok_or(Spatial::NoNormal)?;
     let plane = Plane { frame: frame(&normal.normalize()) };
     let normal = plane.frame.column(2).into_owned();
     let keeps_plane = |joint: &ModelJoint| match joint.geometry {

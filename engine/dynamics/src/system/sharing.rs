@@ -4,8 +4,7 @@
 //! rows of the common vector vanish and the mass matrix couples the bodies. A director joined to the ground becomes a
 //! constant. Directors that are shared in turn all follow the first body that has them.
 
-use crate::model::{BodyRef, JointGeometry, Model, ModelJoint, director_along};
-use crate::scene::AxisRows;
+use crate::model::{BodyRef, Model, ModelJoint, director_along};
 use crate::system::natural::{Director, Layout};
 use nalgebra::Vector3;
 
@@ -24,7 +23,7 @@ enum Root {
 pub fn layouts(model: &Model) -> Vec<Layout> {
     let mut roots = vec![[Root::Own; 3]; model.bodies.len()];
     for joint in &model.joints {
-        if joint.geometry == (JointGeometry::Revolute { rows: AxisRows::Shared }) {
+        if joint.geometry.shares_director() {
             share(&mut roots, joint);
         }
     }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::model::Model;
 use triad_dynamics::system::System;
-use triad_dynamics::system::index::{ConstraintId, EquationId, RowId};
+use triad_dynamics::system::index::{ConstraintId, EquationId, RowId, SolverRow};
 
 /// Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -60,7 +60,7 @@ pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
         for id in system[constraint].row_ids().filter(|&id| !system[id].implied) {
             let row = &system[id];
             let dropped = (row.solver..row.solver + row.form.independent())
-                .filter(|solver| rank.dependent.contains(solver))
+                .filter(|&solver| rank.dependent.contains(&SolverRow(solver)))
                 .count();
             // Three equations of a common vector hold two directions: one of them always depends on the others.
             let dependent = dropped + row.form.equations() - row.form.independent();

@@ -48,7 +48,7 @@ impl WithSimd for Solve<'_> {
 }
 
 impl BlockCholesky {
-    /// Factors S + ε diag(S), or without ε the rows of S that do not depend on others; S is used up. Returns the smallest
+    /// Factors S + ε diag(S), or without ε the rows of S that do not depend on others; S is overwritten. Returns the smallest
     /// pivot relative to the diagonal entry of S it came from.
     ///
     /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops

@@ -3,8 +3,7 @@
 
 use super::stride;
 
-/// Marks in the diagonal of S, as infinite, so many rows of a symmetric block as say least beside the others: the last
-/// ones of an elimination whose pivots are the largest, relative to that diagonal. The block is used up.
+/// Marks in the diagonal of S, as infinite, so many rows of a symmetric block X/// ones of an elimination whose pivots are the largest, relative to that diagonal. The block is used up.
 pub fn leave_out(count: usize, block: &mut [f64], reference: &mut [f64]) {
     let n = reference.len();
     for _ in count..n {

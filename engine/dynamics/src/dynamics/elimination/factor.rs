@@ -3,6 +3,7 @@
 use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
 use crate::state::State;
 use crate::system::System;
+use crate::system::index::SolverRow;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
 use triad_linalg::block_cholesky::stride;
@@ -26,10 +27,10 @@ impl Elimination {
 
     /// The solver rows that depend on others at the positions of a state, by the pivots of S below the part `least` of its
     /// diagonal — eq. (8.1). The factor is none to solve with.
-    pub fn dependent_rows(&mut self, system: &System, state: &State, least: f64) -> Vec<usize> {
+    pub fn dependent_rows(&mut self, system: &System, state: &State, least: f64) -> Vec<SolverRow> {
         self.set_up(system, state);
         self.assemble(system);
-        self.factor.dependent_rows(least)
+        self.factor.dependent_rows(least).into_iter().map(SolverRow).collect()
     }
 
     /// From now on each factorization keeps its pivot products.

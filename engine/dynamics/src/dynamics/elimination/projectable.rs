@@ -4,6 +4,7 @@ use super::Elimination;
 use crate::newton::{Movable, Projectable};
 use crate::state::State;
 use crate::system::System;
+use crate::system::index::SolverRow;
 
 /// A state with its numbers, and the evaluation that corrects them. The numbers must be in place in the state.
 #[derive(Debug)]
@@ -46,7 +47,8 @@ impl Movable for ProjectableState<'_> {
         self.state.set_positions(self.system, self.q);
         self.state.set_velocities(self.system, self.q_dot);
     }
-    fn dependent_rows(&mut self, least: f64) -> Vec<usize> {
+
+    fn dependent_rows(&mut self, least: f64) -> Vec<SolverRow> {
         self.elimination.dependent_rows(self.system, self.state, least)
     }
 }

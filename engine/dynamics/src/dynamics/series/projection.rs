@@ -1,21 +1,22 @@
 //! Corrections of the state at the end of a step, onto the constraints — eq. (10.2).
 
 use super::lanes::{largest, sum};
-use super::step::Which;
+use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::{Movable, Projectable, find_dependent_rows};
+use crate::system::index::SolverRow;
 
 impl<const L: usize, B: Bodies<L>> Projectable for Series<L, B> {
     fn linearize(&mut self) {
-        self.piece(Which::Linearize);
+        self.call(Part::Linearize);
     }
 
     fn correct_positions(&mut self) -> f64 {
-        self.piece(Which::Correct(0))
+        self.call(Part::Correct(0))
     }
 
     fn correct_velocities(&mut self) -> f64 {
-        self.piece(Which::Correct(1))
+        self.call(Part::Correct(1))
     }
 }
 
@@ -29,14 +30,15 @@ impl<const L: usize, B: Bodies<L>> Movable for Series<L, B> {
         }
     }
 
-    fn dependent_rows(&mut self, least: f64) -> Vec<usize> {
-        self.piece(Which::Assemble);
-        self.schur.factor.dependent_rows(least)
+    fn dependent_rows(&mut self, least: f64) -> Vec<SolverRow> {
+        self.call(Part::Assemble);
+        self.schur.factor.dependent_rows(least).into_iter().map(SolverRow).collect()
     }
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
-    /// One mass-orthogonal Newton step of the positions (0) or of the velocities (1), with the factor at hand; one body of code, because it is compiled many times.
+    /// One mass-orthogonal Newton step of the positions (0) or of the velocities (1) with the current factor. Both are one
+    /// function, because it is compiled for each kind of bundle and each set of vector instructions.
     #[inline(always)]
     pub(super) fn correct_here(&mut self, which: usize) -> f64 {
         self.place_values();
@@ -85,7 +87,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.redundant = expected;
         let rows = find_dependent_rows(self, length);
         self.redundant = false;
-        self.schur.factor.leave_out_weakest(&rows);
+        self.schur.factor.leave_out_weakest(rows.iter().map(|row| row.index()));
         self.rows_left_out = !rows.is_empty();
         self.state = state;
         rows.len()

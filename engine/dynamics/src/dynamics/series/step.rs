@@ -20,7 +20,7 @@ const MAX_TURN: f64 = 3.0;
 /// A step that reaches what is left to the end when stretched by this factor ends there.
 const LAST_STEP: f64 = 1.01;
 
-/// What a step has to do.
+/// What a step is given.
 #[derive(Clone, Copy, Debug)]
 pub struct StepPlan {
     /// Highest order of the series.
@@ -35,7 +35,7 @@ pub struct StepPlan {
     pub dry_run: bool,
 }
 
-/// What a step was.
+/// A step that was taken.
 #[derive(Clone, Copy, Debug)]
 #[allow(clippy::struct_excessive_bools, reason = "findings that have nothing to do with each other")]
 pub struct Taken {
@@ -43,18 +43,19 @@ pub struct Taken {
     pub h: f64,
     /// The time at its end, s.
     pub time: f64,
-    /// Whether it ends where a prescribed function has another piece: then it may be as short as it likes.
+    /// Whether it ends at a breakpoint of a prescribed function: its size then says nothing about the convergence of the
+    /// series.
     pub at_break: bool,
     /// The order at which the series was cut.
     pub order: usize,
-    /// How often it was shortened because it had left the constraints, or prescribed functions their series.
+    /// How often it was halved because its end was too far from the constraints, or a prescribed function from its series.
     pub rejected: u64,
-    /// Whether it has left them all the same, as far as it was shortened.
+    /// Whether its end is too far from the constraints even after all halvings.
     pub far: bool,
     /// Whether the new state is made of finite numbers.
     pub finite: bool,
-    /// Whether Newton's method has just shown that the constraints hold: its last step was of no size, with a regular
-    /// factor.
+    /// Whether the projection has proved that the constraints hold: its last correction was negligible, with a factor that
+    /// is not regularized.
     pub proven: bool,
 }
 
@@ -70,12 +71,12 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     }
 }
 
-/// A piece of a step, likewise: all of them together, so that each is compiled once.
-struct Piece<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Which);
+/// A part of a step, to be compiled likewise.
+struct Call<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, Part);
 
-/// Which piece.
+/// The parts of a step that are called, not inlined. One type for all, so that each is compiled once.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Which {
+pub(super) enum Part {
     /// Builds S.
     Assemble,
     /// Builds S and factors it.
@@ -84,15 +85,15 @@ pub(super) enum Which {
     Correct(usize),
 }
 
-impl<const L: usize, B: Bodies<L>> WithSimd for Piece<'_, L, B> {
+impl<const L: usize, B: Bodies<L>> WithSimd for Call<'_, L, B> {
     type Output = f64;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         match self.1 {
-            Which::Assemble => self.0.assemble_here(simd),
-            Which::Linearize => self.0.linearize_here(simd),
-            Which::Correct(which) => return self.0.correct_here(which),
+            Part::Assemble => self.0.assemble_here(simd),
+            Part::Linearize => self.0.linearize_here(simd),
+            Part::Correct(which) => return self.0.correct_here(which),
         }
         0.0
     }
@@ -117,10 +118,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         Arch::new().dispatch(Evaluate(self));
     }
 
-    /// Pieces are called, not inlined: a step would otherwise have several copies of each.
+    /// Parts are called, not inlined: a step would otherwise contain several copies of each.
     #[inline(never)]
-    pub(super) fn piece(&mut self, which: Which) -> f64 {
-        Arch::new().dispatch(Piece(self, which))
+    pub(super) fn call(&mut self, part: Part) -> f64 {
+        Arch::new().dispatch(Call(self, part))
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
@@ -135,11 +136,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     #[inline(always)]
     fn step_here(&mut self, plan: StepPlan) -> Taken {
-        // Pieces of prescribed functions are smooth only within: a step ends exactly where another begins.
+        // Prescribed functions are smooth only between their breakpoints: a step ends exactly at the next one.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
         let allowance = self.allowance(plan.tolerance);
-        // Pieces are polynomials of degree five: orders above that of their accelerations say how good the series are.
+        // Between breakpoints, prescribed functions are polynomials of degree five: only terms of higher order than those of
+        // their accelerations show how well the series converge.
         let order = self.expand(plan.order, |s, k| {
             end < plan.end
                 && !plan.dry_run
@@ -173,7 +175,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             if met {
                 let most = (rejected < MAX_REJECTED).then_some(FAR * plan.tolerance);
                 if let Some((moved, closed)) = self.arrive(h, time, order, plan, most) {
-                    // Rows that are left out are measured.
+                    // The projection says nothing about rows that are left out of it.
                     let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
                     let far = moved.is_nan() || moved > FAR * plan.tolerance;
@@ -281,9 +283,9 @@ mod tests {
                     taken.h.to_bits(),
                     Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits()
                 );
-                for which in [Which::Linearize, Which::Correct(0), Which::Correct(1)] {
-                    let moved = Piece(&mut plain, which).with_simd(pulp::Scalar::new());
-                    assert_eq!(own.piece(which).to_bits(), moved.to_bits(), "{name}: {which:?}");
+                for part in [Part::Linearize, Part::Correct(0), Part::Correct(1)] {
+                    let moved = Call(&mut plain, part).with_simd(pulp::Scalar::new());
+                    assert_eq!(own.call(part).to_bits(), moved.to_bits(), "{name}: {part:?}");
                 }
             }
             let mut other = y.clone();

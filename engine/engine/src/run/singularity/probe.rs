@@ -5,6 +5,7 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Elimination;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
+use triad_dynamics::system::index::SolverRow;
 
 /// Evaluates S at times inside the last step, and leaves the evaluation of the run as it is.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ impl Probe {
         system: &System,
         state: &State,
         elimination: &mut Elimination,
-        dependent: &[usize],
+        dependent: &[SolverRow],
     ) -> Self {
         elimination.keep_pivot_products();
         let mut elimination = elimination.clone();

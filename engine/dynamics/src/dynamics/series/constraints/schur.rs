@@ -2,7 +2,7 @@
 
 use super::angles::Angles;
 use super::rows::Rows;
-use super::terms::{Gradient, Term, changing, ends, terms};
+use super::terms::{End, Gradient, Term, changing, ends, terms};
 use crate::dynamics::blocks::{BlockProduct, SchurLayout};
 use crate::dynamics::series::bodies::{Bodies, LanePlace};
 use crate::dynamics::series::lanes::{plus, rows_of_lanes};
@@ -44,18 +44,19 @@ struct Target {
 /// S and its factor.
 #[derive(Clone, Debug)]
 pub struct Schur {
-    /// Terms of common points, and all others.
+    /// Terms of common points.
     units: Vec<Term>,
+    /// All other terms.
     terms: Vec<Term>,
-    /// Where the others stand in H.
+    /// Ranges of H that these write at every state.
     changing: Vec<Range<usize>>,
     contributions: Vec<Contribution>,
     h: Vec<f64>,
     pairs: Vec<Pair>,
     targets: Vec<Target>,
-    /// What of S never changes.
+    /// The part of S that never changes.
     base: Vec<f64>,
-    /// Whether what never changes is written once.
+    /// Whether entries that never change are written once, and not at every state.
     pub keep_constants: bool,
     /// Entries that were not written again.
     pub constants_kept: u64,
@@ -63,19 +64,23 @@ pub struct Schur {
     pub factor: BlockCholesky,
 }
 
-impl Schur {
-    /// Writes the program of S for twists of so many components.
-    pub fn new(system: &System, place: &[LanePlace], lanes: usize, twist: usize) -> Self {
-        let SchurLayout { factor, products } = SchurLayout::new(system);
-        let ends = ends(system, place);
+/// The products that S is the sum of, by the way in which they are computed.
+struct SortedProducts {
+    contributions: Vec<Contribution>,
+    pairs: Vec<Pair>,
+    targets: Vec<Target>,
+}
+
+impl SortedProducts {
+    fn new(system: &System, products: Vec<BlockProduct>, ends: &[Option<End>], twist: usize) -> Self {
         let mut contributions = Vec::new();
-        let mut pairs: BTreeMap<[usize; 2], Vec<Target>> = BTreeMap::new();
+        let mut targets_of_pairs: BTreeMap<[usize; 2], Vec<Target>> = BTreeMap::new();
         for BlockProduct { body, offset, left, right } in products {
             if let (Some(a), Some(b)) = (ends[left], ends[right]) {
                 let sign = a.sign * b.sign;
                 let constant = sign * system.bodies[body].free_inverse_mass();
                 let target = Target { lane: a.place.lane, sign, offset, constant };
-                pairs.entry([a.place.slot, b.place.slot]).or_default().push(target);
+                targets_of_pairs.entry([a.place.slot, b.place.slot]).or_default().push(target);
                 continue;
             }
             let (left, right) = (&system.incidences[left], &system.incidences[right]);
@@ -89,6 +94,24 @@ impl Schur {
         }
         // In the order of memory, so that the sums run through the store once.
         contributions.sort_by_key(|c| c.offset);
+        let mut targets = Vec::new();
+        let mut pairs = Vec::with_capacity(targets_of_pairs.len());
+        for (slots, own) in targets_of_pairs {
+            let first = targets.len();
+            targets.extend(own);
+            pairs.push(Pair { slots, targets: first..targets.len() });
+        }
+        Self { contributions, pairs, targets }
+    }
+}
+
+impl Schur {
+    /// Plans the computation of S for twists of `twist` components.
+    pub fn new(system: &System, place: &[LanePlace], lanes: usize, twist: usize) -> Self {
+        let SchurLayout { factor, products } = SchurLayout::new(system);
+        let ends = ends(system, place);
+        let SortedProducts { contributions, pairs, targets } =
+            SortedProducts::new(system, products, &ends, twist);
         let h = vec![0.0; system.block_entries / 6 * twist];
         let (units, terms): (Vec<Term>, Vec<Term>) = terms(system, place, lanes, twist)
             .into_iter()
@@ -101,20 +124,13 @@ impl Schur {
         };
         let units = units.into_iter().filter(mixed).collect();
         let changing = changing(&terms, twist);
-        let mut targets = Vec::new();
-        let mut list = Vec::new();
-        for (slots, own) in pairs {
-            let first = targets.len();
-            targets.extend(own);
-            list.push(Pair { slots, targets: first..targets.len() });
-        }
         let mut schur = Self {
             units,
             terms,
             changing,
             contributions,
             h,
-            pairs: list,
+            pairs,
             targets,
             base: vec![0.0; factor.values().len()],
             keep_constants: true,
@@ -188,7 +204,7 @@ impl Schur {
         let values = self.factor.values_mut();
         for pair in &self.pairs {
             let [a, b] = pair.slots.map(|slot| &mobility[slot]);
-            // No closures: they are not compiled for the instructions at hand.
+            // No closures: they would not be compiled for the vector instructions in use.
             let [first, second, third] = B::pair(a, b);
             let strips =
                 [rows_of_lanes(simd, first), rows_of_lanes(simd, second), rows_of_lanes(simd, third)];
