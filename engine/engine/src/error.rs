@@ -1,4 +1,4 @@
-//! What can go wrong between a text and a finished run.
+//! The errors of the engine, from reading a scene to the end of a run.
 
 mod last_good;
 
@@ -12,7 +12,7 @@ use crate::scene::text::nearest_name;
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::model::{CustomLoadError, ModelError};
 
-/// Any failure of the engine: what, where, and what to try.
+/// Any error of the engine: what went wrong, where in the scene, and what to try.
 ///
 /// ```
 /// use triad_engine::prelude::*;
@@ -31,26 +31,26 @@ pub enum EngineError {
     /// There is no built-in scene of that name.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
-    /// The scene cannot be.
+    /// The scene describes no mechanism.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// Which reactions are unique cannot be told.
+    /// It cannot be decided which reactions are unique.
     #[error(transparent)]
     Uniqueness(#[from] UniquenessError),
     /// The constraints cannot be satisfied.
     #[error("{error}{}", last.as_ref().map(ToString::to_string).unwrap_or_default())]
     Constraint {
-        /// Which, and how far they are from it.
+        /// Which constraints, and by how much they are violated.
         error: Box<ConstraintError>,
-        /// What the last good state tells, where there is one.
+        /// What is known of the last good state, if the run had started.
         last: Option<LastGood>,
     },
-    /// A load that is a function of the state cannot act.
+    /// A custom load cannot be evaluated.
     #[error("{error}{}", last.as_ref().map(ToString::to_string).unwrap_or_default())]
     CustomLoad {
-        /// Which, and why.
+        /// Which load, and why.
         error: CustomLoadError,
-        /// What the last good state tells, where there is one.
+        /// What is known of the last good state, if the run had started.
         last: Option<LastGood>,
     },
     /// The step control found no step that meets the tolerance.
@@ -60,7 +60,7 @@ pub enum EngineError {
         time: f64,
         /// The step that was refused, s.
         step: f64,
-        /// What the last good state tells.
+        /// What is known of the last good state.
         last: LastGood,
     },
     /// The accelerations are no longer finite.
@@ -68,7 +68,7 @@ pub enum EngineError {
     Diverged {
         /// Time, s.
         time: f64,
-        /// What the last good state tells.
+        /// What is known of the last good state.
         last: LastGood,
     },
     /// The equations of an implicit step cannot be solved.
@@ -80,7 +80,7 @@ pub enum EngineError {
         time: f64,
         /// The step that was tried, s.
         step: f64,
-        /// What the last good state tells.
+        /// What is known of the last good state.
         last: LastGood,
     },
     /// Steps have become so small that the run would never end.
@@ -92,7 +92,7 @@ pub enum EngineError {
         time: f64,
         /// Their size, s.
         step: f64,
-        /// What the last good state tells.
+        /// What is known of the last good state.
         last: LastGood,
     },
     /// There are no independent coordinates to integrate.
@@ -102,33 +102,33 @@ pub enum EngineError {
     Undetermined {
         /// Time, s.
         time: f64,
-        /// What the last good state tells.
+        /// What is known of the last good state.
         last: LastGood,
     },
-    /// The run has used up the steps that it was given.
+    /// The run has reached its limit of steps.
     #[error("the run stops at t = {time:.6} s: its {steps} steps are used up{last}")]
     StepLimit {
         /// Time, s.
         time: f64,
-        /// How many steps it was given.
+        /// The limit.
         steps: u64,
-        /// What the last state tells.
+        /// What is known of the last good state.
         last: LastGood,
     },
-    /// A time outside the run was asked for.
+    /// A requested time is outside the run.
     #[error("t = {time} s is outside the run, which goes from {from} s to {to} s")]
     TimeOutside {
-        /// The time asked for, s.
+        /// The requested time, s.
         time: f64,
         /// First time that can be reached, s.
         from: f64,
         /// Last time, s.
         to: f64,
     },
-    /// A body, joint, driver or event was asked for by a name that the scene does not have.
+    /// The scene has no body, joint, driver or event of a requested name.
     #[error("there is no {what} \"{name}\"")]
     UnknownName {
-        /// What was asked for.
+        /// What the name should belong to: "body", "joint", "driver" or "event".
         what: &'static str,
         /// The name.
         name: String,
@@ -154,7 +154,7 @@ impl From<CustomLoadError> for EngineError {
 }
 
 impl EngineError {
-    /// A stop of an integrator, told with the last good state.
+    /// The error for an integrator that stopped, with the last good state.
     pub fn stopped(stop: StopReason, last: LastGood) -> Self {
         match stop {
             StopReason::StepTooSmall { time, step } => Self::StepTooSmall { time, step, last },
@@ -165,12 +165,12 @@ impl EngineError {
         }
     }
 
-    /// A name that none of the known ones is.
+    /// The error for a name that is not among the known ones.
     pub(crate) fn unknown<'a>(what: &'static str, name: &str, known: impl Iterator<Item = &'a str>) -> Self {
         Self::UnknownName { what, name: name.to_owned(), nearest: nearest_name(name, known) }
     }
 
-    /// The same error, told with the last good state.
+    /// The same error with the last good state.
     #[must_use]
     pub fn after(mut self, good: LastGood) -> Self {
         match &mut self {
@@ -180,7 +180,7 @@ impl EngineError {
         self
     }
 
-    /// Stable name of the kind of error.
+    /// Stable code of the kind of error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Scene(SceneError::TooLong { .. }) => "scene-too-long",
@@ -205,7 +205,7 @@ impl EngineError {
         }
     }
 
-    /// Where in the scene, as a JSON pointer, if it is at one place.
+    /// The place in the scene as a JSON pointer, if the error belongs to one place.
     pub fn pointer(&self) -> Option<String> {
         match self {
             Self::Scene(SceneError::Syntax { pointer, .. } | SceneError::NoNumber { pointer, .. }) => {
@@ -218,7 +218,7 @@ impl EngineError {
         }
     }
 
-    /// Why no way leads on from the last good state, if it can be told.
+    /// Why the motion cannot continue from the last good state, if that was found.
     pub fn cause(&self) -> Option<&Cause> {
         match self {
             Self::StepTooSmall { last, .. }

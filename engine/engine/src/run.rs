@@ -1,4 +1,4 @@
-//! A scene that runs: it stands at a time, goes on by steps, and can be asked about the state where it stands.
+//! A simulation: the state of a scene at one time, advanced step by step, with everything that can be computed from it.
 
 mod energy_balance;
 mod singularity;
@@ -28,16 +28,16 @@ use crate::integrate::Integrator;
 use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
 use singularity::SingularityMonitor;
-use state_view::Shown;
+use state_view::CachedState;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::system::System;
 
-/// A scene that runs.
+/// A running simulation of a scene.
 ///
-/// It shows the state at a time, [`Simulation::time`]; [`Simulation::advance_to`] goes on. Questions about the state take
-/// `&self`, change nothing, and solve at most once for each state that is shown. [`Solution`](crate::Solution) keeps a
-/// whole run instead.
+/// It has one current state, that at [`Simulation::time`]; [`Simulation::advance_to`] moves on to a later one. Methods that
+/// compute something from the current state take `&self`, leave the run as it is, and solve for accelerations and multipliers
+/// at most once for each state. [`Solution`](crate::Solution) keeps a whole run instead.
 ///
 /// ```
 /// let mut run = triad_engine::run::Simulation::new(&triad_engine::catalogue::scene("free-fall")?)?;
@@ -53,11 +53,11 @@ pub struct Simulation {
     start: Vec<f64>,
     rank: Rank,
     notes: Vec<String>,
-    /// The state that is shown, not after the end of the last step.
-    shown: Shown,
+    /// The current state: at the end of the last step, or before it.
+    current: CachedState,
     start_energy: f64,
-    /// Largest kinetic energy at the ends of steps that were looked at, J.
-    kinetic: f64,
+    /// Largest kinetic energy at the ends of the steps whose constraints were measured, J.
+    max_kinetic_energy: f64,
     /// Whether neither drivers nor loads without potential act.
     conservative: bool,
     /// Their work up to the start of the last step, J.
@@ -65,13 +65,14 @@ pub struct Simulation {
     scratch: Vec<f64>,
     /// Steps, rejected ones included, after which the run stops.
     step_limit: u64,
-    /// What has happened so far, in the order of time.
-    happened: Vec<EventOccurrence>,
-    /// Numbers of events less their values, and their rates, where the last step ended.
+    /// Events found so far, in the order of time.
+    occurrences: Vec<EventOccurrence>,
+    /// For each event, its quantity less the value that triggers it, and the rate of that, at the end of the last step.
     last_numbers: Vec<[f64; 2]>,
     /// When the run ends, s: its duration, or the moment of an event that stops it.
     end: f64,
-    counted: explain::Counted,
+    /// Work after steps and at outputs, done or left out.
+    counters: explain::RunCounters,
     /// Searches steps for singular configurations.
     singularities: SingularityMonitor,
 }
@@ -93,7 +94,7 @@ impl Simulation {
         &self.rank
     }
 
-    /// What was found or corrected, in words.
+    /// What was found or corrected when the run was started, in sentences.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
@@ -103,20 +104,20 @@ impl Simulation {
         self.model().settings.duration
     }
 
-    /// Time t of the state that is shown, s.
+    /// Time t of the current state, s.
     pub fn time(&self) -> f64 {
-        self.shown.time()
+        self.current.time()
     }
 
-    /// Generalized coordinates q that are shown, in the order of the columns of the Jacobian: m for positions, 1 for
+    /// Generalized coordinates q of the current state, in the order of the columns of the Jacobian: m for positions, 1 for
     /// directors.
     pub fn q(&self) -> &[f64] {
-        &self.shown.y()[..self.system().coordinates]
+        &self.current.y()[..self.system().coordinates]
     }
 
-    /// Generalized velocities q̇ that are shown: m/s and 1/s.
+    /// Generalized velocities q̇ of the current state: m/s and 1/s.
     pub fn q_dot(&self) -> &[f64] {
-        &self.shown.y()[self.system().coordinates..]
+        &self.current.y()[self.system().coordinates..]
     }
 
     /// Whether the end of the run is reached, or an event that stops it.
@@ -144,7 +145,7 @@ impl Simulation {
         self.step_limit = steps;
     }
 
-    /// Shows all times from the steps that the run takes on its way to its end, whatever its settings say.
+    /// From now on finds outputs by interpolation within steps that are not shortened for them, whatever the settings say.
     pub(crate) fn interpolate_outputs(&mut self) {
         self.mechanism.system.model.settings.skip.outputs = true;
     }
@@ -153,8 +154,8 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`EngineError::TimeOutside`] for a time before the one that is shown. A run that cannot go on tells why, with the
-    /// time and, where it can be told, the joint, driver or load; it then shows its last good state.
+    /// [`EngineError::TimeOutside`] for a time before the current one. The error of a run that cannot go on gives the reason,
+    /// the time and, where it can be found, the joint, driver or load; the last good state is then the current one.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -168,9 +169,9 @@ impl Simulation {
         self.advance_towards(t, u64::MAX).map(|_| ())
     }
 
-    /// Goes on towards time t by at most so many integrator steps, and tells whether it got there. If not, the state
-    /// that is shown stays as it is, and the next call goes on from where this one ended: a caller who must be able
-    /// to stop asks in pieces, with the same result.
+    /// Advances towards time t by at most `most_steps` steps of the integrator, and returns whether it got there. If it did
+    /// not, the current state stays as it is, and the next call continues where this one ended: a caller who must be able to
+    /// interrupt the run advances in portions, with the same result.
     ///
     /// # Errors
     ///
@@ -180,23 +181,23 @@ impl Simulation {
         if t.is_nan() || t < self.time() {
             return Err(EngineError::TimeOutside { time: t, from: self.time(), to: self.duration() });
         }
-        let mut left = most_steps;
+        let mut steps_left = most_steps;
         let end = if self.model().settings.skip.outputs { self.duration() } else { t };
         while self.integrator.last().t < t {
-            if left == 0 {
+            if steps_left == 0 {
                 return Ok(false);
             }
-            left -= 1;
+            steps_left -= 1;
             self.take_step(end)?;
             t = t.min(self.end);
         }
-        self.counted.outputs[0] += u64::from(t < self.integrator.last().t);
-        self.counted.outputs[1] += 1;
-        self.show(t);
+        self.counters.outputs[0] += u64::from(t < self.integrator.last().t);
+        self.counters.outputs[1] += 1;
+        self.set_current_time(t);
         Ok(true)
     }
 
-    /// Goes on by one step of the integrator (or to the end of the step that the shown state lies in).
+    /// Advances by one step of the integrator, or to the end of the step that the current state lies in.
     ///
     /// # Errors
     ///
@@ -205,22 +206,23 @@ impl Simulation {
         if self.time() >= self.integrator.last().t && !self.finished() {
             self.take_step(self.duration())?;
         }
-        self.show(self.integrator.last().t);
+        self.set_current_time(self.integrator.last().t);
         Ok(())
     }
 
-    /// Takes one step of the integrator, not beyond `end`, and shows nothing of it.
+    /// Takes one step of the integrator, not beyond `end`; the current state stays as it is.
     pub(crate) fn take_step(&mut self, end: f64) -> Result<(), EngineError> {
         let steps = self.integrator.last().steps;
         if steps.accepted + steps.rejected >= self.step_limit {
             let (time, steps) = (self.integrator.last().t, self.step_limit);
-            let last = self.show_last_good(time, self.integrator.last().steps.accepted);
+            let last = self.stop_at_last_good(time, self.integrator.last().steps.accepted);
             return Err(EngineError::StepLimit { time, steps, last });
         }
         self.work += self.work_of_last_step(self.integrator.last().t);
         if let Err(stop) = self.integrator.step(&mut self.mechanism, end) {
             let failure = self.load_failure();
-            let last = self.show_last_good(self.integrator.last().t, self.integrator.last().steps.accepted);
+            let last =
+                self.stop_at_last_good(self.integrator.last().t, self.integrator.last().steps.accepted);
             return Err(match failure {
                 Some(error) => EngineError::CustomLoad { error, last: Some(last) },
                 None => EngineError::stopped(stop, last),
@@ -231,66 +233,66 @@ impl Simulation {
             self.check_step()?;
         }
         self.singularities.step(&mut self.mechanism, &mut self.integrator);
-        self.look_for_events();
+        self.find_events();
         if !skip.reports {
             self.report_step();
         }
         Ok(())
     }
 
-    /// Measures the constraints at the end of the last step, which the integrator has not proved.
+    /// Measures the constraints at the end of the last step where the integrator has not proved that they hold.
     fn check_step(&mut self) -> Result<(), EngineError> {
-        self.counted.checks += 1;
+        self.counters.checks += 1;
         let time = self.integrator.last().t;
         if let Err(error) = self.mechanism.check(time, &self.integrator.last().y) {
             let start = time - self.integrator.last().h;
-            let last = self.show_last_good(start, self.integrator.last().steps.accepted.saturating_sub(1));
+            let last = self.stop_at_last_good(start, self.integrator.last().steps.accepted.saturating_sub(1));
             return Err(EngineError::from(error).after(last));
         }
         let Mechanism { system, state, .. } = &self.mechanism;
-        self.kinetic = self.kinetic.max(state.kinetic_energy(system));
+        self.max_kinetic_energy = self.max_kinetic_energy.max(state.kinetic_energy(system));
         Ok(())
     }
 
-    /// Finds what is otherwise found when somebody asks, at the end of the last step.
+    /// Computes at the end of the last step what is otherwise computed on request.
     fn report_step(&mut self) {
-        let shown = self.shown.clone();
+        let current = self.current.clone();
         let (time, y) = (self.integrator.last().t, self.integrator.last().y.clone());
-        self.show_state(time, &y);
-        // The dense output that the work needs is prepared for the step, not for a copy of it.
+        self.set_current(time, &y);
+        // Not left to `summary`, which would prepare the dense output in a copy of the run.
         let work = self.work_of_last_step(time);
-        self.shown.work(|| work);
+        self.current.work(|| work);
         let _ = (self.summary(), self.multipliers(), self.jacobian());
-        self.shown = shown;
-        self.counted.reports += 1;
+        self.current = current;
+        self.counters.reports += 1;
     }
 
     /// Why a load that is a function of the state could not act in the step that has just failed.
     fn load_failure(&self) -> Option<CustomLoadError> {
         let failure = self.mechanism.elimination.load_failure()?;
-        // One that was met on the way to a step that was taken in the end has done no harm.
+        // An earlier failure belongs to a trial step, after which a shorter step was accepted: it has done no harm.
         let in_this_step =
             !matches!(failure, CustomLoadError::NotFinite { time, .. } if *time < self.integrator.last().t);
         in_this_step.then(|| failure.clone())
     }
 
-    /// Shows the last good state of a run that cannot go on, and tells what it is like.
-    fn show_last_good(&mut self, time: f64, steps: u64) -> LastGood {
+    /// Makes the last good state of a run that cannot go on the current one, and returns what is known about it.
+    fn stop_at_last_good(&mut self, time: f64, steps: u64) -> LastGood {
         if time >= self.time() {
-            self.show(time);
+            self.set_current_time(time);
         }
         LastGood { steps, cause: self.cause().map(Box::new) }
     }
 
-    /// Shows the state of a time within the last step, not after the end of the run.
-    fn show(&mut self, t: f64) {
-        let Self { mechanism, integrator, shown, end, .. } = self;
+    /// Makes the state at a time within the last step, not after the end of the run, the current one.
+    fn set_current_time(&mut self, t: f64) {
+        let Self { mechanism, integrator, current, end, .. } = self;
         let t = t.min(*end);
-        shown.replace(mechanism, t, |mechanism, y| integrator.interpolate(mechanism, t, y));
+        current.replace(mechanism, t, |mechanism, y| integrator.interpolate(mechanism, t, y));
     }
 
-    /// Shows the state y = (q, q̇) at time t, s.
-    fn show_state(&mut self, t: f64, y: &[f64]) {
-        self.shown.replace(&mut self.mechanism, t, |_, shown| shown.copy_from_slice(y));
+    /// Makes y = (q, q̇) at time t, s, the current state.
+    fn set_current(&mut self, t: f64, y: &[f64]) {
+        self.current.replace(&mut self.mechanism, t, |_, current| current.copy_from_slice(y));
     }
 }

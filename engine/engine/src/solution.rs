@@ -1,4 +1,4 @@
-//! The motion of a scene as a function of time: a run that is kept, and can be asked about any moment of it.
+//! The motion of a scene as a function of time: a run that is kept, with its state at any time.
 //!
 //! ```
 //! use triad_engine::prelude::*;
@@ -25,15 +25,15 @@ use checkpoints::{Checkpoint, Checkpoints};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What a scene can be asked to do at once.
+/// Simulation of a scene in one call.
 pub trait Simulate {
-    /// Runs the scene from its start, t = 0, to the end of `times`, s, and gives the motion from the first of them on.
-    /// The range stands in place of the scene's `simulation.duration`; an event that stops the run ends it earlier.
+    /// Runs the scene from its start, t = 0, to the end of `times`, s, and returns the motion within the range, which replaces
+    /// the scene's `simulation.duration`. An event that stops the run ends the motion earlier.
     ///
     /// # Errors
     ///
-    /// What [`Simulation::new`] and [`Simulation::advance_to`] tell: a scene that cannot be, constraints that cannot be
-    /// met, a run that cannot go on, each with the joint, body or time; [`EngineError::TimeOutside`] for a range that
+    /// Those of [`Simulation::new`] and [`Simulation::advance_to`]: an invalid scene, constraints that cannot be satisfied, a
+    /// run that cannot go on, each with the joint, body or time; [`EngineError::TimeOutside`] for a range that
     /// is empty or begins before 0.
     ///
     /// ```
@@ -94,9 +94,9 @@ impl Simulate for Scene {
 
 /// A motion: the states y(t) = (q, q̇) of a run for each t from its start to its end.
 ///
-/// At each t it tells what [`Simulation::advance_to`] would show there, to the last bit: the states at which the steps of
-/// the run begin are kept (of a long run or a large mechanism, some of them), and the step that covers t is taken
-/// again, no step more than once if one asks in the order of time.
+/// Its state at t is that of [`Simulation::advance_to`], to the last bit: the states at which the steps of the run begin are
+/// kept (of a long run or a large mechanism, some of them), and the step that covers t is repeated. Requests in the order of
+/// time repeat no step more than once.
 #[derive(Debug)]
 pub struct Solution {
     start: f64,
@@ -106,13 +106,13 @@ pub struct Solution {
     events: Vec<EventOccurrence>,
 }
 
-/// The place that was asked for last.
+/// The time that was requested last.
 #[derive(Clone, Debug)]
 struct Cursor {
-    /// A run whose last step covers it.
+    /// A run whose last step covers that time.
     covering: Checkpoint,
-    /// The same, at that place.
-    shown: Simulation,
+    /// The same run, with the state at that time as its current one.
+    current: Simulation,
 }
 
 /// The reaction of a joint or driver at one moment: what body i does to body j (to body i where j is the ground).
@@ -136,8 +136,8 @@ pub struct JointReaction {
 }
 
 impl Solution {
-    /// Runs a simulation from where it stands to its end, and keeps the motion. For a run with settings of its own, such
-    /// as [`Simulation::set_step_limit`]; otherwise [`Simulate::simulate`] is shorter.
+    /// Runs a simulation from its current state to its end, and keeps the motion. For a run with settings of its own, such as
+    /// that of [`Simulation::set_step_limit`]; otherwise [`Simulate::simulate`] is shorter.
     ///
     /// # Errors
     ///
@@ -165,7 +165,7 @@ impl Solution {
             checkpoints.keep(from, &run);
         }
         let (summary, events) = (run.summary(), run.events().to_vec());
-        let cursor = Cursor { covering: checkpoints.before(start).clone(), shown: run };
+        let cursor = Cursor { covering: checkpoints.before(start).clone(), current: run };
         Ok(Self { start, checkpoints, cursor: Mutex::new(cursor), summary, events })
     }
 
@@ -174,7 +174,7 @@ impl Solution {
         self.start
     }
 
-    /// Last time, s: the end of the range that was asked for, or the moment of an event that stopped the run.
+    /// Last time, s: the end of the requested range, or the time of an event that stopped the run.
     pub fn end(&self) -> f64 {
         self.summary.time
     }
@@ -201,7 +201,7 @@ impl Solution {
     ///
     /// # Errors
     ///
-    /// [`EngineError::TimeOutside`] with t and the times that there are.
+    /// [`EngineError::TimeOutside`] for a time outside the motion.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -215,7 +215,7 @@ impl Solution {
     /// ```
     pub fn at(&self, t: f64) -> Result<SolutionState<'_>, EngineError> {
         let model = self.checkpoints.model();
-        self.asked(t, |run| SolutionState::of(model, run))
+        self.with_run_at(t, |run| SolutionState::of(model, run))
     }
 
     /// The reaction of a joint at time t, s: force and moment on body j (on body i where j is the ground), in the
@@ -239,8 +239,8 @@ impl Solution {
         self.reaction_of("joint", joint.into().name(), false, t)
     }
 
-    /// What a driver must exert at time t, s, so that its motion is as prescribed: for an angle, the torque on body j
-    /// about the axis.
+    /// The reaction of a driver at time t, s: what it must exert so that the motion is as prescribed. For an angle, the moment
+    /// about the axis is the torque on body j.
     ///
     /// # Errors
     ///
@@ -283,12 +283,12 @@ impl Solution {
     ///
     /// # Errors
     ///
-    /// [`EngineError::TimeOutside`], and [`EngineError::Uniqueness`] where which of them are unique cannot be told.
+    /// [`EngineError::TimeOutside`], and [`EngineError::Uniqueness`] where it cannot be decided which of them are unique.
     pub fn reactions(&self, t: f64, convention: Convention) -> Result<ReactionReport, EngineError> {
-        self.asked(t, |run| run.reactions(convention))?
+        self.with_run_at(t, |run| run.reactions(convention))?
     }
 
-    /// When an event happened, s, in the order of time.
+    /// The times at which an event happened, s, in ascending order.
     ///
     /// # Errors
     ///
@@ -308,16 +308,15 @@ impl Solution {
     /// ```
     pub fn times_of(&self, event: impl Into<EventHandle>) -> Result<Vec<f64>, EngineError> {
         let event = event.into();
-        let mut known = self.checkpoints.model().events.iter().map(|known| known.name.as_str());
-        if known.all(|known| known != event.name()) {
-            let known = self.checkpoints.model().events.iter().map(|known| known.name.as_str());
-            return Err(EngineError::unknown("event", event.name(), known));
+        let known = || self.checkpoints.model().events.iter().map(|known| known.name.as_str());
+        if known().all(|known| known != event.name()) {
+            return Err(EngineError::unknown("event", event.name(), known()));
         }
         let times = self.events.iter().filter(|found| found.name == event.name()).map(|found| found.time);
         Ok(times.collect())
     }
 
-    /// All that happened, in the order of time.
+    /// All events, in the order of time.
     pub fn events(&self) -> &[EventOccurrence] {
         &self.events
     }
@@ -336,7 +335,7 @@ impl Solution {
         self.summary.energy_drift
     }
 
-    /// What the run has cost and how far it can be trusted, at its end.
+    /// Cost and accuracy of the run at its end.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -349,27 +348,27 @@ impl Solution {
         &self.summary
     }
 
-    /// Asks a run that shows time t.
-    fn asked<T>(&self, t: f64, ask: impl FnOnce(&Simulation) -> T) -> Result<T, EngineError> {
+    /// Calls `evaluate` on the run at time t.
+    fn with_run_at<T>(&self, t: f64, evaluate: impl FnOnce(&Simulation) -> T) -> Result<T, EngineError> {
         if !(self.start <= t && t <= self.end()) {
             return Err(EngineError::TimeOutside { time: t, from: self.start, to: self.end() });
         }
         let mut cursor = self.cursor();
-        if cursor.shown.time() != t {
+        if cursor.current.time() != t {
             let checkpoint = self.checkpoints.before(t);
             if checkpoint.is_nearer(&cursor.covering, t) {
                 cursor.covering = checkpoint.clone();
             }
             cursor.covering.cover(t)?;
-            // A state that is shown may start from the one before it, as near as rounding: this one never does.
-            cursor.shown = cursor.covering.run.clone();
-            cursor.shown.advance_to(t)?;
+            // From a copy: an interpolated state may depend, within rounding, on the one interpolated before it.
+            cursor.current = cursor.covering.run.clone();
+            cursor.current.advance_to(t)?;
         }
-        Ok(ask(&cursor.shown))
+        Ok(evaluate(&cursor.current))
     }
 
     fn cursor(&self) -> MutexGuard<'_, Cursor> {
-        // What a question that panicked has left is a run at some checkpoint, or at some time.
+        // A panic leaves a valid run, if at another time: the next request moves it.
         self.cursor.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,27 +1,27 @@
-//! What the last good state of a run that stopped tells about the reason.
+//! What is known of the last good state of a run that stopped, and why the run could not go on from there.
 
 use std::fmt;
 use triad_dynamics::constraints::quoted;
 
-/// What the last good state of a run tells about its end.
+/// What is known of the last good state of a run that stopped.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LastGood {
     /// Accepted steps until then.
     pub steps: u64,
-    /// Why no way leads on, if it can be told.
+    /// Why the motion cannot continue from there, if that was found.
     pub cause: Option<Box<Cause>>,
 }
 
-/// Why no way leads on from a state.
+/// Why a motion cannot continue from a state.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cause {
     /// A driver asks for positions that the joints do not allow.
     OutOfReach {
-        /// The driver, or all that there are if it cannot be told which.
+        /// The driver, or all drivers of the scene if it is not known which.
         drivers: Vec<String>,
-        /// When it does, s.
+        /// The time at which it does, s.
         time: f64,
-        /// Joints and drivers that stay open there, the worst first.
+        /// Joints and drivers that are violated there, the worst first.
         open: Vec<String>,
     },
     /// The rows of a joint or driver come to depend on others: a singular position.

@@ -29,7 +29,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
     if let ConstraintMethod::AugmentedLagrangian { .. } = method {
         let why = match settings.integrator {
             IntegratorKind::Auto | IntegratorKind::Trapezoidal => String::new(),
-            asked => format!("{asked} was asked for, but "),
+            requested => format!("{requested} was asked for, but "),
         };
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
@@ -50,9 +50,9 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
         (IntegratorKind::Taylor, Some(obstacle)) => {
             (IntegratorKind::Dop853, format!("taylor was asked for, but {obstacle}"))
         }
-        (asked, _) => match conflict(asked, method) {
-            Some(why) => (IntegratorKind::Dop853, format!("{asked} was asked for, but {why}")),
-            None => (asked, "the scene asks for it".to_owned()),
+        (requested, _) => match conflict(requested, method) {
+            Some(why) => (IntegratorKind::Dop853, format!("{requested} was asked for, but {why}")),
+            None => (requested, "the scene asks for it".to_owned()),
         },
     }
 }
@@ -79,9 +79,9 @@ fn series_or_dop853(mechanism: &Mechanism, y: &[f64]) -> (IntegratorKind, String
 }
 
 /// Why an integrator that satisfies the constraints in its own way cannot be combined with a constraint method.
-fn conflict(asked: IntegratorKind, method: ConstraintMethod) -> Option<&'static str> {
+fn conflict(requested: IntegratorKind, method: ConstraintMethod) -> Option<&'static str> {
     use ConstraintMethod::{Partitioning, Projection};
-    match (asked, method) {
+    match (requested, method) {
         (IntegratorKind::Radau, Projection | Partitioning) | (IntegratorKind::Rattle, Projection) => None,
         (IntegratorKind::Radau | IntegratorKind::Rattle, _) => Some(
             "it satisfies the constraints at each step by itself, and leaves nothing for another treatment",

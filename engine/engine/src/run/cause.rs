@@ -15,7 +15,7 @@ const LOSING: f64 = 1e-4;
 const WEAK: f64 = 1e-7;
 
 impl Simulation {
-    /// Why no way leads on from the shown state, if it can be told.
+    /// Why the motion cannot continue from the current state, if that can be found.
     pub(super) fn cause(&self) -> Option<Cause> {
         self.out_of_reach().or_else(|| self.nearly_dependent())
     }
@@ -33,7 +33,7 @@ impl Simulation {
             return None;
         }
         // Where nothing moves yet, the run's own time must do.
-        let pace = state::fastest(system, self.shown.y()).max(self.duration().recip());
+        let pace = state::fastest(system, self.current.y()).max(self.duration().recip());
         let mut found = None;
         for ahead in AHEAD {
             let h = ahead / pace;
@@ -41,7 +41,7 @@ impl Simulation {
             if h.is_nan() || time > self.duration() {
                 continue;
             }
-            let mut y = self.shown.y().to_vec();
+            let mut y = self.current.y().to_vec();
             let (q, q_dot) = y.split_at_mut(system.coordinates);
             q.iter_mut().zip(q_dot).for_each(|(q, v)| *q += h * *v);
             let open = match self.mechanism.clone().assemble_at(time, &mut y) {
@@ -63,7 +63,7 @@ impl Simulation {
             return None;
         }
         let start = self.pivot_products_at(0.0, &self.start);
-        let here = self.pivot_products_at(self.time(), self.shown.y());
+        let here = self.pivot_products_at(self.time(), self.current.y());
         let constraints = &self.mechanism.system.constraints;
         let named = |index: usize| constraints[index].name.clone();
         let least = |products: &[f64]| {

@@ -54,10 +54,10 @@ impl Simulation {
         work
     }
 
-    /// The same to the time that is shown, found once.
-    pub(super) fn work_up_to_shown(&self) -> f64 {
+    /// The same to the current time, computed once.
+    pub(super) fn work_up_to_current(&self) -> f64 {
         let t = self.time();
-        self.shown.work(|| self.known_work(t).unwrap_or_else(|| self.clone().work_with_dense_output(t)))
+        self.current.work(|| self.known_work(t).unwrap_or_else(|| self.clone().work_with_dense_output(t)))
     }
 
     /// The same with the dense output of the step prepared before: preparing it leaves independent coordinates with

@@ -1,17 +1,18 @@
-//! Events of a run: when the numbers that its scene names pass their values, found on the dense output of the
-//! integrator — THEORY section 10.
+//! Events of a run: the times at which quantities that the scene names pass given values, found on the dense output of
+//! the integrator — THEORY section 10.
 //!
-//! A step is looked at in parts. A part in which the number changes sides holds a root; one in which it turns back
-//! towards the value may hold two. Roots are found by Newton's method, kept within the part by bisection.
+//! A step is searched in parts. A part over which the difference from the value changes sign contains a root; one over
+//! which the quantity turns back towards the value may contain two. Roots are found by Newton's method, safeguarded by
+//! bisection.
 
 use super::Simulation;
 use serde::Serialize;
 use std::sync::Arc;
 use triad_dynamics::system::event::EventFunction;
 
-/// Number of equal parts of a step that are searched for a passing.
+/// Number of equal parts of a step that are searched for roots.
 const PARTS: u32 = 12;
-/// A start nearer to the value than this, relative to its size, does not pass it by leaving.
+/// A quantity that starts nearer to the value than this, relative to the value's size, counts as starting on it.
 const AT_VALUE: f64 = 1e-10;
 /// Greatest number of iterations for a root: bisection alone would need 60.
 const MAX_ITERATIONS: u32 = 80;
@@ -21,29 +22,29 @@ const MAX_ITERATIONS: u32 = 80;
 pub struct EventOccurrence {
     /// Name of the event.
     pub name: String,
-    /// When, s.
+    /// Time, s.
     pub time: f64,
-    /// Rate of the number there, m/s or rad/s.
+    /// Rate of the quantity there, m/s or rad/s.
     pub rate: f64,
     /// Whether the run ends there.
     pub stop: bool,
 }
 
 impl Simulation {
-    /// Events up to the shown time, in the order of time.
+    /// Events up to the current time, in the order of time.
     pub fn events(&self) -> &[EventOccurrence] {
-        let count = self.happened.partition_point(|event| event.time <= self.time());
-        &self.happened[..count]
+        let count = self.occurrences.partition_point(|event| event.time <= self.time());
+        &self.occurrences[..count]
     }
 
-    /// Forgets what has happened, and counts from the start of the integrator, at which the current state is, on.
+    /// Forgets all events and begins again at the current state, where the integrator has just been started.
     pub(super) fn restart_events(&mut self) {
-        self.happened.clear();
+        self.occurrences.clear();
         self.end = self.duration();
-        let Self { mechanism, shown, last_numbers, .. } = self;
+        let Self { mechanism, current, last_numbers, .. } = self;
         last_numbers.clear();
         last_numbers.extend(mechanism.system.event_functions.iter().map(|function| {
-            let mut number = function.evaluate(shown.state());
+            let mut number = function.evaluate(current.state());
             if number[0].abs() < AT_VALUE * (1.0 + function.value.abs()) {
                 number[0] = 0.0;
             }
@@ -51,62 +52,62 @@ impl Simulation {
         }));
     }
 
-    /// Finds what has happened in the last step.
-    pub(super) fn look_for_events(&mut self) {
+    /// Finds the events of the last step.
+    pub(super) fn find_events(&mut self) {
         if self.mechanism.system.event_functions.is_empty() {
             return;
         }
-        let Self { mechanism, integrator, scratch, happened, last_numbers, .. } = self;
-        let (before, end) = (happened.len(), integrator.last().t);
+        let Self { mechanism, integrator, scratch, occurrences, last_numbers, .. } = self;
+        let (before, end) = (occurrences.len(), integrator.last().t);
         let step = (end - integrator.last().h, end);
         let functions = Arc::clone(&mechanism.system.event_functions);
         let y = &mut scratch[..integrator.last().y.len()];
-        let see = |t: f64, function: &EventFunction| {
+        let evaluate = |t: f64, function: &EventFunction| {
             integrator.interpolate(mechanism, t, y);
             mechanism.set_state(t, y);
             function.evaluate(&mechanism.state)
         };
-        find(&functions, last_numbers, step, see, happened);
-        if let Some(last) = happened[before..].iter().position(|event| event.stop) {
-            happened.truncate(before + last + 1);
-            self.end = happened[before + last].time;
+        find(&functions, last_numbers, step, evaluate, occurrences);
+        if let Some(last) = occurrences[before..].iter().position(|event| event.stop) {
+            occurrences.truncate(before + last + 1);
+            self.end = occurrences[before + last].time;
         }
     }
 }
 
-/// Finds what happens in the step from `start` to `end`, in the order of time. `see(t, function)` puts the state of time t in
-/// place and looks.
+/// Finds the events of the step from `start` to `end`, in the order of time. `evaluate(t, function)` gives the value and the
+/// rate of a function at time t.
 fn find(
     functions: &[EventFunction],
     last: &mut [[f64; 2]],
     (start, end): (f64, f64),
-    mut see: impl FnMut(f64, &EventFunction) -> [f64; 2],
-    happened: &mut Vec<EventOccurrence>,
+    mut evaluate: impl FnMut(f64, &EventFunction) -> [f64; 2],
+    occurrences: &mut Vec<EventOccurrence>,
 ) {
-    let first = happened.len();
+    let first = occurrences.len();
     let mut from = start;
     for part in 1..=PARTS {
         let to = if part == PARTS { end } else { start + (end - start) * f64::from(part) / f64::from(PARTS) };
         for (function, last) in functions.iter().zip(&mut *last) {
-            let now = see(to, function);
+            let now = evaluate(to, function);
             let before = std::mem::replace(last, now);
-            passings(function, (from, before), (to, now), &mut see, happened);
+            find_in_part(function, (from, before), (to, now), &mut evaluate, occurrences);
         }
         from = to;
     }
-    happened[first..].sort_by(|a, b| a.time.total_cmp(&b.time));
+    occurrences[first..].sort_by(|a, b| a.time.total_cmp(&b.time));
 }
 
-/// Adds the passings of one event within a part of a step.
-fn passings(
+/// Adds the occurrences of one event within a part of a step.
+fn find_in_part(
     function: &EventFunction,
     (from, before): (f64, [f64; 2]),
     (to, now): (f64, [f64; 2]),
-    see: &mut impl FnMut(f64, &EventFunction) -> [f64; 2],
-    happened: &mut Vec<EventOccurrence>,
+    evaluate: &mut impl FnMut(f64, &EventFunction) -> [f64; 2],
+    occurrences: &mut Vec<EventOccurrence>,
 ) {
     let (side, other) = (before[0], now[0]);
-    // A number that starts on the value has not passed it.
+    // A quantity that starts on the value does not pass it by leaving.
     if side == 0.0 {
         return;
     }
@@ -116,8 +117,8 @@ fn passings(
         if side * before[1] >= 0.0 || side * now[1] <= 0.0 {
             return;
         }
-        let turn = root((from, to, before[1]), |t| [see(t, function)[1], f64::NAN]);
-        let there = see(turn, function)[0];
+        let turn = root((from, to, before[1]), |t| [evaluate(t, function)[1], f64::NAN]);
+        let there = evaluate(turn, function)[0];
         if side * there > 0.0 {
             return;
         }
@@ -128,9 +129,9 @@ fn passings(
         if side == 0.0 || !function.wants(rising) {
             continue;
         }
-        let time = root((from, to, side), |t| see(t, function));
-        let rate = see(time, function)[1];
-        happened.push(EventOccurrence { name: function.name.clone(), time, rate, stop: function.stop });
+        let time = root((from, to, side), |t| evaluate(t, function));
+        let rate = evaluate(time, function)[1];
+        occurrences.push(EventOccurrence { name: function.name.clone(), time, rate, stop: function.stop });
     }
 }
 

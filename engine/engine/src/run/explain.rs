@@ -6,26 +6,26 @@ use serde::Serialize;
 /// Something that a run leaves out unless it is switched off.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SkippedItem {
-    /// Its word in `simulation.skip`.
+    /// Its key in `simulation.skip`.
     pub word: &'static str,
     /// Whether it is switched on.
     pub on: bool,
     /// How much has been left out so far.
     pub saved: u64,
-    /// Of how much.
+    /// How much there would have been in all.
     pub of: u64,
     /// Both in words.
     pub what: String,
 }
 
-/// Work that was done or left out after steps and at outputs.
+/// How often a run did the work after steps and at outputs that it may leave out.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Counted {
-    /// Outputs that were read off a step, and all outputs.
+pub(super) struct RunCounters {
+    /// Outputs found by interpolation within a step, and all outputs.
     pub outputs: [u64; 2],
     /// Steps whose constraints were measured.
     pub checks: u64,
-    /// Steps of which energy, reactions and Jacobian were computed without a request.
+    /// Steps after which energy, reactions and Jacobian were computed although nobody asked for them.
     pub reports: u64,
 }
 
@@ -42,7 +42,7 @@ impl Simulation {
         let mut items = self.left_out_by_the_integrator();
         let skip = self.model().settings.skip;
         let steps = self.integrator.last().steps.accepted;
-        let unreported = steps.saturating_sub(self.counted.reports);
+        let unreported = steps.saturating_sub(self.counters.reports);
         items.push(SkippedItem::new(
             "reports",
             skip.reports,
@@ -50,7 +50,7 @@ impl Simulation {
             steps,
             format!("energy, reactions and Jacobian not found for {unreported} of {steps} steps"),
         ));
-        let [read, outputs] = self.counted.outputs;
+        let [read, outputs] = self.counters.outputs;
         items.push(SkippedItem::new(
             "outputs",
             skip.outputs,
@@ -80,16 +80,16 @@ impl Simulation {
         );
         let tied = format!("{fixed} of {bodies} bodies tied to the ground and left out");
         let unchanged = format!("{constants} entries of the matrix that never change not written again");
-        let shown = format!(
+        let proven = format!(
             "{} of {steps} steps shown consistent by their own projection, {} measured",
-            s.checks, self.counted.checks
+            s.checks, self.counters.checks
         );
         vec![
             SkippedItem::new("planar", skip.planar, planar, of(bodies), in_plane),
             SkippedItem::new("islands", skip.islands, together.saturating_sub(taken), of(together), apart),
             SkippedItem::new("fixed", skip.fixed, fixed, of(bodies), tied),
             SkippedItem::new("constants", skip.constants, constants, of(constants.max(1)), unchanged),
-            SkippedItem::new("checks", skip.checks, s.checks, of(steps), shown),
+            SkippedItem::new("checks", skip.checks, s.checks, of(steps), proven),
         ]
     }
 }

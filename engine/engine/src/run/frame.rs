@@ -1,4 +1,4 @@
-//! The bodies as they are shown.
+//! A picture of the bodies at one moment.
 
 use serde::Serialize;
 use triad_dynamics::state::BodyFrame;

@@ -1,4 +1,4 @@
-//! What can be asked of the run where it stands: short for the same question to [`Simulation::state`].
+//! What can be computed from the current state: short for the same method of [`Simulation::state`].
 
 use super::{Frame, Simulation, StateView};
 use crate::error::EngineError;
@@ -10,9 +10,9 @@ use triad_dynamics::dynamics::elimination::{Multipliers, TwistJacobian};
 use triad_dynamics::equations::jacobian::Jacobian;
 
 impl Simulation {
-    /// The state that is shown, with all that can be asked of it.
+    /// The current state, with all that can be computed from it.
     pub fn state(&self) -> StateView<'_> {
-        StateView::new(self, Cow::Borrowed(&self.shown))
+        StateView::new(self, Cow::Borrowed(&self.current))
     }
 
     /// All bodies: [`StateView::frame`].
@@ -43,7 +43,7 @@ impl Simulation {
     /// The same, read off the series of the last step where the integrator has them: without an evaluation, and as exact
     /// as the tolerance makes the accelerations. For pictures of many moments.
     pub fn multipliers_between_steps(&self) -> Vec<JointMultipliers> {
-        let (system, state) = (self.system(), self.shown.state());
+        let (system, state) = (self.system(), self.current.state());
         let mut jacobian = TwistJacobian::new(system);
         jacobian.fill(system, state);
         match self.integrator.multipliers(system, state, &jacobian) {
@@ -56,13 +56,13 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`EngineError::Uniqueness`] where it cannot be told which of them are unique.
+    /// [`EngineError::Uniqueness`] where it cannot be decided which of them are unique.
     pub fn reactions(&self, convention: Convention) -> Result<ReactionReport, EngineError> {
         self.state().reactions(convention)
     }
 
-    /// How far the shown state is from its constraints Φ = 0, each row relative to its size.
+    /// How far the current state is from its constraints Φ = 0, each row relative to its size.
     pub fn violation(&self) -> violation::ConstraintViolation {
-        violation::measure(self.system(), self.shown.state())
+        violation::measure(self.system(), self.current.state())
     }
 }

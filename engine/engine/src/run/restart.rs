@@ -1,4 +1,4 @@
-//! Runs that begin anew: at the start, from another run, or backwards.
+//! Restarts of a run: at its start, from the state of another run, or backwards.
 
 use super::{Simulation, explain};
 use crate::error::EngineError;
@@ -9,7 +9,7 @@ use triad_dynamics::model::ModelBody;
 use triad_dynamics::state::BodyFrame;
 
 impl Simulation {
-    /// Back to the start; counters begin anew.
+    /// Goes back to the start; counters are reset.
     pub fn reset(&mut self) {
         self.mechanism.state.reset_revolutions();
         let start = std::mem::take(&mut self.start);
@@ -46,7 +46,7 @@ impl Simulation {
         let places = system.model.bodies.iter().zip(&other.model().bodies).zip(&frames);
         let moved: Vec<ModelBody> = places.map(|((body, old), frame)| placed_as(body, old, frame)).collect();
         system.start_of(&moved, q, q_dot);
-        self.mechanism.state.copy_revolutions(other.shown.state());
+        self.mechanism.state.copy_revolutions(other.current.state());
         let notes = self.mechanism.assemble_at(time, &mut y)?;
         self.mechanism.state.commit_revolutions();
         self.begin(time, &y);
@@ -58,7 +58,7 @@ impl Simulation {
     pub fn turned_back(&self) -> Self {
         let mut back = self.clone();
         let n = self.system().coordinates;
-        back.start.copy_from_slice(self.shown.y());
+        back.start.copy_from_slice(self.current.y());
         back.start[n..].iter_mut().for_each(|v| *v = -*v);
         back.reset();
         back
@@ -68,13 +68,13 @@ impl Simulation {
     fn begin(&mut self, time: f64, y: &[f64]) {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
-        self.counted = explain::Counted::default();
-        (self.work, self.kinetic) = (0.0, 0.0);
+        self.counters = explain::RunCounters::default();
+        (self.work, self.max_kinetic_energy) = (0.0, 0.0);
         self.singularities.reset();
         self.mechanism.set_state(time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
-        self.show_state(time, y);
-        self.start_energy = self.shown.state().energy(self.system());
+        self.set_current(time, y);
+        self.start_energy = self.current.state().energy(self.system());
         self.restart_events();
     }
 }

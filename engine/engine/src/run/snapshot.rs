@@ -1,4 +1,4 @@
-//! A state of a run, kept so that it can be looked at again after the run has gone on.
+//! Snapshots: states of a run that are kept, and can be restored after the run has gone on.
 
 use super::{Simulation, StateView};
 use std::borrow::Cow;
@@ -22,13 +22,13 @@ impl Snapshot {
 }
 
 impl Simulation {
-    /// The state that is shown, to be looked at again with [`Simulation::at_snapshot`].
+    /// The current state, to be restored with [`Simulation::at_snapshot`].
     pub fn snapshot(&self) -> Snapshot {
-        let angles = self.shown.state().angles().iter().map(|angle| angle.value).collect();
-        Snapshot { time: self.time(), state: self.shown.y().to_vec(), angles }
+        let angles = self.current.state().angles().iter().map(|angle| angle.value).collect();
+        Snapshot { time: self.time(), state: self.current.y().to_vec(), angles }
     }
 
-    /// The state of a snapshot, with all that can be asked of it. `None` if the snapshot belongs to other coordinates.
+    /// The state of a snapshot, with all that can be computed from it. `None` if the snapshot belongs to other coordinates.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -41,10 +41,10 @@ impl Simulation {
     /// ```
     pub fn at_snapshot(&self, snapshot: &Snapshot) -> Option<StateView<'_>> {
         let Snapshot { time, state, angles } = snapshot;
-        if state.len() != self.shown.y().len() || angles.len() != self.shown.state().angles().len() {
+        if state.len() != self.current.y().len() || angles.len() != self.current.state().angles().len() {
             return None;
         }
-        let shown = self.shown.at(self.system(), *time, state, angles);
-        Some(StateView::new(self, Cow::Owned(shown)))
+        let state = self.current.at(self.system(), *time, state, angles);
+        Some(StateView::new(self, Cow::Owned(state)))
     }
 }

@@ -1,7 +1,7 @@
-//! How a run begins: the scene is checked and assembled, its rank found, its integrator chosen.
+//! The start of a run: the scene is checked and assembled, its rank found, its integrator chosen.
 
 use super::singularity::SingularityMonitor;
-use super::state_view::Shown;
+use super::state_view::CachedState;
 use super::{Simulation, explain};
 use crate::error::EngineError;
 use crate::integrate::{self, Integrator};
@@ -63,19 +63,19 @@ impl Simulation {
     /// [`EngineError::Constraint`] and [`EngineError::CustomLoad`].
     pub fn from_model(model: Model) -> Result<Self, EngineError> {
         let mut notes = model.notes.clone();
-        let (mut mechanism, start) = assembled(model, &mut notes)?;
-        let rank = analyzed(&mut mechanism, &start, &mut notes)?;
+        let (mut mechanism, start) = assemble(model, &mut notes)?;
+        let rank = analyze_rank(&mut mechanism, &start, &mut notes)?;
         mechanism.set_state(0.0, &start);
         let state = &mechanism.state;
-        let (shown, start_energy) = (Shown::new(0.0, &start, state), state.energy(&mechanism.system));
+        let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
         check_loads(&mechanism)?;
         let (kind, reason) = integrate::choose(&mut mechanism, &start);
         mechanism.elimination.counters = Counters::default();
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let singularities = SingularityMonitor::new(&mut mechanism, &rank);
         let conservative = mechanism.system.is_conservative();
-        let looks = !conservative || !mechanism.system.event_functions.is_empty();
-        let scratch = vec![0.0; if looks { start.len() } else { 0 }];
+        let interpolates = !conservative || !mechanism.system.event_functions.is_empty();
+        let scratch = vec![0.0; if interpolates { start.len() } else { 0 }];
         let end = mechanism.system.model.settings.duration;
         let mut simulation = Self {
             mechanism,
@@ -85,17 +85,17 @@ impl Simulation {
             start,
             rank,
             notes,
-            shown,
+            current,
             start_energy,
-            kinetic: 0.0,
+            max_kinetic_energy: 0.0,
             conservative,
             work: 0.0,
             scratch,
             step_limit: u64::MAX,
-            happened: Vec::new(),
+            occurrences: Vec::new(),
             last_numbers: Vec::new(),
             end,
-            counted: explain::Counted::default(),
+            counters: explain::RunCounters::default(),
             singularities,
         };
         simulation.restart_events();
@@ -103,8 +103,8 @@ impl Simulation {
     }
 }
 
-/// A mechanism with its start (q, q̇), which satisfies the constraints.
-fn assembled(model: Model, notes: &mut Vec<String>) -> Result<(Mechanism, Vec<f64>), ConstraintError> {
+/// A mechanism, and its start (q, q̇) moved onto the constraints.
+fn assemble(model: Model, notes: &mut Vec<String>) -> Result<(Mechanism, Vec<f64>), ConstraintError> {
     let mut mechanism = Mechanism::new(System::new(model));
     let n = mechanism.system.coordinates;
     let mut start = vec![0.0; 2 * n];
@@ -114,8 +114,8 @@ fn assembled(model: Model, notes: &mut Vec<String>) -> Result<(Mechanism, Vec<f6
     Ok((mechanism, start))
 }
 
-/// The rank of a mechanism near its start, from which it knows its dependent rows; counters begin anew.
-fn analyzed(
+/// Finds the rank of a mechanism near its start, and hands the dependent rows to its elimination; counters are reset.
+fn analyze_rank(
     mechanism: &mut Mechanism,
     start: &[f64],
     notes: &mut Vec<String>,
@@ -135,7 +135,7 @@ fn analyzed(
     Ok(rank)
 }
 
-/// Refuses loads that cannot act at the start, or whose integrator cannot know them.
+/// Refuses custom loads that cannot be evaluated at the start, or not by the integrator that the scene asks for.
 fn check_loads(mechanism: &Mechanism) -> Result<(), CustomLoadError> {
     let model = &mechanism.system.model;
     let Some(load) = model.custom_loads.first() else { return Ok(()) };

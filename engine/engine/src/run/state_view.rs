@@ -1,4 +1,4 @@
-//! The state that a run shows, or has shown, and what can be asked of it.
+//! A state of a run, and what is computed from it.
 
 use super::{Frame, Simulation};
 use crate::error::EngineError;
@@ -14,46 +14,46 @@ use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::System;
 
-/// The state that is shown, and what has been found there because somebody asked.
+/// A state of a run, with the results that have been computed from it so far.
 #[derive(Debug)]
-pub(super) struct Shown {
+pub(super) struct CachedState {
     time: f64,
     y: Vec<f64>,
     state: State,
-    answers: Answers,
+    results: Results,
 }
 
-/// What is found once for each state that is shown.
+/// Results that are computed at most once for each state.
 #[derive(Debug, Default)]
-struct Answers {
+struct Results {
     /// A solver with the accelerations and multipliers of the state.
     solved: OnceLock<Box<Elimination>>,
     /// Work of drivers and of loads without potential since the start of the last step, J.
     work: OnceLock<f64>,
 }
 
-/// Answers stay behind: a copy of a run is made to go on from there, and can find them again.
-impl Clone for Shown {
+/// Without the results: a copy of a run is made to go on from there, and can compute them again.
+impl Clone for CachedState {
     fn clone(&self) -> Self {
-        Self { time: self.time, y: self.y.clone(), state: self.state.clone(), answers: Answers::default() }
+        Self { time: self.time, y: self.y.clone(), state: self.state.clone(), results: Results::default() }
     }
 }
 
-impl Shown {
+impl CachedState {
     /// The state y = (q, q̇) at time t, s, which is in place in `state`.
     pub fn new(time: f64, y: &[f64], state: &State) -> Self {
-        Self { time, y: y.to_vec(), state: state.clone(), answers: Answers::default() }
+        Self { time, y: y.to_vec(), state: state.clone(), results: Results::default() }
     }
 
-    /// Shows the state y = (q, q̇) at another time, s, which `write` fills in; whole turns of angles are counted as the run
-    /// has counted them.
+    /// Changes to the state y = (q, q̇) at another time, s, which `write` fills in; whole turns of angles are counted as the
+    /// run has counted them.
     pub fn replace(
         &mut self,
         mechanism: &mut Mechanism,
         time: f64,
         write: impl FnOnce(&mut Mechanism, &mut [f64]),
     ) {
-        self.answers = Answers::default();
+        self.results = Results::default();
         self.time = time;
         write(mechanism, &mut self.y);
         let turns = mechanism.state.angles().iter().map(|angle| angle.reference);
@@ -68,7 +68,7 @@ impl Shown {
         state.set_revolutions(angles.iter().copied());
         let (q, q_dot) = y.split_at(system.coordinates);
         state.set(system, time, q, q_dot);
-        Self { time, y: y.to_vec(), state, answers: Answers::default() }
+        Self { time, y: y.to_vec(), state, results: Results::default() }
     }
 
     /// Time t, s.
@@ -86,15 +86,15 @@ impl Shown {
         &self.state
     }
 
-    /// Work since the start of the last step, J, which `find` finds if nobody has asked for it yet.
+    /// Work since the start of the last step, J, computed by `find` on the first request.
     pub fn work(&self, find: impl FnOnce() -> f64) -> f64 {
-        *self.answers.work.get_or_init(find)
+        *self.results.work.get_or_init(find)
     }
 }
 
-/// A state of a run, and what can be asked of it: [`Simulation::state`] and [`Simulation::at_snapshot`] give it.
+/// A state of a run, and what can be computed from it; [`Simulation::state`] and [`Simulation::at_snapshot`] return it.
 ///
-/// Accelerations and multipliers are solved for once, when the first question needs them. No question changes the run, its
+/// Accelerations and multipliers are solved for once, when the first method needs them. No method changes the run, its
 /// counters or the bits that it goes on with.
 ///
 /// ```
@@ -110,12 +110,12 @@ impl Shown {
 #[derive(Clone, Debug)]
 pub struct StateView<'a> {
     run: &'a Simulation,
-    shown: Cow<'a, Shown>,
+    cached: Cow<'a, CachedState>,
 }
 
 impl<'a> StateView<'a> {
-    pub(super) fn new(run: &'a Simulation, shown: Cow<'a, Shown>) -> Self {
-        Self { run, shown }
+    pub(super) fn new(run: &'a Simulation, cached: Cow<'a, CachedState>) -> Self {
+        Self { run, cached }
     }
 
     /// The assembled system.
@@ -131,28 +131,28 @@ impl<'a> StateView<'a> {
 
     /// Time t, s.
     pub fn time(&self) -> f64 {
-        self.shown.time
+        self.cached.time
     }
 
     /// Generalized coordinates q, in the order of the columns of [`StateView::jacobian`]: m for positions, 1 for directors.
     pub fn q(&self) -> &[f64] {
-        &self.shown.y[..self.system().coordinates]
+        &self.cached.y[..self.system().coordinates]
     }
 
     /// Generalized velocities q̇: m/s and 1/s.
     pub fn q_dot(&self) -> &[f64] {
-        &self.shown.y[self.system().coordinates..]
+        &self.cached.y[self.system().coordinates..]
     }
 
     /// All bodies in the world: position, directors, velocity, angular velocity.
     pub fn frame(&self) -> Frame {
-        let bodies = self.shown.state.bodies().iter().map(BodyFrame::from).collect();
-        Frame { time: self.shown.time, bodies }
+        let bodies = self.cached.state.bodies().iter().map(BodyFrame::from).collect();
+        Frame { time: self.cached.time, bodies }
     }
 
     /// The constraint Jacobian Φ_q, rigid-body rows first — eq. (4.1).
     pub fn jacobian(&self) -> Jacobian {
-        Jacobian::new(self.system(), &self.shown.state)
+        Jacobian::new(self.system(), &self.cached.state)
     }
 
     /// Accelerations q̈ — eq. (7.2): m/s² for positions, 1/s² for directors.
@@ -178,25 +178,25 @@ impl<'a> StateView<'a> {
     ///
     /// # Errors
     ///
-    /// [`EngineError::Uniqueness`] where it cannot be told which of them are unique.
+    /// [`EngineError::Uniqueness`] where it cannot be decided which of them are unique.
     pub fn reactions(&self, convention: Convention) -> Result<ReactionReport, EngineError> {
         Ok(report(&self.solved().multipliers, convention)?)
     }
 
     /// The augmented matrix of the equations of motion — eq. (6.6).
     pub fn augmented(&self) -> Symmetric {
-        matrices::augmented(self.system(), &self.shown.state)
+        matrices::augmented(self.system(), &self.cached.state)
     }
 
     /// S, which the solver factors — eq. (7.6).
     pub fn schur(&self) -> Symmetric {
-        matrices::schur(self.system(), &self.shown.state, &mut self.run.mechanism.elimination.clone())
+        matrices::schur(self.system(), &self.cached.state, &mut self.run.mechanism.elimination.clone())
     }
 
     /// Accelerations and multipliers of the state.
     fn solved(&self) -> Accelerations<'_> {
-        let (mechanism, Shown { state, answers, .. }) = (&self.run.mechanism, &*self.shown);
-        let solver = answers.solved.get_or_init(|| {
+        let (mechanism, CachedState { state, results, .. }) = (&self.run.mechanism, &*self.cached);
+        let solver = results.solved.get_or_init(|| {
             let mut solver = Box::new(mechanism.elimination.clone());
             solver.accelerate(&mechanism.system, state, mechanism.baumgarte());
             solver

@@ -62,7 +62,7 @@ fn swallowed(system: &System) -> f64 {
 }
 
 impl Simulation {
-    /// Cost and trust at the shown state.
+    /// Cost and accuracy up to the current state.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -74,8 +74,8 @@ impl Simulation {
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn summary(&self) -> Summary {
-        let work = self.work + self.work_up_to_shown();
-        let (system, current) = (&self.mechanism.system, self.shown.state());
+        let work = self.work + self.work_up_to_current();
+        let (system, current) = (&self.mechanism.system, self.current.state());
         let energy = current.energy(system);
         let position_violation = current.position_violation(system);
         let velocity_violation = current.velocity_violation(system);
@@ -106,14 +106,14 @@ impl Simulation {
         }
     }
 
-    /// What speaks against the shown state.
+    /// What speaks against the current state.
     fn doubts(&self, singularities: &[SingularConfiguration], drift: f64) -> Vec<String> {
         // A Taylor series meets its tolerance or stops, and does not look at each step.
         if self.kind == IntegratorKind::Taylor {
             return Vec::new();
         }
-        let (system, current) = (&self.mechanism.system, self.shown.state());
-        let kinetic = self.kinetic.max(current.kinetic_energy(system));
+        let (system, current) = (&self.mechanism.system, self.current.state());
+        let kinetic = self.max_kinetic_energy.max(current.kinetic_energy(system));
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time),
             drift: if drift == 0.0 {
