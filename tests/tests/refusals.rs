@@ -1,7 +1,7 @@
 //! Each variant of the engine's errors is met by a case here, and its sentence, code, place and remedy are those that were
 //! read: `tests/data/reviewed/refusals-*.snap`. The errors of lessons have theirs in `lessons/src/tests/refusals.rs`.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a test that cannot go on says so
 
 use serde_json::{Value, json};
 use triad_engine::EngineError;

@@ -49,25 +49,8 @@ fn a_lesson_is_read_run_and_answered_and_the_result_survives_a_restart() {
     let error = distance(&bob, &[-0.793_566_195_343_321_7, -0.608_483_930_443_791_5, 0.0]);
     assert!(error < 1e-7, "{error:e} m");
 
-    let jacobian = server.get(&format!("{session}/jacobian")).json();
-    let (rows, columns) = (jacobian["rows"].as_array().unwrap(), jacobian["columns"].as_array().unwrap());
-    assert_eq!((rows.len(), columns.len()), (12, 12));
-    assert!(rows.contains(&json!("bob: uu")) && columns.contains(&json!("bob.rx")), "{jacobian}");
-    let multipliers = server.get(&format!("{session}/multipliers")).json();
-    let force = numbers(&multipliers[0]["force_on_j"]);
-    assert!(distance(&force, &[14.210_931_130_057_3, 10.896_536_772_893, 0.0]) < 1e-5, "{force:?}");
-
-    let played = server.post(&format!("{session}/play"), &json!({"speed": 4})).json();
-    assert_eq!(played["playing"], true);
-    // It plays on by itself; how fast is a matter of the machine.
-    let waiting = Instant::now();
-    while server.get(&session).json()["time"].as_f64().unwrap() <= 2.1 {
-        assert!(waiting.elapsed() < HANG, "the session does not play");
-    }
-    let paused = server.post(&format!("{session}/pause"), &json!({})).json();
-    assert!(paused["time"].as_f64().unwrap() > 2.1, "{}", paused["time"]);
-    let reset = server.post(&format!("{session}/reset"), &json!({})).json();
-    assert_eq!(reset["time"], 0.0);
+    check_matrices(&server, &session);
+    check_playing(&server, &session);
 
     // Wrong, then right.
     let path = "/api/v1/lessons/simple-pendulum/submissions";
@@ -89,6 +72,32 @@ fn a_lesson_is_read_run_and_answered_and_the_result_survives_a_restart() {
     assert_eq!(kept.as_array().unwrap().len(), 2);
     assert_eq!((&kept[0]["id"], &kept[0]["passed"]), (&verdict["id"], &json!(true)), "newest first");
     assert_eq!(kept[1]["passed"], verdict_of_wrong(&kept), "{kept:#}");
+}
+
+/// The Jacobian and the reaction of the pendulum's joint at 2 s.
+fn check_matrices(server: &Server, session: &str) {
+    let jacobian = server.get(&format!("{session}/jacobian")).json();
+    let (rows, columns) = (jacobian["rows"].as_array().unwrap(), jacobian["columns"].as_array().unwrap());
+    assert_eq!((rows.len(), columns.len()), (12, 12));
+    assert!(rows.contains(&json!("bob: uu")) && columns.contains(&json!("bob.rx")), "{jacobian}");
+    let multipliers = server.get(&format!("{session}/multipliers")).json();
+    let force = numbers(&multipliers[0]["force_on_j"]);
+    assert!(distance(&force, &[14.210_931_130_057_3, 10.896_536_772_893, 0.0]) < 1e-5, "{force:?}");
+}
+
+/// A session plays, is paused and goes back to its start.
+fn check_playing(server: &Server, session: &str) {
+    let played = server.post(&format!("{session}/play"), &json!({"speed": 4})).json();
+    assert_eq!(played["playing"], true);
+    // It plays on by itself; how fast is a matter of the machine.
+    let waiting = Instant::now();
+    while server.get(session).json()["time"].as_f64().unwrap() <= 2.1 {
+        assert!(waiting.elapsed() < HANG, "the session does not play");
+    }
+    let paused = server.post(&format!("{session}/pause"), &json!({})).json();
+    assert!(paused["time"].as_f64().unwrap() > 2.1, "{}", paused["time"]);
+    let reset = server.post(&format!("{session}/reset"), &json!({})).json();
+    assert_eq!(reset["time"], 0.0);
 }
 
 /// The wrong submission lost the points of one question, and still has those of the others.

@@ -72,6 +72,47 @@ fn answers_that_cannot_be_read() {
     );
 }
 
+fn engine_error() -> triad_engine::EngineError {
+    triad_engine::catalogue::scene("pendulum").unwrap_err().into()
+}
+
+fn instance_errors() -> Refusals<InstanceError> {
+    // Found while a lesson is prepared; `triad lesson check` tells them with the file.
+    let mut instances = Refusals::new(variants!(
+        InstanceError: NotPolynomial, SharedDirectors, Singular, NoneConsistent, Relation, MovingFeature, Engine
+    ));
+    for error in [
+        InstanceError::NotPolynomial,
+        InstanceError::SharedDirectors,
+        InstanceError::Singular,
+        InstanceError::NoneConsistent,
+        InstanceError::Relation,
+        InstanceError::MovingFeature,
+        engine_error().into(),
+    ] {
+        instances.meet("a task of equations", &error, "", None, "");
+    }
+    instances
+}
+
+fn measure_errors() -> Refusals<MeasureError> {
+    let mut measures = Refusals::new(variants!(
+        MeasureError: Nothing, NoJoint, NoBody, NoSide, NotOfJoint, NoMotion, Engine
+    ));
+    for error in [
+        MeasureError::Nothing,
+        MeasureError::NoJoint("pen".to_owned()),
+        MeasureError::NoBody("bab".to_owned()),
+        MeasureError::NoSide,
+        MeasureError::NotOfJoint { body: "bab".to_owned(), joint: "pin".to_owned() },
+        MeasureError::NoMotion,
+        engine_error().into(),
+    ] {
+        measures.meet("a measured answer", &error, "", None, "");
+    }
+    measures
+}
+
 #[test]
 fn programs_and_figures_that_cannot_be_read() {
     let mut outputs = Refusals::new(variants!(
@@ -110,37 +151,7 @@ fn programs_and_figures_that_cannot_be_read() {
         let error = Figure::parse(&text).map(|_| ()).unwrap_err();
         figures.meet(&quoted(&text), &error, "", None, "");
     }
-    // Found while a lesson is prepared; `triad lesson check` tells them with the file.
-    let mut instances = Refusals::new(variants!(
-        InstanceError: NotPolynomial, SharedDirectors, Singular, NoneConsistent, Relation, MovingFeature, Engine
-    ));
-    let engine =
-        || triad_engine::catalogue::scene("pendulum").map_err(triad_engine::EngineError::from).unwrap_err();
-    for error in [
-        InstanceError::NotPolynomial,
-        InstanceError::SharedDirectors,
-        InstanceError::Singular,
-        InstanceError::NoneConsistent,
-        InstanceError::Relation,
-        InstanceError::MovingFeature,
-        engine().into(),
-    ] {
-        instances.meet("a task of equations", &error, "", None, "");
-    }
-    let mut measures = Refusals::new(variants!(
-        MeasureError: Nothing, NoJoint, NoBody, NoSide, NotOfJoint, NoMotion, Engine
-    ));
-    for error in [
-        MeasureError::Nothing,
-        MeasureError::NoJoint("pen".to_owned()),
-        MeasureError::NoBody("bab".to_owned()),
-        MeasureError::NoSide,
-        MeasureError::NotOfJoint { body: "bab".to_owned(), joint: "pin".to_owned() },
-        MeasureError::NoMotion,
-        engine().into(),
-    ] {
-        measures.meet("a measured answer", &error, "", None, "");
-    }
+    let (instances, measures) = (instance_errors(), measure_errors());
     all_reviewed("refusals-tasks", [outputs.text(), figures.text(), instances.text(), measures.text()]);
 }
 

@@ -58,7 +58,7 @@ impl Session {
         limits: &Limits,
     ) -> Result<Self, Problem> {
         let model = Model::new(&original).map_err(EngineError::from)?;
-        let (scene, mut simulation) = if change.is_empty() {
+        let (scene, simulation) = if change.is_empty() {
             (original.clone(), Simulation::from_model(model)?)
         } else {
             let (scene, _) = change.of(&original)?;
@@ -68,7 +68,7 @@ impl Session {
         let id = uuid::Uuid::new_v4().simple().to_string();
         let hub = Arc::new(Hub::default());
         let mut recording =
-            Recording::new(&id, describe(&scene, &mut simulation), Arc::clone(&hub), limits.recording_bytes);
+            Recording::new(&id, describe(&scene, &simulation), Arc::clone(&hub), limits.recording_bytes);
         recording.record(&simulation)?;
         let mut history = History::new(limits.recording_bytes / 4);
         history.keep(&simulation);

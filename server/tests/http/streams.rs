@@ -87,6 +87,15 @@ impl Client {
     }
 }
 
+/// Reads the next block of a stream.
+async fn next_block(mut client: Client) -> (Client, Vec<u8>) {
+    let read = tokio::task::spawn_blocking(move || {
+        let block = client.block();
+        (client, block)
+    });
+    read.await.expect("reads")
+}
+
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn watchers_get_the_history_then_what_is_new_and_are_told_of_a_reset_and_of_the_end() {
     let app = state(Limits::default());
@@ -103,41 +112,25 @@ async fn watchers_get_the_history_then_what_is_new_and_are_told_of_a_reset_and_o
     let stream = format!("{path}/stream");
     let open = |stream: String| tokio::task::spawn_blocking(move || Client::open(address, &stream));
 
-    let mut first = open(stream.clone()).await.expect("opens");
-    let (mut first, history) = tokio::task::spawn_blocking(move || {
-        let history = first.block();
-        (first, history)
-    })
-    .await
-    .expect("reads");
+    let first = open(stream.clone()).await.expect("opens");
+    let (first, history) = next_block(first).await;
     assert_eq!(&history[..4], b"RRF2", "a complete recording");
 
     let state = post(&server, &format!("{path}/step"), json!({"seconds": 0.2})).await.json();
     assert_eq!(state["frames"], state["frames_encoded"], "everything is encoded while somebody watches");
     let encoded = state["frames_encoded"].clone();
     let second = open(stream).await.expect("opens");
-    let (mut first, fresh) = tokio::task::spawn_blocking(move || {
-        let fresh = first.block();
-        (first, fresh)
-    })
-    .await
-    .expect("reads");
+    let (mut first, fresh) = next_block(first).await;
     assert_eq!(&fresh[..4], b"RRF2");
     assert!(fresh.len() < history.len(), "what is new is not sent with the history again");
     let state = get(&server, &path).await.json();
     assert_eq!(state["frames_encoded"], encoded, "a second watcher costs no encoding");
-    let (second, same) = tokio::task::spawn_blocking(move || {
-        let mut second = second;
-        let same = [second.block(), second.block()];
-        (second, same)
-    })
-    .await
-    .expect("reads");
-    assert_eq!(same, [history, fresh], "both see the same bytes");
+    let (second, old) = next_block(second).await;
+    let (mut second, new) = next_block(second).await;
+    assert_eq!([old, new], [history, fresh], "both see the same bytes");
 
     post(&server, &format!("{path}/reset"), "").await;
     let mut second = tokio::task::spawn_blocking(move || {
-        let mut second = second;
         second.until("reset");
         assert_eq!(&second.block()[..4], b"RRF2", "another recording begins");
         second

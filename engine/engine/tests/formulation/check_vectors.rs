@@ -90,21 +90,26 @@ fn coordinates(word: &str) -> &'static str {
     if word == "full" { "full" } else { "reduced" }
 }
 
+/// A list of the joint with these keys, and no drivers.
+fn joint(p1: [f64; 3], p2: [f64; 3], extra: &Value) -> (Value, Value) {
+    let mut joint = json!({ "name": "x", "body_i": "a", "body_j": "b", "point_i": p1, "point_j": p2 });
+    for (key, value) in extra.as_object().into_iter().flatten() {
+        joint[key] = value.clone();
+    }
+    (json!([joint]), json!([]))
+}
+
+/// No joints, and a list of the driver with these keys.
+fn driver(mut driver: Value) -> (Value, Value) {
+    driver["name"] = "x".into();
+    (json!([]), json!([driver]))
+}
+
 /// The joint or driver that has the rows of a case, and the label of those rows.
 fn element(constraint: &str) -> (Value, Value, &'static str) {
     let (p1, p2, s1, s2) = ([0.1, -0.2, 0.3], [-0.4, 0.25, 0.15], [0.6, 0.0, 0.8], [0.0, 0.28, 0.96]);
     let (ground_point, ground_vector) = ([0.5, -0.7, 0.2], [0.0, 0.6, 0.8]);
-    let joint = |extra: Value| {
-        let mut joint = json!({ "name": "x", "body_i": "a", "body_j": "b", "point_i": p1, "point_j": p2 });
-        for (key, value) in extra.as_object().into_iter().flatten() {
-            joint[key] = value.clone();
-        }
-        (json!([joint]), json!([]))
-    };
-    let driver = |mut driver: Value| {
-        driver["name"] = "x".into();
-        (json!([]), json!([driver]))
-    };
+    let joint = |extra: Value| joint(p1, p2, &extra);
     let path = json!({ "kind": "components", "x": { "kind": "harmonic", "amplitude": 1, "frequency": 2 },
         "y": { "kind": "polynomial", "coefficients": [0, 0, 0, 1] },
         "z": { "kind": "harmonic", "amplitude": 1, "frequency": 1, "phase": std::f64::consts::FRAC_PI_2 } });

@@ -11,18 +11,8 @@ use triad_engine::scene::{JointKind, Scene};
 use triad_engine::state::State;
 use triad_engine::system::System;
 
-/// Three bodies with different inertias and centres of mass off their reference points, all joints and drivers.
-#[allow(clippy::unwrap_used)] // a helper of tests
-fn scene(coordinates: [&str; 3]) -> Scene {
-    let body = |name: &str, k: f64, coordinates: &str| {
-        serde_json::json!({
-            "name": name, "mass": 1.0 + k, "coordinates": coordinates,
-            "inertia": { "tensor": [[1.0 + k, 0.1, -0.05], [0.1, 1.2, 0.2], [-0.05, 0.2, 1.5]] },
-            "center_of_mass": [0.1, -0.2 * k, 0.3],
-            "position": [k, 0.5, -k],
-            "orientation": { "axis": [1, k, 0.5], "angle": 0.3 + k },
-        })
-    };
+/// One joint of each kind, between points and along axes that do not meet.
+fn joints() -> Vec<serde_json::Value> {
     let two = ["a", "b"];
     let joint = |name: &str, kind: &str, bodies: [&str; 2], axis: bool| {
         let mut joint = serde_json::json!({
@@ -53,6 +43,21 @@ fn scene(coordinates: [&str; 3]) -> Scene {
     ];
     joints[3]["rows"] = "cp-cv".into();
     joints[8]["pitch"] = 0.3.into();
+    joints
+}
+
+/// Three bodies with different inertias and centres of mass off their reference points, all joints and drivers.
+#[allow(clippy::unwrap_used)] // a helper of tests
+fn scene(coordinates: [&str; 3]) -> Scene {
+    let body = |name: &str, k: f64, coordinates: &str| {
+        serde_json::json!({
+            "name": name, "mass": 1.0 + k, "coordinates": coordinates,
+            "inertia": { "tensor": [[1.0 + k, 0.1, -0.05], [0.1, 1.2, 0.2], [-0.05, 0.2, 1.5]] },
+            "center_of_mass": [0.1, -0.2 * k, 0.3],
+            "position": [k, 0.5, -k],
+            "orientation": { "axis": [1, k, 0.5], "angle": 0.3 + k },
+        })
+    };
     let angle = serde_json::json!({ "kind": "polynomial", "coefficients": [0.3, 0.8, 0.5] });
     let turning =
         serde_json::json!({ "kind": "turning", "start": [0.6, 0.8, 0], "axis": [1, 1, 0.3], "angle": angle });
@@ -63,7 +68,7 @@ fn scene(coordinates: [&str; 3]) -> Scene {
     serde_json::from_value(serde_json::json!({
         "name": "everything", "gravity": [0.3, -9.81, 0.2],
         "bodies": [body("a", 0.2, coordinates[0]), body("b", 0.5, coordinates[1]), body("c", 0.9, coordinates[2])],
-        "joints": joints,
+        "joints": joints(),
         "drivers": [
             { "type": "point", "name": "tp", "body": "a", "point": [0.1, 0.2, 0.3], "motion": path },
             { "type": "vector", "name": "ov", "body": "b", "vector": [0, 1, 2], "motion": turning },

@@ -250,6 +250,10 @@ async fn jacobian(
 /// The augmented matrix of the session that is shown.
 #[utoipa::path(get, path = "/rooms/{code}/augmented", operation_id = "get_lecture_augmented_matrix", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/augmented", body = ref(of::<SymmetricView>()))))]
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method itself is not general enough in its lifetime"
+)]
 async fn augmented(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
@@ -261,6 +265,10 @@ async fn augmented(
 /// The matrix that the solver factors, of the session that is shown.
 #[utoipa::path(get, path = "/rooms/{code}/schur", operation_id = "get_lecture_schur_complement", tag = "rooms", params(("code" = String, Path),
     ("at" = Option<f64>, Query)), responses((status = 200, description = "As /sessions/{id}/schur", body = ref(of::<SymmetricView>()))))]
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method itself is not general enough in its lifetime"
+)]
 async fn schur(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,

@@ -124,6 +124,10 @@ pub(in crate::api) struct SymmetricView {
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
     (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method itself is not general enough in its lifetime"
+)]
 async fn augmented(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,
@@ -137,6 +141,10 @@ async fn augmented(
     ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
     (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method itself is not general enough in its lifetime"
+)]
 async fn schur(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,

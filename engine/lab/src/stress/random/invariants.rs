@@ -30,8 +30,8 @@ pub fn judge(scene: &Scene, method: &TrialMethod) -> StressOutcome {
         .clone_into(&mut outcome.reference);
     let mut findings = Findings { verdict: StressVerdict::Survived, words: Vec::new(), error: 0.0 };
     match watched(&scene, &mut outcome, &mut findings) {
-        Ok(mut run) => {
-            compare(&scene, &mut run, &mut findings);
+        Ok(run) => {
+            compare(&scene, &run, &mut findings);
             if reversible(&scene) && run.system().angles.is_empty() {
                 back_in_time(&scene, &run, &mut findings);
             }

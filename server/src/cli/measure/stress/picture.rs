@@ -42,30 +42,7 @@ pub(super) fn svg(columns: &[Column]) -> String {
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
     for (k, column) in columns.iter().enumerate() {
-        let x = LEFT + CELL.0 * k + CELL.0 / 2;
-        let y = TOP - 8;
-        let _ = writeln!(
-            out,
-            "<text x=\"{x}\" y=\"{y}\" transform=\"rotate(-50 {x} {y})\">{}</text>",
-            super::page::escaped(&column.method)
-        );
-        for (row, entry) in column.entries.iter().enumerate() {
-            let (fill, mark) = look(entry.outcome.verdict);
-            let (left, top) = (LEFT + CELL.0 * k, TOP + CELL.1 * row);
-            let error = size(entry.outcome.error.or(entry.outcome.energy_drift));
-            let _ = writeln!(
-                out,
-                "<g><title>{}: {}</title><rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" fill=\"{fill}\" \
-                 stroke=\"white\"/><text x=\"{x}\" y=\"{}\" text-anchor=\"middle\">{mark}</text><text x=\"{x}\" y=\"{}\" \
-                 text-anchor=\"middle\" font-size=\"9\">{error}</text></g>",
-                super::page::escaped(&entry.case),
-                super::page::escaped(&entry.outcome.reason),
-                CELL.0,
-                CELL.1,
-                top + 14,
-                top + 26,
-            );
-        }
+        write_column(&mut out, k, column);
     }
     if let Some(column) = columns.first() {
         for (row, entry) in column.entries.iter().enumerate() {
@@ -92,6 +69,34 @@ pub(super) fn svg(columns: &[Column]) -> String {
         words.join("   ")
     );
     out
+}
+
+/// Column k: the name of the treatment, and a cell for each case.
+fn write_column(out: &mut String, k: usize, column: &Column) {
+    let x = LEFT + CELL.0 * k + CELL.0 / 2;
+    let y = TOP - 8;
+    let _ = writeln!(
+        out,
+        "<text x=\"{x}\" y=\"{y}\" transform=\"rotate(-50 {x} {y})\">{}</text>",
+        super::page::escaped(&column.method)
+    );
+    for (row, entry) in column.entries.iter().enumerate() {
+        let (fill, mark) = look(entry.outcome.verdict);
+        let (left, top) = (LEFT + CELL.0 * k, TOP + CELL.1 * row);
+        let error = size(entry.outcome.error.or(entry.outcome.energy_drift));
+        let _ = writeln!(
+            out,
+            "<g><title>{}: {}</title><rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" fill=\"{fill}\" \
+             stroke=\"white\"/><text x=\"{x}\" y=\"{}\" text-anchor=\"middle\">{mark}</text><text x=\"{x}\" y=\"{}\" \
+             text-anchor=\"middle\" font-size=\"9\">{error}</text></g>",
+            super::page::escaped(&entry.case),
+            super::page::escaped(&entry.outcome.reason),
+            CELL.0,
+            CELL.1,
+            top + 14,
+            top + 26,
+        );
+    }
 }
 
 /// The same as a table in Markdown, treatments in rows, with the largest error and the number of steps.
