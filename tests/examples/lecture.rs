@@ -1,4 +1,4 @@
-//! Measures a lecture: delay, bytes, frames a second, memory and the server's share of the processor. A run that has come
+//! Measures a lecture: delay, bytes, frames a second, and the server's processor time, memory and threads. A run that has come
 //! to its end is started anew, as a presenter does who shows it again.
 //!
 //! ```sh
@@ -50,8 +50,9 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
         assert_eq!(lecture.lead(&server, "PUT", "view", &view).status, 204);
         std::thread::sleep(Duration::from_millis(250));
     }
-    let share = server.processor_time().saturating_sub(busy).as_secs_f64() / began.elapsed().as_secs_f64();
-    let memory = server.memory();
+    let busy = server.processor_time().saturating_sub(busy).as_secs_f64();
+    let share = busy / began.elapsed().as_secs_f64();
+    let (memory, threads) = (server.memory(), server.threads());
     let seen: Vec<Seen> = watching.into_iter().map(|thread| thread.join().unwrap()).collect();
     let told = server.get(&session).json();
     let mut delays: Vec<Duration> = seen.iter().flat_map(|one| one.delays.clone()).collect();
@@ -77,7 +78,8 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
         at(0.95),
         at(1.0)
     );
-    println!("  server                 {:.0} % of one core, {memory:.0} MB", 100.0 * share);
+    println!("  processor time         {busy:.2} s, {:.0} % of one core", 100.0 * share);
+    println!("  memory and threads     {memory:.0} MB, {threads:.0}");
     println!("  frames encoded         {} of {}", told["frames_encoded"], told["frames"]);
     server.stop();
 }

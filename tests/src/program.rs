@@ -127,9 +127,18 @@ impl Server {
 
     /// Memory that the server holds, MB, on Linux.
     pub fn memory(&self) -> f64 {
+        self.status("VmRSS:") / 1024.0
+    }
+
+    /// Threads of the server, on Linux.
+    pub fn threads(&self) -> f64 {
+        self.status("Threads:")
+    }
+
+    fn status(&self, name: &str) -> f64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap_or_default();
-        let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap_or_default();
-        line.split_whitespace().nth(1).and_then(|text| text.parse::<f64>().ok()).unwrap_or(f64::NAN) / 1024.0
+        let line = status.lines().find(|line| line.starts_with(name)).unwrap_or_default();
+        line.split_whitespace().nth(1).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)
     }
 
     /// Gets a path.
