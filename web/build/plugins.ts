@@ -1,12 +1,11 @@
-// Two build steps of our own: lighter KaTeX fonts, and files compressed ahead of time.
+// Two build steps of our own: lighter KaTeX fonts, and files packed ahead of time.
 import { readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { brotliCompress, constants, gzip } from "node:zlib";
+import { brotliCompress, constants } from "node:zlib";
 import type { Plugin } from "vite";
 
 const toBrotli = promisify(brotliCompress);
-const toGzip = promisify(gzip);
 
 const COMPRESSED = /\.(?:js|css|wasm|svg|json)$/;
 const SMALLEST = 1024;
@@ -26,8 +25,8 @@ export function onlyWoff2(): Plugin {
 }
 
 /**
- * Writes FILE.br and FILE.gz next to every asset above 1 KB, so that the server never compresses
- * anything. The raw viewer (47 MB) is dropped: the server sends one of its compressed copies.
+ * Packs every asset above 1 KB: FILE.br takes the place of FILE, so that the server carries each once
+ * (the viewer has 47 MB unpacked). What else a browser may ask for, the server makes of it.
  */
 export function compressAhead(): Plugin {
   let outDir = "dist";
@@ -54,8 +53,7 @@ export function compressAhead(): Plugin {
           },
         });
         await writeFile(`${file}.br`, brotli);
-        await writeFile(`${file}.gz`, await toGzip(bytes, { level: large ? 6 : 9 }));
-        if (name.endsWith(".wasm")) await rm(file);
+        await rm(file);
       }
     },
   };

@@ -1,30 +1,17 @@
 //! The web page, embedded into the binary when it was built.
 //!
 //! Files under `assets/` carry a hash of their content in their names, so browsers may keep them for ever.
-//! Compressed copies were made at build time; the viewer's 47 MB exist only compressed.
+//! Those that can be compressed are kept packed by Brotli, as most browsers take them. Over plain HTTP, from any host but
+//! their own, browsers take gzip only: what they ask for is packed once more when it is first asked for, and kept.
 
-use std::io::Read;
+mod asset;
 
-use axum::body::Bytes;
 use axum::extract::Request;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::problem::Problem;
-
-/// One embedded file.
-#[derive(Debug)]
-struct Asset {
-    /// Path below the page's root, without a leading slash.
-    path: &'static str,
-    /// Entity tag, with its quotation marks.
-    tag: &'static str,
-    plain: Option<&'static [u8]>,
-    gzip: Option<&'static [u8]>,
-    brotli: Option<&'static [u8]>,
-}
-
-static ASSETS: &[Asset] = include!(concat!(env!("OUT_DIR"), "/assets.rs"));
+use asset::{Asset, find};
 
 /// What may run and load in the page: only what this server sent.
 const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; \
@@ -45,7 +32,7 @@ pub async fn serve(request: Request) -> Response {
         is_view.then(|| find("index.html")).flatten()
     });
     match found {
-        Some(asset) => respond(asset, request.headers()),
+        Some(asset) => respond(asset, request.headers()).await,
         None => Problem::new(
             StatusCode::NOT_FOUND,
             "not-found",
@@ -67,11 +54,7 @@ pub fn method_not_allowed() -> Response {
     .into_response()
 }
 
-fn find(path: &str) -> Option<&'static Asset> {
-    ASSETS.binary_search_by(|asset| asset.path.cmp(path)).ok().map(|index| &ASSETS[index])
-}
-
-fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
+async fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
     let cache =
         if asset.path.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
     let mut headers = HeaderMap::new();
@@ -89,33 +72,14 @@ fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
     {
         return (StatusCode::NOT_MODIFIED, headers).into_response();
     }
-    let (encoding, body) = match choose(asset, request) {
-        Ok(chosen) => chosen,
+    let (encoding, body) = match asset.bytes(|encoding| accepts(request, encoding.name())).await {
+        Ok(found) => found,
         Err(problem) => return problem.into_response(),
     };
     if let Some(encoding) = encoding {
-        headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static(encoding));
+        headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static(encoding.name()));
     }
     (headers, body).into_response()
-}
-
-/// The smallest copy that the caller can read.
-fn choose(asset: &'static Asset, request: &HeaderMap) -> Result<(Option<&'static str>, Bytes), Problem> {
-    if let Some(brotli) = asset.brotli.filter(|_| accepts(request, "br")) {
-        return Ok((Some("br"), Bytes::from_static(brotli)));
-    }
-    if let Some(gzip) = asset.gzip.filter(|_| accepts(request, "gzip")) {
-        return Ok((Some("gzip"), Bytes::from_static(gzip)));
-    }
-    if let Some(plain) = asset.plain {
-        return Ok((None, Bytes::from_static(plain)));
-    }
-    // A caller that reads nothing compressed, and a file that is kept compressed only.
-    let mut plain = Vec::new();
-    flate2::read::GzDecoder::new(asset.gzip.unwrap_or_default())
-        .read_to_end(&mut plain)
-        .map_err(Problem::internal)?;
-    Ok((None, plain.into()))
 }
 
 /// Whether the caller reads `encoding`: named, and not with a weight of zero.
@@ -147,13 +111,6 @@ fn media_type(path: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn files_can_be_found_by_bisection_and_every_one_has_content() {
-        assert!(ASSETS.is_sorted_by(|a, b| a.path < b.path));
-        assert!(find("index.html").is_some(), "the page is embedded");
-        assert!(ASSETS.iter().all(|asset| asset.plain.is_some() || asset.gzip.is_some()));
-    }
 
     #[test]
     fn a_weight_of_zero_refuses_an_encoding() {

@@ -1,12 +1,15 @@
 //! The description of the interface, scenes and the page.
 
 use std::collections::BTreeSet;
+use std::io::Read;
 
 use axum::body::Body;
 use axum::http::{Request, header};
+use brotli_decompressor::Decompressor;
+use flate2::read::GzDecoder;
 use serde_json::json;
 
-use crate::{get, post, send, server};
+use crate::{Reply, get, post, send, server};
 
 /// `TRIAD_WRITE_GOLDEN=1 cargo test` writes the file anew; the difference belongs into the same change.
 #[tokio::test]
@@ -54,9 +57,7 @@ async fn the_page_is_sent_compressed_and_kept_only_where_its_name_has_a_hash() {
     let page = get(&server, "/").await;
     assert_eq!(page.headers[header::CACHE_CONTROL], "no-cache");
     assert!(page.headers.contains_key(header::CONTENT_SECURITY_POLICY));
-    let html = String::from_utf8(page.bytes.to_vec()).expect("text");
-    let start = html.find("/assets/index-").expect("the page loads its program");
-    let script: String = html[start..].chars().take_while(|c| *c != '"').collect();
+    let script = script(&page);
     let plain = get(&server, &script).await;
     assert_eq!(plain.headers[header::CACHE_CONTROL], "public, max-age=31536000, immutable");
     let request = Request::get(&script).header(header::ACCEPT_ENCODING, "gzip, deflate, br");
@@ -66,4 +67,45 @@ async fn the_page_is_sent_compressed_and_kept_only_where_its_name_has_a_hash() {
     let known = Request::get(&script).header(header::IF_NONE_MATCH, plain.headers[header::ETAG].clone());
     let unchanged = send(&server, known.body(Body::empty()).expect("a request")).await;
     assert_eq!((unchanged.status.as_u16(), unchanged.bytes.len()), (304, 0));
+}
+
+/// The program that the page loads.
+fn script(page: &Reply) -> String {
+    let html = String::from_utf8(page.bytes.to_vec()).expect("text");
+    let start = html.find("/assets/index-").expect("the page loads its program");
+    html[start..].chars().take_while(|c| *c != '"').collect()
+}
+
+#[tokio::test]
+async fn a_file_is_the_same_whatever_the_browser_unpacks() {
+    let server = server();
+    let path = script(&get(&server, "/").await);
+    let ask = async |method: &str, encodings: &str| {
+        let request = Request::builder().method(method).uri(&path).header(header::ACCEPT_ENCODING, encodings);
+        send(&server, request.body(Body::empty()).expect("a request")).await
+    };
+    let plain = ask("GET", "identity").await;
+    assert!(!plain.headers.contains_key(header::CONTENT_ENCODING));
+    let [first, again] = [ask("GET", "gzip, deflate").await, ask("GET", "br;q=0, gzip").await];
+    assert_eq!(first.headers[header::CONTENT_ENCODING], "gzip");
+    assert_eq!(first.bytes.as_ptr(), again.bytes.as_ptr(), "packed once");
+    let brotli = ask("GET", "gzip, br").await;
+    assert!(brotli.bytes.len() < first.bytes.len() && first.bytes.len() < plain.bytes.len() / 2);
+    assert_eq!(unpacked(GzDecoder::new(&first.bytes[..])), plain.bytes);
+    assert_eq!(unpacked(Decompressor::new(&brotli.bytes[..], 4096)), plain.bytes);
+    let head = ask("HEAD", "gzip").await;
+    assert_eq!(
+        (head.status.as_u16(), &head.headers[header::CONTENT_ENCODING]),
+        (200, &first.headers[header::CONTENT_ENCODING])
+    );
+    for reply in [&plain, &first, &brotli, &head] {
+        assert_eq!(reply.headers[header::ETAG], plain.headers[header::ETAG]);
+        assert_eq!(reply.headers[header::VARY], "accept-encoding");
+    }
+}
+
+fn unpacked(mut source: impl Read) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes).expect("unpacks");
+    bytes
 }

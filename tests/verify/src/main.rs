@@ -31,10 +31,11 @@ impl Step {
     }
 }
 
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, npm packages", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
+    Step::new("size", "the program is at most 40 MB", size),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
         cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))
@@ -51,6 +52,20 @@ const STEPS: [Step; 8] = [
     })
     .if_named(),
 ];
+
+/// The largest program, MB: what somebody downloads and keeps.
+const LARGEST: f64 = 40.0;
+
+fn size(root: &Path) -> Result<(), String> {
+    cargo(root, "build --release --quiet --workspace")?;
+    // This program lies beside it.
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let program = program.with_file_name(format!("triad{}", std::env::consts::EXE_SUFFIX));
+    let bytes = std::fs::metadata(&program).map_err(|error| format!("{}: {error}", program.display()))?.len();
+    let megabytes = bytes as f64 / 1e6;
+    println!("verify: {} has {megabytes:.1} MB of {LARGEST}", program.display());
+    if megabytes > LARGEST { Err(format!("{megabytes:.1} MB, more than {LARGEST}")) } else { Ok(()) }
+}
 
 fn documentation(root: &Path) -> Result<(), String> {
     let mut command = cargo_command(root);

@@ -1,4 +1,4 @@
-//! Builds the web page if its sources are newer than the last build, and embeds it into the binary.
+//! The web page: built if its sources are newer than the last build, and embedded into the binary.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -20,19 +20,11 @@ const SOURCES: [&str; 8] = [
     "vite.config.ts",
 ];
 
-fn main() {
-    if let Err(error) = embed() {
-        for line in error.to_string().lines() {
-            println!("cargo::error={line}");
-        }
-    }
-}
-
-fn embed() -> Result<(), Box<dyn Error>> {
+/// Builds the page where that is needed, and writes the table of its files.
+pub fn embed() -> Result<(), Box<dyn Error>> {
     let server = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
     let web = server.parent().ok_or("the server's folder has no parent")?.join("web");
     let dist = web.join("dist");
-    println!("cargo::rerun-if-changed=build.rs");
     for source in SOURCES {
         let source = web.join(source);
         if source.exists() {
@@ -90,43 +82,38 @@ fn npm(web: &Path, arguments: &[&str]) -> Result<(), Box<dyn Error>> {
         .into())
 }
 
-/// One file of the page, with its compressed copies.
-#[derive(Default)]
-struct Asset {
-    plain: Option<PathBuf>,
-    gzip: Option<PathBuf>,
-    brotli: Option<PathBuf>,
+/// How a file of the page is kept.
+enum Stored {
+    Plain(PathBuf),
+    Brotli(PathBuf),
 }
 
 fn write_table(dist: &Path) -> Result<(), Box<dyn Error>> {
     let mut assets = BTreeMap::new();
     collect(dist, dist, &mut assets)?;
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    let mut table = String::from("&[\n");
-    for (index, (name, asset)) in assets.iter().enumerate() {
-        let stored = asset.plain.as_ref().or(asset.gzip.as_ref()).or(asset.brotli.as_ref());
-        let tag = fnv(&fs::read(stored.ok_or("an asset has no file")?)?);
-        // Copies, so that a build of the page during a build of the binary cannot mix two pages.
-        let include = |file: &Option<PathBuf>, kind: &str| -> Result<String, Box<dyn Error>> {
-            let Some(file) = file else { return Ok("None".into()) };
-            let copy = out.join(format!("asset-{index}.{kind}"));
-            fs::copy(file, &copy)?;
-            Ok(format!("Some(include_bytes!({:?}))", copy.display().to_string()))
+    let mut table = format!("static ASSETS: [Asset; {}] = [\n", assets.len());
+    for (index, (name, stored)) in assets.iter().enumerate() {
+        let (kind, file) = match stored {
+            Stored::Plain(file) => ("Plain", file),
+            Stored::Brotli(file) => ("Brotli", file),
         };
-        let plain = include(&asset.plain, "plain")?;
-        let gzip = include(&asset.gzip, "gz")?;
-        let brotli = include(&asset.brotli, "br")?;
+        let tag = fnv(&fs::read(file)?);
+        // Copies, so that a build of the page during a build of the binary cannot mix two pages.
+        let copy = out.join(format!("asset-{index}"));
+        fs::copy(file, &copy)?;
+        let copy = copy.display().to_string();
         writeln!(
             table,
-            "    Asset {{ path: {name:?}, tag: \"\\\"{tag:016x}\\\"\", plain: {plain}, gzip: {gzip}, brotli: {brotli} }},"
+            "    Asset::new({name:?}, \"\\\"{tag:016x}\\\"\", Stored::{kind}(include_bytes!({copy:?}))),"
         )?;
     }
-    table.push(']');
+    table.push_str("];\n");
     fs::write(out.join("assets.rs"), table)?;
     Ok(())
 }
 
-fn collect(dist: &Path, folder: &Path, assets: &mut BTreeMap<String, Asset>) -> Result<(), Box<dyn Error>> {
+fn collect(dist: &Path, folder: &Path, assets: &mut BTreeMap<String, Stored>) -> Result<(), Box<dyn Error>> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
@@ -135,13 +122,10 @@ fn collect(dist: &Path, folder: &Path, assets: &mut BTreeMap<String, Asset>) -> 
         }
         let parts = path.strip_prefix(dist)?.iter().map(|part| part.to_string_lossy());
         let name = parts.collect::<Vec<_>>().join("/");
-        if let Some(name) = name.strip_suffix(".gz") {
-            assets.entry(name.to_owned()).or_default().gzip = Some(path);
-        } else if let Some(name) = name.strip_suffix(".br") {
-            assets.entry(name.to_owned()).or_default().brotli = Some(path);
-        } else {
-            assets.entry(name).or_default().plain = Some(path);
-        }
+        match name.strip_suffix(".br") {
+            Some(name) => assets.insert(name.to_owned(), Stored::Brotli(path)),
+            None => assets.insert(name, Stored::Plain(path)),
+        };
     }
     Ok(())
 }

@@ -1,0 +1,41 @@
+//! What the binary carries beside its code: the web page and the letters of pictures.
+
+mod glyphs;
+mod page;
+
+use std::env;
+use std::error::Error;
+use std::path::PathBuf;
+use std::process::Command;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build");
+    if let Err(error) = prepare() {
+        for line in error.to_string().lines() {
+            println!("cargo::error={line}");
+        }
+    }
+}
+
+fn prepare() -> Result<(), Box<dyn Error>> {
+    page::embed()?;
+    glyphs::write()?;
+    fold_equal_functions()
+}
+
+/// Has the linker keep one of several functions whose instructions are equal: 2 MB of the binary. LLD can, which the
+/// toolchain brings and links with on this target; another linker would refuse the option.
+fn fold_equal_functions() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-env-changed=CARGO_ENCODED_RUSTFLAGS");
+    if env::var("TARGET")? != "x86_64-unknown-linux-gnu" || env::var("HOST")? != env::var("TARGET")? {
+        return Ok(());
+    }
+    // Whoever chooses a linker chooses its options.
+    let flags = env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default();
+    let asked = Command::new(env::var("RUSTC")?).args(["--print", "target-libdir"]).output()?;
+    let libraries = PathBuf::from(String::from_utf8(asked.stdout)?.trim());
+    if !flags.contains("link") && libraries.join("../bin/gcc-ld/ld.lld").exists() {
+        println!("cargo::rustc-link-arg-bins=-Wl,--icf=all");
+    }
+    Ok(())
+}
