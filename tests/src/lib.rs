@@ -9,8 +9,9 @@ pub mod probe;
 pub mod program;
 pub mod random;
 pub mod reference;
-pub mod refusals;
 pub mod reviewed;
+
+pub mod refusals;
 
 pub mod lecture;
 

@@ -1,12 +1,15 @@
-//! The stress suite in its quick form: verdicts are as they have to be, the same seed
-//! gives the same bits, and random mechanisms keep their invariants.
+//! The stress suite, in release at its full sizes: verdicts are as they have to be, the same seed gives the same bits, and random
+//! mechanisms keep their invariants.
 
 use triad_lab::stress::{self, StressVerdict, TrialMethod};
+
+/// Without optimization only the smaller and shorter cases run.
+const QUICK: bool = cfg!(debug_assertions);
 
 #[test]
 fn every_case_goes_as_it_has_to() {
     for case in &stress::cases() {
-        let entry = stress::run(case, &TrialMethod::default(), true);
+        let entry = stress::run(case, &TrialMethod::default(), QUICK);
         assert!(entry.as_expected(), "{}: {:?}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
     }
 }
@@ -29,7 +32,7 @@ fn a_seed_means_the_same_bits() {
 
 #[test]
 fn random_mechanisms_are_never_silently_wrong() {
-    let seeds = if cfg!(debug_assertions) { 15 } else { 100 };
+    let seeds = if QUICK { 15 } else { 2000 };
     for seed in 0..seeds {
         let entry = stress::random::run(seed, &TrialMethod::default());
         let outcome = entry.outcome;
