@@ -1,5 +1,5 @@
-//! Arrows point one way: a module of `lib.rs` imports only modules that stand before it there, and the files of a folder
-//! make no circle. The page's own test (`web/src/layers.test.ts`) holds the same for TypeScript.
+//! Arrows point one way: a module of `lib.rs` imports only modules that stand before it there, nothing by way of
+//! `lib.rs` itself, and the files of a folder make no circle. The page's own test (`web/src/layers.test.ts`) holds the same for TypeScript.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
@@ -75,9 +75,14 @@ fn leaves(tree: &str) -> Vec<String> {
 fn backward(name: &str, folder: &Path) -> BTreeSet<String> {
     let mut modules = BTreeMap::new();
     files(folder, &[], &mut modules);
-    let mut arrows = BTreeSet::new();
+    let (mut arrows, mut through_lib) = (BTreeSet::new(), BTreeSet::new());
     for (module, text) in &modules {
         for path in imports(module, text) {
+            // A name of the crate itself comes from lib.rs, where all modules are gathered: after every one of them.
+            if path.len() == 1 && path[0].starts_with(|c: char| c.is_ascii_uppercase()) && !module.is_empty()
+            {
+                through_lib.insert(format!("{name}: {} -> lib.rs ({})", module.join("::"), path[0]));
+            }
             let common = module.iter().zip(&path).take_while(|(a, b)| a == b).count();
             let order = declared(modules.get(&module[..common]).map_or("", |text| text));
             let place =
@@ -106,6 +111,7 @@ fn backward(name: &str, folder: &Path) -> BTreeSet<String> {
     back.map(|(parent, from, to, _)| {
         format!("{name}: {} -> {to}", [parent.as_slice(), &[(*from).to_owned()]].concat().join("::"))
     })
+    .chain(through_lib)
     .collect()
 }
 

@@ -3,8 +3,10 @@
 mod chain;
 mod four_bar;
 
+use crate::elements::Inertia;
+use crate::limits::MAX_BODIES;
+use crate::scene::Scene;
 use crate::text::nearest_name;
-use crate::{Inertia, Scene};
 
 /// A built-in scene, or a family of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,7 +137,7 @@ pub fn scene(name: &str) -> Result<Scene, CatalogueError> {
         return ranged("n-four-bar", number, 1, 1000).map(four_bar::scene);
     }
     if family == "spatial-chain" {
-        return ranged("spatial-chain", number, 1, crate::MAX_BODIES).map(chain::scene);
+        return ranged("spatial-chain", number, 1, MAX_BODIES).map(chain::scene);
     }
     if let ("spatial-slider-crank", "file" | "slender" | "mbdyn") = (family, number) {
         return scene("spatial-slider-crank").map(|base| slider_crank_variant(base, number));

@@ -1,6 +1,6 @@
 //! Why a text is not a scene.
 
-use crate::MAX_TEXT;
+use crate::limits::MAX_TEXT;
 
 /// Why a text is not a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,7 +1,9 @@
-//! Names that later calls take, and how the parts of a scene are added.
+//! Names that stand for the elements of a scene where others refer to them.
 
-use crate::{Body, Driver, Event, GROUND, Joint, Load, Scene};
 use std::fmt;
+
+/// Name of the fixed body that every scene has.
+pub const GROUND: &str = "ground";
 
 /// The fixed body that every scene has, where a body is asked for.
 ///
@@ -14,7 +16,7 @@ use std::fmt;
 pub struct Ground;
 
 macro_rules! handles {
-    ($($(#[$text:meta])* $handle:ident of $part:ident in $list:ident;)*) => {$(
+    ($($(#[$text:meta])* $handle:ident;)*) => {$(
         $(#[$text])*
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $handle(String);
@@ -67,39 +69,20 @@ macro_rules! handles {
                 handle.0
             }
         }
-
-        impl SceneElement for $part {
-            type Handle = $handle;
-
-            fn add_to(self, scene: &mut Scene) -> $handle {
-                let handle = $handle::from(self.name());
-                scene.$list.push(self);
-                handle
-            }
-        }
     )*};
 }
 
-/// What [`Scene::add`] takes: bodies, joints, drivers, loads and events.
-pub trait SceneElement {
-    /// What stands for it in later calls.
-    type Handle;
-
-    /// Puts it at the end of its list in the scene.
-    fn add_to(self, scene: &mut Scene) -> Self::Handle;
-}
-
 handles! {
-    /// A body, by its name: what [`Scene::add`] gives for one, and what takes a body takes as well as [`Ground`] or text.
-    BodyHandle of Body in bodies;
+    /// A body, by its name: what [`Scene::add`](crate::Scene::add) gives for one, and what takes a body takes as well as [`Ground`] or text.
+    BodyHandle;
     /// A joint, by its name.
-    JointHandle of Joint in joints;
+    JointHandle;
     /// A driver, by its name.
-    DriverHandle of Driver in drivers;
+    DriverHandle;
     /// A load, by its name.
-    LoadHandle of Load in loads;
+    LoadHandle;
     /// An event, by its name.
-    EventHandle of Event in events;
+    EventHandle;
 }
 
 impl AsRef<str> for Ground {

@@ -1,19 +1,10 @@
-//! Numbers of a scene that its author offers to be changed, and scenes with changed numbers.
+//! Numbers of a scene that its author offers to be changed.
 
-use crate::error::SceneError;
-use crate::{Scene, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
 
 /// Largest number of parameters that a scene may have.
 pub const MAX_PARAMETERS: usize = 100;
-/// Largest number of places that one change may touch.
-pub const MAX_CHANGES: usize = 1_000;
-/// What a change may choose besides numbers: words, and the way of stabilization.
-const CHOICES: [&str; 3] = ["/coordinates", "/simulation/integrator", "/simulation/stabilization"];
-/// Triples of a body that may be left out of a scene, where they are zero.
-const ZERO_TRIPLES: [&str; 4] = ["center_of_mass", "position", "velocity", "angular_velocity"];
 
 /// A number of the scene that the author offers to be changed while it runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -100,134 +91,5 @@ impl Parameter {
             Places::One(place) => std::slice::from_ref(place),
             Places::Several(places) => places,
         }
-    }
-}
-
-/// A scene as JSON in which everything that may be changed is written out.
-pub struct WrittenScene(Value);
-
-impl WrittenScene {
-    /// Writes a scene out.
-    pub fn new(scene: &Scene) -> Self {
-        let mut value = serde_json::to_value(scene).unwrap_or_default();
-        let settings = serde_json::to_value::<&Settings>(&scene.simulation).unwrap_or_default();
-        if let Some(root) = value.as_object_mut() {
-            root.insert("simulation".into(), settings);
-            root.entry("coordinates").or_insert_with(|| json!(scene.coordinates));
-        }
-        let bodies = value.pointer_mut("/bodies").and_then(Value::as_array_mut).into_iter().flatten();
-        for body in bodies.filter_map(Value::as_object_mut) {
-            for key in ZERO_TRIPLES {
-                body.entry(key).or_insert_with(|| json!([0.0, 0.0, 0.0]));
-            }
-        }
-        Self(value)
-    }
-
-    /// The number at a place.
-    pub fn number(&self, pointer: &str) -> Result<f64, SceneError> {
-        let fail = |found: String| SceneError::NoNumber { pointer: pointer.to_owned(), found };
-        match self.0.pointer(pointer) {
-            None => Err(fail(format!("there is nothing; {}", self.deepest(pointer)))),
-            Some(Value::Number(number)) => Ok(number.as_f64().unwrap_or(f64::NAN)),
-            Some(Value::String(word)) => Err(fail(format!("the word \"{word}\" stands there"))),
-            Some(Value::Array(_)) => {
-                Err(fail(format!("a list stands there: name one of its entries, like {pointer}/0")))
-            }
-            Some(Value::Object(inner)) => Err(fail(format!("there stand the keys {}", keys(inner)))),
-            Some(_) => Err(fail("no number stands there".to_owned())),
-        }
-    }
-
-    /// The value of a parameter.
-    pub fn value_of(&self, parameter: &Parameter) -> Result<f64, SceneError> {
-        let Some(first) = parameter.places().first() else {
-            return Err(SceneError::NoNumber {
-                pointer: String::new(),
-                found: format!("parameter \"{}\" names no place", parameter.name),
-            });
-        };
-        Ok(self.number(first.pointer())? / first.factor())
-    }
-
-    /// The whole scene, written out.
-    pub fn into_value(self) -> Value {
-        self.0
-    }
-
-    /// What can be said about a place that is not there.
-    fn deepest(&self, pointer: &str) -> String {
-        let mut known = "";
-        for (at, _) in pointer.match_indices('/').skip(1).chain([(pointer.len(), "")]) {
-            let Some(prefix) = pointer.get(..at) else { break };
-            if self.0.pointer(prefix).is_none() {
-                break;
-            }
-            known = prefix;
-        }
-        let place = if known.is_empty() { "the scene" } else { known };
-        match self.0.pointer(known) {
-            Some(Value::Object(inner)) => format!("{place} has the keys {}", keys(inner)),
-            Some(Value::Array(list)) => format!("{place} is a list of {}", list.len()),
-            _ => format!("{place} goes no deeper"),
-        }
-    }
-
-    fn set(&mut self, pointer: &str, to: &Value) -> Result<(), SceneError> {
-        let wrong = |found: String| SceneError::NoNumber { pointer: pointer.to_owned(), found };
-        if !CHOICES.contains(&pointer) {
-            self.number(pointer)?;
-            if !to.as_f64().is_some_and(f64::is_finite) {
-                return Err(wrong(format!("a number stands there, and {to} is none")));
-            }
-        }
-        match self.0.pointer_mut(pointer) {
-            Some(place) => *place = to.clone(),
-            None => return Err(wrong("there is nothing".to_owned())),
-        }
-        Ok(())
-    }
-}
-
-fn keys(map: &Map<String, Value>) -> String {
-    map.keys().map(String::as_str).collect::<Vec<_>>().join(", ")
-}
-
-impl Scene {
-    /// The parameter of that name.
-    pub fn parameter(&self, name: &str) -> Result<&Parameter, SceneError> {
-        self.parameters.iter().find(|p| p.name == name).ok_or_else(|| SceneError::UnknownParameter {
-            name: name.to_owned(),
-            known: self.parameters.iter().map(|p| p.name.clone()).collect(),
-        })
-    }
-
-    /// The same scene with other values of its parameters, and other values at places that are named by JSON
-    /// pointers. The latter may be any number, and the choices of coordinates, integrator and stabilization.
-    pub fn changed<'a>(
-        &self,
-        values: impl IntoIterator<Item = (&'a str, f64)>,
-        places: impl IntoIterator<Item = (&'a str, &'a Value)>,
-    ) -> Result<Self, SceneError> {
-        let mut written = WrittenScene::new(self);
-        let mut count = 0;
-        for (pointer, value) in places {
-            count += 1;
-            if count > MAX_CHANGES {
-                return Err(SceneError::TooMany { what: "changes", count, limit: MAX_CHANGES });
-            }
-            written.set(pointer, value)?;
-        }
-        for (name, value) in values {
-            let parameter = self.parameter(name)?;
-            let Parameter { low, high, .. } = *parameter;
-            if !(low..=high).contains(&value) {
-                return Err(SceneError::OutsideParameter { name: name.to_owned(), value, low, high });
-            }
-            for place in parameter.places() {
-                written.set(place.pointer(), &json!(value * place.factor()))?;
-            }
-        }
-        Self::from_json(&written.into_value().to_string())
     }
 }

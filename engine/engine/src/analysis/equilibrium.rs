@@ -1,6 +1,7 @@
 //! Static equilibrium: where nothing accelerates.
 
 use super::{AnalysisError, Stage};
+use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -92,7 +93,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
                 least_stiffness: if least.is_finite() { least } else { 0.0 },
                 stable: if basis.ncols() == 0 { Some(true) } else { clear.then_some(least > 0.0) },
                 bodies: stage.frames(),
-                reactions: reactions.map_err(crate::EngineError::from)?,
+                reactions: reactions.map_err(EngineError::from)?,
             });
         }
         let floor = (1e-9 * stiffest).max(f64::MIN_POSITIVE);

@@ -1,6 +1,7 @@
 //! A mechanism held at one position, with its small motions.
 
 use super::{AnalysisError, MAX_BODIES};
+use crate::error::EngineError;
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -31,7 +32,7 @@ pub struct Stage {
 impl Stage {
     /// Assembles a scene at its start.
     pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
-        let model = Model::new(scene).map_err(crate::EngineError::from)?;
+        let model = Model::new(scene).map_err(EngineError::from)?;
         if model.bodies.len() > MAX_BODIES {
             return Err(AnalysisError::TooLarge { bodies: model.bodies.len() });
         }

@@ -1,6 +1,9 @@
 //! A chain of rods in three-dimensional motion: the scene on which the cost per body is measured.
 
-use crate::{Body, BodyHandle, Ground, Inertia, Joint, Scene, Triple};
+use crate::elements::{Body, Inertia, Joint};
+use crate::handle::{BodyHandle, Ground};
+use crate::scene::Scene;
+use crate::value::Triple;
 
 /// Radius of a rod, m.
 const RADIUS: f64 = 0.05;

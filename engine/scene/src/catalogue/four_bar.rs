@@ -1,6 +1,9 @@
 //! The N-four-bar mechanism — A02 of the IFToMM library of benchmark problems.
 
-use crate::{AxisRows, Body, BodyHandle, Ground, Inertia, Joint, Orientation, Scene, Shape, Triple};
+use crate::elements::{AxisRows, Body, Inertia, Joint, Orientation, Shape};
+use crate::handle::{BodyHandle, Ground};
+use crate::scene::Scene;
+use crate::value::Triple;
 
 /// N windows: N + 1 uprights pinned to the ground at (i, 0), N couplers between their tips; all links are uniform
 /// slender rods of 1 m and 1 kg. It starts upright, the tips moving at 1 m/s along +x.

@@ -1,6 +1,8 @@
 //! Prescribed motions of a mechanism as their author writes them.
 
-use crate::{BodyHandle, JointHandle, Motion, Triple, VectorMotion};
+use super::motion::{Motion, VectorMotion};
+use crate::handle::{BodyHandle, JointHandle};
+use crate::value::Triple;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,8 @@
 //! Bodies as their author writes them.
 
+use super::orientation::Orientation;
 use crate::text::words;
-use crate::{Orientation, Triple, is_default};
+use crate::value::{Triple, is_default};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

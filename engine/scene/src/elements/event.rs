@@ -1,6 +1,7 @@
 //! Moments to look for, as their author writes them.
 
-use crate::{BodyHandle, JointHandle, Triple};
+use crate::handle::{BodyHandle, JointHandle};
+use crate::value::Triple;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

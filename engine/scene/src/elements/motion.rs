@@ -1,6 +1,6 @@
 //! Prescribed functions of time as their author writes them.
 
-use crate::Triple;
+use crate::value::Triple;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,8 @@
 //! Joints as their author writes them.
 
+use crate::handle::{BodyHandle, JointHandle};
 use crate::text::{UnknownWord, choice};
-use crate::{BodyHandle, JointHandle, Triple};
+use crate::value::Triple;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -1,6 +1,6 @@
 //! Orientations as their author writes them.
 
-use crate::Triple;
+use crate::value::Triple;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

@@ -1,0 +1,23 @@
+//! What a scene consists of: bodies, joints, drivers, loads and events, and what they are written with.
+
+mod orientation;
+
+mod motion;
+
+mod body;
+
+mod joint;
+
+mod driver;
+
+mod load;
+
+mod event;
+
+pub use body::{Body, Coordinates, Inertia, Shape};
+pub use driver::Driver;
+pub use event::{Event, Passing, Quantity};
+pub use joint::{AxisRows, Joint, JointKind};
+pub use load::{Friction, Load, LoadFrame};
+pub use motion::{Motion, VectorMotion};
+pub use orientation::{Orientation, WrittenOrientation};
