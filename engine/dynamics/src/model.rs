@@ -66,6 +66,10 @@ pub struct Model {
 
 impl Model {
     /// Checks a scene and resolves its names.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: the first thing in the scene that cannot be, with its place as a JSON pointer and what to try.
     pub fn new(scene: &Scene) -> Result<Self, ModelError> {
         finite(&scene.gravity, "/gravity")?;
         check_settings(&scene.simulation)?;

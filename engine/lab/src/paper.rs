@@ -96,6 +96,10 @@ pub struct Run {
 }
 
 /// Runs an example with the given coordinates in every body.
+///
+/// # Errors
+///
+/// [`PaperError`]: the scene cannot be made or assembled, or the run stops.
 pub fn run(case: &PaperCase, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<Run, PaperError> {
     let mut plant = PaperPlant::new(case, coordinates, algebra)?;
     let start = plant.start().to_vec();
@@ -152,6 +156,10 @@ fn sample(old: (f64, f64, f64), now: (f64, f64, f64), out: &mut Vec<f64>) {
 }
 
 /// The same coordinate from the engine's own solver, as the reference of an example.
+///
+/// # Errors
+///
+/// [`PaperError`]: the scene cannot be made, or its run stops.
 pub fn reference(case: &PaperCase) -> Result<Vec<f64>, PaperError> {
     let mut scene = scene(case, Coordinates::Full)?;
     scene.simulation = Settings {
@@ -175,6 +183,10 @@ pub fn reference(case: &PaperCase) -> Result<Vec<f64>, PaperError> {
 }
 
 /// The scene of an example, all bodies with the given coordinates.
+///
+/// # Errors
+///
+/// [`PaperError`]: no built-in scene of that name.
 pub fn scene(case: &PaperCase, coordinates: Coordinates) -> Result<Scene, PaperError> {
     let mut scene = (case.scene)().map_err(EngineError::from)?;
     scene.coordinates = coordinates;

@@ -48,6 +48,10 @@ pub struct Verifier {
 impl Verifier {
     /// Starts the second solution of the scene that `first` runs: by dop853 if that is a Taylor series, by radau if
     /// it is stiff, else by a series; a thousand times tighter, always with projection.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: the second solution cannot start.
     pub fn new(scene: &Scene, first: &Simulation) -> Result<Self, EngineError> {
         let mut scene = scene.clone();
         let settings = &mut scene.simulation;
@@ -76,6 +80,10 @@ impl Verifier {
 
     /// Brings the second solution to the time that the first one shows, by at most `most_steps` steps, and compares. False
     /// if it did not get there: call it again.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: the second solution cannot go on.
     pub fn compare(&mut self, first: &Simulation, most_steps: u64) -> Result<bool, EngineError> {
         if !self.second.advance_towards(first.time(), most_steps)? {
             return Ok(false);

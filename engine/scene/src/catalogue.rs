@@ -126,6 +126,10 @@ impl CatalogueError {
 }
 
 /// The built-in scene of a name such as `simple-pendulum` or `n-four-bar:40`.
+///
+/// # Errors
+///
+/// [`CatalogueError`]: a name that no built-in scene has, with the nearest one, or a number outside its range.
 pub fn scene(name: &str) -> Result<Scene, CatalogueError> {
     if let Some((_, text)) = FIXED.iter().find(|(fixed, _)| *fixed == name) {
         // The texts are checked by a test; a broken one must still not panic.

@@ -35,6 +35,10 @@ impl WrittenScene {
     }
 
     /// The number at a place.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NoNumber`]: what stands at the place instead.
     pub fn number(&self, pointer: &str) -> Result<f64, SceneError> {
         let fail = |found: String| SceneError::NoNumber { pointer: pointer.to_owned(), found };
         match self.0.pointer(pointer) {
@@ -50,6 +54,10 @@ impl WrittenScene {
     }
 
     /// The value of a parameter.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NoNumber`]: the parameter names no place, or one without a number.
     pub fn value_of(&self, parameter: &Parameter) -> Result<f64, SceneError> {
         let Some(first) = parameter.places().first() else {
             return Err(SceneError::NoNumber {
@@ -105,6 +113,10 @@ fn keys(map: &Map<String, Value>) -> String {
 
 impl Scene {
     /// The parameter of that name.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::UnknownParameter`], with the names that there are.
     pub fn parameter(&self, name: &str) -> Result<&Parameter, SceneError> {
         self.parameters.iter().find(|p| p.name == name).ok_or_else(|| SceneError::UnknownParameter {
             name: name.to_owned(),
@@ -114,6 +126,11 @@ impl Scene {
 
     /// The same scene with other values of its parameters, and other values at places that are named by JSON
     /// pointers. The latter may be any number, and the choices of coordinates, integrator and stabilization.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`]: an unknown parameter, a value outside its range, a place without a number, too many changes, or a scene that
+    /// cannot be read any more.
     pub fn changed<'a>(
         &self,
         values: impl IntoIterator<Item = (&'a str, f64)>,

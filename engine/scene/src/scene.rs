@@ -153,6 +153,10 @@ impl Scene {
 
     /// Reads a scene from JSON.
     ///
+    /// # Errors
+    ///
+    /// [`SceneError`]: a text that is too long or no scene, with line and column, or a scene with too many elements.
+    ///
     /// ```
     /// use triad_scene::Scene;
     ///

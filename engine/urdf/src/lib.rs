@@ -114,6 +114,10 @@ pub enum UrdfError {
 
 /// Reads a URDF, with what a side-car adds.
 ///
+/// # Errors
+///
+/// [`UrdfError`]: a text that is too long, no XML, or no robot, with the line and what to try.
+///
 /// ```
 /// use triad_urdf::{SideCar, import};
 ///

@@ -66,6 +66,10 @@ impl Mechanism {
     }
 
     /// Refuses the state at the end of a step that is off the constraints: it must not be taken for a result.
+    ///
+    /// # Errors
+    ///
+    /// [`ConstraintError`]: constraints that are lost, or rates of a driver that no velocities satisfy.
     pub fn check(&mut self, t: f64, y: &[f64]) -> Result<(), ConstraintError> {
         self.set_state(t, y);
         violation::check(&self.system, &self.state, t)?;
@@ -83,12 +87,21 @@ impl Mechanism {
     }
 
     /// Moves a start onto the constraints. Returns what was corrected, in words.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::assemble_at`].
     pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
         self.state.reset_revolutions();
         self.assemble_at(0.0, y)
     }
 
     /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.
+    ///
+    /// # Errors
+    ///
+    /// [`ConstraintError`]: joints that cannot be closed, a start that is too far from a closed one, or a motion that the joints do not
+    /// allow; each names the joint or driver.
     pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
         let given = y.to_vec();
         self.set_state(t, y);

@@ -41,6 +41,10 @@ pub fn analyze(system: &System, state: &mut State, elimination: &mut Elimination
 
 /// Rows of a tree of joints are independent whatever the position: if rounding finds them dependent, the masses are to
 /// blame, and what would be computed has nothing to do with the mechanism.
+///
+/// # Errors
+///
+/// [`ConstraintError::MassesTooDifferent`], with the lightest and the heaviest body.
 pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
     let System { constraints, bodies, model, .. } = system;
     let Some(row) = rank.dependent.first() else { return Ok(()) };

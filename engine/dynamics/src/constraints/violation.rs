@@ -55,6 +55,10 @@ const LOST: f64 = 1e-6;
 const LOST_BY_FEEDBACK: f64 = 0.1;
 
 /// Refuses positions that are off the constraints: they are no result.
+///
+/// # Errors
+///
+/// [`ConstraintError`]: the constraints are lost, or the state is not finite.
 pub fn check(system: &System, at: &State, time: f64) -> Result<(), ConstraintError> {
     let limit = match system.model.settings.constraint_method {
         ConstraintMethod::Projection

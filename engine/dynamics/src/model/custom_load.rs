@@ -293,6 +293,10 @@ impl fmt::Debug for ModelCustomLoad {
 
 impl ModelCustomLoad {
     /// Force and moment at a state, in the world, or why there are none.
+    ///
+    /// # Errors
+    ///
+    /// [`CustomLoadError`]: a body that the scene does not have, or a number that is not finite, with the name of the load.
     pub fn at(
         &self,
         model: &Model,

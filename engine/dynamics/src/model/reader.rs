@@ -44,6 +44,10 @@ impl ModelReader<'_> {
     }
 
     /// A body by its name.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: no body of that name, with the nearest one.
     pub fn body(&self, key: &str, name: &str) -> Result<BodyRef, ModelError> {
         if name == GROUND {
             return Ok(BodyRef::Ground);
@@ -57,6 +61,10 @@ impl ModelReader<'_> {
     }
 
     /// A moving body by its name.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: no body of that name, or the ground.
     pub fn moving_body(&self, key: &str, name: &str) -> Result<usize, ModelError> {
         match self.body(key, name)? {
             BodyRef::Moving(body) => Ok(body),
@@ -65,6 +73,10 @@ impl ModelReader<'_> {
     }
 
     /// A joint by its name, of one of the given kinds.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: no joint of that name, or one of another kind.
     pub fn joint(&self, name: &str, kinds: &[JointKind]) -> Result<usize, ModelError> {
         let key = if self.list == "events" { "of/joint" } else { "joint" };
         let Some(index) = self.joints.iter().position(|j| j.name == name) else {
@@ -80,22 +92,38 @@ impl ModelReader<'_> {
     }
 
     /// A joint whose angle is measured.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: no joint of that name, or one without an angle.
     pub fn joint_with_angle(&self, name: &str) -> Result<usize, ModelError> {
         self.joint(name, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])
     }
 
     /// A joint whose displacement along its axis is measured.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: no joint of that name, or one without a displacement.
     pub fn joint_with_displacement(&self, name: &str) -> Result<usize, ModelError> {
         self.joint(name, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])
     }
 
     /// Finite numbers as a vector.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: a number that is not finite.
     pub fn vector(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
         finite(&value, &self.at(key))?;
         Ok(Vector3::from(value))
     }
 
     /// A direction, made a unit vector.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: a number that is not finite, or a vector without length.
     pub fn unit(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
         self.vector(key, value)?
             .try_normalize(1e-12)
@@ -103,6 +131,10 @@ impl ModelReader<'_> {
     }
 
     /// A finite number in a range.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: a number that is not finite, or outside the range.
     pub fn number(&self, key: &str, value: f64, low: f64, high: f64) -> Result<f64, ModelError> {
         if value >= low && value <= high {
             Ok(value)
@@ -166,6 +198,10 @@ impl ModelReader<'_> {
     }
 
     /// A checked motion.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: a number that is not finite, a table whose times do not increase, or too many terms.
     pub fn curve(&self, key: &str, motion: &Motion) -> Result<Curve, ModelError> {
         let numbers: Vec<f64> = match motion {
             Motion::Constant { value } => vec![*value],
@@ -201,6 +237,10 @@ impl ModelReader<'_> {
     }
 
     /// A checked vector motion.
+    ///
+    /// # Errors
+    ///
+    /// [`ModelError`]: as for [`ModelReader::curve`], or an axis without length.
     pub fn vector_curve(&self, key: &str, motion: &VectorMotion) -> Result<VectorCurve, ModelError> {
         match motion {
             VectorMotion::Fixed { vector } => finite(vector, &self.at(key))?,

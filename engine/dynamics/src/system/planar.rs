@@ -55,6 +55,10 @@ pub enum Spatial {
 }
 
 /// The plane in which a system moves from the consistent positions q on.
+///
+/// # Errors
+///
+/// [`Spatial`]: why it does not move in a plane.
 pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
     let places: Vec<NaturalCoordinates> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
     let axis = |joint: &ModelJoint| {
@@ -124,6 +128,10 @@ fn loose_body(system: &System, keeps_plane: impl Fn(&ModelJoint) -> bool) -> Opt
 
 impl Plane {
     /// The system with the coordinates of the plane and the rows that matter there, at positions q.
+    ///
+    /// # Errors
+    ///
+    /// [`Spatial`]: what of the system has no counterpart in a plane.
     pub fn reduce(&self, system: &System, q: &[f64]) -> Result<System, Spatial> {
         let mut flat = system.clone();
         let turned = self.frame.transpose();

@@ -54,6 +54,10 @@ pub struct Assembly {
 
 /// Closes all joints with the least mass-weighted motion, however rough the start, and then makes the velocities fit.
 /// Bodies named in `pinned` stay where they are, and keep their velocities as far as the joints allow.
+///
+/// # Errors
+///
+/// [`AnalysisError`]: a scene that cannot be, joints that cannot be closed, or a body that cannot be kept in place.
 pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisError> {
     let mut held = scene.clone();
     for (index, name) in pinned.iter().enumerate() {

@@ -31,6 +31,10 @@ pub struct Stage {
 
 impl Stage {
     /// Assembles a scene at its start.
+    ///
+    /// # Errors
+    ///
+    /// [`AnalysisError`]: a scene that cannot be or cannot be assembled, or one too large for dense matrices.
     pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
         let model = Model::new(scene).map_err(EngineError::from)?;
         if model.bodies.len() > MAX_BODIES {

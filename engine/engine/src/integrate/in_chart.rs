@@ -56,6 +56,10 @@ pub struct InChart<M> {
 
 impl<M: OdeMethod> InChart<M> {
     /// Starts at the consistent state y with the method that `start` makes.
+    ///
+    /// # Errors
+    ///
+    /// [`StopReason::Undetermined`]: the free motions cannot be determined there, or nothing is free to move.
     pub fn new(
         coordinates: IndependentCoordinates,
         mechanism: &mut Mechanism,

@@ -68,6 +68,10 @@ impl Integrator {
     }
 
     /// Takes one accepted step, not beyond `end`.
+    ///
+    /// # Errors
+    ///
+    /// [`StopReason`]: why the run cannot go on.
     pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
         self.stepper.step(mechanism, end)?;
         let settings = &mechanism.system.model.settings;

@@ -124,6 +124,10 @@ pub struct ReactionReport {
 }
 
 /// All reactions of multipliers.
+///
+/// # Errors
+///
+/// [`UniquenessError`]: too many rows to tell what is unique, or a state that is not finite.
 #[doc(hidden)]
 pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport, UniquenessError> {
     let system = at.system;

@@ -95,6 +95,10 @@ pub struct NullSpace {
 
 impl NullSpace {
     /// Of the rows A at a position.
+    ///
+    /// # Errors
+    ///
+    /// [`UniquenessError`]: too many rows, or rows that are not finite.
     pub fn new(system: &System, jacobian: &TwistJacobian) -> Result<Self, UniquenessError> {
         let rows = system.solver_rows;
         if rows > MAX_ROWS {

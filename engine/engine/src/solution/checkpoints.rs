@@ -24,6 +24,10 @@ impl Checkpoint {
     }
 
     /// Goes on to the step that covers time t.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: the run cannot go on.
     pub fn cover(&mut self, t: f64) -> Result<(), EngineError> {
         while self.run.reached() < t {
             self.from = self.run.reached();

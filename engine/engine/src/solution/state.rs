@@ -56,22 +56,38 @@ impl<'a> SolutionState<'a> {
     }
 
     /// Velocity ṙ of a body's centre of mass in the world, m/s.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: no body of that name.
     pub fn velocity(&self, body: impl Into<BodyHandle>) -> Result<Triple, EngineError> {
         Ok(self.frame(body)?.1.velocity)
     }
 
     /// Angular velocity ω of a body, components in the world, rad/s — eq. (6.4).
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: no body of that name.
     pub fn angular_velocity(&self, body: impl Into<BodyHandle>) -> Result<Triple, EngineError> {
         Ok(self.frame(body)?.1.angular_velocity)
     }
 
     /// Directors u, v, w of a body in the world: unit vectors along its principal axes of inertia — THEORY section 2.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: no body of that name.
     pub fn directors(&self, body: impl Into<BodyHandle>) -> Result<[Triple; 3], EngineError> {
         let (_, frame) = self.frame(body)?;
         Ok([frame.u, frame.v, frame.w])
     }
 
     /// Place in the world, m, of a point of a body that is given in the body's own frame, m — eq. (2.2).
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`]: no body of that name.
     ///
     /// ```
     /// use triad_engine::prelude::*;

@@ -47,6 +47,10 @@ struct Ready {
 }
 
 /// Runs a plan; `progress(done, of all, what)` hears how far it is, in parts of one.
+///
+/// # Errors
+///
+/// The error of the first run that cannot start or go on.
 pub fn measure(plan: &BenchPlan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<Measured>, EngineError> {
     let mut ready = Vec::new();
     for (index, case) in plan.cases.iter().enumerate() {

@@ -23,6 +23,10 @@ fn intervals(duration: f64) -> u32 {
 }
 
 /// Positions of the first `bodies` bodies of a scene.
+///
+/// # Errors
+///
+/// [`EngineError`]: the scene cannot start or go on.
 pub fn positions(scene: &Scene, bodies: usize) -> Result<Positions, EngineError> {
     let mut simulation = Simulation::new(scene)?;
     (0..=intervals(scene.simulation.duration))
@@ -34,6 +38,10 @@ pub fn positions(scene: &Scene, bodies: usize) -> Result<Positions, EngineError>
 }
 
 /// The reference of a case: positions of the bodies that are compared.
+///
+/// # Errors
+///
+/// [`EngineError`]: the scene cannot start or go on.
 pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Positions, EngineError> {
     match case.truth {
         Truth::Converged => {

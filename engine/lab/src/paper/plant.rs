@@ -46,6 +46,10 @@ pub struct PaperPlant {
 
 impl PaperPlant {
     /// Prepares an example: chooses its rows and the order of elimination.
+    ///
+    /// # Errors
+    ///
+    /// [`PaperError`]: the scene cannot be assembled, or its matrix is singular.
     pub fn new(
         case: &PaperCase,
         coordinates: Coordinates,

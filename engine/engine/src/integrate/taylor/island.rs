@@ -143,6 +143,10 @@ impl IslandStepper {
 
     /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
     /// itself that the constraints hold, and how often it was shortened.
+    ///
+    /// # Errors
+    ///
+    /// [`StopReason`]: why the run cannot go on.
     pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), StopReason> {
         let plan = StepPlan {
             order: self.order,
