@@ -15,7 +15,11 @@ fn files(folder: &Path, at: &[String], found: &mut BTreeMap<Vec<String>, String>
         let inside = [at, std::slice::from_ref(&stem)].concat();
         if path.is_dir() {
             files(&path, &inside, found);
-        } else if path.extension().is_some_and(|e| e == "rs") && stem != "main" && stem != "tests" {
+        } else if path.extension().is_some_and(|e| e == "rs")
+            && stem != "main"
+            && stem != "tests"
+            && at.first().is_none_or(|first| first != "tests")
+        {
             let module = if stem == "lib" || stem == "mod" { at.to_vec() } else { inside };
             found.insert(module, std::fs::read_to_string(&path).unwrap());
         }

@@ -9,8 +9,9 @@ use triad_scene::{
     AxisRows, Body, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
 };
 
-use super::read::{Geometry, JointType, Link, Robot, UrdfJoint, Visual};
-use super::{LeftOut, Root, SideCar, UrdfError};
+use crate::omissions::{OmittedItem, UrdfError};
+use crate::read::{Geometry, JointType, Link, Robot, UrdfJoint, Visual};
+use crate::side_car::{Root, SideCar};
 
 /// Friction reaches three quarters at this speed, m/s or rad/s.
 const SMOOTHING: f64 = 1e-2;
@@ -37,7 +38,7 @@ struct Carrier {
 pub(super) fn scene(
     robot: &Robot,
     side_car: &SideCar,
-    left_out: &mut Vec<LeftOut>,
+    left_out: &mut Vec<OmittedItem>,
 ) -> Result<Scene, UrdfError> {
     check_names(robot, side_car)?;
     let placed = place(robot, side_car)?;
@@ -218,12 +219,12 @@ fn without_mass(link: &Link) -> UrdfError {
     }
 }
 
-fn add_body(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
+fn add_body(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<OmittedItem>) {
     let link = placed.link;
     if placed.carrier.name != link.name {
         if has_mass(link) {
             let what = "it does not move: its mass has no meaning".to_owned();
-            left_out.push(LeftOut { line: link.line, of: format!("link {}", link.name), what });
+            left_out.push(OmittedItem { line: link.line, of: format!("link {}", link.name), what });
         }
         return;
     }
@@ -243,12 +244,12 @@ fn add_body(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
     scene.add(body);
 }
 
-fn add_shapes(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<LeftOut>) {
+fn add_shapes(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<OmittedItem>) {
     let Some(body) = scene.bodies.iter_mut().find(|body| body.name == placed.carrier.name) else { return };
     for visual in &placed.link.shapes {
         match shape(visual, &placed.carrier.frame) {
             Some(shape) => body.shape.push(shape),
-            None => left_out.push(LeftOut {
+            None => left_out.push(OmittedItem {
                 line: visual.line,
                 of: format!("link {}", placed.link.name),
                 what: "<box> that is turned in its link: a scene's boxes lie along the axes of the body"
@@ -277,7 +278,7 @@ fn shape(visual: &Visual, frame: &Isometry3<f64>) -> Option<Shape> {
     }
 }
 
-fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut Vec<LeftOut>) {
+fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut Vec<OmittedItem>) {
     let Some(joint) = placed.joint else { return };
     let Some(parent) = all.iter().find(|other| other.link.name == joint.parent) else { return };
     if parent.carrier.name == placed.carrier.name {
@@ -304,7 +305,7 @@ fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut 
     add_friction(scene, joint, left_out);
 }
 
-fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<LeftOut>) {
+fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<OmittedItem>) {
     if joint.damping == 0.0 && joint.friction == 0.0 {
         return;
     }
@@ -316,7 +317,7 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<LeftOut
         JointType::Prismatic => Load::sliding_friction(name, &of, friction),
         JointType::Fixed | JointType::Floating | JointType::Planar => {
             let what = "<dynamics>: friction has a word only for turning and sliding joints".to_owned();
-            left_out.push(LeftOut { line: joint.line, of: format!("joint {of}"), what });
+            left_out.push(OmittedItem { line: joint.line, of: format!("joint {of}"), what });
             return;
         }
     };
@@ -324,7 +325,7 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<LeftOut
 }
 
 /// Joints that follow others.
-fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<LeftOut>) {
+fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<OmittedItem>) {
     for joint in &robot.joints {
         let Some((leader, factor, _)) = &joint.mimic else { continue };
         let turns = |name: &str| scene.joints.iter().any(|j| j.name == name && j.kind == JointKind::Revolute);
@@ -333,7 +334,7 @@ fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<LeftOut>) {
             scene.add(Joint::gear(name, leader, &joint.name, *factor));
         } else {
             let what = format!("<mimic> of {leader}: only turning joints can follow each other");
-            left_out.push(LeftOut { line: joint.line, of: format!("joint {}", joint.name), what });
+            left_out.push(OmittedItem { line: joint.line, of: format!("joint {}", joint.name), what });
         }
     }
 }

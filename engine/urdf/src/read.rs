@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::{LeftOut, MAX_LINKS, UrdfError};
+use crate::omissions::{MAX_LINKS, OmittedItem, UrdfError};
 
 /// XML nodes that are read.
 const MAX_NODES: u32 = 400_000;
@@ -69,7 +69,7 @@ pub(super) struct UrdfJoint {
     pub mimic: Option<(String, f64, f64)>,
 }
 
-pub(super) fn robot(text: &str, left_out: &mut Vec<LeftOut>) -> Result<Robot, UrdfError> {
+pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot, UrdfError> {
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
         .map_err(|error| UrdfError::Xml { line: error.pos().row, cause: error.to_string() })?;
@@ -85,7 +85,7 @@ pub(super) fn robot(text: &str, left_out: &mut Vec<LeftOut>) -> Result<Robot, Ur
             "link" => robot.links.push(link(node, left_out)?),
             "joint" => robot.joints.push(joint(node, left_out)?),
             "material" => {}
-            other => left_out.push(LeftOut {
+            other => left_out.push(OmittedItem {
                 line: line(node),
                 of: "robot".to_owned(),
                 what: format!("<{other}> has no meaning for a scene"),
@@ -102,7 +102,7 @@ pub(super) fn robot(text: &str, left_out: &mut Vec<LeftOut>) -> Result<Robot, Ur
     Ok(robot)
 }
 
-fn link(node: Node, left_out: &mut Vec<LeftOut>) -> Result<Link, UrdfError> {
+fn link(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<Link, UrdfError> {
     let name = attribute(node, "name")?.to_owned();
     let of = format!("link {name}");
     let mut link = Link { line: line(node), name, inertial: None, shapes: Vec::new() };
@@ -113,13 +113,13 @@ fn link(node: Node, left_out: &mut Vec<LeftOut>) -> Result<Link, UrdfError> {
             "collision" => {}
             other => {
                 let what = format!("<{other}> has no meaning for a scene");
-                left_out.push(LeftOut { line: line(part), of: of.clone(), what });
+                left_out.push(OmittedItem { line: line(part), of: of.clone(), what });
             }
         }
     }
     if node.children().any(|part| part.has_tag_name("collision")) {
         let what = "<collision>: scenes have no contact between bodies".to_owned();
-        left_out.push(LeftOut { line: line(node), of, what });
+        left_out.push(OmittedItem { line: line(node), of, what });
     }
     Ok(link)
 }
@@ -137,7 +137,7 @@ fn inertial(node: Node) -> Result<Inertial, UrdfError> {
     Ok(Inertial { mass, center: origin.translation.vector, tensor: turn * own * turn.transpose() })
 }
 
-fn visual(node: Node, of: &str, left_out: &mut Vec<LeftOut>) -> Result<Option<Visual>, UrdfError> {
+fn visual(node: Node, of: &str, left_out: &mut Vec<OmittedItem>) -> Result<Option<Visual>, UrdfError> {
     let geometry = child(node, "geometry")?;
     let Some(shape) = geometry.children().find(Node::is_element) else {
         return Err(wrong(
@@ -155,14 +155,14 @@ fn visual(node: Node, of: &str, left_out: &mut Vec<LeftOut>) -> Result<Option<Vi
         other => {
             let file = shape.attribute("filename").map(|name| format!(" {name}")).unwrap_or_default();
             let what = format!("<{other}>{file}: it is drawn as bars between its joints");
-            left_out.push(LeftOut { line: line(shape), of: of.to_owned(), what });
+            left_out.push(OmittedItem { line: line(shape), of: of.to_owned(), what });
             return Ok(None);
         }
     };
     Ok(Some(Visual { line: line(node), origin: origin(node)?, geometry }))
 }
 
-fn joint(node: Node, left_out: &mut Vec<LeftOut>) -> Result<UrdfJoint, UrdfError> {
+fn joint(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<UrdfJoint, UrdfError> {
     let name = attribute(node, "name")?.to_owned();
     let of = format!("joint {name}");
     let kind = match attribute(node, "type")? {
@@ -180,7 +180,7 @@ fn joint(node: Node, left_out: &mut Vec<LeftOut>) -> Result<UrdfJoint, UrdfError
     let (mut damping, mut friction, mut mimic) = (0.0, 0.0, None);
     for part in node.children().filter(Node::is_element) {
         let mut leave = |what: &str| {
-            left_out.push(LeftOut { line: line(part), of: of.clone(), what: what.to_owned() });
+            left_out.push(OmittedItem { line: line(part), of: of.clone(), what: what.to_owned() });
         };
         match part.tag_name().name() {
             "origin" | "parent" | "child" => {}

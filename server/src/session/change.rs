@@ -21,9 +21,19 @@ pub struct SceneChange {
     /// Values of any other numbers, by JSON pointers into the scene; also `/coordinates`, `/simulation/integrator`
     /// and `/simulation/stabilization`.
     #[schemars(example = json!({"/simulation/tolerance": 1e-6}))]
+    #[schemars(with = "BTreeMap<String, NumberOrWord>")]
     pub places: BTreeMap<String, Value>,
     /// What happens to the run: as the parameters say if it is not given, and a restart for other numbers.
     pub then: Option<AfterChange>,
+}
+
+/// What stands at a place of a scene that may be changed.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[allow(dead_code)] // described, never made: the scene itself says what fits
+enum NumberOrWord {
+    Number(f64),
+    Word(String),
 }
 
 /// What happens to a run whose scene is changed.

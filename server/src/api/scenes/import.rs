@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use triad_engine::scene::Scene;
-use triad_urdf::{LeftOut, SideCar};
+use triad_urdf::{OmittedItem, SideCar};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -39,7 +39,7 @@ struct ImportedRobot {
     #[schemars(with = "Scene")]
     scene: Value,
     /// What could not be carried over.
-    left_out: Vec<LeftOut>,
+    left_out: Vec<OmittedItem>,
 }
 
 /// Read a URDF as a scene, and tell what could not be carried over.
