@@ -15,7 +15,7 @@ use triad_engine::scene::Scene;
 const FAMILIES: [(&str, [usize; 5]); 2] =
     [("spatial-chain", [10, 50, 200, 1000, 2000]), ("n-four-bar", [10, 40, 100, 400, 1000])];
 /// Each size is measured for so long in each round.
-const ENOUGH: Duration = Duration::from_millis(300);
+const MEASURED_TIME: Duration = Duration::from_millis(300);
 const ROUNDS: usize = 7;
 /// Steps of one measurement: as many as a run surely has.
 const STEPS: u32 = 20;
@@ -85,7 +85,7 @@ fn growth() -> Result<(), EngineError> {
 /// Mean time of the first steps of a run, repeated for a while, s.
 fn step(run: &mut Simulation) -> Result<f64, EngineError> {
     let (began, mut spent, mut steps) = (Instant::now(), Duration::ZERO, 0);
-    while began.elapsed() < ENOUGH {
+    while began.elapsed() < MEASURED_TIME {
         run.reset();
         let began = Instant::now();
         for _ in 0..STEPS {

@@ -36,7 +36,7 @@ const KINDS: [(&str, IntegratorKind); 4] = [
 ];
 const ERRORS: [f64; 3] = [1e-4, 1e-6, 1e-9];
 /// Runs are repeated until they have taken this long together, s.
-const ENOUGH: f64 = 0.06;
+const MEASURED_TIME: f64 = 0.06;
 /// A run that takes longer, s, does not count.
 const TOO_LONG: f64 = 2.0;
 const MAX_STEPS: usize = 200_000;
@@ -194,7 +194,7 @@ fn measure(name: &str, scene: &Scene) {
             let Some((_, places)) = run(scene, *kind, tolerance, true) else { continue };
             let error = distance(&places, &exact);
             let (mut total, mut count) = (0.0, 0);
-            while count < 1000 && total < ENOUGH {
+            while count < 1000 && total < MEASURED_TIME {
                 let Some((time, _)) = run(scene, *kind, tolerance, false) else { break };
                 total += time;
                 count += 1;

@@ -10,11 +10,11 @@
 
 mod cases;
 mod correlation;
-mod plant;
+mod descriptor;
 
 pub use cases::{CASES, PaperCase, Published};
 pub use correlation::{Correlation, correlation};
-pub use plant::{LinearAlgebra, PaperPlant};
+pub use descriptor::{LinearAlgebra, PaperSystem};
 
 use serde::Serialize;
 use triad_engine::EngineError;
@@ -101,7 +101,7 @@ pub struct Run {
 ///
 /// [`PaperError`]: the scene cannot be made or assembled, or the run stops.
 pub fn run(case: &PaperCase, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<Run, PaperError> {
-    let mut plant = PaperPlant::new(case, coordinates, algebra)?;
+    let mut plant = PaperSystem::new(case, coordinates, algebra)?;
     let start = plant.start().to_vec();
     let end = case.duration;
     let place = plant.coordinate(case.tracked_body, case.tracked_axis);

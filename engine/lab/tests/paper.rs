@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
-use triad_lab::paper::{CASES, LinearAlgebra, PaperCase, PaperPlant, correlation, reference, run};
+use triad_lab::paper::{CASES, LinearAlgebra, PaperCase, PaperSystem, correlation, reference, run};
 use triad_scene::Coordinates::{Full, Reduced};
 
 fn case(bodies: usize, withheld: bool) -> &'static PaperCase {
@@ -40,7 +40,7 @@ fn all_linear_algebra_agrees() {
     for coordinates in [Full, Reduced] {
         let [dense, sparse, own] = [LinearAlgebra::Dense, LinearAlgebra::Sparse, LinearAlgebra::Elimination]
             .map(|algebra| {
-                let mut plant = PaperPlant::new(case, coordinates, algebra).unwrap();
+                let mut plant = PaperSystem::new(case, coordinates, algebra).unwrap();
                 let y = plant.start().to_vec();
                 let mut rate = vec![0.0; y.len()];
                 assert!(plant.rate(&y, &mut rate));

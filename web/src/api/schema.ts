@@ -1420,7 +1420,7 @@ export interface components {
             /** @description Values at those times. */
             values: number[];
         };
-        /** @description One multiplier with the label of its equation. */
+        /** @description One multiplier λ of eq. (6.6) with the label of its equation. */
         Multiplier: {
             /** @description Label of the equation within its joint. */
             label: string;
@@ -1493,6 +1493,8 @@ export interface components {
             /** @description With `lesson`: whose numbers, a student's name or another seed; without it, those that everybody sees. */
             seed?: string | null;
         };
+        /** @description What stands at a place of a scene that may be changed. */
+        NumberOrWord: number | string;
         /** @description What happens to a run when a parameter changes. */
         OnChange: "restart" | "continue";
         /** @description A room that was opened. */
@@ -1857,7 +1859,7 @@ export interface components {
             /** @description Right, wrong, blank or invalid. */
             verdict: components["schemas"]["Mark"];
         };
-        /** @description The reaction of a joint or driver. */
+        /** @description The reaction of a joint or driver: what body `by` does to body `on` through it — eq. (9.1). */
         Reaction: {
             /** @description The point about which the moment is taken, in words. */
             about: string;
@@ -1867,7 +1869,7 @@ export interface components {
                 number,
                 number
             ];
-            /** @description Its axes in the world. */
+            /** @description Its axes x, y, z in the world: unit vectors. */
             axes: [
                 [
                     number,
@@ -1891,7 +1893,7 @@ export interface components {
             driver: boolean;
             /** @description The frame of the components, in words. */
             expressed_in: string;
-            /** @description Force, N. */
+            /** @description Force f, N, along those axes. */
             force: [
                 components["schemas"]["ReactionComponent"],
                 components["schemas"]["ReactionComponent"],
@@ -1899,7 +1901,7 @@ export interface components {
             ];
             /** @description The joint or driver. */
             joint: string;
-            /** @description Moment, N m. */
+            /** @description Moment τ about that point, N m, along those axes. */
             moment: [
                 components["schemas"]["ReactionComponent"],
                 components["schemas"]["ReactionComponent"],
@@ -1918,7 +1920,7 @@ export interface components {
              */
             value: number;
         };
-        /** @description Every reaction at one moment. */
+        /** @description Every reaction at one moment, and what is not unique about them — THEORY section 9. */
         ReactionReport: {
             /**
              * Format: double
@@ -1931,7 +1933,7 @@ export interface components {
             redundancies: components["schemas"]["Redundancy"][];
             /**
              * Format: double
-             * @description Time, s.
+             * @description Time t, s.
              */
             time: number;
             /**
@@ -1952,7 +1954,20 @@ export interface components {
              */
             time: number;
         };
-        /** @description A set of joints and drivers whose rows repeat each other. */
+        /**
+         * @description A set of joints and drivers whose rows repeat each other.
+         *
+         *     ```
+         *     use triad_engine::prelude::*;
+         *     use triad_engine::reactions::report::Convention;
+         *
+         *     let report = Simulation::new(&catalogue::scene("n-four-bar:1")?)?.reactions(Convention::default())?;
+         *     let set = &report.redundancies[0];
+         *     assert_eq!((set.rows, set.joints.len()), (3, 4), "four hinges hold the plane three times too often");
+         *     assert!(!set.remedies.is_empty());
+         *     # Ok::<(), EngineError>(())
+         *     ```
+         */
         Redundancy: {
             /** @description The joints and drivers that share them; none of them alone is to blame. */
             joints: string[];
@@ -2051,7 +2066,7 @@ export interface components {
              *     }
              */
             places?: {
-                [key: string]: unknown;
+                [key: string]: components["schemas"]["NumberOrWord"];
             };
             /**
              * @description What happens to the run: as the parameters say if it is not given, and a restart for other numbers.

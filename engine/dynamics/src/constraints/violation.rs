@@ -50,9 +50,9 @@ const SHARE: f64 = 0.05;
 
 /// Relative |Φ| above which a run has lost its constraints: chosen above what projection leaves at any
 /// tolerance and below what a picture shows.
-const LOST: f64 = 1e-6;
+const MAX_VIOLATION: f64 = 1e-6;
 /// The same with Baumgarte's stabilization or penalties, which keep a violation within bounds but not near zero.
-const LOST_BY_FEEDBACK: f64 = 0.1;
+const MAX_VIOLATION_WITH_FEEDBACK: f64 = 0.1;
 
 /// Refuses positions that are off the constraints: they are no result.
 ///
@@ -63,8 +63,8 @@ pub fn check(system: &System, at: &State, time: f64) -> Result<(), ConstraintErr
     let limit = match system.model.settings.constraint_method {
         ConstraintMethod::Projection
         | ConstraintMethod::Partitioning
-        | ConstraintMethod::AugmentedLagrangian { .. } => LOST,
-        ConstraintMethod::Baumgarte { .. } | ConstraintMethod::Penalty { .. } => LOST_BY_FEEDBACK,
+        | ConstraintMethod::AugmentedLagrangian { .. } => MAX_VIOLATION,
+        ConstraintMethod::Baumgarte { .. } | ConstraintMethod::Penalty { .. } => MAX_VIOLATION_WITH_FEEDBACK,
     };
     if relative(system, at) <= limit {
         return Ok(());

@@ -29,14 +29,14 @@ impl SchurLayout {
     /// Of a system: the blocks are its joints, and two of them meet where a body has both.
     pub fn new(system: &System) -> Self {
         let sizes: Vec<usize> = system.constraints.iter().map(|c| c.solver.len()).collect();
-        // A joint without rows (in the plane) meets nobody.
-        let touching: Vec<Vec<usize>> = system
+        // A joint without rows (in the plane) shares no block.
+        let with_rows: Vec<Vec<usize>> = system
             .incidences_of_body
             .iter()
             .map(|list| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect())
             .collect();
         let pairs = || {
-            touching.iter().enumerate().flat_map(|(body, incidences)| {
+            with_rows.iter().enumerate().flat_map(|(body, incidences)| {
                 incidences
                     .iter()
                     .enumerate()

@@ -33,7 +33,7 @@ use triad_linalg::BlockCholesky;
 pub const REGULARIZATION: f64 = 1e-9;
 /// Relative pivot of S below which it is regularized although its rows were found independent: the position is nearly
 /// singular.
-const NEAR_SINGULAR: f64 = 1e-9;
+pub(super) const NEAR_SINGULAR: f64 = 1e-9;
 /// Steps of iterative refinement where S or an inertia is regularized.
 const REFINEMENTS: usize = 3;
 

@@ -33,9 +33,9 @@ mod probe;
 mod island;
 
 pub use island::IslandSeries;
-pub use step::{StepPlan, Taken};
+pub use step::{SeriesStep, StepPlan};
 
-use crate::dynamics::elimination::Counters;
+use crate::dynamics::elimination::{Counters, NEAR_SINGULAR, REGULARIZATION};
 use crate::model::BodyRef;
 use crate::system::System;
 use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar};
@@ -45,13 +45,6 @@ use layout::bundles;
 use loads::Loads;
 use pulp::Simd;
 
-/// Regularization of S where rows are redundant, relative to its diagonal; refinement takes its effect out again.
-///
-/// Rounding in the dependent rows grows with its inverse and from order to order: with 1e-11 a run through singular
-/// positions goes wrong at tolerances below 1e-10.
-const REGULARIZATION: f64 = 1e-9;
-/// Relative pivot below which S is regularized.
-const NEAR_SINGULAR: f64 = 1e-9;
 /// The smallest tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const MIN_TOLERANCE_REDUNDANT: f64 = 1e-11;
 

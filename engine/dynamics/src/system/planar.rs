@@ -15,14 +15,12 @@ use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
-use crate::system::{Row, System};
+use crate::system::{LACKING, Row, System};
 use nalgebra::{Matrix3, Vector3};
 use triad_linalg::orthonormal_basis;
 
 /// Difference up to which unit vectors are the same and components are zero: rounding of an assembled start.
 const ALIKE: f64 = 1e-11;
-/// Moment of inertia about the normal, relative to m l², below which the inertia is regularized.
-const LACKING: f64 = 1e-7;
 /// δ over m l² of such a body — eq. (7.8). Two refinements take its effect out again; with less, the inverses of blocks would
 /// lose too many digits.
 const REGULARIZING_INERTIA: f64 = 1e-5;

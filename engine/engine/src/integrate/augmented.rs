@@ -7,7 +7,7 @@
 //! serves the projections as well. Order 2.
 
 use super::hermite;
-use super::step::{StepRecord, StopReason};
+use super::step::{MIN_ERROR, MIN_RETRY, SAFETY, StepRecord, StopReason};
 use super::stepper::Stepper;
 use nalgebra::DVector;
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -24,16 +24,10 @@ const DIVERGED: f64 = 1e3;
 const MAX_PROJECTIONS: usize = 40;
 /// What a projection may leave of the constraints, relative to the largest velocity or acceleration.
 const PROJECTED: f64 = 1e-13;
-/// Safety factor of the step control: the step relative to the one that the error estimate allows.
-const SAFETY: f64 = 0.9;
 /// Least and greatest change of the step, as factors.
 const CHANGE: (f64, f64) = (0.2, 3.0);
 /// The step after one whose equations were not solved, as a factor.
 const AFTER_FAILURE: f64 = 0.25;
-/// Step below which equations that cannot be solved are no longer answered by a smaller one, s for each second of time.
-const MIN_RETRY: f64 = 1e-10;
-/// Relative error below which a larger step is not considered.
-const MIN_ERROR: f64 = 1e-12;
 /// Error to which the equations of a step are solved, relative to the tolerance.
 const SOLVED: f64 = 1e-3;
 

@@ -11,22 +11,16 @@ pub use dopri5::DOPRI5;
 pub use ode45::DEFAULT_TOLERANCE as ODE45_TOLERANCE;
 pub use tableau::Tableau;
 
-use super::step::{StepRecord, StopReason, weighted_norm};
+use super::step::{MIN_ERROR, MIN_RETRY, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::{IslandStep, OdeMethod, Stepper};
 use ode45::Ode45Control;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state;
 
-/// Safety factor of the step control: the step relative to the one that the error estimate allows (Hairer, Nørsett, Wanner, section II.4).
-const SAFETY: f64 = 0.9;
-/// Relative error below which a larger step is not considered: the step control would divide by zero.
-const MIN_ERROR: f64 = 1e-12;
 /// A fixed step that is shorter than what is left to the end by at most this factor is stretched to the end: rounding of the
 /// sum of steps must not add a sliver.
 const FIXED_STEP_STRETCH: f64 = 1.000_001;
-/// Step below which states that are not finite are no longer answered by a smaller one, s for each second of time.
-const MIN_RETRY: f64 = 1e-10;
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug)]

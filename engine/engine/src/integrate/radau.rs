@@ -8,7 +8,7 @@
 mod coefficients;
 mod linear;
 
-use super::step::{StepRecord, StopReason, weighted_norm};
+use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
 use coefficients::{C, ESTIMATE, PAIR, REAL, T, T_INVERSE, collocation};
 use linear::{Factors, RateJacobian};
@@ -23,14 +23,10 @@ const MAX_ITERATIONS: usize = 9;
 const SLOW: f64 = 1e-3;
 /// Ratio of successive corrections above which Newton's method does not converge.
 const DIVERGING: f64 = 0.99;
-/// Safety factor of the step control: the step relative to the one that the error estimate allows.
-const SAFETY: f64 = 0.9;
 /// Least and greatest change of the step, as factors.
 const CHANGE: (f64, f64) = (0.125, 6.0);
 /// Factors of the step that are not worth new factors of the matrices.
 const KEPT: std::ops::Range<f64> = 1.0..1.2;
-/// Error below which a larger step is not considered.
-const MIN_ERROR: f64 = 1e-12;
 /// Square of the same, in predictive control.
 const MIN_SQUARED_ERROR: f64 = 1e-24;
 /// Error of the step before that predictive control takes for no smaller than this.

@@ -5,6 +5,14 @@ use serde::Serialize;
 /// A step that is at least this part of what is left to the end of the run is stretched or cut to end there, so that no
 /// sliver remains.
 const LAST_STEP: f64 = 1.01;
+/// Safety factor of the step control: the step relative to the one that the error estimate allows (Hairer, Nørsett, Wanner,
+/// section II.4).
+pub const SAFETY: f64 = 0.9;
+/// Error relative to the tolerance below which a larger step is not considered: the step control would divide by zero.
+pub const MIN_ERROR: f64 = 1e-12;
+/// Step below which states that are not finite, or equations that cannot be solved, are no longer answered by a smaller one, s
+/// for each second of time.
+pub const MIN_RETRY: f64 = 1e-10;
 
 /// Steps of an integrator so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]

@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 use triad_engine::scene::Coordinates;
 use triad_lab::paper::{
-    CASES, Correlation, Counts, LinearAlgebra, PaperCase, PaperPlant, correlation, reference, run,
+    CASES, Correlation, Counts, LinearAlgebra, PaperCase, PaperSystem, correlation, reference, run,
 };
 
 use crate::cli::output::write;
@@ -141,7 +141,7 @@ fn side(case: &'static PaperCase, coordinates: Coordinates) -> Result<(Side, Vec
 
 /// The shortest time of one evaluation among as many as fit into a moment, s.
 fn evaluation(case: &PaperCase, coordinates: Coordinates, algebra: LinearAlgebra) -> Result<f64, Problem> {
-    let mut plant = PaperPlant::new(case, coordinates, algebra)?;
+    let mut plant = PaperSystem::new(case, coordinates, algebra)?;
     let y = plant.start().to_vec();
     let mut rate = vec![0.0; y.len()];
     let begin = Instant::now();

@@ -1,6 +1,6 @@
 //! The series of one island, bundled as suits its number of bodies: the one place where the kernels are compiled.
 
-use super::{Planar, Series, StepPlan, Taken};
+use super::{Planar, Series, SeriesStep, StepPlan};
 use crate::dynamics::elimination::{Counters, TwistJacobian};
 use crate::newton::Projectable;
 use crate::system::System;
@@ -123,7 +123,7 @@ impl IslandSeries {
     }
 
     /// Takes one step.
-    pub fn step(&mut self, plan: StepPlan) -> Taken {
+    pub fn step(&mut self, plan: StepPlan) -> SeriesStep {
         with!(&mut self.0, s => s.step(plan))
     }
 

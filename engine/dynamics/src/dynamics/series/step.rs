@@ -11,7 +11,7 @@ const NEGLIGIBLE: f64 = 0.01;
 const MIN_ORDER: usize = 8;
 /// Distance of a step's end from its constraints, or of a prescribed function from its series, in tolerances, above which the
 /// step is halved.
-const FAR: f64 = 100.0;
+const MAX_VIOLATION: f64 = 100.0;
 /// Most halvings of a step.
 const MAX_REJECTED: u64 = 12;
 /// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
@@ -38,7 +38,7 @@ pub struct StepPlan {
 /// A step that was taken.
 #[derive(Clone, Copy, Debug)]
 #[allow(clippy::struct_excessive_bools, reason = "findings that have nothing to do with each other")]
-pub struct Taken {
+pub struct SeriesStep {
     /// Its size, s.
     pub h: f64,
     /// The time at its end, s.
@@ -63,10 +63,10 @@ pub struct Taken {
 struct Step<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, StepPlan);
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
-    type Output = Taken;
+    type Output = SeriesStep;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Taken {
+    fn with_simd<S: Simd>(self, _: S) -> SeriesStep {
         self.0.step_here(self.1)
     }
 }
@@ -125,7 +125,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
-    pub fn step(&mut self, plan: StepPlan) -> Taken {
+    pub fn step(&mut self, plan: StepPlan) -> SeriesStep {
         Arch::new().dispatch(Step(self, plan))
     }
 
@@ -135,7 +135,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     #[inline(always)]
-    fn step_here(&mut self, plan: StepPlan) -> Taken {
+    fn step_here(&mut self, plan: StepPlan) -> SeriesStep {
         // Prescribed functions are smooth only between their breakpoints: a step ends exactly at the next one.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
@@ -153,7 +153,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         let (h, order) = self.reach(order, allowance);
         if plan.dry_run {
-            return Taken {
+            return SeriesStep {
                 h,
                 time: start,
                 at_break: false,
@@ -171,15 +171,25 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             if LAST_STEP * h >= left {
                 (h, time) = (left, end);
             }
-            let met = rejected == MAX_REJECTED || self.meets_prescribed(h, time, FAR * plan.tolerance);
+            let met =
+                rejected == MAX_REJECTED || self.meets_prescribed(h, time, MAX_VIOLATION * plan.tolerance);
             if met {
-                let most = (rejected < MAX_REJECTED).then_some(FAR * plan.tolerance);
+                let most = (rejected < MAX_REJECTED).then_some(MAX_VIOLATION * plan.tolerance);
                 if let Some((moved, closed)) = self.arrive(h, time, order, plan, most) {
                     // The projection says nothing about rows that are left out of it.
                     let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
-                    let far = moved.is_nan() || moved > FAR * plan.tolerance;
-                    return Taken { h, time, at_break: time == end, order, rejected, far, finite, proven };
+                    let far = moved.is_nan() || moved > MAX_VIOLATION * plan.tolerance;
+                    return SeriesStep {
+                        h,
+                        time,
+                        at_break: time == end,
+                        order,
+                        rejected,
+                        far,
+                        finite,
+                        proven,
+                    };
                 }
             }
             rejected += 1;

@@ -27,7 +27,7 @@ pub enum LinearAlgebra {
 
 /// The equations of an example, ready to be evaluated again and again.
 #[derive(Clone, Debug)]
-pub struct PaperPlant {
+pub struct PaperSystem {
     system: System,
     state: State,
     elimination: Elimination,
@@ -44,7 +44,7 @@ pub struct PaperPlant {
     entries: Vec<(usize, usize, f64)>,
 }
 
-impl PaperPlant {
+impl PaperSystem {
     /// Prepares an example: chooses its rows and the order of elimination.
     ///
     /// # Errors
@@ -174,7 +174,7 @@ impl PaperPlant {
     }
 }
 
-impl OdeSystem for PaperPlant {
+impl OdeSystem for PaperSystem {
     fn rhs(&mut self, _: f64, y: &[f64], rate: &mut [f64]) {
         if !Self::rate(self, y, rate) {
             rate.fill(f64::NAN);
