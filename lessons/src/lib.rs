@@ -10,6 +10,8 @@
 //! grade), [`lesson`] (lessons, courses and their variants), [`tasks`] (questions answered by work), [`verdict`] (what
 //! is said about an answer, and its HTML), [`grading`], and [`check`] (proving a course).
 
+#![allow(clippy::missing_errors_doc)] // said in a sentence: the crate is no library for others
+
 mod text;
 
 pub mod rendering;

@@ -55,7 +55,12 @@ async function until(what, read, good) {
 const BLANK = 40;
 /** How many different colours a screenshot of the viewer has: a blank or broken picture has a handful. */
 async function colours(target) {
-  const png = (await target.screenshot()).toString("base64");
+  // A picture of the element itself would scroll to it; one of the page leaves the place alone.
+  const clip = await target.evaluate((element) => {
+    const { x, y, width, height } = element.getBoundingClientRect();
+    return { x: x + scrollX, y: y + scrollY, width, height };
+  });
+  const png = (await page.screenshot({ fullPage: true, clip })).toString("base64");
   return page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
