@@ -9,6 +9,7 @@ use std::process::Command;
 use triad_tests::program::Server;
 use triad_tests::root;
 
+/// Where Debian's package puts the browser.
 const CHROMIUM: &str = "/usr/bin/chromium";
 
 /// Runs a command; its output is shown if it fails.

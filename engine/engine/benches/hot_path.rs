@@ -14,6 +14,7 @@ use triad_engine::ode::OdeSystem;
 use triad_engine::run::Simulation;
 use triad_engine::system::System;
 
+/// What is timed: trees, loops, planar and spatial, small and large.
 const SCENES: [&str; 6] = [
     "spatial-chain:1",
     "spatial-chain:10",

@@ -12,13 +12,16 @@ use triad_engine::catalogue;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
+/// Scenes of growing size, with their numbers of bodies or windows.
 const FAMILIES: [(&str, [usize; 5]); 2] =
     [("spatial-chain", [10, 50, 200, 1000, 2000]), ("n-four-bar", [10, 40, 100, 400, 1000])];
 /// Each size is measured for so long in each round.
 const MEASURED_TIME: Duration = Duration::from_millis(300);
+/// Repetitions of which the median is told.
 const ROUNDS: usize = 7;
 /// Steps of one measurement: as many as a run surely has.
 const STEPS: u32 = 20;
+/// Scenes whose memory and assembly are measured.
 const LARGE: [&str; 3] = ["spatial-chain:2000", "n-four-bar:666", "n-four-bar:1000"];
 /// Scenes and tolerances of the runs whose instructions are counted.
 const RUNS: [(&str, [f64; 2]); 8] = [

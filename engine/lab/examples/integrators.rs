@@ -15,6 +15,7 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene};
 use triad_engine::system::System;
 
+/// Built-in scenes that are measured.
 const BUILT_IN: [&str; 11] = [
     "simple-pendulum",
     "n-four-bar:1",
@@ -28,17 +29,20 @@ const BUILT_IN: [&str; 11] = [
     "bricard",
     "spatial-slider-crank",
 ];
+/// Integrators beside the automatic choice.
 const KINDS: [(&str, IntegratorKind); 4] = [
     ("taylor", IntegratorKind::Taylor),
     ("dop853", IntegratorKind::Dop853),
     ("dopri5", IntegratorKind::Dopri5),
     ("radau", IntegratorKind::Radau),
 ];
+/// Errors, m, at which times are compared.
 const ERRORS: [f64; 3] = [1e-4, 1e-6, 1e-9];
 /// Runs are repeated until they have taken this long together, s.
 const MEASURED_TIME: f64 = 0.06;
 /// A run that takes longer, s, does not count.
 const TOO_LONG: f64 = 2.0;
+/// Steps after which a run is given up.
 const MAX_STEPS: usize = 200_000;
 
 /// Loads and drivers for the chain of three rods on oblique hinges that [`acted`] makes.

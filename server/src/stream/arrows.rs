@@ -261,6 +261,7 @@ mod tests {
         assert!(Arrows { marked: Some("no joint".into()), ..marked }.mark(&description, &sample).is_empty());
     }
 
+    /// Axes of the world.
     const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
     /// A body of 2 kg that hangs at a pin, which turns it too.

@@ -32,6 +32,7 @@ pub const TARGETS: [(&str, FuzzTarget); 5] = [
 
 /// Bodies, joints and steps of a scene that is also run.
 const SMALL: usize = 6;
+/// Steps that a scene which can start must take without a panic.
 const STEPS: u64 = 20;
 
 /// A scene: read, written, read again, checked, and if it is small, started and run for a few steps.

@@ -31,6 +31,7 @@ impl Step {
     }
 }
 
+/// The steps in their order.
 const STEPS: [Step; 9] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, npm packages", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),

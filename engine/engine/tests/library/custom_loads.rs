@@ -5,7 +5,9 @@
 use triad_engine::prelude::*;
 use triad_engine::scene::ConstraintMethod;
 
+/// Acceleration of gravity, m/s².
 const GRAVITY: [f64; 3] = [0.0, -9.81, 0.0];
+/// The axis of joints.
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// Two rods that hang on each other; only the joints hold them.

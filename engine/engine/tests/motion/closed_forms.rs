@@ -60,6 +60,7 @@ fn follows_angle(scene: &serde_json::Value, times: &[f64], expected: impl Fn(f64
     }
 }
 
+/// Times of comparison, s, none of them a multiple of another.
 const TIMES: [f64; 4] = [0.3, 1.0, 2.7, 6.0];
 
 fn slider(loads: &serde_json::Value, speed: f64) -> serde_json::Value {

@@ -18,6 +18,7 @@ fn built_in(name: &str) -> Value {
     serde_json::to_value(catalogue::scene(name).unwrap()).unwrap()
 }
 
+/// Integrators with dense output of high, of higher and of low order.
 const ALL: [&str; 3] = ["taylor", "dop853", "dopri5"];
 
 /// A01 starts at rest in the horizontal: it is lowest after a quarter of the period 4 K(1/2)/√g, and every half after.

@@ -33,6 +33,7 @@ fn deviation(
     largest
 }
 
+/// Each kind of body coordinates.
 const KINDS: [Coordinates; 3] = [Coordinates::Full, Coordinates::Reduced, Coordinates::Shared];
 
 #[test]

@@ -5,8 +5,10 @@ use super::oracle::OneDegree;
 use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{JointKind, Scene};
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "large";
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "chain-2000",

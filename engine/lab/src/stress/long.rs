@@ -6,8 +6,10 @@ use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use nalgebra::Vector3;
 use triad_engine::run::Simulation;
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "long";
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "pendulum-2000-s",

@@ -6,6 +6,7 @@ use super::singular::against_windows;
 use super::{StressCase, StressOutcome, StressVerdict, TrialMethod};
 use triad_scene::{ConstraintMethod, IntegratorKind};
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "treatments";
 /// Greatest number of steps of a compared run: a method that needs more is of no use.
 const STEPS: u64 = 60_000;
@@ -14,6 +15,7 @@ const DEAR_STEPS: u64 = 12_000;
 /// Greatest number of bodies for a method with dense matrices: more takes hours.
 const BODIES: usize = 50;
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "pendulum-100-s",

@@ -6,8 +6,10 @@ use super::trial::must_be_refused;
 use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{AxisRows, Driver, JointKind, Motion, Scene, VectorMotion};
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "redundant";
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "bricard",

@@ -6,8 +6,10 @@ use super::redundant::swinging;
 use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_scene::{Inertia, JointKind};
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "scales";
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "mass-ratios-down",

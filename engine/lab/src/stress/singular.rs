@@ -6,8 +6,10 @@ use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use triad_scene::{JointKind, Scene};
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "singular";
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "four-bars",

@@ -6,8 +6,10 @@ use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
 use triad_engine::run::Simulation;
 use triad_scene::{Orientation, Scene};
 
+/// The family in reports, and what `--case` may name.
 const FAMILY: &str = "wrong starts";
 
+/// The cases, in the order of the report.
 pub(super) const CASES: &[StressCase] = &[
     StressCase {
         name: "points-off",

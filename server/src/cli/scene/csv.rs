@@ -12,6 +12,7 @@ pub(in crate::cli) struct Table {
     out: Box<dyn Write>,
 }
 
+/// Names of the components of a vector in the head of the table.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Table {

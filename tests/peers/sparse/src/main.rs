@@ -23,6 +23,7 @@ use triad_engine::system::System;
 use triad_engine::catalogue;
 use triad_engine::constraints::rank;
 
+/// Scenes whose matrices are factored.
 const SCENES: [&str; 6] = [
     "spatial-chain:10",
     "spatial-chain:100",
@@ -31,6 +32,7 @@ const SCENES: [&str; 6] = [
     "n-four-bar:40",
     "bricard",
 ];
+/// Repetitions of which the least time is told.
 const ROUNDS: usize = 60;
 
 /// A way to factor and to solve, with the error of its solution.

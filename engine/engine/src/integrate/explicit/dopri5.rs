@@ -16,6 +16,7 @@ pub const DOPRI5: Tableau = Tableau {
     change: (0.2, 10.0),
 };
 
+/// Stages of the method; the last one is the first of the next step.
 const STAGES: usize = 7;
 
 /// The last row is b, whose rate is the first stage of the next step.

@@ -6,8 +6,11 @@ use triad_lab::stress::StressVerdict;
 
 use super::Column;
 
+/// Room for the names of cases, px.
 const LEFT: usize = 190;
+/// Room for the slanted names of methods, px.
 const TOP: usize = 170;
+/// Width and height of a cell, px.
 const CELL: (usize, usize) = (46, 30);
 
 /// Fill of a cell, and its mark: the picture must also be readable without colours.
