@@ -9,21 +9,18 @@ mod invariants;
 pub use draw::scene;
 pub use invariants::judge;
 
-use super::{CaseReport, StressOutcome, StressVerdict, TrialMethod};
+use super::case::{CaseReport, RANDOM_FAMILY, StressOutcome, StressVerdict, TrialMethod, words_of};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// Family of all random mechanisms.
-pub(super) const FAMILY: &str = "random";
 
 /// Draws, runs and judges the mechanism of a seed. A panic is caught and counts as wrong.
 pub fn run(seed: u64, method: &TrialMethod) -> CaseReport {
     let scene = scene(seed);
     let outcome = catch_unwind(AssertUnwindSafe(|| judge(&scene, method))).unwrap_or_else(|panic| {
-        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {}", super::words_of(&*panic)))
+        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {}", words_of(&*panic)))
     });
     CaseReport {
         case: format!("seed-{seed}"),
-        family: FAMILY.to_owned(),
+        family: RANDOM_FAMILY.to_owned(),
         summary: format!(
             "{} bodies, {} joints, {} drivers, {} loads",
             scene.bodies.len(),

@@ -1,6 +1,6 @@
 //! One run of one scene, and the judgement on it.
 
-use super::{StressOutcome, StressVerdict, TrialMethod};
+use super::case::{StressOutcome, StressVerdict, TrialMethod};
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
 use triad_scene::Scene;

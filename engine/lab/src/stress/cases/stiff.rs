@@ -1,8 +1,9 @@
 //! Springs, spins, drivers and friction that are far faster than the mechanism.
 
-use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene, spring};
-use super::oracle::OneDegree;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene, spring};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::oracle::OneDegree;
+use crate::stress::trial::Trial;
 use triad_scene::{Driver, Friction, JointKind, Load, Motion};
 
 /// The family in reports, and what `--case` may name.

@@ -1,8 +1,9 @@
 //! Starts that are wrong: to be corrected with a note where that is possible, refused where it is not.
 
-use super::build::{DOWN, GROUND, distance, pin, rod, scene};
-use super::trial::must_be_refused;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, distance, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::trial::Trial;
+use crate::stress::trial::must_be_refused;
 use triad_engine::run::Simulation;
 use triad_scene::{Orientation, Scene};
 

@@ -1,9 +1,10 @@
 //! Masses, lengths and inertias of very different sizes.
 
-use super::build::{DOWN, GROUND, body, distance, joint, pin, rod, scene};
-use super::oracle::OneDegree;
 use super::redundant::swinging;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, body, distance, joint, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::oracle::OneDegree;
+use crate::stress::trial::Trial;
 use triad_scene::{Inertia, JointKind};
 
 /// The family in reports, and what `--case` may name.
@@ -98,7 +99,8 @@ fn chain(ratio: f64, method: &TrialMethod) -> StressOutcome {
                 return f64::NAN;
             }
             let (a, b) = (run.frame(), other.frame());
-            (0..10).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, super::trial::larger) / 10.0
+            (0..10).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, crate::stress::trial::larger)
+                / 10.0
         })
         .conserving((1e-6, 1e-2))
         .run()
@@ -145,7 +147,7 @@ fn all_sizes(method: &TrialMethod, _: bool) -> StressOutcome {
             for (i, (length, exact)) in lengths.into_iter().zip(&mut exact).enumerate() {
                 let (angle, _) = exact.at((1.5 * 9.81 / length).sqrt() * run.time());
                 let center = [i as f64 + 0.5 * length * angle.sin(), -0.5 * length * angle.cos(), 0.0];
-                error = super::trial::larger(error, distance(&frame, i, center) / length);
+                error = crate::stress::trial::larger(error, distance(&frame, i, center) / length);
             }
             error
         })
@@ -217,7 +219,7 @@ fn triangle(method: &TrialMethod, _: bool) -> StressOutcome {
             now.iter()
                 .zip(start.iter())
                 .map(|(a, b)| (a - b).norm() / b.norm())
-                .fold(0.0, super::trial::larger)
+                .fold(0.0, crate::stress::trial::larger)
         })
         .conserving((1e-7, 1e-3))
         .run()

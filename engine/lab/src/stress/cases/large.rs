@@ -1,8 +1,9 @@
 //! Many bodies, and bodies with many joints.
 
-use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
-use super::oracle::OneDegree;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::oracle::OneDegree;
+use crate::stress::trial::Trial;
 use triad_scene::{JointKind, Scene};
 
 /// The family in reports, and what `--case` may name.

@@ -1,9 +1,10 @@
 //! Redundant rows, which must not disturb the motion, and contradictory ones, which must be refused.
 
-use super::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
-use super::oracle::OneDegree;
-use super::trial::must_be_refused;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, body, distance, hinged, joint, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::oracle::OneDegree;
+use crate::stress::trial::Trial;
+use crate::stress::trial::must_be_refused;
 use triad_scene::{AxisRows, Driver, JointKind, Motion, Scene, VectorMotion};
 
 /// The family in reports, and what `--case` may name.
@@ -177,7 +178,7 @@ fn twice(method: &TrialMethod, _: bool) -> StressOutcome {
                 return f64::NAN;
             }
             let (a, b) = (run.frame(), other.frame());
-            (0..2).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, super::trial::larger)
+            (0..2).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, crate::stress::trial::larger)
         })
         .conserving((1e-7, 1e-3))
         .run()

@@ -1,8 +1,9 @@
 //! Long runs: what drifts, and how fast.
 
-use super::build::{DOWN, GROUND, body, distance, pin, rod, scene};
-use super::oracle::OneDegree;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, body, distance, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::oracle::OneDegree;
+use crate::stress::trial::Trial;
 use nalgebra::Vector3;
 use triad_engine::run::Simulation;
 

@@ -1,9 +1,9 @@
 //! The methods that are compared with each other, and the cases on which they are.
 
-use super::build::{DOWN, GROUND, pin, rod, scene};
 use super::redundant::swinging;
 use super::singular::against_windows;
-use super::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
 use triad_scene::{ConstraintMethod, IntegratorKind};
 
 /// The family in reports, and what `--case` may name.

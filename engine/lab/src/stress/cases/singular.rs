@@ -1,8 +1,9 @@
 //! Singular positions: the mobility jumps on the way, and the motion has to stay on its smooth branch.
 
-use super::build::{DOWN, GROUND, distance, hinged, joint, pin, rod, scene};
-use super::oracle::OneDegree;
-use super::{StressCase, StressOutcome, StressVerdict, Trial, TrialMethod};
+use crate::stress::build::{DOWN, GROUND, distance, hinged, joint, pin, rod, scene};
+use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
+use crate::stress::oracle::OneDegree;
+use crate::stress::trial::Trial;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use triad_scene::{JointKind, Scene};
 
@@ -104,7 +105,7 @@ fn against_pendulum(
                 .chain((0..count).map(|i| {
                     distance(&frame, count + 1 + i, [i as f64 + 0.5 + angle.sin(), angle.cos(), 0.0])
                 }))
-                .fold(0.0, super::trial::larger)
+                .fold(0.0, crate::stress::trial::larger)
         })
         .sampled(100)
         .conserving((1e-6, 1e-3))
@@ -172,7 +173,7 @@ fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
                         [2.0 * k as f64 + 1.0 + a * (angle + beta).cos(), a * (angle + beta).sin(), 0.0];
                     distance(&frame, arms.len() + 1 + k, center)
                 })
-                .fold(0.0, super::trial::larger)
+                .fold(0.0, crate::stress::trial::larger)
         })
         .conserving((1e-6, 1e-3))
         .run()
@@ -187,7 +188,7 @@ fn slider_crank(method: &TrialMethod, _: bool) -> StressOutcome {
     let tip = [-rate * s, rate * c];
     scene.bodies.push(rod("crank", 1.0, [0.0; 2], [c, s], [0.0; 2], rate));
     scene.bodies.push(rod("rod", 1.0, [c, s], [2.0 * c, 0.0], tip, -rate));
-    let mut slider = super::build::body("slider", 1.0, [0.1; 3], [2.0 * c, 0.0, 0.0]);
+    let mut slider = crate::stress::build::body("slider", 1.0, [0.1; 3], [2.0 * c, 0.0, 0.0]);
     slider.velocity = [-2.0 * rate * s, 0.0, 0.0];
     scene.bodies.push(slider);
     scene.joints.push(pin("A", GROUND, "crank", [0.0; 2]));
