@@ -12,7 +12,6 @@ use triad_engine::dynamics::series::IslandSeries;
 use triad_engine::model::Model;
 use triad_engine::ode::OdeSystem;
 use triad_engine::run::Simulation;
-use triad_engine::system::System;
 
 /// What is timed: trees, loops, planar and spatial, small and large.
 const SCENES: [&str; 6] = [
@@ -27,11 +26,7 @@ const SCENES: [&str; 6] = [
 /// A built-in scene with its state at the start.
 fn start(name: &str) -> (Mechanism, Vec<f64>) {
     let scene = catalogue::scene(name).unwrap();
-    let mut mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
-    let n = mechanism.system.coordinates;
-    let mut y = vec![0.0; 2 * n];
-    let (q, q_dot) = y.split_at_mut(n);
-    mechanism.system.start(q, q_dot);
+    let (mut mechanism, mut y) = Mechanism::from_model(Model::new(&scene).unwrap());
     mechanism.assemble(&mut y).unwrap();
     (mechanism, y)
 }

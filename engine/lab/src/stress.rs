@@ -20,16 +20,10 @@ pub mod random;
 pub mod shrink;
 
 pub use case::{CaseReport, StressCase, StressOutcome, StressVerdict, TrialMethod};
-pub use cases::all as cases;
+pub use cases::{all as cases, comparison};
 pub use trial::Trial;
 
-use case::words_of;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// Which method survives what: each integrator and each constraint method with its name.
-pub fn comparison() -> Vec<(String, TrialMethod)> {
-    cases::methods()
-}
+use case::judged;
 
 /// The cases on which methods are compared.
 pub fn compared() -> Vec<StressCase> {
@@ -40,9 +34,7 @@ pub fn compared() -> Vec<StressCase> {
 
 /// Runs a case. A panic is caught and counts as wrong.
 pub fn run(case: &StressCase, method: &TrialMethod, quick: bool) -> CaseReport {
-    let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(method, quick))).unwrap_or_else(|panic| {
-        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {}", words_of(&*panic)))
-    });
+    let outcome = judged(|| (case.run)(method, quick));
     CaseReport {
         case: case.name.to_owned(),
         family: case.family.to_owned(),

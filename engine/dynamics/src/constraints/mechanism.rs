@@ -3,6 +3,7 @@
 use crate::constraints::ConstraintError;
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination, ProjectableState};
+use crate::model::Model;
 use crate::newton::rules::{self, CONSISTENT};
 use crate::newton::{project_positions, project_velocities};
 use crate::ode::OdeSystem;
@@ -43,6 +44,16 @@ impl Mechanism {
     /// Allocates for a system.
     pub fn new(system: System) -> Self {
         Self { state: State::new(&system), elimination: Elimination::new(&system), system, projections: 0 }
+    }
+
+    /// A checked model as a mechanism, and its start y = (q, q̇) as the author gives it.
+    pub fn from_model(model: Model) -> (Self, Vec<f64>) {
+        let mechanism = Self::new(System::new(model));
+        let n = mechanism.system.coordinates;
+        let mut y = vec![0.0; 2 * n];
+        let (q, q_dot) = y.split_at_mut(n);
+        mechanism.system.start(q, q_dot);
+        (mechanism, y)
     }
 
     /// Sets t and y = (q, q̇) without evaluating anything else.

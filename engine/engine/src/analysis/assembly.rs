@@ -71,11 +71,7 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
         (pin.point, pin.axis) = (Some(body.position), Some([0.0, 0.0, 1.0]));
         held.joints.push(pin);
     }
-    let mut mechanism = Mechanism::new(System::new(Model::new(&held).map_err(EngineError::from)?));
-    let n = mechanism.system.coordinates;
-    let mut y = vec![0.0; 2 * n];
-    let (q, q_dot) = y.split_at_mut(n);
-    mechanism.system.start(q, q_dot);
+    let (mut mechanism, mut y) = Mechanism::from_model(Model::new(&held).map_err(EngineError::from)?);
     mechanism.set_state(0.0, &y);
     let (violation, iterations, left) = close(&mut mechanism, &mut y);
     // A comparison that is false for NaN as well.

@@ -10,7 +10,6 @@ use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
 use triad_dynamics::model::Model;
 use triad_dynamics::newton::{project_positions, rules};
 use triad_dynamics::state::{AppliedForces, BodyFrame};
-use triad_dynamics::system::System;
 use triad_dynamics::system::index::IncidenceId;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
@@ -41,14 +40,10 @@ impl Stage {
             return Err(AnalysisError::TooLarge { bodies: model.bodies.len() });
         }
         let mut notes = model.notes.clone();
-        let mut mechanism = Mechanism::new(System::new(model));
-        let n = mechanism.system.coordinates;
-        let mut start = vec![0.0; 2 * n];
-        let (q, q_dot) = start.split_at_mut(n);
-        mechanism.system.start(q, q_dot);
+        let (mut mechanism, mut start) = Mechanism::from_model(model);
         notes.extend(mechanism.assemble(&mut start)?);
         mechanism.elimination.set_redundant(true);
-        let q_dot = start.split_off(n);
+        let q_dot = start.split_off(mechanism.system.coordinates);
         Ok(Self { mechanism, q: start, q_dot, time: 0.0, notes })
     }
 

@@ -11,7 +11,6 @@ use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::{self, Rank};
 use triad_dynamics::dynamics::elimination::Counters;
-use triad_dynamics::system::System;
 
 impl Simulation {
     /// Checks, assembles and starts a scene.
@@ -105,11 +104,7 @@ impl Simulation {
 
 /// A mechanism, and its start (q, q̇) moved onto the constraints.
 fn assemble(model: Model, notes: &mut Vec<String>) -> Result<(Mechanism, Vec<f64>), ConstraintError> {
-    let mut mechanism = Mechanism::new(System::new(model));
-    let n = mechanism.system.coordinates;
-    let mut start = vec![0.0; 2 * n];
-    let (q, q_dot) = start.split_at_mut(n);
-    mechanism.system.start(q, q_dot);
+    let (mut mechanism, mut start) = Mechanism::from_model(model);
     notes.extend(mechanism.assemble(&mut start)?);
     Ok((mechanism, start))
 }

@@ -5,7 +5,9 @@ use nalgebra::DVector;
 use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::reactions::rigid_multipliers;
+use triad_engine::scene::Scene;
 use triad_engine::state::State;
+use triad_engine::system::System;
 use triad_engine::system::index::RowId;
 
 /// Full, reduced or mixed coordinates, body by body.
@@ -42,17 +44,20 @@ fn the_elimination_agrees_with_the_augmented_system_at_any_state() {
     }
 }
 
+/// A scene at its consistent start, with the accelerations of a run.
+fn assembled(scene: &Scene) -> (System, State, Vec<f64>) {
+    let run = triad_engine::run::Simulation::new(scene).unwrap();
+    let (system, ..) = start(scene);
+    let state = State::at(&system, 0.0, run.q(), run.q_dot());
+    (system, state, run.accelerations())
+}
+
 /// With common vectors the two agree on the manifold, and so do the multipliers of all unique rows.
 #[test]
 fn the_elimination_agrees_with_the_augmented_system_on_the_manifold() {
     for (seed, bodies) in (0..12).zip([2, 3, 4, 5, 6].into_iter().cycle()) {
         for kind in KINDS {
-            let scene = random_scene(seed, bodies, kind);
-            let simulation = triad_engine::run::Simulation::new(&scene).unwrap();
-            let acceleration = simulation.accelerations();
-            let (q, q_dot) = (simulation.q().to_vec(), simulation.q_dot().to_vec());
-            let (system, ..) = start(&scene);
-            let state = State::at(&system, 0.0, &q, &q_dot);
+            let (system, state, acceleration) = assembled(&random_scene(seed, bodies, kind));
             let mut elimination = Elimination::new(&system);
             let found = elimination.accelerate(&system, &state, (0.0, 0.0));
             let augmented = AugmentedSystem::new(&system, &state);
@@ -80,12 +85,7 @@ fn the_elimination_agrees_with_the_augmented_system_on_the_manifold() {
 fn rigid_body_multipliers_close_the_equations_of_motion() {
     for seed in 0..8 {
         for kind in KINDS {
-            let scene = random_scene(seed, 4, kind);
-            let simulation = triad_engine::run::Simulation::new(&scene).unwrap();
-            let acceleration = simulation.accelerations();
-            let (q, q_dot) = (simulation.q().to_vec(), simulation.q_dot().to_vec());
-            let (system, ..) = start(&scene);
-            let state = State::at(&system, 0.0, &q, &q_dot);
+            let (system, state, acceleration) = assembled(&random_scene(seed, 4, kind));
             let mut elimination = Elimination::new(&system);
             let found = elimination.accelerate(&system, &state, (0.0, 0.0));
             let augmented = AugmentedSystem::new(&system, &state);

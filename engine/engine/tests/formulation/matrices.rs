@@ -8,15 +8,10 @@ use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::model::Model;
 use triad_engine::prelude::*;
 use triad_engine::reactions::matrices::{Symmetric, augmented, schur};
-use triad_engine::system::System;
 
 fn mechanism(name: &str) -> Mechanism {
-    let system = System::new(Model::new(&catalogue::scene(name).unwrap()).unwrap());
-    let mut mechanism = Mechanism::new(system);
-    let n = mechanism.system.coordinates;
-    let mut y = vec![0.0; 2 * n];
-    let (q, q_dot) = y.split_at_mut(n);
-    mechanism.system.start(q, q_dot);
+    let model = Model::new(&catalogue::scene(name).unwrap()).unwrap();
+    let (mut mechanism, y) = Mechanism::from_model(model);
     mechanism.set_state(0.0, &y);
     mechanism
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 
 /// The family of the random mechanisms in reports.
@@ -130,10 +131,13 @@ impl CaseReport {
     }
 }
 
-/// What a panic says.
-pub(super) fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+/// What becomes of a case: a panic is caught and counts as wrong.
+pub(super) fn judged(work: impl FnOnce() -> StressOutcome) -> StressOutcome {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+        let text = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {text}"))
+    })
 }
 
 impl StressOutcome {

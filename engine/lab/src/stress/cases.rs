@@ -16,7 +16,7 @@ mod starts;
 
 mod methods;
 
-pub use methods::{COMPARED, all as methods};
+pub use methods::{COMPARED, comparison};
 
 use crate::stress::case::StressCase;
 

@@ -9,15 +9,12 @@ mod invariants;
 pub use draw::scene;
 pub use invariants::judge;
 
-use super::case::{CaseReport, RANDOM_FAMILY, StressOutcome, StressVerdict, TrialMethod, words_of};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use super::case::{CaseReport, RANDOM_FAMILY, StressVerdict, TrialMethod, judged};
 
 /// Draws, runs and judges the mechanism of a seed. A panic is caught and counts as wrong.
 pub fn run(seed: u64, method: &TrialMethod) -> CaseReport {
     let scene = scene(seed);
-    let outcome = catch_unwind(AssertUnwindSafe(|| judge(&scene, method))).unwrap_or_else(|panic| {
-        StressOutcome::nothing(StressVerdict::Wrong, format!("panicked: {}", words_of(&*panic)))
-    });
+    let outcome = judged(|| judge(&scene, method));
     CaseReport {
         case: format!("seed-{seed}"),
         family: RANDOM_FAMILY.to_owned(),

@@ -214,8 +214,7 @@ impl Load {
         stiffness: f64,
         damping: f64,
     ) -> Self {
-        let (name, joint) = (name.into(), joint.into().into());
-        Self::Torsion { name, joint, stiffness, free_angle: 0.0, damping, torque: None, friction: None }
+        Self::about(name, joint, [stiffness, damping], None, None)
     }
 
     /// A spring and a damper along a prismatic or cylindrical joint: k in N/m, d in N s/m — eq. (6.9).
@@ -225,8 +224,7 @@ impl Load {
         stiffness: f64,
         damping: f64,
     ) -> Self {
-        let (name, joint) = (name.into(), joint.into().into());
-        Self::Slider { name, joint, stiffness, free_length: 0.0, damping, force: None, friction: None }
+        Self::along(name, joint, [stiffness, damping], None)
     }
 
     /// A motor about a revolute or cylindrical joint: its torque on body j, N m.
@@ -238,15 +236,7 @@ impl Load {
     /// assert!(matches!(motor, Load::Torsion { torque: Some(_), .. }));
     /// ```
     pub fn motor(name: impl Into<String>, joint: impl Into<JointHandle>, torque: impl Into<Motion>) -> Self {
-        Self::Torsion {
-            name: name.into(),
-            joint: joint.into().into(),
-            stiffness: 0.0,
-            free_angle: 0.0,
-            damping: 0.0,
-            torque: Some(torque.into()),
-            friction: None,
-        }
+        Self::about(name, joint, [0.0; 2], Some(torque.into()), None)
     }
 
     /// Friction about a revolute or cylindrical joint — eq. (6.9).
@@ -255,15 +245,7 @@ impl Load {
         joint: impl Into<JointHandle>,
         friction: Friction,
     ) -> Self {
-        Self::Torsion {
-            name: name.into(),
-            joint: joint.into().into(),
-            stiffness: 0.0,
-            free_angle: 0.0,
-            damping: 0.0,
-            torque: None,
-            friction: Some(friction),
-        }
+        Self::about(name, joint, [0.0; 2], None, Some(friction))
     }
 
     /// Friction along a prismatic or cylindrical joint — eq. (6.9).
@@ -272,15 +254,30 @@ impl Load {
         joint: impl Into<JointHandle>,
         friction: Friction,
     ) -> Self {
-        Self::Slider {
-            name: name.into(),
-            joint: joint.into().into(),
-            stiffness: 0.0,
-            free_length: 0.0,
-            damping: 0.0,
-            force: None,
-            friction: Some(friction),
-        }
+        Self::along(name, joint, [0.0; 2], Some(friction))
+    }
+
+    /// A load about a joint, with stiffness and damping.
+    fn about(
+        name: impl Into<String>,
+        joint: impl Into<JointHandle>,
+        [stiffness, damping]: [f64; 2],
+        torque: Option<Motion>,
+        friction: Option<Friction>,
+    ) -> Self {
+        let (name, joint) = (name.into(), joint.into().into());
+        Self::Torsion { name, joint, stiffness, free_angle: 0.0, damping, torque, friction }
+    }
+
+    /// A load along a joint, with stiffness and damping.
+    fn along(
+        name: impl Into<String>,
+        joint: impl Into<JointHandle>,
+        [stiffness, damping]: [f64; 2],
+        friction: Option<Friction>,
+    ) -> Self {
+        let (name, joint) = (name.into(), joint.into().into());
+        Self::Slider { name, joint, stiffness, free_length: 0.0, damping, force: None, friction }
     }
 
     /// The length of a spring or slider without force, m; other loads have none and stay as they are.

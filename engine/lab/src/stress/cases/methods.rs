@@ -59,8 +59,9 @@ fn pendulum(method: &TrialMethod, _: bool) -> StressOutcome {
     swinging(scene, 0, start, method)
 }
 
-/// Every integrator with projection, then every other method, feedback from weak to strong.
-pub fn all() -> Vec<(String, TrialMethod)> {
+/// Which method survives what, each with its name: every integrator with projection, then every other method, feedback
+/// from weak to strong.
+pub fn comparison() -> Vec<(String, TrialMethod)> {
     let projected = [
         IntegratorKind::Taylor,
         IntegratorKind::Dop853,
