@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use triad_engine::dynamics::elimination::Elimination;
 use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::reactions::rigid_multipliers;
+use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 use triad_engine::state::State;
 use triad_engine::system::System;
@@ -44,9 +45,8 @@ fn the_elimination_agrees_with_the_augmented_system_at_any_state() {
     }
 }
 
-/// A scene at its consistent start, with the accelerations of a run.
-fn assembled(scene: &Scene) -> (System, State, Vec<f64>) {
-    let run = triad_engine::run::Simulation::new(scene).unwrap();
+/// A run's system, state and accelerations at its consistent start.
+fn at_start(scene: &Scene, run: &Simulation) -> (System, State, Vec<f64>) {
     let (system, ..) = start(scene);
     let state = State::at(&system, 0.0, run.q(), run.q_dot());
     (system, state, run.accelerations())
@@ -57,7 +57,8 @@ fn assembled(scene: &Scene) -> (System, State, Vec<f64>) {
 fn the_elimination_agrees_with_the_augmented_system_on_the_manifold() {
     for (seed, bodies) in (0..12).zip([2, 3, 4, 5, 6].into_iter().cycle()) {
         for kind in KINDS {
-            let (system, state, acceleration) = assembled(&random_scene(seed, bodies, kind));
+            let scene = random_scene(seed, bodies, kind);
+            let (system, state, acceleration) = at_start(&scene, &Simulation::new(&scene).unwrap());
             let mut elimination = Elimination::new(&system);
             let found = elimination.accelerate(&system, &state, (0.0, 0.0));
             let augmented = AugmentedSystem::new(&system, &state);
@@ -85,7 +86,8 @@ fn the_elimination_agrees_with_the_augmented_system_on_the_manifold() {
 fn rigid_body_multipliers_close_the_equations_of_motion() {
     for seed in 0..8 {
         for kind in KINDS {
-            let (system, state, acceleration) = assembled(&random_scene(seed, 4, kind));
+            let scene = random_scene(seed, 4, kind);
+            let (system, state, acceleration) = at_start(&scene, &Simulation::new(&scene).unwrap());
             let mut elimination = Elimination::new(&system);
             let found = elimination.accelerate(&system, &state, (0.0, 0.0));
             let augmented = AugmentedSystem::new(&system, &state);
