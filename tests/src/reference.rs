@@ -34,5 +34,5 @@ impl Reference {
 /// Length of the difference of two vectors.
 pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+    a.iter().zip(b).map(|(a, b)| a - b).map(|d| d * d).sum::<f64>().sqrt()
 }

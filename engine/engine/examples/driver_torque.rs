@@ -14,7 +14,7 @@ pub fn main() -> Result<(), EngineError> {
         println!("{t:4.2} s: torque {:7.3} N m", motion.driver_reaction(&lift, t)?.moment[2]);
     }
     // At rest, at the end, it carries the weight at half the length.
-    let holding = 9.81 * mass * 0.5 * length * f64::cos(turn);
+    let holding = 9.81 * mass * 0.5 * length * libm::cos(turn);
     assert!((motion.driver_reaction(&lift, time)?.moment[2] - holding).abs() < 1e-6);
     Ok(())
 }

@@ -74,7 +74,7 @@ fn growth() -> Result<(), EngineError> {
             times.sort_by(f64::total_cmp);
             let (time, bodies) = (times[ROUNDS / 2] * 1e6, run.system().bodies.len() as f64);
             let (time_of_first, size_of_first) = *first.get_or_insert((time, bodies));
-            let exponent = (time / time_of_first).ln() / (bodies / size_of_first).ln();
+            let exponent = libm::log(time / time_of_first) / libm::log(bodies / size_of_first);
             println!(
                 "| {family}:{size} | {bodies} | {time:.1} | {:.3} | {} |",
                 time / bodies,

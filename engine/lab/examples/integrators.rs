@@ -51,7 +51,7 @@ fn actions() -> Vec<(&'static str, serde_json::Value)> {
     let table = |knots: u32| {
         let step = 4.0 / f64::from(knots);
         let (times, values): (Vec<f64>, Vec<f64>) =
-            (0..=knots).map(|k| (f64::from(k) * step, (f64::from(k) * step * 9.0).sin())).unzip();
+            (0..=knots).map(|k| (f64::from(k) * step, libm::sin(f64::from(k) * step * 9.0))).unzip();
         json!({ "torque": { "kind": "table", "times": times, "values": values } })
     };
     let torsion = |more: serde_json::Value| {
@@ -182,7 +182,7 @@ fn run(scene: &Scene, kind: IntegratorKind, tolerance: f64, sample: bool) -> Opt
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     let chunks = a.chunks_exact(3).zip(b.chunks_exact(3));
-    chunks.map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max)
+    chunks.map(|(a, b)| (0..3).map(|c| a[c] - b[c]).map(|d| d * d).sum::<f64>().sqrt()).fold(0.0, f64::max)
 }
 
 /// Least time of each integrator to reach each error, in microseconds.
@@ -194,7 +194,7 @@ fn measure(name: &str, scene: &Scene) {
     let mut best = [[f64::INFINITY; KINDS.len()]; ERRORS.len()];
     for (k, (_, kind)) in KINDS.iter().enumerate() {
         for exponent in 3..=12 {
-            let tolerance = 10f64.powi(-exponent);
+            let tolerance = libm::pow(10.0, f64::from(-exponent));
             let Some((_, places)) = run(scene, *kind, tolerance, true) else { continue };
             let error = distance(&places, &exact);
             let (mut total, mut count) = (0.0, 0);

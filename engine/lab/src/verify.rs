@@ -89,7 +89,7 @@ impl Verifier {
             return Ok(false);
         }
         let (here, there) = (first.frame(), self.second.frame());
-        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] - b[k]).map(|d| d * d).sum::<f64>().sqrt();
         for (error, (a, b)) in self.found.bodies.iter_mut().zip(here.bodies.iter().zip(&there.bodies)) {
             error.position = error.position.max(apart(a.position, b.position));
             let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));

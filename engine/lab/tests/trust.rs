@@ -29,7 +29,7 @@ fn horizontal_times((mut angle, mut rate): (f64, f64), end: f64, f: impl Fn(f64,
         let (a4, r4) = (rate + h * r3, f(angle + h * a3, rate + h * r3));
         let next = angle + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0;
         rate += h * (r1 + 2.0 * r2 + 2.0 * r3 + r4) / 6.0;
-        let (before, after) = (angle.cos(), next.cos());
+        let (before, after) = (libm::cos(angle), libm::cos(next));
         if before * after < 0.0 {
             times.push((step + before / (before - after)) * h);
         }
@@ -42,7 +42,7 @@ fn horizontal_times((mut angle, mut rate): (f64, f64), end: f64, f: impl Fn(f64,
 /// When a four-bar of so many windows passes the horizontal.
 fn window_times(windows: f64) -> Vec<f64> {
     let kappa = 9.81 * 3.0 * (3.0 * windows + 1.0) / (2.0 * (4.0 * windows + 1.0));
-    horizontal_times((0.0, 1.0), 10.0, |angle, _| kappa * angle.sin())
+    horizontal_times((0.0, 1.0), 10.0, |angle, _| kappa * libm::sin(angle))
 }
 
 /// Runs a scene with each integrator: the singular configurations that it finds must be those at the given times, all of
@@ -87,7 +87,7 @@ fn singular_configurations_are_found_with_their_times_and_joints() {
     }
     // Crank and rod of equal length: the slider passes the crank's pivot, and may stay there.
     let acceleration = |angle: f64, rate: f64| {
-        let (s, c) = angle.sin_cos();
+        let (s, c) = libm::sincos(angle);
         (-6.0 * s * c * rate * rate - 9.81 * c) / (5.0 / 12.0 + 0.25 * c * c + 6.25 * s * s)
     };
     let exact = horizontal_times((0.5, 4.0), 10.0, acceleration);
@@ -146,7 +146,7 @@ fn a_second_solution_estimates_the_error_of_a_run() {
             // In pieces, as a caller does who must be able to stop.
             while !verifier.compare(&run, 3).unwrap() {}
             for (a, b) in run.frame().bodies.iter().zip(&exact.frame().bodies) {
-                let apart = (0..3).map(|k| (a.position[k] - b.position[k]).powi(2)).sum::<f64>().sqrt();
+                let apart = (0..3).map(|k| a.position[k] - b.position[k]).map(|d| d * d).sum::<f64>().sqrt();
                 error = error.max(apart);
             }
         }

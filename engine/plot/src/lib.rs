@@ -36,13 +36,13 @@ impl Axis {
         let decades = if low > high {
             (0.0, 1.0)
         } else {
-            (low.log10().floor(), high.log10().ceil().max(low.log10().floor() + 1.0))
+            (libm::log10(low).floor(), libm::log10(high).ceil().max(libm::log10(low).floor() + 1.0))
         };
         let step = if decades.1 - decades.0 > 8.0 { 2.0 } else { 1.0 };
         let mut ticks = Vec::new();
         let mut exponent = decades.0;
         while exponent <= decades.1 {
-            ticks.push((10f64.powf(exponent), label(exponent)));
+            ticks.push((libm::pow(10f64, exponent), label(exponent)));
             exponent += step;
         }
         Self { decades, reversed: false, ticks }
@@ -57,7 +57,7 @@ impl Axis {
 
     /// Where a positive value stands: 0 at the beginning, 1 at the end.
     fn part(&self, value: f64) -> f64 {
-        let part = (value.log10() - self.decades.0) / (self.decades.1 - self.decades.0);
+        let part = (libm::log10(value) - self.decades.0) / (self.decades.1 - self.decades.0);
         if self.reversed { 1.0 - part } else { part }
     }
 }
@@ -91,7 +91,7 @@ impl PlotFrame {
     pub fn axes(&self, out: &mut String) {
         let [left, right, top, bottom] = self.margins;
         let (end, foot, grid) = (self.size.0 - right, self.size.1 - bottom, self.grid);
-        let origin = (10f64.powf(self.x.decades.0), 10f64.powf(self.y.decades.0));
+        let origin = (libm::pow(10f64, self.x.decades.0), libm::pow(10f64, self.y.decades.0));
         for (value, label) in &self.x.ticks {
             let (at, _) = self.place((*value, origin.1));
             let _ = writeln!(

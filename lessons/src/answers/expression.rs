@@ -122,21 +122,21 @@ fn eval(node: &Node, values: &[f64]) -> f64 {
                 '-' => a - b,
                 '*' => a * b,
                 '/' => a / b,
-                _ => a.powf(b),
+                _ => libm::pow(a, b),
             }
         }
         Node::Call(name, a) => {
             let a = eval(a, values);
             match *name {
-                "sin" => a.sin(),
-                "cos" => a.cos(),
-                "tan" => a.tan(),
-                "asin" => a.asin(),
-                "acos" => a.acos(),
-                "atan" => a.atan(),
+                "sin" => libm::sin(a),
+                "cos" => libm::cos(a),
+                "tan" => libm::tan(a),
+                "asin" => libm::asin(a),
+                "acos" => libm::acos(a),
+                "atan" => libm::atan(a),
                 "sqrt" => a.sqrt(),
-                "exp" => a.exp(),
-                "log" => a.ln(),
+                "exp" => libm::exp(a),
+                "log" => libm::log(a),
                 "abs" => a.abs(),
                 _ => elliptic_k(a),
             }

@@ -86,7 +86,7 @@ pub fn read(text: &str) -> Result<(ParsedNumber, String), NumberError> {
     }
     let decimals = mantissa.split('.').nth(1).map_or(0, str::len);
     let power = exponent - i32::try_from(decimals).unwrap_or(0);
-    let half_ulp_decimal = if value == 0.0 { 0.0 } else { 0.5 * 10f64.powi(power) };
+    let half_ulp_decimal = if value == 0.0 { 0.0 } else { 0.5 * libm::pow(10.0, f64::from(power)) };
     Ok((ParsedNumber { value, half_ulp_decimal }, rest.trim().to_owned()))
 }
 

@@ -218,7 +218,7 @@ impl Parser<'_> {
                 return Err(UnitError::Ambiguous { text: self.text.to_owned() });
             }
             let (f, d) = self.power(depth)?;
-            factor *= f.powi(sign);
+            factor *= libm::pow(f, f64::from(sign));
             dimension =
                 dimension.combine(d, sign).ok_or_else(|| self.syntax("its exponents are out of range"))?;
         }
@@ -252,7 +252,7 @@ impl Parser<'_> {
         let dimension = Dimension::default()
             .combine(base.1, power)
             .ok_or_else(|| self.syntax("its exponents are out of range"))?;
-        Ok((base.0.powi(power), dimension))
+        Ok((libm::pow(base.0, f64::from(power)), dimension))
     }
 }
 

@@ -148,7 +148,7 @@ fn misconception<'a>(question: &'a QuantityQuestion, values: &[f64]) -> Option<(
     if accepts(&scaled(-1.0)) {
         return Some(("opposite-sign", NumberFinding::OppositeSign));
     }
-    if PREFIX_POWERS.iter().any(|k| accepts(&scaled(10f64.powi(*k)))) {
+    if PREFIX_POWERS.iter().any(|k| accepts(&scaled(libm::pow(10.0, f64::from(*k))))) {
         return Some(("power-of-ten", NumberFinding::PowerOfTen));
     }
     if question.shape == ValueShape::Vector && question.tolerance.accepts(&[norm(values)], &[norm(reference)])

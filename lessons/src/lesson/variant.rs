@@ -198,7 +198,7 @@ mod tests {
             let view = serde_json::to_string(&variant.public_view()).unwrap();
             assert!(view.contains(&format!("={phi}°")) && view.contains(&format!("The ball has {m} kg")));
             assert!(!view.contains("{{"));
-            let pull = format!("{:.5}", m * 9.81 / phi.to_radians().cos());
+            let pull = format!("{:.5}", m * 9.81 / libm::cos(phi.to_radians()));
             let answer = Answer { value: Some(TypedValue::Text(pull)), ..Answer::default() };
             let answers = BTreeMap::from([("pull".to_owned(), answer)]);
             let verdict = grade(&variant, &Submission { answers, ..Submission::default() }).unwrap();

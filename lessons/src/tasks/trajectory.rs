@@ -91,12 +91,14 @@ impl ReferenceMotion {
                 let after = times.get(k + 1).copied().unwrap_or(*t);
                 let w = 0.5 * (after - before);
                 let own = self.at(column, t - late);
-                square += w * (value - mean - factor * (own - mean)).powi(2);
-                size += w * (self.at(column, *t)).powi(2);
+                let (left, true_value) = (value - mean - factor * (own - mean), self.at(column, *t));
+                square += w * left * left;
+                size += w * true_value * true_value;
                 weight += w;
             }
             // A column that should be zero is judged by the largest column.
-            let floor = weight * (1e-3 * self.largest).powi(2);
+            let least = 1e-3 * self.largest;
+            let floor = weight * least * least;
             sum += square / size.max(floor).max(f64::MIN_POSITIVE);
         }
         (sum / given.len().max(1) as f64).sqrt()

@@ -105,7 +105,7 @@ impl Arrows {
         let Some(reaction) = joint.and_then(|joint| sample.reactions.get(joint)) else { return Vec::new() };
         let ring = |axis: usize| {
             let turned = |k: usize| {
-                let (sin, cos) = (std::f64::consts::TAU * k as f64 / (POINTS - 1) as f64).sin_cos();
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * k as f64 / (POINTS - 1) as f64);
                 let mut at = reaction.at;
                 at[(axis + 1) % 3] += RING * description.size * cos;
                 at[(axis + 2) % 3] += RING * description.size * sin;
@@ -211,7 +211,7 @@ fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], description: &Sce
     let a = times(a, 1.0 / norm(a));
     let b = cross(axis, a);
     let on = |radius: f64, angle: f64| {
-        plus(at, plus(times(a, radius * angle.cos()), times(b, radius * angle.sin())))
+        plus(at, plus(times(a, radius * libm::cos(angle)), times(b, radius * libm::sin(angle))))
     };
     let end = 1.5 * std::f64::consts::PI;
     let around =
@@ -221,7 +221,7 @@ fn circle(glyphs: &mut Glyphs, at: [f64; 3], moment: [f64; 3], description: &Sce
     if wanted > largest {
         glyphs.circles.push(around(0.85 * radius));
     }
-    let forward = minus(times(b, end.cos()), times(a, end.sin()));
+    let forward = minus(times(b, libm::cos(end)), times(a, libm::sin(end)));
     let vector = times(forward, 0.1 * description.size);
     glyphs.pieces.push(Piece { kind: ArrowKind::Moment, from: on(radius, end), vector });
 }

@@ -138,7 +138,7 @@ impl Extent {
             })
         };
         let farthest = |from: [f64; 3]| {
-            let distance = |p: &[f64; 3]| (0..3).map(|k| (p[k] - from[k]).powi(2)).sum::<f64>().sqrt();
+            let distance = |p: &[f64; 3]| (0..3).map(|k| p[k] - from[k]).map(|d| d * d).sum::<f64>().sqrt();
             let farthest = points.iter().map(distance).fold(0.0, f64::max);
             if farthest.is_finite() && farthest > 1e-9 { farthest } else { 1.0 }
         };

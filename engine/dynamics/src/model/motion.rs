@@ -81,7 +81,8 @@ impl Curve {
 /// 10 x³ − 15 x⁴ + 6 x⁵ between two constants.
 fn smooth_step(from: f64, to: f64, start: f64, end: f64) -> Curve {
     let (d, h) = (to - from, end - start);
-    let step = [from, 0.0, 0.0, 10.0 * d / h.powi(3), -15.0 * d / h.powi(4), 6.0 * d / h.powi(5)];
+    let cube = h * h * h;
+    let step = [from, 0.0, 0.0, 10.0 * d / cube, -15.0 * d / (cube * h), 6.0 * d / (cube * h * h)];
     let constant = |c| [c, 0.0, 0.0, 0.0, 0.0, 0.0];
     // The first piece is constant: its knot only has to lie before the step.
     Curve::Pieces { knots: vec![start - 1.0, start, end], pieces: vec![constant(from), step, constant(to)] }

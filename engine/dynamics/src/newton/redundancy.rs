@@ -43,7 +43,7 @@ pub fn find_dependent_rows(on: &mut impl Movable, length: f64) -> Vec<SolverRow>
 fn move_away(on: &mut impl Movable, length: f64) -> bool {
     let mut place = 0.0;
     on.for_each(|_, v| {
-        *v = f64::sin(1.0 + place * PHASE);
+        *v = libm::sin(1.0 + place * PHASE);
         place += 1.0;
     });
     project_velocities(on, &rules::AWAY_VELOCITIES, length);

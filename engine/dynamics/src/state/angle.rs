@@ -22,7 +22,7 @@ impl AngleState {
     /// Takes over positions of (a₁, a₂, b).
     pub fn set_position(&mut self, [a1, a2, b]: [Vector3<f64>; 3]) {
         let (x, y) = (a1.dot(&b), a2.dot(&b));
-        let principal = y.atan2(x);
+        let principal = libm::atan2(y, x);
         self.value = principal + TAU * ((self.reference - principal) / TAU).round();
         let square = (x * x + y * y).max(f64::MIN_POSITIVE);
         self.gradient = [b * (-y / square), b * (x / square), (a2 * x - a1 * y) / square];

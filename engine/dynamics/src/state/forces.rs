@@ -218,7 +218,8 @@ impl SystemLoad {
                 (law, at.feature_value(*axis).dot(&between.of(|f| at.feature_value(f))))
             }
         };
-        0.5 * law.stiffness * (value - law.free).powi(2)
+        let stretch = value - law.free;
+        0.5 * law.stiffness * stretch * stretch
     }
 }
 

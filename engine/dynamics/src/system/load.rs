@@ -133,7 +133,7 @@ impl ForceLaw {
     /// −∂f/∂ẋ.
     pub(crate) fn slope(&self, rate: f64) -> f64 {
         let friction = self.friction.map_or(0.0, |friction| {
-            let tanh = (rate / friction.smoothing).tanh();
+            let tanh = libm::tanh(rate / friction.smoothing);
             friction.viscous + friction.coulomb / friction.smoothing * (1.0 - tanh * tanh)
         });
         self.damping + friction
@@ -146,7 +146,7 @@ impl ForceLaw {
             value += drive.at(t)[0];
         }
         if let Some(friction) = self.friction {
-            value -= friction.viscous * rate + friction.coulomb * (rate / friction.smoothing).tanh();
+            value -= friction.viscous * rate + friction.coulomb * libm::tanh(rate / friction.smoothing);
         }
         value
     }

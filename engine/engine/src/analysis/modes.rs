@@ -2,7 +2,7 @@
 
 use super::{AnalysisError, Stage, equilibrium};
 use crate::scene::Scene;
-use nalgebra::{Complex, DMatrix, DVector, Matrix3, Schur, SymmetricEigen, Vector3};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Matrix3, Schur, SymmetricEigen, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -162,7 +162,7 @@ fn damped(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>
     first_order.view_mut((n, n), (n, n)).copy_from(&-c);
     let Some(schur) = Schur::try_new(first_order, f64::EPSILON, 100_000) else { return Vec::new() };
     let values = schur.complex_eigenvalues();
-    let scale = values.iter().fold(0.0f64, |a, v| a.max(v.norm()));
+    let scale = values.iter().fold(0.0f64, |a, v| a.max(v.modulus()));
     let mut list = Vec::new();
     for value in values.iter().copied().filter(|v| v.im >= -1e-12 * scale) {
         // (λ² + λ C + K) x = 0, slightly beside the eigenvalue.
@@ -179,9 +179,11 @@ fn damped(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>
             }
         }
         // Turn the phase so that the largest entry is real.
-        let largest =
-            x.iter().copied().fold(Complex::new(0.0, 0.0), |a, b| if b.norm() > a.norm() { b } else { a });
-        let phase = largest.conj() / largest.norm().max(f64::MIN_POSITIVE);
+        let largest = x
+            .iter()
+            .copied()
+            .fold(Complex::new(0.0, 0.0), |a, b| if b.modulus() > a.modulus() { b } else { a });
+        let phase = largest.conj() / largest.modulus().max(f64::MIN_POSITIVE);
         list.push((value, x.map(|x| (x * phase).re), x.map(|x| (x * phase).im)));
     }
     list
@@ -237,7 +239,7 @@ fn mode(value: Complex<f64>, scale: f64, real: &DVector<f64>, imaginary: &DVecto
     let slow = 1e-4 * scale.sqrt();
     let (growth, turning) = (value.re, value.im.abs());
     let kind = match () {
-        () if value.norm() <= slow => "drifts",
+        () if value.modulus() <= slow => "drifts",
         () if growth > slow => "grows",
         () if turning > slow => "oscillates",
         () => "decays",
@@ -262,7 +264,7 @@ fn mode(value: Complex<f64>, scale: f64, real: &DVector<f64>, imaginary: &DVecto
         kind,
         frequency: if still { 0.0 } else { turning / std::f64::consts::TAU },
         growth: if still { 0.0 } else { growth },
-        damping_ratio: if still { 0.0 } else { -growth / value.norm() },
+        damping_ratio: if still { 0.0 } else { -growth / value.modulus() },
         shape: shape.collect(),
     }
 }

@@ -68,7 +68,7 @@ impl Augmented {
         let state = [column(&y[..n]), column(&y[n..]), column(&rate[n..])];
         let rows = equations.rows();
         let fastest = state[2].amax().max(1e-3);
-        let first = (12.0 * tolerance / fastest).cbrt().min(1e-2);
+        let first = libm::cbrt(12.0 * tolerance / fastest).min(1e-2);
         Self {
             alpha,
             tolerance,
@@ -238,8 +238,10 @@ impl Augmented {
             let snap = self.jerk.as_ref().map_or(0.0, |last| 2.0 * (jerk[i] - last[i]) / (h + self.last.h));
             let velocity = h * h * h / 12.0 * snap;
             let weight = |x: f64, y: f64| self.tolerance * (1.0 + x.abs().max(y.abs()));
-            sum += (position / weight(self.state[0][i], end[0][i])).powi(2);
-            sum += (velocity / weight(self.state[1][i], end[1][i])).powi(2);
+            for (k, error) in [position, velocity].into_iter().enumerate() {
+                let error = error / weight(self.state[k][i], end[k][i]);
+                sum += error * error;
+            }
         }
         ((sum / (2 * n).max(1) as f64).sqrt(), jerk)
     }
@@ -263,7 +265,7 @@ impl Stepper for Augmented {
                 continue;
             };
             let (error, jerk) = self.error(h, &state);
-            let by = (SAFETY * error.max(MIN_ERROR).powf(-1.0 / 3.0)).clamp(CHANGE.0, CHANGE.1);
+            let by = (SAFETY * libm::pow(error.max(MIN_ERROR), -1.0 / 3.0)).clamp(CHANGE.0, CHANGE.1);
             if error >= 1.0 && !self.fixed {
                 self.last.steps.rejected += 1;
                 self.h = h * by;

@@ -123,7 +123,7 @@ impl Explicit {
         let d2 = weighted_norm(change, y, y, tolerance) / h0;
         let largest = d1.max(d2);
         let power = 1.0 / f64::from(self.tableau.order);
-        let h1 = if largest <= 1e-15 { (h0 * 1e-3).max(1e-6) } else { (0.01 / largest).powf(power) };
+        let h1 = if largest <= 1e-15 { (h0 * 1e-3).max(1e-6) } else { libm::pow(0.01 / largest, power) };
         h1.min(100.0 * h0)
     }
 
@@ -152,7 +152,7 @@ impl Explicit {
             self.attempt(system, h);
             let error = self.tableau.error(h, &self.k, &self.last.y, &self.trial, tolerance);
             if error < 1.0 {
-                let grown = (SAFETY * error.max(MIN_ERROR).powf(power)).clamp(least, greatest);
+                let grown = (SAFETY * libm::pow(error.max(MIN_ERROR), power)).clamp(least, greatest);
                 let next = h * if rejected { grown.min(1.0) } else { grown };
                 self.accept(system, h, end);
                 // A step that was cut to meet the end says nothing about the next one.
@@ -160,7 +160,7 @@ impl Explicit {
                 return Ok(());
             }
             if error.is_finite() {
-                self.h = h * (SAFETY * error.powf(power)).max(least);
+                self.h = h * (SAFETY * libm::pow(error, power)).max(least);
             } else if h > MIN_RETRY * (1.0 + self.last.t.abs()) {
                 self.h = 0.1 * h;
             } else {

@@ -69,7 +69,7 @@ impl Radau {
         let n = x.len();
         let zeros = || [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
         let mut integrator = Self {
-            estimated: 0.1 * tolerance.powf(2.0 / 3.0),
+            estimated: 0.1 * libm::pow(tolerance, 2.0 / 3.0),
             fixed: false,
             last: StepRecord::new(t, x),
             rate: vec![0.0; n],
@@ -103,8 +103,8 @@ impl Radau {
         // Predictive control: what the last change of the step did to the error tells what the next one will do.
         let mut by = by;
         if let Some((h_before, error_before)) = self.before {
-            let predicted =
-                SAFETY * h / h_before * (error_before / (error * error).max(MIN_SQUARED_ERROR)).powf(0.25);
+            let predicted = SAFETY * h / h_before
+                * libm::pow(error_before / (error * error).max(MIN_SQUARED_ERROR), 0.25);
             by = by.min(predicted.clamp(CHANGE.0, CHANGE.1));
         }
         self.before = Some((h, error.max(MIN_LAST_ERROR)));
@@ -177,8 +177,8 @@ impl Radau {
                     // Rounding keeps small corrections from shrinking.
                     return (size <= enough).then_some(iteration + 1);
                 }
-                let left = i32::try_from(MAX_ITERATIONS - 1 - iteration).unwrap_or(0);
-                if rate / (1.0 - rate) * size * rate.powi(left) > 10.0 * enough && size > enough {
+                let left = (MAX_ITERATIONS - 1 - iteration) as f64;
+                if rate / (1.0 - rate) * size * libm::pow(rate, left) > 10.0 * enough && size > enough {
                     return None;
                 }
             }
@@ -326,7 +326,7 @@ impl OdeMethod for Radau {
             };
             let error = self.error(system, h, rejected);
             let factor = SAFETY * (2 * MAX_ITERATIONS + 1) as f64 / (2 * MAX_ITERATIONS + iterations) as f64;
-            let by = (factor * error.max(MIN_ERROR).powf(-0.25)).clamp(CHANGE.0, CHANGE.1);
+            let by = (factor * libm::pow(error.max(MIN_ERROR), -0.25)).clamp(CHANGE.0, CHANGE.1);
             if error < 1.0 || self.fixed {
                 let by = if rejected { by.min(1.0) } else { by };
                 self.accept(system, h, end, error, by);

@@ -125,7 +125,8 @@ impl StepRecord {
 pub(super) fn weighted_norm(x: impl Iterator<Item = f64>, y: &[f64], y_new: &[f64], tolerance: f64) -> f64 {
     let sum: f64 = x
         .zip(y.iter().zip(y_new))
-        .map(|(x, (a, b))| (x / (tolerance * (1.0 + a.abs().max(b.abs())))).powi(2))
+        .map(|(x, (a, b))| x / (tolerance * (1.0 + a.abs().max(b.abs()))))
+        .map(|d| d * d)
         .sum();
     (sum / y.len().max(1) as f64).sqrt()
 }

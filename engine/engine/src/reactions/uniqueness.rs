@@ -154,7 +154,8 @@ impl NullSpace {
         let size: f64 = weights
             .iter()
             .zip(&self.lengths[first.index()..])
-            .map(|(w, l)| (w / l.max(1e-300)).powi(2))
+            .map(|(w, l)| w / l.max(1e-300))
+            .map(|d| d * d)
             .sum();
         self.basis.column_iter().all(|column| {
             let change: f64 = weights

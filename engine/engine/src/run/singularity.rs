@@ -133,5 +133,6 @@ impl SingularityMonitor {
 /// What counts as zero, as a part of the largest pivot product. Where constraints are violated, nothing brings bodies nearer
 /// to the singular configuration than the root of the violation: there it is of second order.
 fn zero(tolerance: f64, violation: f64) -> f64 {
-    ZERO.max((ERRORS * tolerance).powi(2)).max(ERRORS * violation)
+    let error = ERRORS * tolerance;
+    ZERO.max(error * error).max(ERRORS * violation)
 }

@@ -113,7 +113,7 @@ fn element(constraint: &str) -> (Value, Value, &'static str) {
     let path = json!({ "kind": "components", "x": { "kind": "harmonic", "amplitude": 1, "frequency": 2 },
         "y": { "kind": "polynomial", "coefficients": [0, 0, 0, 1] },
         "z": { "kind": "harmonic", "amplitude": 1, "frequency": 1, "phase": std::f64::consts::FRAC_PI_2 } });
-    let fixed_angle = json!({ "kind": "constant", "value": 0.1f64.acos() });
+    let fixed_angle = json!({ "kind": "constant", "value": libm::acos(0.1f64) });
     let angle = json!({ "kind": "polynomial", "coefficients": [0.3, 0.8, 0.5] });
     let between = |motion: Value, body_j: &str, vector_j: [f64; 3]| {
         driver(

@@ -30,9 +30,10 @@ fn values(components: [ReactionComponent; 3]) -> Vector3<f64> {
 /// The double four-bar at an angle from upright, turning as the reference does.
 fn four_bar_at(phi: f64) -> Scene {
     let kappa = 11.445;
-    let rate = (1.0 + 2.0 * kappa * (1.0 - phi.cos())).sqrt();
+    let rate = (1.0 + 2.0 * kappa * (1.0 - libm::cos(phi))).sqrt();
     let mut scene = catalogue::scene("n-four-bar:2").unwrap();
-    let (along, turn) = ([phi.sin(), phi.cos(), 0.0], [phi.cos() * rate, -phi.sin() * rate, 0.0]);
+    let (along, turn) =
+        ([libm::sin(phi), libm::cos(phi), 0.0], [libm::cos(phi) * rate, -libm::sin(phi) * rate, 0.0]);
     let plus = |a: [f64; 3], b: [f64; 3], f: f64| [0, 1, 2].map(|k| a[k] + f * b[k]);
     for i in 0..3 {
         let body = &mut scene.bodies[i];
@@ -67,7 +68,7 @@ fn the_pins_of_the_double_four_bar_match_their_reference() {
         ("B2_V2_H2_F", "B2", Side::J),
     ];
     let (mut compared, mut largest) = (0, 0.0f64);
-    for row in rows.iter().filter(|row| row[1].cos().abs() > 0.2) {
+    for row in rows.iter().filter(|row| libm::cos(row[1]).abs() > 0.2) {
         let simulation = Simulation::new(&four_bar_at(row[1])).unwrap();
         let reports = [Side::I, Side::J]
             .map(|side| simulation.reactions(on(side, MomentReference::JointPoint)).unwrap());

@@ -169,8 +169,8 @@ fn accelerations_satisfy_the_written_rows() {
         let n = system.coordinates;
         let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
         system.start(&mut q, &mut v);
-        let q = DVector::from_fn(n, |i, _| q[i] + 0.1 * (i as f64 * 1.7).sin());
-        let v = DVector::from_fn(n, |i, _| (i as f64 * 0.9).cos());
+        let q = DVector::from_fn(n, |i, _| q[i] + 0.1 * libm::sin(i as f64 * 1.7));
+        let v = DVector::from_fn(n, |i, _| libm::cos(i as f64 * 0.9));
         let mut at = State::at(&system, 0.4, q.as_slice(), v.as_slice());
         let mut acceleration = vec![0.0; n];
         Elimination::new(&system).accelerate(&system, &at, (0.0, 0.0)).write(&mut acceleration);
@@ -192,7 +192,7 @@ fn a_refreshed_jacobian_is_a_new_one() {
         at.set_positions(&system, &q);
         let first = Jacobian::new(&system, &at);
         for (i, q) in q.iter_mut().enumerate() {
-            *q += 0.1 * (i as f64 * 1.3).sin();
+            *q += 0.1 * libm::sin(i as f64 * 1.3);
         }
         at.set_positions(&system, &q);
         let mut refreshed = first.clone();

@@ -146,7 +146,7 @@ fn the_driven_slider_crank_is_geometry_and_its_motor_pays_for_the_energy() {
     let found = kinematics(&scene, convention).unwrap();
     assert_eq!(found.states.len(), 401);
     let slide = |t: f64| {
-        let (y, z) = (0.1 - 0.08 * (6.0 * t).sin(), 0.12 + 0.08 * (6.0 * t).cos());
+        let (y, z) = (0.1 - 0.08 * libm::sin(6.0 * t), 0.12 + 0.08 * libm::cos(6.0 * t));
         (0.09 - y * y - z * z).sqrt()
     };
     let energy = |state: &triad_engine::analysis::KinematicState| -> f64 {
@@ -160,7 +160,7 @@ fn the_driven_slider_crank_is_geometry_and_its_motor_pays_for_the_energy() {
                 let spin: f64 = [at.u, at.v, at.w]
                     .iter()
                     .zip(body.principal.iter())
-                    .map(|(e, i)| i * Vector3::from(*e).dot(&omega).powi(2))
+                    .map(|(e, i)| i * libm::pow(Vector3::from(*e).dot(&omega), 2.0))
                     .sum();
                 0.5 * (body.mass * Vector3::from(at.velocity).norm_squared() + spin)
                     + 9.81 * body.mass * at.position[2]
@@ -195,8 +195,8 @@ fn a_driven_mechanism_with_redundant_rows_is_followed() {
     let found = kinematics(&scene, Convention::default()).unwrap();
     for state in &found.states {
         let angle = 2.0 * state.time;
-        near(state.bodies[0].position[0], 0.5 * angle.sin(), 1e-10, "x");
-        near(state.bodies[2].position[1], angle.cos(), 1e-10, "y");
+        near(state.bodies[0].position[0], 0.5 * libm::sin(angle), 1e-10, "x");
+        near(state.bodies[2].position[1], libm::cos(angle), 1e-10, "y");
     }
 }
 
@@ -215,7 +215,7 @@ fn what_is_free_or_out_of_reach_is_told() {
     let far = kinematics(&scene, Convention::default()).unwrap_err();
     let AnalysisError::Unreachable { time, .. } = far else { panic!("{far}") };
     // s = √(0.09 − (|OA| − 0.08)²) at its farthest, |OA| = √(0.1² + 0.12²).
-    let farthest = (0.09 - (0.0244f64.sqrt() - 0.08).powi(2)).sqrt();
+    let farthest = (0.09 - libm::pow(0.0244f64.sqrt() - 0.08, 2.0)).sqrt();
     assert!((time - (farthest - 0.2) / 0.1).abs() < 0.02, "{time}");
 }
 
@@ -240,7 +240,7 @@ fn a_rough_start_is_assembled_around_what_is_kept() {
     let [crank, coupler, rocker] = found.bodies.as_slice() else { panic!("three bodies") };
     assert!(crank.moved < 1e-9 && crank.turned < 1e-9, "{crank:?}");
     assert!(coupler.moved > 0.05 && rocker.turned > 0.05);
-    let tip = Vector3::new(1.2f64.cos(), 1.2f64.sin(), 0.0);
+    let tip = Vector3::new(libm::cos(1.2f64), libm::sin(1.2f64), 0.0);
     assert!((Vector3::from(coupler.position) - tip).norm() < 1e-9);
     assert!((Vector3::from(rocker.position) - Vector3::new(2.0, 0.0, 0.0)).norm() < 1e-9);
     // The kept link keeps its velocity too; the others follow.

@@ -97,12 +97,12 @@ fn a_spring_and_damper_follow_their_closed_form() {
     let omega = f64::sqrt(natural * natural - decay * decay);
     for t in motion.every(0.5) {
         let state = motion.at(t).unwrap();
-        let exact = f64::exp(-decay * t) * (f64::cos(omega * t) + decay / omega * f64::sin(omega * t));
+        let exact = libm::exp(-decay * t) * (libm::cos(omega * t) + decay / omega * libm::sin(omega * t));
         assert!((state.position(&block).unwrap()[0] - exact).abs() < 1e-9, "at {t}");
         assert!(state.angular_velocity(&block).unwrap()[2].abs() < 1e-9, "the moments balance");
     }
-    let lost =
-        0.5 * mass * motion.at(3.0).unwrap().velocity(&block).unwrap()[0].powi(2) - motion.summary().work;
+    let lost = 0.5 * mass * libm::pow(motion.at(3.0).unwrap().velocity(&block).unwrap()[0], 2.0)
+        - motion.summary().work;
     assert!(lost.abs() < 1e-8, "all kinetic energy is work of the load: {lost:.1e}");
 }
 
@@ -128,7 +128,7 @@ fn a_moment_slows_a_wheel_as_the_damper_of_its_hinge_does() {
     scene.add(Load::torsion("brake", "axle", 0.0, 0.05));
     let built_in = scene.simulate(0.0..2.0).unwrap();
     let speed = |motion: &Solution| motion.at(2.0).unwrap().angular_velocity(&body).unwrap()[2];
-    let exact = 7.0 * f64::exp(-0.05 / (0.5 * 3.0 * 0.2 * 0.2) * 2.0);
+    let exact = 7.0 * libm::exp(-0.05 / (0.5 * 3.0 * 0.2 * 0.2) * 2.0);
     assert!((speed(&given) - exact).abs() < 1e-9 && (speed(&built_in) - exact).abs() < 1e-9);
     assert!((given.summary().work - built_in.summary().work).abs() < 1e-8);
 }
@@ -196,7 +196,7 @@ fn a_state_that_is_only_tried_does_no_harm() {
     // A repulsion that grows without bound at x = 0, and has no value beyond.
     let wall = CustomLoad::new("wall", &ball, move |state| {
         let x = state.position(&held)[0];
-        Wrench::force([if x > 0.0 { 1e-3 / x.powi(3) } else { f64::NAN }, 0.0, 0.0])
+        Wrench::force([if x > 0.0 { 1e-3 / (x * x * x) } else { f64::NAN }, 0.0, 0.0])
     });
     let motion = scene.simulate_with([wall], 0.0..3.0).unwrap();
     let least =

@@ -99,7 +99,7 @@ fn a_stop_ends_the_motion() {
     let low = scene.add(Event::new("low", Quantity::coordinate(&body, [0.0; 3], scene.gravity), 0.0));
     scene.events[0].value = {
         let start = Simulation::new(&scene).unwrap().frame().bodies[0].position;
-        let weight = f64::hypot(scene.gravity[1], scene.gravity[2]).max(scene.gravity[0].abs());
+        let weight = libm::hypot(scene.gravity[1], scene.gravity[2]).max(scene.gravity[0].abs());
         let height: f64 = (0..3).map(|k| start[k] * scene.gravity[k] / weight).sum();
         height + 0.1
     };

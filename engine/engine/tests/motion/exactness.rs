@@ -24,7 +24,7 @@ struct Powers {
 
 impl Powers {
     fn state(&self, t: f64) -> Vec<f64> {
-        let powers = (0..=self.degree).map(|k| t.powi(k));
+        let powers = (0..=self.degree).map(|k| libm::pow(t, f64::from(k)));
         powers.clone().chain(powers).collect()
     }
 }
@@ -35,7 +35,7 @@ impl OdeSystem for Powers {
         (integrals[0], chain[0]) = (0.0, 0.0);
         for k in 1..=self.degree {
             let at = usize::try_from(k).unwrap();
-            integrals[at] = f64::from(k) * t.powi(k - 1);
+            integrals[at] = f64::from(k) * libm::pow(t, f64::from(k - 1));
             chain[at] = f64::from(k) * y[y.len() / 2 + at - 1];
         }
     }
@@ -50,8 +50,8 @@ struct SecondOrder {
 
 impl SecondOrder {
     fn state(&self, t: f64) -> Vec<f64> {
-        let places = (0..=self.degree).map(|k| t.powi(k));
-        let rates = (0..=self.degree).map(|k| f64::from(k) * t.powi((k - 1).max(0)));
+        let places = (0..=self.degree).map(|k| libm::pow(t, f64::from(k)));
+        let rates = (0..=self.degree).map(|k| f64::from(k) * libm::pow(t, f64::from((k - 1).max(0))));
         places.clone().chain(places).chain(rates.clone()).chain(rates).collect()
     }
 }
@@ -64,7 +64,7 @@ impl OdeSystem for SecondOrder {
         for k in 2..=self.degree {
             let at = usize::try_from(k).unwrap();
             let factor = f64::from(k * (k - 1));
-            rate[f + at] = factor * t.powi(k - 2);
+            rate[f + at] = factor * libm::pow(t, f64::from(k - 2));
             rate[f + f / 2 + at] = factor * x[f / 2 + at - 2];
         }
     }

@@ -117,7 +117,7 @@ fn automatic_choice_sees_crowded_knots() {
         scene.simulation.integrator = IntegratorKind::Auto;
         scene.simulation.duration = 4.0;
         let times: Vec<f64> = (0..=knots).map(|k| 4.0 * f64::from(k) / f64::from(knots)).collect();
-        let values = times.iter().map(|t| (9.0 * t).sin()).collect();
+        let values = times.iter().map(|t| libm::sin(9.0 * t)).collect();
         let zero = Motion::Constant { value: 0.0 };
         let moment =
             VectorMotion::Components { x: Motion::Table { times, values }, y: zero.clone(), z: zero };

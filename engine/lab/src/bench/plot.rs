@@ -34,7 +34,7 @@ pub fn svg(scene: &str, runs: &[&Measured]) -> String {
         size: SIZE,
         margins: MARGINS,
         x: Axis::around(runs.iter().filter_map(|r| error(r)), |exponent| format!("1e{exponent}")).reversed(),
-        y: Axis::around(runs.iter().map(|r| r.median()), |e| format!("{} ms", 10f64.powf(e + 3.0))),
+        y: Axis::around(runs.iter().map(|r| r.median()), |e| format!("{} ms", libm::pow(10f64, e + 3.0))),
         grid: "#ddd",
     };
     let ((width, height), [left, right, _, _]) = (SIZE, MARGINS);

@@ -52,7 +52,10 @@ pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Positions, EngineErr
         }
         Truth::Angle { kappa, start, rate, arm } => {
             let angles = pendulum(kappa, start, rate, intervals(case.duration));
-            Ok(angles.into_iter().map(|phi| vec![[arm * phi.sin(), arm * phi.cos(), 0.0]]).collect())
+            Ok(angles
+                .into_iter()
+                .map(|phi| vec![[arm * libm::sin(phi), arm * libm::cos(phi), 0.0]])
+                .collect())
         }
     }
 }
@@ -67,7 +70,7 @@ fn pendulum(kappa: f64, start: f64, rate: f64, intervals: u32) -> Vec<f64> {
         let mut series = [0.0; ORDER + 1];
         let (mut sine, mut cosine) = ([0.0; ORDER + 1], [0.0; ORDER + 1]);
         (series[0], series[1]) = (phi, omega);
-        (sine[0], cosine[0]) = phi.sin_cos();
+        (sine[0], cosine[0]) = libm::sincos(phi);
         for n in 0..ORDER - 1 {
             series[n + 2] = kappa * sine[n] / ((n + 1) * (n + 2)) as f64;
             for i in 0..=n {
@@ -89,7 +92,7 @@ fn pendulum(kappa: f64, start: f64, rate: f64, intervals: u32) -> Vec<f64> {
 /// Largest distance between two records.
 pub fn distance(a: &Positions, b: &Positions) -> f64 {
     let pairs = a.iter().flatten().zip(b.iter().flatten());
-    pairs.map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max)
+    pairs.map(|(a, b)| (0..3).map(|c| a[c] - b[c]).map(|d| d * d).sum::<f64>().sqrt()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -29,8 +29,8 @@ fn time_to(runs: &[&Measured], error: f64) -> Option<f64> {
         runs.iter().filter_map(|r| Some((r.error?.max(1e-15), r.median()))).collect();
     let direct = points.iter().filter(|p| p.0 <= error).map(|p| p.1).fold(f64::INFINITY, f64::min);
     let between = points.windows(2).filter(|w| w[0].0 > error && w[1].0 <= error).map(|w| {
-        let part = (error / w[0].0).ln() / (w[1].0 / w[0].0).ln();
-        (w[0].1.ln() + part * (w[1].1 / w[0].1).ln()).exp()
+        let part = libm::log(error / w[0].0) / libm::log(w[1].0 / w[0].0);
+        libm::exp(libm::log(w[0].1) + part * libm::log(w[1].1 / w[0].1))
     });
     let best = between.fold(direct, f64::min);
     best.is_finite().then_some(best * 1e3)

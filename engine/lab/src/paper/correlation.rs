@@ -24,15 +24,16 @@ pub fn correlation(series: &[&[f64]]) -> Option<Correlation> {
     let (count, raters) = (n as f64, k as f64);
     let grand = series.iter().flat_map(|s| &s[..n]).sum::<f64>() / (count * raters);
     let row_mean = |i: usize| series.iter().map(|s| s[i]).sum::<f64>() / raters;
-    let rows = raters * (0..n).map(|i| (row_mean(i) - grand).powi(2)).sum::<f64>() / (count - 1.0);
+    let rows = raters * (0..n).map(|i| row_mean(i) - grand).map(|d| d * d).sum::<f64>() / (count - 1.0);
     let column_means: Vec<f64> = series.iter().map(|s| s[..n].iter().sum::<f64>() / count).collect();
     let columns =
-        count * column_means.iter().map(|mean| (mean - grand).powi(2)).sum::<f64>() / (raters - 1.0);
+        count * column_means.iter().map(|mean| mean - grand).map(|d| d * d).sum::<f64>() / (raters - 1.0);
     let mut rest = 0.0;
     for i in 0..n {
         let mean = row_mean(i);
         for (s, column) in series.iter().zip(&column_means) {
-            rest += (s[i] - mean - column + grand).powi(2);
+            let left = s[i] - mean - column + grand;
+            rest += left * left;
         }
     }
     rest /= (count - 1.0) * (raters - 1.0);

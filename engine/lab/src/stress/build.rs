@@ -22,7 +22,7 @@ pub fn body(name: &str, mass: f64, principal: Triple, position: Triple) -> Body 
 /// `velocity`. Its own frame has u along it.
 pub fn rod(name: &str, mass: f64, from: [f64; 2], to: [f64; 2], velocity: [f64; 2], spin: f64) -> Body {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-    let length = dx.hypot(dy);
+    let length = libm::hypot(dx, dy);
     let moment = mass * length * length / 12.0;
     let center = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0.0];
     let along = [dx / length, dy / length, 0.0];

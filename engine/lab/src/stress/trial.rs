@@ -216,7 +216,8 @@ pub fn kinetic_energy(simulation: &Simulation) -> f64 {
         let turning: f64 = [shown.u, shown.v, shown.w]
             .iter()
             .zip(body.principal.iter())
-            .map(|(axis, moment)| moment * dot(axis, &omega).powi(2))
+            .map(|(axis, moment)| (moment, dot(axis, &omega)))
+            .map(|(moment, rate)| moment * rate * rate)
             .sum();
         sum += 0.5 * (body.mass * dot(&shown.velocity, &shown.velocity) + turning);
     }

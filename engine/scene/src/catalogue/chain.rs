@@ -20,7 +20,7 @@ pub fn scene(rods: usize) -> Scene {
     let mut previous = BodyHandle::from(Ground);
     let mut end_velocity = [0.0; 3];
     for i in 1..=rods {
-        let (sine, cosine) = (i as f64).sin_cos();
+        let (sine, cosine) = libm::sincos(i as f64);
         let omega = [1.0, 0.4 * cosine, 0.8 * sine];
         // ω × (0.5, 0, 0): the velocity of the middle relative to the inner end.
         let half: Triple = [0.0, omega[2] * 0.5, -(omega[1] * 0.5)];

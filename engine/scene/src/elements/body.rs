@@ -240,7 +240,7 @@ impl Body {
 }
 
 fn distance(from: Triple, to: Triple) -> f64 {
-    (0..3).map(|k| (to[k] - from[k]).powi(2)).sum::<f64>().sqrt()
+    (0..3).map(|k| to[k] - from[k]).map(|d| d * d).sum::<f64>().sqrt()
 }
 
 /// A unit vector at a right angle to u: in the plane z = 0 where there is one that is not short.

@@ -108,9 +108,10 @@ impl LawSeries {
 
     fn set_tanh(&mut self, n: usize) {
         if n == 0 {
-            self.tanh[0] = self.slip[0].tanh();
+            self.tanh[0] = libm::tanh(self.slip[0]);
             // 1 − tanh² would be rounded to zero too early.
-            self.rest[0] = self.slip[0].cosh().powi(-2);
+            let cosh = libm::cosh(self.slip[0]);
+            self.rest[0] = 1.0 / (cosh * cosh);
             return;
         }
         self.tanh[n] = (1..=n).map(|j| j as f64 * self.slip[j] * self.rest[n - j]).sum::<f64>() / n as f64;
@@ -146,7 +147,7 @@ impl LawSeries {
             return h;
         }
         let start = self.slip[0].abs();
-        let margin = NEAR_POLE * start.hypot(std::f64::consts::FRAC_PI_2);
+        let margin = NEAR_POLE * libm::hypot(start, std::f64::consts::FRAC_PI_2);
         let room = margin.max(start - SATURATED);
         let change = |h: f64| self.slip[1..order - 1].iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * h);
         for _ in 0..60 {

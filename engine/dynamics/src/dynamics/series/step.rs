@@ -241,7 +241,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if by_velocity < power || by_position < power * least {
             return 0.0;
         }
-        let root = |x: f64, k: usize| (x.ln() / k as f64).exp();
+        let root = |x: f64, k: usize| libm::exp(libm::log(x) / k as f64);
         root(by_position, k).min(root(by_velocity, k - 1))
     }
 

@@ -14,7 +14,7 @@ impl Curve {
         match self {
             Self::Polynomial(coefficients) => shift(coefficients, t, out),
             &Self::Harmonic { mean, amplitude, frequency, phase } => {
-                let (sin, cos) = (frequency * t + phase).sin_cos();
+                let (sin, cos) = libm::sincos(frequency * t + phase);
                 let mut factor = amplitude;
                 for (k, out) in out.iter_mut().enumerate() {
                     *out = factor * [sin, cos, -sin, -cos][k % 4];
@@ -105,7 +105,7 @@ fn shift(coefficients: &[f64], x0: f64, out: &mut [f64]) {
 pub fn sine_cosine(theta: &[f64], sin: &mut [f64], cos: &mut [f64]) {
     for k in 0..theta.len() {
         if k == 0 {
-            (sin[0], cos[0]) = theta[0].sin_cos();
+            (sin[0], cos[0]) = libm::sincos(theta[0]);
             continue;
         }
         let (mut s, mut c) = (0.0, 0.0);

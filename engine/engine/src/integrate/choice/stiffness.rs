@@ -26,7 +26,7 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         return None;
     }
     let length = mechanism.system.length;
-    let cost_factor = (AT_TOLERANCE / tolerance).powf(0.25).max(1.0);
+    let cost_factor = libm::pow(AT_TOLERANCE / tolerance, 0.25).max(1.0);
     let mut rate = vec![0.0; y.len()];
     mechanism.rhs(t, y, &mut rate);
     let n = mechanism.system.coordinates;

@@ -30,7 +30,7 @@ impl Ode45Control {
     pub fn first_step(&self, y: &[f64], rate: &[f64], duration: f64) -> f64 {
         let h = self.largest.min(duration);
         let slope = y.iter().zip(rate).fold(0.0f64, |a, (y, f)| a.max((f / y.abs().max(THRESHOLD)).abs()));
-        let inverse = slope / (0.8 * self.relative.powf(0.2));
+        let inverse = slope / (0.8 * libm::pow(self.relative, 0.2));
         if h * inverse > 1.0 { 1.0 / inverse } else { h }
     }
 
@@ -50,12 +50,12 @@ impl Ode45Control {
 
     /// By how much a refused step becomes smaller.
     pub fn shrink(&self, error: f64, first: bool) -> f64 {
-        if first { (0.8 * (self.relative / error).powf(0.2)).max(0.1) } else { 0.5 }
+        if first { (0.8 * libm::pow(self.relative / error, 0.2)).max(0.1) } else { 0.5 }
     }
 
     /// The step after one that was accepted at once.
     pub fn next(&self, h: f64, error: f64) -> f64 {
-        let relative = 1.25 * (error / self.relative).powf(0.2);
+        let relative = 1.25 * libm::pow(error / self.relative, 0.2);
         if relative > 0.2 { h / relative } else { 5.0 * h }
     }
 

@@ -272,7 +272,7 @@ impl Projectable for AtCoordinates<'_> {
 /// Weights W of the coordinates: places are measured in lengths of the mechanism.
 fn weights(mechanism: &Mechanism) -> DVector<f64> {
     let system = &mechanism.system;
-    let place = system.length.powi(-2);
+    let place = 1.0 / (system.length * system.length);
     let mut weights = DVector::from_element(system.coordinates, 1.0);
     for body in &system.bodies {
         weights.rows_mut(body.layout.first, 3).fill(place);

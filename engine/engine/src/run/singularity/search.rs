@@ -84,7 +84,7 @@ impl Search<'_> {
             let (from, to) = (part(a), part(b));
             // The sine is less than its angle. Comparisons that are false for NaN as well.
             if from + to <= least * bound {
-                let (from, to) = (from.asin(), to.asin());
+                let (from, to) = (libm::asin(from), libm::asin(to));
                 let gone =
                     self.at_found.get(joint).is_some_and(|found| *found <= TOGETHER * self.zero(joint));
                 if from + to <= least * bound && !gone {
@@ -136,7 +136,7 @@ impl Search<'_> {
         for _ in 0..MAX_PROBES {
             let apart = (now.0 - last.0).abs();
             let slopes = [last.1 + now.1, (last.1 - now.1).abs()].map(|change| change / apart);
-            let between = (slopes[0] / slope).ln().abs() <= (slopes[1] / slope).ln().abs();
+            let between = libm::log(slopes[0] / slope).abs() <= libm::log(slopes[1] / slope).abs();
             slope = if between { slopes[0] } else { slopes[1] };
             let signed = if between { -now.1 } else { now.1 };
             // A zero at an end of the step may seem to lie behind it.

@@ -77,7 +77,7 @@ fn tree(method: &TrialMethod, quick: bool) -> StressOutcome {
         scene.bodies.push(body(&name, 1.0, [moment, 0.1 * moment, moment], [top[0], top[1] - 0.5, 0.0]));
         let above = if i == 1 { GROUND.to_owned() } else { format!("rod-{}", i / 2) };
         let angle = i as f64;
-        let axis = [angle.cos(), 0.3, angle.sin()];
+        let axis = [libm::cos(angle), 0.3, libm::sin(angle)];
         scene.joints.push(hinged(&format!("hinge-{i}"), JointKind::Revolute, &above, &name, top, axis));
     }
     Trial::new(scene, method).conserving((1e-6, 1e-3)).sampled(5).run()
@@ -90,7 +90,7 @@ fn net(method: &TrialMethod, quick: bool) -> StressOutcome {
     for i in 0..side {
         for j in 0..side {
             // A little out of the plane, so that no bar begins in a singular position.
-            let sag = 0.1 * ((i * i) as f64 * 0.7 + (j * j) as f64 * 1.3).sin();
+            let sag = 0.1 * libm::sin((i * i) as f64 * 0.7 + (j * j) as f64 * 1.3);
             scene.bodies.push(body(&name(i, j), 0.1, [1e-3; 3], [i as f64, j as f64, sag]));
         }
     }
@@ -124,7 +124,7 @@ fn four_bar(method: &TrialMethod, quick: bool) -> StressOutcome {
     let windows = if quick { 99 } else { 999 };
     let n = f64::from(windows);
     let k = 9.81 * 0.5 * (3.0 * n + 1.0) / ((4.0 * n + 1.0) / 3.0);
-    let mut exact = OneDegree::new(0.0, 1.0, move |a: f64, _| k * a.sin());
+    let mut exact = OneDegree::new(0.0, 1.0, move |a: f64, _| k * libm::sin(a));
     match triad_scene::catalogue::scene(&format!("n-four-bar:{windows}")) {
         Ok(mut scene) => {
             scene.simulation.duration = 1.5;
@@ -132,7 +132,7 @@ fn four_bar(method: &TrialMethod, quick: bool) -> StressOutcome {
             Trial::new(scene, method)
                 .against("exact motion of one degree of freedom", (1e-5, 1e-2), move |run| {
                     let (angle, _) = exact.at(run.time());
-                    distance(&run.frame(), 0, [0.5 * angle.sin(), 0.5 * angle.cos(), 0.0])
+                    distance(&run.frame(), 0, [0.5 * libm::sin(angle), 0.5 * libm::cos(angle), 0.0])
                 })
                 .conserving((1e-6, 1e-3))
                 .sampled(5)
@@ -153,7 +153,7 @@ fn hub(method: &TrialMethod, quick: bool) -> StressOutcome {
     scene.joints.push(pin("axle", GROUND, "hub", [0.0; 2]));
     for i in 0..count {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(count);
-        let (s, c) = angle.sin_cos();
+        let (s, c) = libm::sincos(angle);
         let name = format!("arm-{i}");
         let velocity = [-2.0 * s, 2.0 * c];
         scene.bodies.push(rod(&name, 0.1, [c, s], [2.0 * c, 2.0 * s], velocity, 2.5));
@@ -163,7 +163,7 @@ fn hub(method: &TrialMethod, quick: bool) -> StressOutcome {
     Trial::new(scene, method)
         .against("the symmetry of its arms", (1e-6, 1e-3), move |run| {
             let frame = run.frame();
-            let radii = frame.bodies[1..].iter().map(|b| b.position[0].hypot(b.position[1]));
+            let radii = frame.bodies[1..].iter().map(|b| libm::hypot(b.position[0], b.position[1]));
             let (low, high) = radii.fold((f64::MAX, 0.0f64), |(a, b), r| (a.min(r), b.max(r)));
             high - low
         })

@@ -50,13 +50,13 @@ fn pendulum(method: &TrialMethod, quick: bool) -> StressOutcome {
     let seconds = if quick { 100.0 } else { 2000.0 };
     let start = 2.0f64;
     let mut scene = scene("pendulum", DOWN, seconds, 1e-10);
-    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));
+    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [libm::sin(start), -libm::cos(start)], [0.0; 2], 0.0));
     scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
-    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * a.sin());
+    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * libm::sin(a));
     Trial::new(scene, method)
         .against("exact motion of a physical pendulum", (1e-8 * seconds, 1e-2), move |run| {
             let (angle, _) = exact.at(run.time());
-            distance(&run.frame(), 0, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
+            distance(&run.frame(), 0, [0.5 * libm::sin(angle), -0.5 * libm::cos(angle), 0.0])
         })
         .conserving((1e-10 * seconds.max(1e3), 1e-3))
         .within(2_000_000)

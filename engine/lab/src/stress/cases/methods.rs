@@ -54,7 +54,7 @@ pub const COMPARED: [&str; 12] = [
 fn pendulum(method: &TrialMethod, _: bool) -> StressOutcome {
     let start = 1.0f64;
     let mut scene = scene("pendulum", DOWN, 100.0, 1e-9);
-    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));
+    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [libm::sin(start), -libm::cos(start)], [0.0; 2], 0.0));
     scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
     swinging(scene, 0, start, method)
 }

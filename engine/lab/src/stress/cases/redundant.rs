@@ -80,11 +80,11 @@ pub(super) const CASES: &[StressCase] = &[
 
 /// A uniform rod of 1 m and 1 kg on a hinge: θ̈ = −(3/2) g sin θ from the downward vertical.
 pub(super) fn swinging(run_scene: Scene, body: usize, start: f64, method: &TrialMethod) -> StressOutcome {
-    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * a.sin());
+    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -1.5 * 9.81 * libm::sin(a));
     Trial::new(run_scene, method)
         .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
             let (angle, _) = exact.at(run.time());
-            distance(&run.frame(), body, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
+            distance(&run.frame(), body, [0.5 * libm::sin(angle), -0.5 * libm::cos(angle), 0.0])
         })
         .conserving((1e-7, 1e-3))
         .run()
@@ -107,7 +107,14 @@ fn coaxial(method: &TrialMethod, _: bool) -> StressOutcome {
         .into_iter()
         .map(|hinges| {
             let mut scene = scene("door", DOWN, 10.0, 1e-9);
-            scene.bodies.push(rod("door", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0));
+            scene.bodies.push(rod(
+                "door",
+                1.0,
+                [0.0; 2],
+                [libm::sin(start), -libm::cos(start)],
+                [0.0; 2],
+                0.0,
+            ));
             for i in 0..hinges {
                 let point = [0.0, 0.0, 0.1 * i as f64];
                 let mut hinge = hinged(
@@ -129,7 +136,7 @@ fn coaxial(method: &TrialMethod, _: bool) -> StressOutcome {
 fn bookshelf(method: &TrialMethod, _: bool) -> StressOutcome {
     let (count, start) = (9usize, 0.3f64);
     let mut scene = scene("bookshelf", DOWN, 10.0, 1e-9);
-    let (s, c) = (start.sin(), start.cos());
+    let (s, c) = (libm::sin(start), libm::cos(start));
     for i in 0..count {
         let x = i as f64;
         let name = format!("book-{i}");
@@ -142,11 +149,11 @@ fn bookshelf(method: &TrialMethod, _: bool) -> StressOutcome {
     }
     let n = count as f64;
     let k = 9.81 * (0.5 * n + 2.0) / (n / 3.0 + 2.0);
-    let mut exact = OneDegree::new(start, 0.0, move |a: f64, _| -k * a.sin());
+    let mut exact = OneDegree::new(start, 0.0, move |a: f64, _| -k * libm::sin(a));
     Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (1e-6, 1e-3), move |run| {
             let (angle, _) = exact.at(run.time());
-            distance(&run.frame(), count, [4.0 + angle.sin(), -angle.cos(), 0.0])
+            distance(&run.frame(), count, [4.0 + libm::sin(angle), -libm::cos(angle), 0.0])
         })
         .conserving((1e-7, 1e-3))
         .run()

@@ -81,7 +81,14 @@ fn chain(ratio: f64, method: &TrialMethod) -> StressOutcome {
     for i in 0..10 {
         let x = f64::from(i);
         let name = format!("rod-{i}");
-        scene.bodies.push(rod(&name, first * ratio.powi(i), [x, 0.0], [x + 1.0, 0.0], [0.0; 2], 0.0));
+        scene.bodies.push(rod(
+            &name,
+            first * libm::pow(ratio, f64::from(i)),
+            [x, 0.0],
+            [x + 1.0, 0.0],
+            [0.0; 2],
+            0.0,
+        ));
         let above = if i == 0 { GROUND.to_owned() } else { format!("rod-{}", i - 1) };
         scene.joints.push(pin(&format!("pin-{i}"), &above, &name, [x, 0.0]));
     }
@@ -111,15 +118,15 @@ fn pendulum(length: f64, mass: f64, method: &TrialMethod) -> StressOutcome {
     let start = 1.0f64;
     let pace = (1.5 * 9.81 / length).sqrt();
     let mut scene = scene("pendulum", DOWN, 15.0 / pace, 1e-9);
-    let end = [length * start.sin(), -length * start.cos()];
+    let end = [length * libm::sin(start), -length * libm::cos(start)];
     scene.bodies.push(rod("rod", mass, [0.0; 2], end, [0.0; 2], 0.0));
     scene.joints.push(pin("pin", GROUND, "rod", [0.0; 2]));
     // In the time pace · t.
-    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -a.sin());
+    let mut exact = OneDegree::new(start, 0.0, |a: f64, _| -libm::sin(a));
     Trial::new(scene, method)
         .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
             let (angle, _) = exact.at(pace * run.time());
-            let center = [0.5 * length * angle.sin(), -0.5 * length * angle.cos(), 0.0];
+            let center = [0.5 * length * libm::sin(angle), -0.5 * length * libm::cos(angle), 0.0];
             distance(&run.frame(), 0, center) / length
         })
         .conserving((1e-6, 1e-3))
@@ -134,19 +141,20 @@ fn all_sizes(method: &TrialMethod, _: bool) -> StressOutcome {
         let x = i as f64;
         let name = format!("rod-{i}");
         let mass: f64 = 1e3 * length * length * length;
-        let end = [x + length * start.sin(), -length * start.cos()];
+        let end = [x + length * libm::sin(start), -length * libm::cos(start)];
         scene.bodies.push(rod(&name, mass, [x, 0.0], end, [0.0; 2], 0.0));
         scene.joints.push(pin(&format!("pin-{i}"), GROUND, &name, [x, 0.0]));
     }
     let mut exact: Vec<_> =
-        lengths.iter().map(|_| OneDegree::new(start, 0.0, |a: f64, _| -a.sin())).collect();
+        lengths.iter().map(|_| OneDegree::new(start, 0.0, |a: f64, _| -libm::sin(a))).collect();
     Trial::new(scene, method)
         .against("exact motion of each pendulum", (1e-5, 1e-1), move |run| {
             let frame = run.frame();
             let mut error = 0.0;
             for (i, (length, exact)) in lengths.into_iter().zip(&mut exact).enumerate() {
                 let (angle, _) = exact.at((1.5 * 9.81 / length).sqrt() * run.time());
-                let center = [i as f64 + 0.5 * length * angle.sin(), -0.5 * length * angle.cos(), 0.0];
+                let center =
+                    [i as f64 + 0.5 * length * libm::sin(angle), -0.5 * length * libm::cos(angle), 0.0];
                 error = crate::stress::trial::larger(error, distance(&frame, i, center) / length);
             }
             error
@@ -166,7 +174,7 @@ fn thin(method: &TrialMethod, _: bool) -> StressOutcome {
         .into_iter()
         .map(|(name, principal, about_z)| {
             let mut scene = scene(name, DOWN, 10.0, 1e-9);
-            let mut bob = rod("bob", 1.0, [0.0; 2], [start.sin(), -start.cos()], [0.0; 2], 0.0);
+            let mut bob = rod("bob", 1.0, [0.0; 2], [libm::sin(start), -libm::cos(start)], [0.0; 2], 0.0);
             bob.inertia = if name == "point" { None } else { Some(Inertia::Principal(principal)) };
             scene.bodies.push(bob);
             scene.joints.push(pin("pin", GROUND, "bob", [0.0; 2]));
@@ -174,11 +182,11 @@ fn thin(method: &TrialMethod, _: bool) -> StressOutcome {
             if name == "rod" {
                 return swinging(scene, 0, start, method);
             }
-            let mut exact = OneDegree::new(start, 0.0, move |a: f64, _| -k * a.sin());
+            let mut exact = OneDegree::new(start, 0.0, move |a: f64, _| -k * libm::sin(a));
             Trial::new(scene, method)
                 .against("exact motion of a physical pendulum", (1e-6, 1e-3), move |run| {
                     let (angle, _) = exact.at(run.time());
-                    distance(&run.frame(), 0, [0.5 * angle.sin(), -0.5 * angle.cos(), 0.0])
+                    distance(&run.frame(), 0, [0.5 * libm::sin(angle), -0.5 * libm::cos(angle), 0.0])
                 })
                 .conserving((1e-7, 1e-3))
                 .run()

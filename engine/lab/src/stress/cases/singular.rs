@@ -60,7 +60,7 @@ pub(super) const CASES: &[StressCase] = &[
 /// the energy: θ̈ = κ sin θ with κ = g ((3N+1)/2) / ((4N+1)/3).
 fn windows(count: usize, angle: f64, rate: f64) -> Scene {
     let mut scene = scene("windows", DOWN, 10.0, 1e-9);
-    let (dx, dy) = (angle.sin(), angle.cos());
+    let (dx, dy) = (libm::sin(angle), libm::cos(angle));
     let tip = [rate * dy, -rate * dx];
     for i in 0..=count {
         let x = i as f64;
@@ -92,7 +92,7 @@ fn against_pendulum(
 ) -> StressOutcome {
     scene.simulation.duration = seconds;
     let k = kappa(count);
-    let mut exact = OneDegree::new(start.0, start.1, move |a: f64, _| k * a.sin());
+    let mut exact = OneDegree::new(start.0, start.1, move |a: f64, _| k * libm::sin(a));
     // It passes the upright slowly, where its energy is a hundredth of that at the bottom: an error of energy counts a
     // hundredfold in the phase, and adds up from turn to turn.
     let good = 1e-6 * seconds.max(10.0);
@@ -101,9 +101,15 @@ fn against_pendulum(
             let (angle, _) = exact.at(run.time());
             let frame = run.frame();
             (0..=count)
-                .map(|i| distance(&frame, i, [i as f64 + 0.5 * angle.sin(), 0.5 * angle.cos(), 0.0]))
+                .map(|i| {
+                    distance(&frame, i, [i as f64 + 0.5 * libm::sin(angle), 0.5 * libm::cos(angle), 0.0])
+                })
                 .chain((0..count).map(|i| {
-                    distance(&frame, count + 1 + i, [i as f64 + 0.5 + angle.sin(), angle.cos(), 0.0])
+                    distance(
+                        &frame,
+                        count + 1 + i,
+                        [i as f64 + 0.5 + libm::sin(angle), libm::cos(angle), 0.0],
+                    )
                 }))
                 .fold(0.0, crate::stress::trial::larger)
         })
@@ -140,7 +146,7 @@ fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut scene = scene("unequal-windows", DOWN, 20.0, 1e-9);
     let tip = |k: usize| {
         let (a, beta): (f64, f64) = arms[k];
-        [a * (start + beta).cos(), a * (start + beta).sin()]
+        [a * libm::cos(start + beta), a * libm::sin(start + beta)]
     };
     for i in 0..=arms.len() {
         let x = 2.0 * i as f64;
@@ -160,7 +166,7 @@ fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
     }
     let inertia = 5.0 / 12.0 + arms.iter().map(|(a, _)| a * a).sum::<f64>();
     let mut exact = OneDegree::new(start, rate, move |angle: f64, _| {
-        -9.81 * arms.iter().map(|(a, beta)| a * (angle + beta).cos()).sum::<f64>() / inertia
+        -9.81 * arms.iter().map(|(a, beta)| a * libm::cos(angle + beta)).sum::<f64>() / inertia
     });
     Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (1e-5, 1e-2), move |run| {
@@ -169,8 +175,11 @@ fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
             (0..arms.len())
                 .map(|k| {
                     let (a, beta) = arms[k];
-                    let center =
-                        [2.0 * k as f64 + 1.0 + a * (angle + beta).cos(), a * (angle + beta).sin(), 0.0];
+                    let center = [
+                        2.0 * k as f64 + 1.0 + a * libm::cos(angle + beta),
+                        a * libm::sin(angle + beta),
+                        0.0,
+                    ];
                     distance(&frame, arms.len() + 1 + k, center)
                 })
                 .fold(0.0, crate::stress::trial::larger)
@@ -184,7 +193,7 @@ fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
 fn slider_crank(method: &TrialMethod, _: bool) -> StressOutcome {
     let (start, rate): (f64, f64) = (0.5, 4.0);
     let mut scene = scene("slider-crank", DOWN, 20.0, 1e-9);
-    let (c, s) = (start.cos(), start.sin());
+    let (c, s) = (libm::cos(start), libm::sin(start));
     let tip = [-rate * s, rate * c];
     scene.bodies.push(rod("crank", 1.0, [0.0; 2], [c, s], [0.0; 2], rate));
     scene.bodies.push(rod("rod", 1.0, [c, s], [2.0 * c, 0.0], tip, -rate));
@@ -196,7 +205,7 @@ fn slider_crank(method: &TrialMethod, _: bool) -> StressOutcome {
     scene.joints.push(pin("C", "rod", "slider", [2.0 * c, 0.0]));
     scene.joints.push(hinged("D", JointKind::Prismatic, GROUND, "slider", [0.0; 3], [1.0, 0.0, 0.0]));
     let mut exact = OneDegree::new(start, rate, |a: f64, r: f64| {
-        let (s, c) = a.sin_cos();
+        let (s, c) = libm::sincos(a);
         let inertia = 5.0 / 12.0 + 0.25 * c * c + 6.25 * s * s;
         let slope = 12.0 * s * c;
         (-0.5 * slope * r * r - 9.81 * c) / inertia
@@ -204,7 +213,7 @@ fn slider_crank(method: &TrialMethod, _: bool) -> StressOutcome {
     Trial::new(scene, method)
         .against("exact motion of one degree of freedom", (1e-5, 1e-2), move |run| {
             let (angle, _) = exact.at(run.time());
-            distance(&run.frame(), 2, [2.0 * angle.cos(), 0.0, 0.0])
+            distance(&run.frame(), 2, [2.0 * libm::cos(angle), 0.0, 0.0])
         })
         .conserving((1e-6, 1e-3))
         .run()
@@ -220,7 +229,7 @@ fn at_rest(method: &TrialMethod, _: bool) -> StressOutcome {
     let mut outcome = Trial::new(scene, method)
         .against("a branch: parallel or crossed", (1e-6, 1e-3), |run| {
             let frame = run.frame();
-            let angle = |k: usize| frame.bodies[k].u[1].atan2(frame.bodies[k].u[0]);
+            let angle = |k: usize| libm::atan2(frame.bodies[k].u[1], frame.bodies[k].u[0]);
             let (left, right, coupler) = (angle(0), angle(1), angle(2));
             // Parallel: both uprights at one angle, the coupler level. Crossed: the coupler turns with the rest.
             let level = |a: f64| (a - TAU * (a / TAU).round()).abs();

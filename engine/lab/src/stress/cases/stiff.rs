@@ -75,12 +75,12 @@ fn oscillator(stiffness: f64, damping: f64, seconds: f64, method: &TrialMethod) 
             let t = run.time();
             let x = if square > 0.0 {
                 let omega = square.sqrt();
-                (-half * t).exp() * ((omega * t).cos() + half / omega * (omega * t).sin())
+                libm::exp(-half * t) * (libm::cos(omega * t) + half / omega * libm::sin(omega * t))
             } else {
                 let root = (-square).sqrt();
                 // The slow root without cancellation.
                 let (fast, slow) = (half + root, stiffness / (half + root));
-                (fast * (-slow * t).exp() - slow * (-fast * t).exp()) / (fast - slow)
+                (fast * libm::exp(-slow * t) - slow * libm::exp(-fast * t)) / (fast - slow)
             };
             distance(&run.frame(), 0, [rest + amplitude * x, 0.0, 0.0]) / amplitude
         })
@@ -100,7 +100,7 @@ fn top(method: &TrialMethod, quick: bool) -> StressOutcome {
     scene.joints.push(joint("tip", JointKind::Spherical, GROUND, "wheel", [0.0; 3]));
     Trial::new(scene, method)
         .against("steady precession at m g l / (C n)", (1e-7, 1e-3), move |run| {
-            let (sin, cos) = (precession * run.time()).sin_cos();
+            let (sin, cos) = libm::sincos(precession * run.time());
             distance(&run.frame(), 0, [arm * cos, arm * sin, 0.0]) / arm
         })
         .conserving((1e-6, 1e-3))
@@ -116,7 +116,7 @@ fn kapitza(method: &TrialMethod, _: bool) -> StressOutcome {
     scene.bodies.push(body("pivot", 1.0, [0.1; 3], [0.0; 3]));
     scene.bodies[0].velocity = [0.0, amplitude * frequency, 0.0];
     let up = [0.0, amplitude * frequency];
-    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [start.sin(), start.cos()], up, 0.0));
+    scene.bodies.push(rod("rod", 1.0, [0.0; 2], [libm::sin(start), libm::cos(start)], up, 0.0));
     scene.joints.push(hinged("guide", JointKind::Prismatic, GROUND, "pivot", [0.0; 3], [0.0, 1.0, 0.0]));
     scene.joints.push(pin("pin", "pivot", "rod", [0.0; 2]));
     scene.drivers.push(Driver::Slide {
@@ -125,14 +125,14 @@ fn kapitza(method: &TrialMethod, _: bool) -> StressOutcome {
         motion: Motion::Harmonic { mean: 0.0, amplitude, frequency, phase: 0.0 },
     });
     let mut exact = OneDegree::driven(start, 0.0, 1e-6, move |t: f64, a: f64, _| {
-        1.5 * (9.81 - amplitude * frequency * frequency * (frequency * t).sin()) * a.sin()
+        1.5 * (9.81 - amplitude * frequency * frequency * libm::sin(frequency * t)) * libm::sin(a)
     });
     Trial::new(scene, method)
         .against("exact motion on a shaken pivot", (1e-5, 1e-2), move |run| {
             let t = run.time();
             let (angle, _) = exact.at(t);
-            let y = amplitude * (frequency * t).sin();
-            distance(&run.frame(), 1, [0.5 * angle.sin(), y + 0.5 * angle.cos(), 0.0])
+            let y = amplitude * libm::sin(frequency * t);
+            distance(&run.frame(), 1, [0.5 * libm::sin(angle), y + 0.5 * libm::cos(angle), 0.0])
         })
         .run()
 }

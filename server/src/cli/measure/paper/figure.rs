@@ -62,12 +62,12 @@ pub(super) fn svg(curves: &[PlottedCurve]) -> String {
         size: SIZE,
         margins: MARGINS,
         x: Axis {
-            decades: (0.0, most.log10()),
+            decades: (0.0, libm::log10(most)),
             reversed: false,
             ticks: lines.map(|bodies| (*bodies, bodies.to_string())).collect(),
         },
         y: Axis::around(points().map(|(_, seconds)| *seconds), |exponent| {
-            format!("{} s", 10f64.powf(exponent))
+            format!("{} s", libm::pow(10f64, exponent))
         }),
         grid: "#ccc",
     };

@@ -80,7 +80,7 @@ fn row(page: &mut String, entry: &CaseReport) {
 
 /// Error of each case on a scale of powers of ten from 1e-16 to 1.
 fn plot(entries: &[CaseReport]) -> String {
-    let place = |x: f64| 220.0 + 40.0 * (x.max(1e-16).log10() + 16.0).min(16.0);
+    let place = |x: f64| 220.0 + 40.0 * (libm::log10(x.max(1e-16)) + 16.0).min(16.0);
     let list: Vec<&CaseReport> = entries
         .iter()
         .filter(|e| shown(e))
@@ -91,7 +91,7 @@ fn plot(entries: &[CaseReport]) -> String {
         "<div class=scroll><svg width=900 height={height} role=img aria-label=\"error of each case\">"
     );
     for power in (-16..=0).step_by(4) {
-        let x = place(10f64.powi(power));
+        let x = place(libm::pow(10.0, f64::from(power)));
         let _ = write!(
             svg,
             "<line x1={x} x2={x} y1=20 y2={height} stroke=\"#8888\"/><text x={x} y=14 text-anchor=middle>1e{power}</text>"

@@ -28,7 +28,7 @@ fn look(verdict: StressVerdict) -> (&'static str, &'static str) {
 fn size(error: Option<f64>) -> String {
     match error {
         Some(error) if error > 0.0 && error.is_finite() => {
-            format!("1e{:.0}", error.log10().ceil().max(-16.0))
+            format!("1e{:.0}", libm::log10(error).ceil().max(-16.0))
         }
         _ => String::new(),
     }
