@@ -14,6 +14,7 @@ mod event;
 mod joint;
 mod joint_keys;
 mod load;
+mod marker;
 mod parameter;
 mod reader;
 
@@ -24,6 +25,7 @@ pub use error::ModelError;
 pub use event::{EventQuantity, ModelEvent};
 pub use joint::{JointGeometry, ModelJoint, director_along};
 pub use load::{ForceLaw, LoadKind, ModelLoad};
+pub use marker::ModelMarker;
 
 use crate::scene::{ConstraintMethod, Scene, Settings};
 use nalgebra::Vector3;
@@ -56,6 +58,8 @@ pub struct Model {
     pub loads: Vec<ModelLoad>,
     /// Loads that a program gives as functions of the state: [`Model::with_loads`].
     pub custom_loads: Vec<ModelCustomLoad>,
+    /// Points with names, in the scene's order.
+    pub markers: Vec<ModelMarker>,
     /// Events to be located, in the scene's order.
     pub events: Vec<ModelEvent>,
     /// How to run it.
@@ -94,6 +98,12 @@ impl Model {
             bodies: &bodies,
             joints: &joints,
         };
+        let mut marker_names = HashMap::new();
+        let mut markers = Vec::with_capacity(scene.markers.len());
+        for (index, written) in scene.markers.iter().enumerate() {
+            unique_name(&mut marker_names, "markers", index, &written.name)?;
+            markers.push(ModelMarker::new(written, &reader("markers", index, &written.name))?);
+        }
         let mut drivers = Vec::with_capacity(scene.drivers.len());
         for (index, written) in scene.drivers.iter().enumerate() {
             unique_name(&mut row_names, "drivers", index, written.name())?;
@@ -109,7 +119,7 @@ impl Model {
         let mut events = Vec::with_capacity(scene.events.len());
         for (index, written) in scene.events.iter().enumerate() {
             unique_name(&mut event_names, "events", index, &written.name)?;
-            events.push(ModelEvent::new(written, &reader("events", index, &written.name))?);
+            events.push(ModelEvent::new(written, &reader("events", index, &written.name), &markers)?);
         }
         parameter::check(scene)?;
         Ok(Self {
@@ -120,6 +130,7 @@ impl Model {
             drivers,
             loads,
             custom_loads: Vec::new(),
+            markers,
             events,
             settings: scene.simulation.clone(),
             notes,

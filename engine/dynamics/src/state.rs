@@ -233,6 +233,18 @@ impl State {
         &self.bodies
     }
 
+    /// Position and velocity in the world of a point of a body's principal frame — eq. (2.2).
+    pub fn point(&self, body: BodyRef, local: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        self.require(Stage::Velocities);
+        match body {
+            BodyRef::Ground => [*local, Vector3::zeros()],
+            BodyRef::Moving(body) => {
+                let BodyState { q, q_dot } = &self.bodies[body];
+                [q.r + q.arm(local), q_dot.r + q_dot.arm(local)]
+            }
+        }
+    }
+
     /// The angles of joints.
     pub fn angles(&self) -> &[AngleState] {
         &self.angles

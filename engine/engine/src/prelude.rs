@@ -14,6 +14,6 @@ pub use crate::model::{CustomLoad, LoadState, Wrench};
 pub use crate::run::Simulation;
 pub use crate::scene::{
     Body, Coordinates, Driver, Event, Friction, Ground, Inertia, IntegratorKind, Joint, JointKind, Load,
-    LoadFrame, Motion, Quantity, Scene, VectorMotion,
+    LoadFrame, Marker, Motion, Quantity, Scene, VectorMotion,
 };
 pub use crate::solution::{JointReaction, Simulate, Solution, SolutionState};

@@ -17,7 +17,7 @@ mod summary;
 
 pub use events::EventOccurrence;
 pub use explain::SkippedItem;
-pub use frame::Frame;
+pub use frame::{Frame, MarkerFrame};
 pub use singularity::SingularConfiguration;
 pub use snapshot::Snapshot;
 pub use state_view::StateView;

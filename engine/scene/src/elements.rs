@@ -1,4 +1,4 @@
-//! What a scene consists of: bodies, joints, drivers, loads and events, and what they are written with.
+//! What a scene consists of: bodies, joints, drivers, loads, markers and events, and what they are written with.
 
 mod orientation;
 
@@ -12,6 +12,8 @@ mod driver;
 
 mod load;
 
+mod marker;
+
 mod event;
 
 pub use body::{Body, Coordinates, Inertia, Shape};
@@ -19,5 +21,6 @@ pub use driver::Driver;
 pub use event::{Event, Passing, Quantity};
 pub use joint::{AxisRows, Joint, JointKind};
 pub use load::{Friction, Load, LoadFrame};
+pub use marker::Marker;
 pub use motion::{Motion, VectorMotion};
 pub use orientation::{Orientation, WrittenOrientation};

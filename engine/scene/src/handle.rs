@@ -81,6 +81,8 @@ handles! {
     DriverHandle;
     /// A load, by its name.
     LoadHandle;
+    /// A marker, by its name.
+    MarkerHandle;
     /// An event, by its name.
     EventHandle;
 }

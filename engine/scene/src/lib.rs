@@ -37,11 +37,13 @@ pub mod catalogue;
 
 pub use changes::WrittenScene;
 pub use elements::{
-    AxisRows, Body, Coordinates, Driver, Event, Friction, Inertia, Joint, JointKind, Load, LoadFrame, Motion,
-    Orientation, Passing, Quantity, Shape, VectorMotion, WrittenOrientation,
+    AxisRows, Body, Coordinates, Driver, Event, Friction, Inertia, Joint, JointKind, Load, LoadFrame, Marker,
+    Motion, Orientation, Passing, Quantity, Shape, VectorMotion, WrittenOrientation,
 };
 pub use error::SceneError;
-pub use handle::{BodyHandle, DriverHandle, EventHandle, GROUND, Ground, JointHandle, LoadHandle};
+pub use handle::{
+    BodyHandle, DriverHandle, EventHandle, GROUND, Ground, JointHandle, LoadHandle, MarkerHandle,
+};
 pub use limits::{MAX_BODIES, MAX_EVENTS, MAX_JOINTS, MAX_TEXT};
 pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places};
 pub use scene::{Scene, SceneElement, schema};

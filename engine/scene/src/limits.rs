@@ -2,7 +2,7 @@
 
 /// Largest number of bodies that a scene may have.
 pub const MAX_BODIES: usize = 5_000;
-/// Largest number of joints, drivers or loads that a scene may have (each).
+/// Largest number of joints, drivers, loads or markers that a scene may have (each).
 pub const MAX_JOINTS: usize = 20_000;
 /// Largest number of events that a scene may look for.
 pub const MAX_EVENTS: usize = 1_000;

@@ -1,8 +1,8 @@
 //! The scene: its elements, its settings, and how it is read and written.
 
-use crate::elements::{Body, Coordinates, Driver, Event, Joint, Load};
+use crate::elements::{Body, Coordinates, Driver, Event, Joint, Load, Marker};
 use crate::error::{SceneError, plain_error, syntax_error};
-use crate::handle::{BodyHandle, DriverHandle, EventHandle, JointHandle, LoadHandle};
+use crate::handle::{BodyHandle, DriverHandle, EventHandle, JointHandle, LoadHandle, MarkerHandle};
 use crate::limits::{MAX_BODIES, MAX_EVENTS, MAX_JOINTS, MAX_TEXT};
 use crate::parameter::{MAX_PARAMETERS, Parameter};
 use crate::settings::{IntegratorKind, Settings};
@@ -39,6 +39,9 @@ pub struct Scene {
     /// Forces and moments besides gravity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<Load>,
+    /// Points with names, whose places and velocities are told.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub markers: Vec<Marker>,
     /// Moments to look for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<Event>,
@@ -80,13 +83,14 @@ impl Scene {
             joints: Vec::new(),
             drivers: Vec::new(),
             loads: Vec::new(),
+            markers: Vec::new(),
             events: Vec::new(),
             simulation: Settings::default(),
             parameters: Vec::new(),
         }
     }
 
-    /// Adds a body, joint, driver, load or event, and gives what stands for it in later calls. Names must be unique
+    /// Adds a body, joint, driver, load, marker or event, and gives what stands for it in later calls. Names must be unique
     /// within their list; the model checks it.
     ///
     /// ```
@@ -197,6 +201,7 @@ impl Scene {
             ("joints", self.joints.len(), MAX_JOINTS),
             ("drivers", self.drivers.len(), MAX_JOINTS),
             ("loads", self.loads.len(), MAX_JOINTS),
+            ("markers", self.markers.len(), MAX_JOINTS),
             ("events", self.events.len(), MAX_EVENTS),
             ("parameters", self.parameters.len(), MAX_PARAMETERS),
         ];
@@ -207,7 +212,7 @@ impl Scene {
     }
 }
 
-/// What [`Scene::add`] takes: bodies, joints, drivers, loads and events.
+/// What [`Scene::add`] takes: bodies, joints, drivers, loads, markers and events.
 pub trait SceneElement {
     /// What stands for it in later calls.
     type Handle;
@@ -235,6 +240,7 @@ elements! {
     Joint in joints, by JointHandle;
     Driver in drivers, by DriverHandle;
     Load in loads, by LoadHandle;
+    Marker in markers, by MarkerHandle;
     Event in events, by EventHandle;
 }
 

@@ -272,12 +272,14 @@ mod tests {
             center_of_mass: [0.0; 3],
             principal_axes: AXES,
             joint_points: Vec::new(),
+            markers: Vec::new(),
         };
         let pin = JointVisual { name: "pin".into(), rows: Vec::new(), on: Some(0), by: None };
         let description = SceneDescription {
             title: String::new(),
             bodies: vec![bob],
             joints: vec![pin],
+            ground_markers: Vec::new(),
             pattern: super::super::Pattern::default(),
             gravity: [0.0, -10.0, 0.0],
             size: 1.0,

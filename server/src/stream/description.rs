@@ -18,6 +18,17 @@ pub struct BodyVisual {
     pub principal_axes: [[f64; 3]; 3],
     /// Points of its joints, in its principal frame.
     pub joint_points: Vec<[f64; 3]>,
+    /// Its markers, in its principal frame.
+    pub markers: Vec<MarkerVisual>,
+}
+
+/// A marker as it is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkerVisual {
+    /// Name.
+    pub name: String,
+    /// Where it is, in the principal frame of its body; of the ground, in the world.
+    pub point: [f64; 3],
 }
 
 /// A joint as it is drawn.
@@ -53,6 +64,8 @@ pub struct SceneDescription {
     pub bodies: Vec<BodyVisual>,
     /// The joints, in the scene's order.
     pub joints: Vec<JointVisual>,
+    /// Markers of the ground.
+    pub ground_markers: Vec<MarkerVisual>,
     /// The pattern of the Jacobian.
     pub pattern: Pattern,
     /// Gravity, which says what is up.
@@ -87,6 +100,7 @@ impl SceneDescription {
                 // nalgebra hands out columns, and column k is axis k.
                 principal_axes: body.principal_axes.into(),
                 joint_points: joint_points(model, index),
+                markers: markers(model, BodyRef::Moving(index)),
             })
             .collect();
         let Extent { size, center, reach } = Extent::of(model, &bodies);
@@ -96,6 +110,7 @@ impl SceneDescription {
             title: title.clone(),
             bodies,
             joints,
+            ground_markers: markers(model, BodyRef::Ground),
             pattern,
             gravity: model.gravity.into(),
             size,
@@ -116,6 +131,11 @@ fn joint_points(model: &Model, body: usize) -> Vec<[f64; 3]> {
         }
     }
     points
+}
+
+fn markers(model: &Model, of: BodyRef) -> Vec<MarkerVisual> {
+    let own = model.markers.iter().filter(|marker| marker.body == of);
+    own.map(|marker| MarkerVisual { name: marker.name.clone(), point: marker.local.into() }).collect()
 }
 
 /// How large a mechanism is at its start, and where.

@@ -9,13 +9,15 @@ use rerun::{EntityPath, EntityPathPart, RecordingStream, RecordingStreamResult};
 use triad_engine::scene::Shape;
 
 use super::arrows::ArrowKind;
-use super::description::{BodyVisual, Pattern, SceneDescription};
+use super::description::{BodyVisual, MarkerVisual, Pattern, SceneDescription};
 
 /// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
 const PALETTE: [[u8; 3]; 6] =
     [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [0, 114, 178], [204, 121, 167]];
 /// Joints are grey.
 const PIN: [u8; 3] = [120, 120, 120];
+/// Markers are black, with their names.
+const MARKER: [u8; 3] = [20, 20, 20];
 /// Weight and loads of a body that is cut free.
 pub(super) const FREE_BODY: &str = "world/cut-free";
 /// Rings about the joint that somebody selected.
@@ -44,7 +46,15 @@ pub(super) fn log_static(
     };
     recording.log_static("world", &up)?;
     recording.log_static("world/ground", &axes(0.35 * description.size, ["x", "y", "z"]))?;
+    log_markers(
+        recording,
+        path(&["world", "ground", "markers"]),
+        &description.ground_markers,
+        description.size,
+    )?;
     for (index, body) in description.bodies.iter().enumerate() {
+        let of_body = path(&["world", "bodies", &body.name, "markers"]);
+        log_markers(recording, of_body, &body.markers, description.size)?;
         log_body(recording, body, PALETTE[index % PALETTE.len()], description.size)?;
     }
     for joint in &description.joints {
@@ -83,6 +93,23 @@ fn axes(length: f64, labels: [&str; 3]) -> Arrows3D {
         .with_labels(labels)
         .with_show_labels(false)
         .with_radii([narrow(0.012 * length)])
+}
+
+fn log_markers(
+    recording: &RecordingStream,
+    entity: EntityPath,
+    markers: &[MarkerVisual],
+    size: f64,
+) -> RecordingStreamResult<()> {
+    if markers.is_empty() {
+        return Ok(());
+    }
+    let points = Points3D::new(markers.iter().map(|marker| single(marker.point)))
+        .with_labels(markers.iter().map(|marker| marker.name.as_str()))
+        .with_show_labels(true)
+        .with_colors([color(MARKER)])
+        .with_radii([narrow(0.012 * size)]);
+    recording.log_static(entity, &points)
 }
 
 fn log_body(

@@ -775,7 +775,10 @@ export interface components {
                 number,
                 number
             ] | null;
-            /** @description Axis in the frame of body i. */
+            /**
+             * @description Axis in the frame of body i. The line of `point-on-line` and the normal of `point-in-plane` belong to body i: there
+             *     `axis_i` is enough.
+             */
             axis_i?: [
                 number,
                 number,
@@ -1267,6 +1270,19 @@ export interface components {
         LoadFrame: "world" | "body";
         /** @description How one answer was judged. */
         Mark: "right" | "wrong" | "blank" | "invalid";
+        /** @description A point of a body that has a name: tables, pictures and events know where it is. It has no influence on the motion. */
+        Marker: {
+            /** @description The body, or `ground`. */
+            body: string;
+            /** @description Unique name among the markers. */
+            name: string;
+            /** @description The point in the body's frame, m; its reference point if it is left out. */
+            point?: [
+                number,
+                number,
+                number
+            ];
+        };
         /** @description What stands at a place of a symmetric matrix. */
         MatrixPart: "own" | "constant" | "changing" | "fill";
         /** @description One mode, moving as e^(λt). */
@@ -1336,7 +1352,7 @@ export interface components {
         ModesAbout: "equilibrium" | "start";
         /** @description The point about which moments are taken. */
         MomentPoint: "joint" | "center";
-        /** @description A number as a function of time t. */
+        /** @description A number as a function of time t: one of the kinds of motion, or a plain number, which is constant. */
         Motion: {
             /** @constant */
             kind: "constant";
@@ -1419,7 +1435,7 @@ export interface components {
             times: number[];
             /** @description Values at those times. */
             values: number[];
-        };
+        } | number;
         /** @description One multiplier λ of eq. (6.6) with the label of its equation. */
         Multiplier: {
             /** @description Label of the equation within its joint. */
@@ -1747,6 +1763,17 @@ export interface components {
             /** @constant */
             type: "coordinate";
         } | {
+            /** @description The direction; made a unit vector. */
+            direction: [
+                number,
+                number,
+                number
+            ];
+            /** @description The marker. */
+            marker: string;
+            /** @constant */
+            type: "marker";
+        } | {
             /** @description First body, or `ground`. */
             body_i: string;
             /** @description Second body, or `ground`. */
@@ -2046,6 +2073,8 @@ export interface components {
             joints?: components["schemas"]["Joint"][];
             /** @description Forces and moments besides gravity. */
             loads?: components["schemas"]["Load"][];
+            /** @description Points with names, whose places and velocities are told. */
+            markers?: components["schemas"]["Marker"][];
             /** @description Short name in lower case, used in file names and addresses. */
             name: string;
             /** @description Numbers of the scene that may be changed while it runs. */
@@ -2591,7 +2620,7 @@ export interface components {
              */
             loads?: components["schemas"]["Load"][];
             /**
-             * @description Positions of joints at the start, by name: rad or m.
+             * @description Positions of joints at the start, by name: rad or m. One that follows another by `<mimic>` needs none.
              * @default {}
              */
             positions?: {
@@ -2620,7 +2649,7 @@ export interface components {
                 [key: string]: number;
             };
         };
-        /** @description A vector as a function of time. */
+        /** @description A vector as a function of time: one of the kinds of motion, or three plain numbers, which are constant. */
         VectorMotion: {
             /** @constant */
             kind: "fixed";
@@ -2656,7 +2685,11 @@ export interface components {
                 number,
                 number
             ];
-        };
+        } | [
+            number,
+            number,
+            number
+        ];
         /** @description A follower's answer. */
         Vote: {
             /**

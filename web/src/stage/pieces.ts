@@ -15,6 +15,8 @@ export interface Piece {
 
 /** Radius of the circle of a joint, in units of the drawing. */
 export const JOINT_RADIUS = 5;
+/** Radius of the dot of a marker, in units of the drawing. */
+const MARKER_RADIUS = 3;
 
 /** Pairs of corners of a box that an edge joins; corner i has its sides in the bits of i. */
 const BOX_EDGES = [
@@ -75,6 +77,26 @@ export function jointPiece(
     : joint.point_j && converter(frame, stated?.position, axesOf(stated?.orientation))(joint.point_j);
   if (!point) return undefined;
   return circlePiece(svg("circle", { r: JOINT_RADIUS, class: "sketch-joint" }), body, point);
+}
+
+/** A named point, a dot with its name beside it; `point` is along the body's reported axes. */
+export function markerPiece(body: number, name: string, point: Vec3): Piece {
+  const element = markerElement(name);
+  return { body, points: [point], element, place: ([at]) => at && moveMarker(element, at) };
+}
+
+/** The dot and the name of a marker, at the origin of the drawing until it is moved. */
+export function markerElement(name: string): SVGGElement {
+  const label = svg("text", { x: 7, y: -5 });
+  label.textContent = name;
+  const element = svg("g", { class: "sketch-marker" });
+  element.append(svg("circle", { r: MARKER_RADIUS }), label);
+  return element;
+}
+
+/** Puts a marker at a place of the drawing. */
+export function moveMarker(element: SVGGElement, [x, y]: [number, number]): void {
+  set(element, { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
 }
 
 /** The principal axes u, v, w of a body, as lines of a length in metres. */

@@ -3,7 +3,17 @@
 import type { Body, BodyState, Scene, SessionState, Vec3 } from "../api/types";
 import { svg } from "../core/dom";
 import { type Axes, add, axesOf, cross, dot, norm, out, scale, sub, unit } from "../mechanics/vec";
-import { axisPieces, converter, JOINT_RADIUS, jointPiece, type Piece, shapePiece } from "./pieces";
+import {
+  axisPieces,
+  converter,
+  JOINT_RADIUS,
+  jointPiece,
+  markerElement,
+  markerPiece,
+  moveMarker,
+  type Piece,
+  shapePiece,
+} from "./pieces";
 import { type Grip, HEIGHT, inPlane, type Layer, WIDTH } from "./viewport";
 
 const GROUND = "ground";
@@ -100,7 +110,7 @@ export class Sketch {
   /** Makes all elements and chooses the scale, so that the mechanism fits. */
   private build(state: SessionState): Piece[] {
     const grounds = this.groundJoints();
-    const made = [...this.shapes(state), ...this.movingJoints(state)];
+    const made = [...this.shapes(state), ...this.movingJoints(state), ...this.movingMarkers(state)];
     this.fit(state, made, grounds);
     for (const piece of made) piece.element.style.setProperty("--px", String(this.perMetre));
     made.push(...state.bodies.flatMap((_, at) => axisPieces(at, AXIS_LENGTH / this.perMetre)));
@@ -110,6 +120,7 @@ export class Sketch {
         const [cx, cy] = this.project(point);
         return this.clickable(svg("circle", { cx, cy, r: JOINT_RADIUS, class: "sketch-joint" }), name);
       }),
+      ...this.groundMarkers(),
       ...this.over.map((layer) => layer.root),
     );
     return made;
@@ -145,6 +156,26 @@ export class Sketch {
       if (!piece) return [];
       this.clickable(piece.element, joint.name);
       return [piece];
+    });
+  }
+
+  private movingMarkers(state: SessionState): Piece[] {
+    return (this.scene?.markers ?? []).flatMap(({ name, body, point }) => {
+      const at = state.bodies.findIndex((frame) => frame.name === body);
+      const frame = state.bodies[at];
+      if (!frame) return [];
+      const stated = this.stated(frame);
+      const toBody = converter(frame, stated?.position, axesOf(stated?.orientation));
+      return [markerPiece(at, name, toBody(point ?? [0, 0, 0]))];
+    });
+  }
+
+  private groundMarkers(): SVGElement[] {
+    const own = (this.scene?.markers ?? []).filter(({ body }) => body === GROUND);
+    return own.map(({ name, point }) => {
+      const element = markerElement(name);
+      moveMarker(element, this.project(point ?? [0, 0, 0]));
+      return element;
     });
   }
 

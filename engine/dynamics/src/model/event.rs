@@ -1,9 +1,10 @@
 //! Events to be located, with their points in principal frames.
 
 use super::reader::ModelReader;
-use super::{BodyRef, ModelError};
+use super::{BodyRef, ModelError, ModelMarker};
 use crate::scene::{Event, Passing, Quantity};
 use nalgebra::Vector3;
+use triad_scene::text::nearest_name;
 
 /// Greatest |value| that an event may wait for, m or rad.
 const MAX_VALUE: f64 = 1e9;
@@ -56,11 +57,22 @@ pub enum EventQuantity {
 
 impl ModelEvent {
     /// Checks an event.
-    pub(super) fn new(event: &Event, reader: &ModelReader) -> Result<Self, ModelError> {
+    pub(super) fn new(
+        event: &Event,
+        reader: &ModelReader,
+        markers: &[ModelMarker],
+    ) -> Result<Self, ModelError> {
         let of = match &event.of {
             Quantity::Coordinate { body, point, direction } => {
                 let body = BodyRef::Moving(reader.moving_body("of/body", body)?);
                 let local = reader.local_point(body, &reader.vector("of/point", *point)?);
+                EventQuantity::Coordinate { body, local, direction: reader.unit("of/direction", *direction)? }
+            }
+            Quantity::Marker { marker, direction } => {
+                let ModelMarker { body, local, .. } = *named(marker, markers, reader)?;
+                if body == BodyRef::Ground {
+                    return Err(reader.wrong("of/marker", "it is a point of the ground, which cannot move"));
+                }
                 EventQuantity::Coordinate { body, local, direction: reader.unit("of/direction", *direction)? }
             }
             Quantity::Distance { body_i, point_i, body_j, point_j } => {
@@ -87,4 +99,17 @@ impl ModelEvent {
             stop: event.stop,
         })
     }
+}
+
+/// A marker by its name.
+fn named<'a>(
+    name: &str,
+    markers: &'a [ModelMarker],
+    reader: &ModelReader,
+) -> Result<&'a ModelMarker, ModelError> {
+    markers.iter().find(|marker| marker.name == name).ok_or_else(|| {
+        let nearest = nearest_name(name, markers.iter().map(|marker| marker.name.as_str()));
+        let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
+        reader.wrong("of/marker", format!("there is no marker \"{name}\"{guess}"))
+    })
 }

@@ -344,11 +344,13 @@ fn axes(
                 let world = Vector3::z();
                 Ok(pair.map(|body| reader.vector_from_world(body, &world)))
             }
-            AxisKeys::Common | AxisKeys::Two(_) => Err(reader.wrong("axis", "it has no axis")),
+            AxisKeys::Common | AxisKeys::OfFirst | AxisKeys::Two(_) => {
+                Err(reader.wrong("axis", "it has no axis"))
+            }
         },
         (Some(world), None, None, None) => match keys.axis {
             AxisKeys::Two(reason) => Err(reader.wrong("axis", reason)),
-            AxisKeys::None(_) | AxisKeys::Optional | AxisKeys::Common => {
+            AxisKeys::None(_) | AxisKeys::Optional | AxisKeys::Common | AxisKeys::OfFirst => {
                 let world = reader.unit("axis", world)?;
                 Ok(pair.map(|body| reader.vector_from_world(body, &world)))
             }
@@ -360,6 +362,11 @@ fn axes(
         (None, None, Some(i), Some(j)) => {
             let local = [reader.unit("axis_i", i)?, reader.unit("axis_j", j)?];
             Ok([0, 1].map(|side| reader.local_vector(pair[side], &local[side])))
+        }
+        // Body j has no part in the line or plane.
+        (None, None, Some(i), None) if keys.axis == AxisKeys::OfFirst => {
+            let local = reader.local_vector(pair[0], &reader.unit("axis_i", i)?);
+            Ok([local, reader.vector_from_world(pair[1], &reader.vector_to_world(pair[0], &local))])
         }
         _ => Err(reader.wrong("axis", "its axis is given twice, or on one of its bodies only")),
     }

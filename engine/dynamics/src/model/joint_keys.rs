@@ -20,6 +20,8 @@ pub(super) enum PointKeys {
 pub(super) enum AxisKeys {
     /// One axis of both bodies, or one of each.
     Common,
+    /// One axis of both bodies, one of each, or that of body i alone, to which line or plane belong.
+    OfFirst,
     /// The same, or none: the axis only says in which directions the reaction is shown.
     Optional,
     /// One of each body; why not one of both.
@@ -61,11 +63,8 @@ impl KnownKeys {
             JointKind::Universal => {
                 Self { axis: AxisKeys::Two("a universal joint has two axes: give \"axes\""), ..plain }
             }
-            JointKind::Cylindrical
-            | JointKind::Prismatic
-            | JointKind::Planar
-            | JointKind::PointOnLine
-            | JointKind::PointInPlane => plain,
+            JointKind::Cylindrical | JointKind::Prismatic | JointKind::Planar => plain,
+            JointKind::PointOnLine | JointKind::PointInPlane => Self { axis: AxisKeys::OfFirst, ..plain },
             JointKind::Screw => Self { own: OwnKeys::Pitch, ..plain },
             JointKind::Fixed => Self { axis: AxisKeys::Optional, ..plain },
             JointKind::Rod => Self {
@@ -101,7 +100,7 @@ pub(super) fn refuse_strangers(
     };
     let no_axis = match keys.axis {
         AxisKeys::None(reason) => Some(reason),
-        AxisKeys::Common | AxisKeys::Optional | AxisKeys::Two(_) => None,
+        AxisKeys::Common | AxisKeys::OfFirst | AxisKeys::Optional | AxisKeys::Two(_) => None,
     };
     let only = |own: OwnKeys, reason: &'static str| (keys.own != own).then_some(reason);
     let no_bodies = (keys.own == OwnKeys::Gear).then_some("a gear names two joints, not two bodies");

@@ -14,7 +14,7 @@ const MAX_POINTS: usize = 10_000;
 
 /// What is known while the elements of one list are read.
 pub(super) struct ModelReader<'a> {
-    /// Which list: `joints`, `drivers`, `loads` or `events`.
+    /// Which list: `joints`, `drivers`, `loads`, `markers` or `events`.
     pub list: &'static str,
     /// Place in that list.
     pub index: usize,

@@ -8,13 +8,7 @@ use nalgebra::Vector3;
 impl EventFeature {
     /// Position and velocity of the point.
     fn point(&self, at: &State) -> [Vector3<f64>; 2] {
-        match self.body {
-            BodyRef::Ground => [self.local, Vector3::zeros()],
-            BodyRef::Moving(body) => {
-                let body = &at.bodies[body];
-                [body.q.r + body.q.arm(&self.local), body.q_dot.r + body.q_dot.arm(&self.local)]
-            }
-        }
+        at.point(self.body, &self.local)
     }
 
     /// The vector and its rate.

@@ -206,6 +206,7 @@ fn without_rows(model: &Model, bodies: &[usize]) -> Model {
         drivers: Vec::new(),
         loads: Vec::new(),
         custom_loads: Vec::new(),
+        markers: Vec::new(),
         events: Vec::new(),
         settings: model.settings.clone(),
         notes: Vec::new(),

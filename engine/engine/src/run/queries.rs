@@ -1,6 +1,6 @@
 //! What can be computed from the current state: short for the same method of [`Simulation::state`].
 
-use super::{Frame, Simulation, StateView};
+use super::{Frame, MarkerFrame, Simulation, StateView};
 use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport};
 use crate::reactions::{self, JointMultipliers};
@@ -18,6 +18,16 @@ impl Simulation {
     /// All bodies: [`StateView::frame`].
     pub fn frame(&self) -> Frame {
         self.state().frame()
+    }
+
+    /// Positions and velocities of the markers: [`StateView::markers`].
+    pub fn markers(&self) -> Vec<MarkerFrame> {
+        self.state().markers()
+    }
+
+    /// Accelerations of the markers, m/s²: [`StateView::marker_accelerations`].
+    pub fn marker_accelerations(&self) -> Vec<[f64; 3]> {
+        self.state().marker_accelerations()
     }
 
     /// The constraint Jacobian Φ_q: [`StateView::jacobian`].

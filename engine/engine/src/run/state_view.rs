@@ -1,6 +1,6 @@
 //! A state of a run, and what is computed from it.
 
-use super::{Frame, Simulation};
+use super::{Frame, MarkerFrame, Simulation};
 use crate::error::EngineError;
 use crate::reactions::matrices::{self, Symmetric};
 use crate::reactions::report::{Convention, ReactionReport, report};
@@ -11,6 +11,7 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::dynamics::elimination::{Accelerations, Elimination};
 use triad_dynamics::equations::jacobian::Jacobian;
+use triad_dynamics::model::{BodyRef, ModelMarker};
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::System;
 
@@ -144,10 +145,33 @@ impl<'a> StateView<'a> {
         &self.cached.y[self.system().coordinates..]
     }
 
-    /// All bodies in the world: position, directors, velocity, angular velocity.
+    /// All bodies in the world: position, directors, velocity, angular velocity; and all markers.
     pub fn frame(&self) -> Frame {
         let bodies = self.cached.state.bodies().iter().map(BodyFrame::from).collect();
-        Frame { time: self.cached.time, bodies }
+        Frame { time: self.cached.time, bodies, markers: self.markers() }
+    }
+
+    /// Positions and velocities of the scene's markers, in its order.
+    pub fn markers(&self) -> Vec<MarkerFrame> {
+        let markers = &self.system().model.markers;
+        markers.iter().map(|marker| MarkerFrame::new(marker, &self.cached.state)).collect()
+    }
+
+    /// Accelerations of the scene's markers in the world, m/s², in its order.
+    pub fn marker_accelerations(&self) -> Vec<[f64; 3]> {
+        let markers = &self.system().model.markers;
+        if markers.is_empty() {
+            return Vec::new();
+        }
+        let solved = self.solved();
+        let of = |marker: &ModelMarker| match marker.body {
+            BodyRef::Ground => [0.0; 3],
+            BodyRef::Moving(body) => {
+                let q_ddot = solved.of_body(body);
+                (q_ddot.r + q_ddot.arm(&marker.local)).into()
+            }
+        };
+        markers.iter().map(of).collect()
     }
 
     /// The constraint Jacobian Φ_q, rigid-body rows first — eq. (4.1).

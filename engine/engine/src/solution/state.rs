@@ -1,8 +1,8 @@
 //! A state of a motion, and what is known of its bodies without solving anything.
 
 use crate::error::EngineError;
-use crate::run::{Frame, Simulation};
-use crate::scene::{BodyHandle, GROUND, Triple};
+use crate::run::{Frame, MarkerFrame, Simulation};
+use crate::scene::{BodyHandle, GROUND, MarkerHandle, Triple};
 use nalgebra::Vector3;
 use triad_dynamics::model::{Model, ModelBody};
 use triad_dynamics::state::BodyFrame;
@@ -26,14 +26,15 @@ use triad_dynamics::state::BodyFrame;
 pub struct SolutionState<'a> {
     time: f64,
     bodies: Vec<BodyFrame>,
+    markers: Vec<MarkerFrame>,
     model: &'a Model,
 }
 
 impl<'a> SolutionState<'a> {
     /// What a run shows.
     pub(super) fn of(model: &'a Model, run: &Simulation) -> Self {
-        let Frame { time, bodies } = run.frame();
-        Self { time, bodies, model }
+        let Frame { time, bodies, markers } = run.frame();
+        Self { time, bodies, markers, model }
     }
 
     /// Time t, s.
@@ -106,6 +107,31 @@ impl<'a> SolutionState<'a> {
         let directors = [frame.u, frame.v, frame.w].map(Vector3::from);
         let arm = directors[0] * local.x + directors[1] * local.y + directors[2] * local.z;
         Ok((Vector3::from(frame.position) + arm).into())
+    }
+
+    /// Position and velocity of a marker in the world, m and m/s.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::UnknownName`] for a marker that the scene does not have.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let mut scene = Scene::new("wheel").gravity([0.0; 3]);
+    /// let wheel = scene.add(Body::sphere("wheel", 1.0, 1.0, [0.0; 3]).angular_velocity([0.0, 0.0, 2.0]));
+    /// let rim = scene.add(Marker::new("rim", &wheel, [1.0, 0.0, 0.0]));
+    /// let motion = scene.simulate(0.0..1.0)?;
+    /// assert!((motion.at(0.5)?.marker(&rim)?.position[0] - 1.0f64.cos()).abs() < 1e-8);
+    /// assert!((motion.at(0.0)?.marker(&rim)?.velocity[1] - 2.0).abs() < 1e-12);
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn marker(&self, marker: impl Into<MarkerHandle>) -> Result<MarkerFrame, EngineError> {
+        let marker = marker.into();
+        let known = || self.model.markers.iter().map(|known| known.name.as_str());
+        let place = known().position(|name| name == marker.name());
+        let found = place.and_then(|place| self.markers.get(place)).copied();
+        found.ok_or_else(|| EngineError::unknown("marker", marker.name(), known()))
     }
 
     /// A body as it is shown, and its data where it moves.

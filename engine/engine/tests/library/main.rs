@@ -9,5 +9,6 @@ mod custom_loads;
 mod examples;
 mod parameters;
 mod pure;
+mod scene_words;
 mod snapshots;
 mod solution;

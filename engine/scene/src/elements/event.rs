@@ -1,6 +1,6 @@
 //! Moments to look for, as their author writes them.
 
-use crate::handle::{BodyHandle, JointHandle};
+use crate::handle::{BodyHandle, JointHandle, MarkerHandle};
 use crate::value::Triple;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,13 @@ pub enum Quantity {
         /// The point in the body's frame, m.
         #[serde(default)]
         point: Triple,
+        /// The direction; made a unit vector.
+        direction: Triple,
+    },
+    /// The coordinate of a marker along a direction of the world, m.
+    Marker {
+        /// The marker.
+        marker: String,
         /// The direction; made a unit vector.
         direction: Triple,
     },
@@ -119,6 +126,11 @@ impl Quantity {
     /// The coordinate of a point of a body (in its frame, m) along a direction of the world, m.
     pub fn coordinate(body: impl Into<BodyHandle>, point: Triple, direction: Triple) -> Self {
         Self::Coordinate { body: body.into().into(), point, direction }
+    }
+
+    /// The coordinate of a marker along a direction of the world, m.
+    pub fn marker(marker: impl Into<MarkerHandle>, direction: Triple) -> Self {
+        Self::Marker { marker: marker.into().into(), direction }
     }
 
     /// The distance of a point of each of two bodies (in their frames, m), m.

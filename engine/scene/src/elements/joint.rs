@@ -137,7 +137,8 @@ pub struct Joint {
     /// Two axes in the world at the start: the first fixed in body i, the second in body j.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axes: Option<[Triple; 2]>,
-    /// Axis in the frame of body i.
+    /// Axis in the frame of body i. The line of `point-on-line` and the normal of `point-in-plane` belong to body i: there
+    /// `axis_i` is enough.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis_i: Option<Triple>,
     /// Axis in the frame of body j.

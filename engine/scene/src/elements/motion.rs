@@ -1,12 +1,16 @@
 //! Prescribed functions of time as their author writes them.
 
 use crate::value::Triple;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use schemars::{JsonSchema, Schema, json_schema};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
 
-/// A number as a function of time t.
+/// A number as a function of time t: one of the kinds of motion, or a plain number, which is constant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(remote = "Self", tag = "kind", deny_unknown_fields, rename_all = "kebab-case")]
+#[schemars(rename = "Motion", transform = or_number)]
 pub enum Motion {
     /// Always the same.
     Constant {
@@ -59,9 +63,10 @@ pub enum Motion {
     },
 }
 
-/// A vector as a function of time.
+/// A vector as a function of time: one of the kinds of motion, or three plain numbers, which are constant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(remote = "Self", tag = "kind", deny_unknown_fields, rename_all = "kebab-case")]
+#[schemars(rename = "VectorMotion", transform = or_three_numbers)]
 pub enum VectorMotion {
     /// Always the same.
     Fixed {
@@ -159,5 +164,99 @@ impl VectorMotion {
 impl From<Triple> for VectorMotion {
     fn from(vector: Triple) -> Self {
         Self::fixed(vector)
+    }
+}
+
+impl Serialize for Motion {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
+    }
+}
+
+impl Serialize for VectorMotion {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Motion {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(MotionVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for VectorMotion {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(VectorMotionVisitor)
+    }
+}
+
+/// Reads a number or a kind of motion. An untagged enum would read the same, and tell no reason where neither fits.
+struct MotionVisitor;
+
+impl<'de> Visitor<'de> for MotionVisitor {
+    type Value = Motion;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(r#"a number, or a motion such as {"kind": "ramp", "rate": 2}"#)
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Motion, E> {
+        Ok(Motion::constant(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Motion, E> {
+        Ok(Motion::constant(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Motion, E> {
+        Ok(Motion::constant(value as f64))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Motion, A::Error> {
+        Motion::deserialize(MapAccessDeserializer::new(map))
+    }
+}
+
+/// Reads three numbers or a kind of motion.
+struct VectorMotionVisitor;
+
+impl<'de> Visitor<'de> for VectorMotionVisitor {
+    type Value = VectorMotion;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(
+            r#"three numbers, or a motion of a vector such as {"kind": "components", "x": …, "y": …, "z": …}"#,
+        )
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<VectorMotion, A::Error> {
+        Triple::deserialize(SeqAccessDeserializer::new(sequence)).map(VectorMotion::fixed)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<VectorMotion, A::Error> {
+        VectorMotion::deserialize(MapAccessDeserializer::new(map))
+    }
+}
+
+fn or_number(schema: &mut Schema) {
+    let number = json_schema!({ "description": "Always this number.", "type": "number" });
+    add_choice(schema, number);
+}
+
+fn or_three_numbers(schema: &mut Schema) {
+    add_choice(
+        schema,
+        json_schema!({
+            "description": "Always this vector.",
+            "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3,
+        }),
+    );
+}
+
+fn add_choice(schema: &mut Schema, choice: Schema) {
+    let choices = schema.get_mut("oneOf").and_then(|choices| choices.as_array_mut());
+    if let Some(choices) = choices {
+        choices.push(choice.into());
     }
 }
