@@ -90,3 +90,36 @@ fn what_is_wrong_is_named_with_its_line() {
     assert!(problem["hint"].as_str().unwrap().contains("elbow"), "{problem:#}");
     server.stop();
 }
+
+#[test]
+fn a_joint_that_follows_another_stands_where_multiplier_and_offset_put_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let side = folder.path().join("side.json");
+    let import = |with: Value| {
+        std::fs::write(&side, with.to_string()).unwrap();
+        run_json(&["import", &data("problems/mimic/mimic.urdf"), "--with", side.to_str().unwrap()])
+    };
+    // The follower turns about z by 2 · 0.3 + 0.5 rad, and twice as fast.
+    let (code, told) = import(json!({"positions": {"lead": 0.3}, "velocities": {"lead": -1.5}}));
+    assert_eq!(code, 0, "{told:#}");
+    let follower = &told["scene"]["bodies"][1];
+    let half: Vec<f64> = follower["orientation"]["quaternion"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|part| part.as_f64().unwrap())
+        .collect();
+    assert!((2.0 * half[3].atan2(half[0]) - 1.1).abs() < 1e-14, "{half:?}");
+    assert_eq!(follower["angular_velocity"], json!([0.0, 0.0, -3.0]));
+    // Without a word of the side-car the offset remains.
+    let (_, told) = import(json!({}));
+    let half = &told["scene"]["bodies"][1]["orientation"]["quaternion"];
+    assert!((half[3].as_f64().unwrap() - 0.25f64.sin()).abs() < 1e-14, "{half}");
+    // What contradicts the leader is refused with both numbers.
+    let (code, problem) = import(json!({"positions": {"lead": 0.3, "follow": -2.0}}));
+    assert_eq!(code, 3, "{problem:#}");
+    let detail = problem["detail"].as_str().unwrap();
+    assert!(detail.contains("-2") && detail.contains("1.1") && detail.contains("line 7"), "{detail}");
+    let (code, _) = import(json!({"positions": {"lead": 0.3, "follow": 1.1}}));
+    assert_eq!(code, 0, "the same number twice is no contradiction");
+}

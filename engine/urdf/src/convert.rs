@@ -9,6 +9,7 @@ use triad_scene::{
     AxisRows, Body, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
 };
 
+use crate::follow::{StartOf, starts};
 use crate::omissions::{OmittedItem, UrdfError};
 use crate::read::{Geometry, JointType, Link, Robot, UrdfJoint, Visual};
 use crate::side_car::{Root, SideCar};
@@ -108,6 +109,8 @@ fn place<'a>(robot: &'a Robot, side_car: &SideCar) -> Result<Vec<Placed<'a>>, Ur
         }
         children.entry(&joint.parent).or_default().push(joint);
     }
+    let positions = starts(robot, &side_car.positions, StartOf::Positions)?;
+    let velocities = starts(robot, &side_car.velocities, StartOf::Velocities)?;
     let root = root(robot, &carried)?;
     let mut placed: Vec<Placed> = Vec::with_capacity(robot.links.len());
     let own = Carrier { name: root.name.clone(), frame: Isometry3::identity() };
@@ -129,7 +132,9 @@ fn place<'a>(robot: &'a Robot, side_car: &SideCar) -> Result<Vec<Placed<'a>>, Ur
     while let Some(at) = queue.pop_front() {
         let name = placed[at].link.name.clone();
         for joint in children.get(name.as_str()).into_iter().flatten() {
-            let next = moved(&placed[at], joint, index[joint.child.as_str()], side_car)?;
+            let number = |of: &BTreeMap<String, f64>| of.get(&joint.name).copied().unwrap_or(0.0);
+            let start = [number(&positions), number(&velocities)];
+            let next = moved(&placed[at], joint, index[joint.child.as_str()], start)?;
             queue.push_back(placed.len());
             placed.push(next);
         }
@@ -165,10 +170,8 @@ fn moved<'a>(
     parent: &Placed<'a>,
     joint: &'a UrdfJoint,
     link: &'a Link,
-    side_car: &SideCar,
+    [position, rate]: [f64; 2],
 ) -> Result<Placed<'a>, UrdfError> {
-    let at = |values: &BTreeMap<String, f64>| values.get(&joint.name).copied().unwrap_or(0.0);
-    let (position, rate) = (at(&side_car.positions), at(&side_car.velocities));
     let motion = match joint.kind {
         JointType::Revolute => Isometry3::rotation(joint.axis * position),
         JointType::Prismatic => Isometry3::translation_from(joint.axis * position),

@@ -9,6 +9,8 @@ mod side_car;
 
 mod read;
 
+mod follow;
+
 mod convert;
 
 pub use omissions::{MAX_LINKS, MAX_TEXT, OmittedItem, UrdfError};
