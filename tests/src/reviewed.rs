@@ -10,6 +10,9 @@ const MAX_DECIMALS: usize = 9;
 /// Numbers below ten to this power are rounding.
 const ROUNDING: i32 = -8;
 
+/// What stands before a time that the program took.
+const RUN_TIME: &str = "  run time ";
+
 /// Holds a text against the one that is kept under that name.
 pub fn reviewed(name: &str, text: &str) {
     let mut settings = insta::Settings::new();
@@ -20,11 +23,15 @@ pub fn reviewed(name: &str, text: &str) {
 }
 
 /// The text without what rounding decides: numbers of the size of rounding errors are `~0`, others have so many
-/// decimals, zeros have no sign.
+/// decimals, zeros have no sign; how long something took is left out.
 pub fn settled(text: &str) -> String {
+    let timed = |line: &str| line.find(RUN_TIME).map(|at| line[..at + RUN_TIME.len()].to_owned());
+    let lines: Vec<String> =
+        text.lines().map(|line| timed(line).unwrap_or_else(|| line.to_owned())).collect();
+    let text = lines.join("\n");
+    let mut rest = text.as_str();
     let numeric = |c: char| c.is_ascii_digit() || ".e-".contains(c);
     let mut settled = String::with_capacity(text.len());
-    let mut rest = text;
     while let Some(at) = rest.find(|c: char| c.is_ascii_digit() || c == '-') {
         let (before, from) = rest.split_at(at);
         settled.push_str(before);

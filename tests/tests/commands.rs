@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 use std::process::{Command, Stdio};
+use triad_tests::options::subcommands;
 use triad_tests::program::triad;
 use triad_tests::reviewed::{reviewed, settled};
 use triad_tests::root;
@@ -45,17 +46,6 @@ fn said(line: &str) -> String {
 /// All of it, without what rounding decides.
 fn settled_output(lines: &[&str]) -> String {
     settled(lines.iter().map(|line| said(line)).collect::<String>().trim_end())
-}
-
-/// Names of the subcommands that a help text lists.
-fn subcommands(help: &str) -> Vec<String> {
-    let list = help.split("\nCommands:\n").nth(1).unwrap_or_default();
-    let lines = list.lines().take_while(|line| !line.is_empty());
-    lines
-        .filter_map(|line| line.split_whitespace().next())
-        .filter(|name| *name != "help")
-        .map(str::to_owned)
-        .collect()
 }
 
 #[test]

@@ -279,7 +279,12 @@ impl Simulation {
     /// Makes the last good state of a run that cannot go on the current one, and returns what is known about it.
     fn stop_at_last_good(&mut self, time: f64, steps: u64) -> LastGood {
         if time >= self.time() {
+            let known = self.current.clone();
             self.set_current_time(time);
+            // Within a step that leads to no numbers none can be read off: the state that was shown last stays.
+            if !self.current.y().iter().all(|number| number.is_finite()) {
+                self.current = known;
+            }
         }
         LastGood { steps, cause: self.cause().map(Box::new) }
     }

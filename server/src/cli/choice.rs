@@ -1,6 +1,6 @@
-//! Words of the command line that choose an integrator or a treatment of the constraints.
+//! Words of the command line that choose an integrator, a treatment of the constraints or coordinates.
 
-use triad_engine::scene::{ConstraintMethod, IntegratorKind, UnknownWord};
+use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, UnknownWord};
 
 /// The integrator of that name.
 pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
@@ -10,6 +10,11 @@ pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
 /// The treatment of that name, with its usual strength.
 pub(super) fn treatment(word: &str) -> Result<ConstraintMethod, String> {
     word.parse().map_err(|UnknownWord(words)| format!("no such treatment; there are {words}"))
+}
+
+/// The coordinates of that name.
+pub(super) fn coordinates(word: &str) -> Result<Coordinates, String> {
+    word.parse().map_err(|UnknownWord(words)| format!("no such coordinates; there are {words}"))
 }
 
 /// The words of `simulation.skip`, and one for all of them.

@@ -1,6 +1,7 @@
 //! The command line: everything that the page does can be done here too.
 
 mod choice;
+mod clock;
 mod course;
 mod interrupt;
 mod measure;
@@ -18,6 +19,7 @@ use crate::problem::Problem;
 use course::{grade, lesson, preview};
 use measure::{bench, paper, stress};
 use scene::options::Run;
+use scene::source::Source;
 use scene::{analyses, check, import, run};
 use serve::Serve;
 use terminal::Outcome;
@@ -73,16 +75,13 @@ enum Command {
     Run(Run),
     /// Count what a scene amounts to: bodies, coordinates, rows, rank, degrees of freedom, redundant rows.
     #[command(after_help = "Example:\n  triad check n-four-bar:3")]
-    Check {
-        /// A built-in scene's name, or a file.
-        scene: String,
-    },
+    Check(Source),
     /// Tell the reactions of joints and drivers at a time, and which of their components are unique.
     #[command(after_help = "Examples:\n  triad reactions n-four-bar:2 --at 0.3\n  \
         triad reactions spatial-slider-crank --on i --about center-of-mass --in body")]
     Reactions {
-        /// A built-in scene's name, or a file.
-        scene: String,
+        #[command(flatten)]
+        source: Source,
         /// The time in seconds.
         #[arg(long, default_value_t = 0.0, value_name = "S")]
         at: f64,
@@ -91,33 +90,32 @@ enum Command {
     },
     /// Find the position of rest near the start.
     #[command(after_help = "Example:\n  triad equilibrium simple-pendulum")]
-    Equilibrium {
-        /// A built-in scene's name, or a file.
-        scene: String,
-    },
+    Equilibrium(Source),
     /// Frequencies and shapes of small vibrations about the equilibrium.
     #[command(after_help = "Examples:\n  triad modes spatial-double-pendulum\n  \
         triad modes n-four-bar:2 --at-start")]
     Modes {
-        /// A built-in scene's name, or a file.
-        scene: String,
+        #[command(flatten)]
+        source: Source,
         /// About the start, at rest, instead of the equilibrium.
         #[arg(long)]
         at_start: bool,
     },
     /// Follow the drivers of a scene: positions, velocities, accelerations, and the forces that drive it.
+    ///
+    /// The scene needs a driver for each degree of freedom.
     #[command(after_help = "Example:\n  triad kinematics my-driven-scene.json --in joint --json")]
     Kinematics {
-        /// A file with a scene that has a driver for each degree of freedom.
-        scene: String,
+        #[command(flatten)]
+        source: Source,
         #[command(flatten)]
         words: analyses::Words,
     },
     /// Close the joints of a roughly placed scene.
     #[command(after_help = "Example:\n  triad assemble my-scene.json --keep crank")]
     Assemble {
-        /// A built-in scene's name, or a file.
-        scene: String,
+        #[command(flatten)]
+        source: Source,
         /// A body that stays where it is; may be given more than once.
         #[arg(long, value_name = "BODY")]
         keep: Vec<String>,
@@ -137,8 +135,16 @@ enum Command {
         \"spherical\", \"body_i\": \"rod\", \"body_j\": \"ground\",\n               \"point_i\": [0, 0, 1], \
         \"point_j\": [1, 0, 0]}]}\nBodies are links of the URDF, points and axes are given in their frames.")]
     Import(import::Import),
-    /// List the built-in scenes.
-    Scenes,
+    /// List the built-in scenes, or print one of them: the quickest start of a scene of your own.
+    #[command(after_help = "Examples:\n  triad scenes\n  triad scenes n-four-bar:2 > my-scene.json\n  \
+        triad run my-scene.json")]
+    Scenes {
+        /// The scene to print as JSON; without it the list of all.
+        name: Option<String>,
+        /// List them, as without a name.
+        #[arg(long, conflicts_with = "name")]
+        list: bool,
+    },
     /// Grade a submission as the workbench would; nothing is kept.
     #[command(
         after_help = "Example:\n  triad grade simple-pendulum answers.json\n\nA submission looks like\n  \
@@ -153,10 +159,13 @@ enum Command {
     /// The lessons of the course.
     #[command(subcommand)]
     Lesson(Lesson),
-    /// Measure run time against error of the built-in scenes: integrators, treatments, kinds of bodies, tolerances.
+    /// Measure run time against error: integrators, treatments, kinds of bodies, tolerances.
+    ///
+    /// Of the built-in scenes, or of your own. The error of a scene of your own is the largest distance from a run of the
+    /// same scene at the tightest tolerance. A method that cannot run it is left out.
     #[command(
         after_help = "Examples:\n  triad bench --quick            (then open reports/bench.html, or /bench in the \
-        workbench)\n  triad bench --scenes chain --integrators taylor,dop853 --coordinates full,reduced,shared\n  \
+        workbench)\n  triad bench my-scene.json --tolerances 1e-4,1e-8\n  triad bench --scenes chain --integrators taylor,dop853 --coordinates full,reduced,shared\n  \
         triad bench --quick --integrators dop853 --treatment projection \
         --treatment '{\"kind\": \"baumgarte\", \"alpha\": 5, \"beta\": 5}'"
     )]
@@ -237,15 +246,16 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
     match command.unwrap_or_else(|| Command::Serve(Serve::default())) {
         Command::Serve(options) => serve::serve(&options, course()?),
         Command::Run(options) => run::run(&options, json),
-        Command::Check { scene } => check::check(&scene, json),
-        Command::Reactions { scene, at, words } => analyses::reactions(&scene, at, &words, json),
-        Command::Equilibrium { scene } => analyses::equilibrium(&scene, json),
-        Command::Modes { scene, at_start } => analyses::modes(&scene, at_start, json),
-        Command::Kinematics { scene, words } => analyses::kinematics(&scene, &words, json),
-        Command::Assemble { scene, keep } => analyses::assemble(&scene, &keep, json),
+        Command::Check(source) => check::check(&source, json),
+        Command::Reactions { source, at, words } => analyses::reactions(&source, at, &words, json),
+        Command::Equilibrium(source) => analyses::equilibrium(&source, json),
+        Command::Modes { source, at_start } => analyses::modes(&source, at_start, json),
+        Command::Kinematics { source, words } => analyses::kinematics(&source, &words, json),
+        Command::Assemble { source, keep } => analyses::assemble(&source, &keep, json),
         Command::Paper(options) => paper::paper(&options, json),
         Command::Import(options) => import::import(&options, json),
-        Command::Scenes => Ok(check::list(json)),
+        Command::Scenes { name: Some(name), .. } => check::show(&name),
+        Command::Scenes { name: None, .. } => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),

@@ -161,7 +161,9 @@ fn placements(mechanism: &Mechanism, y: &[f64]) -> Vec<Placement> {
         let arm = frame * model.center_of_mass;
         let rotation = |m: Matrix3<f64>| Rotation3::from_matrix_unchecked(m);
         let quaternion = UnitQuaternion::from_rotation_matrix(&rotation(frame));
-        let turned = rotation(directors * model.directors.transpose()).angle();
+        // By its sine as well: the arc cosine of a trace that rounding lets pass three is no number.
+        let turned =
+            UnitQuaternion::from_rotation_matrix(&rotation(directors * model.directors.transpose())).angle();
         Placement {
             body: model.name.clone(),
             position: (at.r - arm).into(),

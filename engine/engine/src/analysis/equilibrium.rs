@@ -72,6 +72,8 @@ fn eigen(matrix: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
 pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     stage.rest();
     let length = stage.mechanism.system.length;
+    // What is left over where a further step leads to no numbers.
+    let mut last = (0.0, String::new());
     for iterations in 0..STEPS {
         let basis = stage.tangent();
         stage.rest();
@@ -96,6 +98,10 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
                 reactions: reactions.map_err(EngineError::from)?,
             });
         }
+        if !residual.is_finite() {
+            break;
+        }
+        last = (residual, stage.foremost(&(&basis * &along)));
         let floor = (1e-9 * stiffest).max(f64::MIN_POSITIVE);
         let mut step = motions.tr_mul(&along);
         for (x, stiffness) in step.iter_mut().zip(stiffnesses.iter()) {
@@ -115,9 +121,9 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     let force = stage.forces();
     let along = basis.tr_mul(&force);
     let left = &basis * &along;
-    Err(AnalysisError::NoEquilibrium {
-        iterations: STEPS,
-        residual: along.amax(),
-        body: stage.foremost(&left),
-    })
+    if along.amax().is_finite() {
+        last = (along.amax(), stage.foremost(&left));
+    }
+    let (residual, body) = last;
+    Err(AnalysisError::NoEquilibrium { iterations: STEPS, residual, body })
 }

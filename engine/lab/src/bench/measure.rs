@@ -14,7 +14,7 @@ use super::reference::{self, distance};
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Name of the scene.
-    pub scene: &'static str,
+    pub scene: String,
     /// How it was run.
     pub method: Method,
     /// The tolerance.
@@ -55,7 +55,7 @@ pub fn measure(plan: &BenchPlan, mut progress: impl FnMut(f64, &str)) -> Result<
     let mut ready = Vec::new();
     for (index, case) in plan.cases.iter().enumerate() {
         prepare(plan, case, &mut ready, |part| {
-            progress(0.4 * (index as f64 + part) / plan.cases.len() as f64, case.scene);
+            progress(0.4 * (index as f64 + part) / plan.cases.len() as f64, &case.scene);
         })?;
     }
     let deadline = Instant::now() + Duration::from_secs_f64(plan.seconds);
@@ -88,7 +88,10 @@ fn prepare(
     ready: &mut Vec<Ready>,
     mut progress: impl FnMut(f64),
 ) -> Result<(), EngineError> {
-    let mut scene: Scene = catalogue::scene(case.scene)?;
+    let mut scene: Scene = match &case.given {
+        Some(scene) => scene.clone(),
+        None => catalogue::scene(&case.scene)?,
+    };
     scene.simulation.duration = case.duration;
     let truth = reference::reference(case, &scene)?;
     let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
@@ -100,10 +103,16 @@ fn prepare(
             scene.simulation.constraint_method = method.constraint_method;
             scene.simulation.tolerance = tolerance;
             let error = reference::positions(&scene, compared).ok().map(|run| distance(&run, &truth));
-            let simulation = Simulation::new(&scene)?;
+            let mut simulation = match Simulation::new(&scene) {
+                Ok(simulation) => simulation,
+                // A method that a given scene cannot be run by is left out; the built-in ones are run by all.
+                Err(_) if case.given.is_some() => continue,
+                Err(error) => return Err(error),
+            };
+            simulation.set_step_limit(reference::MAX_STEPS);
             let work = simulation.summary();
             let times = Vec::with_capacity(plan.repeats);
-            let measured = Measured { scene: case.scene, method, tolerance, error, times, work };
+            let measured = Measured { scene: case.scene.clone(), method, tolerance, error, times, work };
             ready.push(Ready { simulation, measured });
         }
     }

@@ -2,13 +2,15 @@
 
 use std::fmt;
 
-use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind};
+use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind, Scene};
 
 /// A scene to be measured and how its error is known.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct BenchCase {
-    /// Name of the built-in scene.
-    pub scene: &'static str,
+    /// Name of the built-in scene, or what the given one is called.
+    pub scene: String,
+    /// A scene that is not built in.
+    pub given: Option<Scene>,
     /// Length of the run, s.
     pub duration: f64,
     /// Where its reference comes from.
@@ -32,9 +34,22 @@ pub enum Truth {
         /// Distance of the centre of mass from the pivot, m.
         arm: f64,
     },
-    /// The same scene by DOP853 at its tightest tolerance; compared are the positions of all bodies.
+    /// The same scene by DOP853 at its tightest tolerance, by Radau IIA where it is stiff; compared are the positions of
+    /// all bodies.
     Converged,
 }
+
+impl BenchCase {
+    /// A scene of the user's, over its own duration.
+    pub fn given(name: impl Into<String>, scene: Scene) -> Self {
+        let large = scene.bodies.len() > MANY;
+        let duration = scene.simulation.duration;
+        Self { scene: name.into(), given: Some(scene), duration, truth: Truth::Converged, large }
+    }
+}
+
+/// Bodies from which on a given scene counts as large: the built-in ones that do have more, the others fewer.
+const MANY: usize = 25;
 
 /// One way to run a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,11 +116,12 @@ fn four_bar(windows: f64) -> f64 {
 
 fn windows(scene: &'static str, count: f64) -> BenchCase {
     let truth = Truth::Angle { kappa: four_bar(count), start: 0.0, rate: 1.0, arm: 0.5 };
-    BenchCase { scene, duration: 10.0, truth, large: count > 4.0 }
+    BenchCase { scene: scene.to_owned(), given: None, duration: 10.0, truth, large: count > 4.0 }
 }
 
 fn converged(scene: &'static str, duration: f64) -> BenchCase {
-    BenchCase { scene, duration, truth: Truth::Converged, large: scene == "spatial-chain:100" }
+    let large = scene == "spatial-chain:100";
+    BenchCase { scene: scene.to_owned(), given: None, duration, truth: Truth::Converged, large }
 }
 
 fn method(integrator: IntegratorKind) -> Method {
@@ -133,7 +149,13 @@ impl BenchPlan {
             .flat_map(|coordinates| [Taylor, Dop853].map(|i| Method { coordinates, ..method(i) }));
         Self {
             cases: vec![
-                BenchCase { scene: "simple-pendulum", duration: 10.0, truth: pendulum, large: false },
+                BenchCase {
+                    scene: "simple-pendulum".to_owned(),
+                    given: None,
+                    duration: 10.0,
+                    truth: pendulum,
+                    large: false,
+                },
                 windows("n-four-bar:2", 2.0),
                 windows("n-four-bar:10", 10.0),
                 windows("n-four-bar:40", 40.0),
@@ -159,8 +181,9 @@ impl BenchPlan {
     /// A sweep that takes less than a minute.
     pub fn quick() -> Self {
         let mut plan = Self::full();
-        plan.cases
-            .retain(|case| !["spatial-chain:100", "n-four-bar:40", "n-four-bar:10"].contains(&case.scene));
+        plan.cases.retain(|case| {
+            !["spatial-chain:100", "n-four-bar:40", "n-four-bar:10"].contains(&case.scene.as_str())
+        });
         let few =
             [IntegratorKind::Auto, IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Dopri5];
         plan.methods.retain(|m| few.map(method).contains(m));
@@ -236,7 +259,7 @@ mod tests {
         });
         let names: Vec<String> = plan.methods.iter().map(Method::to_string).collect();
         assert_eq!(names, ["taylor", "taylor shared", "dop853", "dop853 shared"]);
-        assert_eq!(plan.cases.iter().map(|c| c.scene).collect::<Vec<_>>(), ["n-four-bar:2"]);
+        assert_eq!(plan.cases.iter().map(|c| c.scene.as_str()).collect::<Vec<_>>(), ["n-four-bar:2"]);
         assert_eq!(plan.tolerances, BenchPlan::quick().tolerances);
         assert_eq!(BenchPlan::quick().with(Wish::default()).methods, BenchPlan::quick().methods);
     }

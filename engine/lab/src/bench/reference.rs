@@ -7,16 +7,25 @@ use triad_scene::Scene;
 
 use super::plan::{BenchCase, Truth};
 
-/// Interval at which runs are compared, s.
+/// Interval at which runs are compared, s; shorter where a run has fewer than a hundred of them.
 pub const EVERY: f64 = 0.01;
 
-/// Positions of the compared bodies at multiples of [`EVERY`].
+/// Steps after which a run counts as not worth its time: the longest of the built-in scenes takes a tenth of them.
+pub const MAX_STEPS: u64 = 1_000_000;
+
+/// Positions of the compared bodies at multiples of the interval.
 pub type Positions = Vec<Vec<[f64; 3]>>;
+
+/// The interval of a run of that length, s.
+fn interval(duration: f64) -> f64 {
+    EVERY.min(duration / 100.0)
+}
 
 /// Number of intervals of a run.
 fn intervals(duration: f64) -> u32 {
+    let every = interval(duration);
     let mut count = 0;
-    while f64::from(count + 1) * EVERY <= duration + 1e-9 {
+    while every > 0.0 && f64::from(count + 1) * every <= duration * (1.0 + 1e-9) {
         count += 1;
     }
     count
@@ -29,9 +38,11 @@ fn intervals(duration: f64) -> u32 {
 /// [`EngineError`]: the scene cannot start or go on.
 pub fn positions(scene: &Scene, bodies: usize) -> Result<Positions, EngineError> {
     let mut simulation = Simulation::new(scene)?;
-    (0..=intervals(scene.simulation.duration))
+    simulation.set_step_limit(MAX_STEPS);
+    let duration = scene.simulation.duration;
+    (0..=intervals(duration))
         .map(|k| {
-            simulation.advance_to((f64::from(k) * EVERY).min(scene.simulation.duration))?;
+            simulation.advance_to((f64::from(k) * interval(duration)).min(duration))?;
             Ok(simulation.frame().bodies.iter().take(bodies).map(|b| b.position).collect())
         })
         .collect()
@@ -46,8 +57,9 @@ pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Positions, EngineErr
     match case.truth {
         Truth::Converged => {
             let mut tight = scene.clone();
-            tight.simulation.tolerance = 1e-13;
-            tight.simulation.integrator = IntegratorKind::Dop853;
+            let stiff = Simulation::new(scene)?.summary().integrator == IntegratorKind::Radau;
+            (tight.simulation.integrator, tight.simulation.tolerance) =
+                if stiff { (IntegratorKind::Radau, 1e-12) } else { (IntegratorKind::Dop853, 1e-13) };
             positions(&tight, scene.bodies.len())
         }
         Truth::Angle { kappa, start, rate, arm } => {

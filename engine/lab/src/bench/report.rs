@@ -12,12 +12,12 @@ use super::plot;
 const ERRORS: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
 /// The scenes in the order in which they were measured, each with its runs.
-pub fn by_scene(runs: &[Measured]) -> Vec<(&'static str, Vec<&Measured>)> {
-    let mut scenes: Vec<(&'static str, Vec<&Measured>)> = Vec::new();
+pub fn by_scene(runs: &[Measured]) -> Vec<(&str, Vec<&Measured>)> {
+    let mut scenes: Vec<(&str, Vec<&Measured>)> = Vec::new();
     for run in runs {
         match scenes.iter_mut().find(|(scene, _)| *scene == run.scene) {
             Some((_, list)) => list.push(run),
-            None => scenes.push((run.scene, vec![run])),
+            None => scenes.push((&run.scene, vec![run])),
         }
     }
     scenes

@@ -1,20 +1,25 @@
-//! `triad bench`: run time against error of the built-in scenes.
+//! `triad bench`: run time against error of scenes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
 use clap::Args;
+use serde_json::{Value, json};
 use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind};
-use triad_lab::bench::{BenchPlan, Wish, by_scene, csv, html, measure, svg, table};
+use triad_lab::bench::{BenchCase, BenchPlan, Measured, Wish, by_scene, csv, html, measure, svg, table};
 
 use super::raster::{RasterError, png};
+use crate::cli::clock::Clock;
 use crate::cli::output::{make_folder, write};
-use crate::cli::terminal::{Outcome, print_line, progress};
+use crate::cli::terminal::{Outcome, print_json, print_line, progress};
 use crate::problem::Problem;
-use crate::reports;
+use crate::{reports, scenes};
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Bench {
+    /// Files with scenes, or names of built-in ones, over their own durations; without them the benchmark's own.
+    #[arg(value_name = "SCENE", conflicts_with = "scenes")]
+    given: Vec<String>,
     /// Fewer scenes, tolerances and repeats: less than a minute.
     #[arg(long)]
     quick: bool,
@@ -51,11 +56,22 @@ fn treatment(text: &str) -> Result<ConstraintMethod, String> {
 }
 
 /// Measures, prints the times to reach three errors, and writes tables and plots into a folder.
-pub(in crate::cli) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Problem> {
-    let Bench { quick, scenes, integrators, treatment, coordinates, tolerances, out: folder } = options;
-    let plan = if quick { BenchPlan::quick() } else { BenchPlan::full() };
-    let plan =
-        plan.with(Wish { scenes, integrators, constraint_methods: treatment, coordinates, tolerances });
+pub(in crate::cli) fn bench(options: Bench, json: bool) -> Result<Outcome, Problem> {
+    let Bench { given, quick, scenes: parts, integrators, treatment, coordinates, tolerances, out: folder } =
+        options;
+    // What a scene of somebody else's takes is not known before: it is measured by the methods of the quick plan.
+    let mut plan = if quick || !given.is_empty() { BenchPlan::quick() } else { BenchPlan::full() };
+    if !given.is_empty() {
+        let read = |name: &String| Ok(BenchCase::given(case_name(name), scenes::named_or_in_file(name)?));
+        plan.cases = given.iter().map(read).collect::<Result<_, Problem>>()?;
+    }
+    let plan = plan.with(Wish {
+        scenes: parts,
+        integrators,
+        constraint_methods: treatment,
+        coordinates,
+        tolerances,
+    });
     if plan.cases.is_empty() {
         return Err(Problem::new(
             StatusCode::BAD_REQUEST,
@@ -65,10 +81,14 @@ pub(in crate::cli) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Pro
         ));
     }
     make_folder(&folder)?;
-    let bar = progress("bench", 1.0, hidden);
+    let mut clock = Clock::start();
+    let bar = progress("bench", 1.0, json);
     let runs = measure(&plan, |part, _| bar.reached(part))?;
     drop(bar);
-    print_line(&table(&runs));
+    clock.lap("measure");
+    if !json {
+        print_line(&table(&runs));
+    }
     let write = |name: &str, bytes: &[u8]| write(&folder.join(name), bytes);
     write(reports::BENCH, html(&runs).as_bytes())?;
     write("bench.csv", csv(&runs).as_bytes())?;
@@ -78,8 +98,36 @@ pub(in crate::cli) fn bench(options: Bench, hidden: bool) -> Result<Outcome, Pro
         let picture = png(&drawing).map_err(|error| undrawable(scene, &error))?;
         write(&format!("bench-{name}.png"), &picture)?;
     }
+    clock.lap("write");
+    if json {
+        print_json(&json!({ "runs": runs.iter().map(told).collect::<Vec<_>>(), "seconds": clock }));
+        return Ok(Outcome::Done);
+    }
     print_line(&format!("written: bench.html, bench.csv and the plots, in {}", folder.display()));
     Ok(Outcome::Done)
+}
+
+/// What a scene is called: a built-in one by its name, a file without its folder and ending.
+fn case_name(given: &str) -> String {
+    let path = Path::new(given);
+    let name = if path.is_file() { path.file_stem() } else { None };
+    name.map_or_else(|| given.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// One run, for machines.
+fn told(run: &Measured) -> Value {
+    json!({
+        "scene": run.scene,
+        "integrator": run.method.integrator,
+        "treatment": run.method.constraint_method.to_string(),
+        "coordinates": run.method.coordinates,
+        "tolerance": run.tolerance,
+        "error": run.error,
+        "median": run.median(),
+        "repeats": run.times.len(),
+        "evaluations": run.work.evaluations,
+        "steps": run.work.steps,
+    })
 }
 
 fn undrawable(scene: &str, error: &RasterError) -> Problem {

@@ -8,9 +8,10 @@ use triad_engine::reactions::report::{
 use triad_engine::run::Simulation;
 use triad_engine::state::BodyFrame;
 
+use super::source::Source;
+use crate::cli::clock::{Clock, Timed};
 use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
-use crate::scenes;
 
 /// How reactions are wanted.
 #[derive(Debug, Clone, Args)]
@@ -76,13 +77,23 @@ impl Words {
 }
 
 /// Reactions of a scene at a time.
-pub(in crate::cli) fn reactions(spec: &str, at: f64, words: &Words, json: bool) -> Result<Outcome, Problem> {
-    let scene = scenes::named_or_in_file(spec)?;
+pub(in crate::cli) fn reactions(
+    source: &Source,
+    at: f64,
+    words: &Words,
+    json: bool,
+) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
     let mut simulation = Simulation::new(&scene)?;
+    clock.lap("assemble");
     simulation.advance_to(at)?;
+    clock.lap("integrate");
     let report = simulation.reactions(words.convention())?;
+    clock.lap("solve");
     if json {
-        print_json(&report);
+        print_json(&Timed { answer: &report, seconds: &clock });
     } else {
         print_line(&format!("{}: reactions at t = {} s", scene.name, report.time));
         print_reactions(&report);
@@ -155,11 +166,14 @@ fn print_bodies(scene: &triad_engine::Scene, frames: &[BodyFrame]) {
 }
 
 /// Static equilibrium near the start.
-pub(in crate::cli) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Problem> {
-    let scene = scenes::named_or_in_file(spec)?;
+pub(in crate::cli) fn equilibrium(source: &Source, json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
     let found = analysis::equilibrium(&scene)?;
+    clock.lap("solve");
     if json {
-        print_json(&found);
+        print_json(&Timed { answer: &found, seconds: &clock });
         return Ok(Outcome::Done);
     }
     let verdict = match found.stable {
@@ -174,12 +188,15 @@ pub(in crate::cli) fn equilibrium(spec: &str, json: bool) -> Result<Outcome, Pro
 }
 
 /// Eigenfrequencies and mode shapes.
-pub(in crate::cli) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Outcome, Problem> {
-    let scene = scenes::named_or_in_file(spec)?;
+pub(in crate::cli) fn modes(source: &Source, at_start: bool, json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
     let about = if at_start { analysis::ModesAbout::Start } else { analysis::ModesAbout::Equilibrium };
     let found = analysis::modes(&scene, about)?;
+    clock.lap("solve");
     if json {
-        print_json(&found);
+        print_json(&Timed { answer: &found, seconds: &clock });
         return Ok(Outcome::Done);
     }
     print_line(&format!("{}: {} degrees of freedom", scene.name, found.freedoms));
@@ -208,11 +225,14 @@ pub(in crate::cli) fn modes(spec: &str, at_start: bool, json: bool) -> Result<Ou
 }
 
 /// Kinematic analysis and inverse dynamics of a driven scene.
-pub(in crate::cli) fn kinematics(spec: &str, words: &Words, json: bool) -> Result<Outcome, Problem> {
-    let scene = scenes::named_or_in_file(spec)?;
+pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
     let found = analysis::kinematics(&scene, words.convention())?;
+    clock.lap("solve");
     if json {
-        print_json(&found);
+        print_json(&Timed { answer: &found, seconds: &clock });
         return Ok(Outcome::Done);
     }
     print_line(&format!(
@@ -232,11 +252,14 @@ pub(in crate::cli) fn kinematics(spec: &str, words: &Words, json: bool) -> Resul
 }
 
 /// Assembly from a rough start.
-pub(in crate::cli) fn assemble(spec: &str, keep: &[String], json: bool) -> Result<Outcome, Problem> {
-    let scene = scenes::named_or_in_file(spec)?;
+pub(in crate::cli) fn assemble(source: &Source, keep: &[String], json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
     let found = analysis::assemble(&scene, keep)?;
+    clock.lap("solve");
     if json {
-        print_json(&found);
+        print_json(&Timed { answer: &found, seconds: &clock });
         return Ok(Outcome::Done);
     }
     print_line(&format!(

@@ -4,16 +4,21 @@ use serde_json::json;
 use triad_engine::analysis::check::CheckReport;
 use triad_engine::catalogue;
 
+use super::source::Source;
+use crate::cli::clock::{Clock, Timed};
 use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
 use crate::scenes;
 
 /// Counts what a scene amounts to.
-pub(in crate::cli) fn check(spec: &str, json: bool) -> Result<Outcome, Problem> {
-    let scene = scenes::named_or_in_file(spec)?;
+pub(in crate::cli) fn check(source: &Source, json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
     let report = triad_engine::analysis::check::check(&scene)?;
+    clock.lap("check");
     if json {
-        print_json(&report);
+        print_json(&Timed { answer: &report, seconds: &clock });
     } else {
         print(&report);
     }
@@ -40,6 +45,12 @@ fn print(report: &CheckReport) {
     for note in &report.notes {
         print_line(&format!("  note: {note}"));
     }
+}
+
+/// Prints a built-in scene as its author would write it.
+pub(in crate::cli) fn show(name: &str) -> Result<Outcome, Problem> {
+    print_line(&scenes::builtin(name)?.to_json());
+    Ok(Outcome::Done)
 }
 
 /// Lists the built-in scenes.

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 use triad_engine::scene::{ConstraintMethod, IntegratorKind};
 
+use super::source::Source;
 use crate::cli::choice;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Run {
-    /// A built-in scene's name (`triad scenes` lists them), or a file.
-    pub(super) scene: String,
+    #[command(flatten)]
+    pub(super) source: Source,
     /// End of the run in seconds, instead of the scene's.
     #[arg(long, value_name = "S")]
     pub(super) until: Option<f64>,

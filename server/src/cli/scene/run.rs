@@ -3,20 +3,20 @@
 use std::time::Instant;
 
 use axum::http::StatusCode;
-use serde_json::json;
 use triad_engine::EngineError;
-use triad_engine::VERSION;
-use triad_engine::run::{Simulation, SkippedItem, Summary};
-use triad_engine::scene::{Scene, Skip};
-use triad_lab::verify::{Verification, Verifier};
+use triad_engine::model::Model;
+use triad_engine::run::Simulation;
+use triad_engine::scene::{IntegratorKind, Scene, Skip};
+use triad_lab::verify::Verifier;
 
 use super::csv::Table;
 use super::options::Run;
+use super::report::{Found, report};
+use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::{make_room, unwritable};
-use crate::cli::terminal::{Outcome, TimeBar, print_json, print_line, progress};
+use crate::cli::terminal::{Outcome, TimeBar, progress};
 use crate::problem::Problem;
-use crate::scenes;
 use crate::session::{describe, sample};
 use crate::stream::{RecordError, Recorder, Sample};
 
@@ -27,8 +27,14 @@ const MAX_OUTPUTS: f64 = 1e7;
 
 /// Runs a scene to its end.
 pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
     let scene = scene(options)?;
-    let mut simulation = Simulation::new(&scene)?;
+    clock.lap("read");
+    let model = Model::new(&scene).map_err(EngineError::from)?;
+    clock.lap("check");
+    let mut simulation = Simulation::from_model(model)?;
+    clock.lap("assemble");
+    chosen(options, &simulation)?;
     if let Some(steps) = options.most_steps {
         simulation.set_step_limit(steps);
     }
@@ -36,23 +42,26 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
     let mut outputs = Outputs::open(options, &scene, &simulation)?;
     let bar = progress(&scene.name, simulation.duration(), json);
     let bounds = Bounds::new(options);
-    let stopped =
-        advance(&mut simulation, verifier.as_mut(), &mut outputs, scene.simulation.every, &bounds, &bar);
+    clock.lap("open outputs");
+    let course = Course { every: scene.simulation.every, bounds: &bounds, bar: &bar };
+    let stopped = advance(&mut simulation, verifier.as_mut(), &mut outputs, &course, &mut clock);
     drop(bar);
     // What was reached before an error is kept.
     outputs.finish()?;
+    clock.lap("write");
     let stopped = match stopped {
         Ok(()) => None,
         Err(Stop::Engine(problem)) => Some(problem),
         Err(Stop::Output(problem)) => return Err(problem),
     };
     let verified = verifier.as_ref().map(Verifier::found);
-    report(&scene, &simulation, options, (stopped.as_ref(), verified), json);
+    let found = Found { stopped: stopped.as_ref(), verified, clock: &clock };
+    report(&scene, &simulation, options, &found, json);
     Ok(if stopped.is_none() { Outcome::Done } else { Outcome::No })
 }
 
 fn scene(options: &Run) -> Result<Scene, Problem> {
-    let mut scene = scenes::named_or_in_file(&options.scene)?;
+    let mut scene = options.source.read()?;
     let simulation = &mut scene.simulation;
     simulation.duration = options.until.unwrap_or(simulation.duration);
     simulation.every = options.every.unwrap_or(simulation.every);
@@ -78,6 +87,25 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
         ));
     }
     Ok(scene)
+}
+
+/// Refuses to run by another integrator than the one that was asked for together with what the command line chose.
+fn chosen(options: &Run, simulation: &Simulation) -> Result<(), Problem> {
+    let asked = simulation.model().settings.integrator;
+    let summary = simulation.summary();
+    let by_command = options.integrator.is_some() || options.treatment.is_some() || options.step.is_some();
+    if !by_command || asked == IntegratorKind::Auto || asked == summary.integrator {
+        return Ok(());
+    }
+    Err(Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "choices-conflict",
+        format!("{} would run by {}: {}", simulation.model().name, summary.integrator, summary.reason),
+        format!(
+            "leave one of the choices out, or give --integrator auto or --integrator {} to agree",
+            summary.integrator
+        ),
+    ))
 }
 
 /// Why a run ended early.
@@ -121,16 +149,24 @@ impl Bounds {
     }
 }
 
+/// How a run goes on.
+struct Course<'a> {
+    /// Time between outputs, s.
+    every: f64,
+    bounds: &'a Bounds,
+    bar: &'a TimeBar,
+}
+
 fn advance(
     simulation: &mut Simulation,
     mut verifier: Option<&mut Verifier>,
     outputs: &mut Outputs,
-    every: f64,
-    bounds: &Bounds,
-    bar: &TimeBar,
+    &Course { every, bounds, bar }: &Course,
+    clock: &mut Clock,
 ) -> Result<(), Stop> {
     let engine = |error: EngineError| Stop::Engine(error.into());
     outputs.write(simulation).map_err(Stop::Output)?;
+    clock.lap("write");
     let mut index = 0_u64;
     while !simulation.finished() {
         index += 1;
@@ -147,12 +183,15 @@ fn advance(
             }
             return Err(stop);
         }
+        clock.lap("integrate");
         if let Some(verifier) = verifier.as_deref_mut() {
             while !verifier.compare(simulation, PIECE).map_err(engine)? {
                 bounds.reached(simulation.time())?;
             }
+            clock.lap("verify");
         }
         outputs.write(simulation).map_err(Stop::Output)?;
+        clock.lap("write");
         bar.reached(time);
     }
     Ok(())
@@ -168,10 +207,22 @@ fn to(simulation: &mut Simulation, time: f64, bounds: &Bounds) -> Result<(), Sto
     }
 }
 
+/// A recording, and the viewer's address if it does not go into a file.
+struct Recording {
+    recorder: Recorder,
+    viewer: Option<String>,
+}
+
+impl Recording {
+    fn failed(&self, error: &RecordError) -> Problem {
+        self.viewer.as_ref().map_or_else(|| output_failed(error), |url| no_viewer(url, error))
+    }
+}
+
 /// Where a run goes.
 struct Outputs {
     table: Option<Table>,
-    recorders: Vec<Recorder>,
+    recorders: Vec<Recording>,
     waiting: Vec<Sample>,
 }
 
@@ -190,11 +241,13 @@ impl Outputs {
         if let Some(path) = &options.rrd {
             make_room(path)?;
             let recorder = Recorder::to_file(path, &id, describe(scene, simulation));
-            recorders.push(recorder.map_err(|error| unwritable(path, &error))?);
+            let recorder = recorder.map_err(|error| unwritable(path, &error))?;
+            recorders.push(Recording { recorder, viewer: None });
         }
         if let Some(url) = &options.rerun {
             let recorder = Recorder::to_viewer(url, &id, describe(scene, simulation));
-            recorders.push(recorder.map_err(|error| no_viewer(url, &error))?);
+            let recorder = recorder.map_err(|error| no_viewer(url, &error))?;
+            recorders.push(Recording { recorder, viewer: Some(url.clone()) });
         }
         Ok(Self { table, recorders, waiting: Vec::new() })
     }
@@ -216,8 +269,9 @@ impl Outputs {
     }
 
     fn encode(&mut self) -> Result<(), Problem> {
-        for recorder in &mut self.recorders {
-            recorder.write(&self.waiting).map_err(|error| output_failed(&error))?;
+        for recording in &mut self.recorders {
+            let written = recording.recorder.write(&self.waiting);
+            written.map_err(|error| recording.failed(&error))?;
         }
         self.waiting.clear();
         Ok(())
@@ -225,8 +279,8 @@ impl Outputs {
 
     fn finish(&mut self) -> Result<(), Problem> {
         self.encode()?;
-        for recorder in &self.recorders {
-            recorder.flush().map_err(|error| output_failed(&error))?;
+        for recording in &self.recorders {
+            recording.recorder.flush().map_err(|error| recording.failed(&error))?;
         }
         self.table.take().map_or(Ok(()), |table| table.finish().map_err(|error| output_failed(&error)))
     }
@@ -248,98 +302,4 @@ fn output_failed(error: &impl std::fmt::Display) -> Problem {
         format!("the output could not be written: {error}"),
         "check that the disk is not full",
     )
-}
-
-fn report(
-    scene: &Scene,
-    simulation: &Simulation,
-    options: &Run,
-    (stopped, verified): (Option<&Problem>, Option<&Verification>),
-    json: bool,
-) {
-    let summary = simulation.summary();
-    let left_out = options.explain.then(|| simulation.left_out());
-    if json {
-        print_json(&json!({
-            "scene": scene.name,
-            "settings": scene.simulation,
-            "summary": summary,
-            "events": simulation.events(),
-            "notes": simulation.notes(),
-            "left_out": left_out,
-            "verified": verified,
-            "repeat": { "engine": VERSION, "fingerprint": scene.fingerprint() },
-            "stopped": stopped.map(Problem::document),
-        }));
-        return;
-    }
-    // A table on standard output must stay a table.
-    let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
-    let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
-    for line in lines(scene, &summary, verified, simulation.notes()) {
-        say(&line);
-    }
-    for event in simulation.events() {
-        let end = if event.stop { "; the run ends there" } else { "" };
-        say(&format!(
-            "  event                  {} at {:.15} s, rate {:.9}{end}",
-            event.name, event.time, event.rate
-        ));
-    }
-    for line in left_out.iter().flatten().map(explanation) {
-        say(&line);
-    }
-    for file in [&options.out, &options.rrd].into_iter().flatten() {
-        say(&format!("  written                {}", file.display()));
-    }
-    if let Some(problem) = stopped {
-        eprintln!("{} {problem}", crate::cli::terminal::error_label());
-    }
-}
-
-fn explanation(left: &SkippedItem) -> String {
-    let switch = if left.on { "on " } else { "off" };
-    format!("  left out: {:<10} {switch}  {}", left.word, left.what)
-}
-
-fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<String> {
-    let mut lines = vec![
-        format!("{}: {} s of {} s", scene.name, s.time, scene.simulation.duration),
-        format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
-        format!(
-            "  constraint violation   {:.2e} position, {:.2e} velocity",
-            s.position_violation, s.velocity_violation
-        ),
-        format!(
-            "  steps                  {} accepted, {} rejected, last {:.3e} s",
-            s.steps, s.rejected, s.step_size
-        ),
-        format!(
-            "  work                   {} evaluations, {} factorizations, {} solves, {} projections",
-            s.evaluations, s.factorizations, s.solves, s.projections
-        ),
-    ];
-    lines.push(format!("  integrator             {}: {}", s.integrator, s.reason));
-    if let Some((first, last)) = s.singularities.first().zip(s.singularities.last()) {
-        let (count, joints) = (s.singularities.len(), first.joints.join(", "));
-        let times = if count == 1 {
-            format!("at {:.6} s", first.time)
-        } else {
-            format!("{count} times, first at {:.6} s, last at {:.6} s", first.time, last.time)
-        };
-        lines.push(format!("  singular positions     passed {times}, at {joints}"));
-    }
-    lines.extend(s.doubts.iter().map(|doubt| format!("  doubt                  {doubt}")));
-    if let Some(v) = verified {
-        let (by, tolerance) = (v.integrator, v.tolerance);
-        lines.push(format!(
-            "  error estimate         {:.2e} m, {:.2e} rad ({by} at {tolerance:.0e}, {} times compared)",
-            v.position, v.turn, v.compared
-        ));
-        let bodies =
-            v.bodies.iter().map(|b| format!("    {:<20} {:.2e} m, {:.2e} rad", b.body, b.position, b.turn));
-        lines.extend(bodies);
-    }
-    lines.extend(notes.iter().map(|note| format!("  note                   {note}")));
-    lines
 }

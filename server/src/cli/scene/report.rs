@@ -1,0 +1,121 @@
+//! What `triad run` tells when it is done.
+
+use serde_json::json;
+use triad_engine::VERSION;
+use triad_engine::run::{Simulation, SkippedItem, Summary};
+use triad_engine::scene::{IntegratorKind, Scene};
+use triad_lab::verify::Verification;
+
+use super::options::Run;
+use crate::cli::clock::Clock;
+use crate::cli::terminal::{print_json, print_line};
+use crate::problem::Problem;
+
+/// What is known of a run besides its own state.
+pub(super) struct Found<'a> {
+    /// Why it ended early.
+    pub stopped: Option<&'a Problem>,
+    /// What a second solution says.
+    pub verified: Option<&'a Verification>,
+    /// What it took.
+    pub clock: &'a Clock,
+}
+
+/// Prints what a run has come to.
+pub(super) fn report(
+    scene: &Scene,
+    simulation: &Simulation,
+    options: &Run,
+    &Found { stopped, verified, clock }: &Found,
+    json: bool,
+) {
+    let summary = simulation.summary();
+    let mut notes = simulation.notes().to_vec();
+    notes.extend(options.source.notes(scene, summary.integrator == IntegratorKind::Taylor));
+    let left_out = options.explain.then(|| simulation.left_out());
+    if json {
+        print_json(&json!({
+            "scene": scene.name,
+            "settings": scene.simulation,
+            "summary": summary,
+            "events": simulation.events(),
+            "notes": notes,
+            "left_out": left_out,
+            "verified": verified,
+            "seconds": clock,
+            "repeat": { "engine": VERSION, "fingerprint": scene.fingerprint() },
+            "stopped": stopped.map(Problem::document),
+        }));
+        return;
+    }
+    // A table on standard output must stay a table.
+    let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
+    let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
+    for line in lines(scene, &summary, verified, &notes) {
+        say(&line);
+    }
+    say(&clock.line());
+    for event in simulation.events() {
+        let end = if event.stop { "; the run ends there" } else { "" };
+        say(&format!(
+            "  event                  {} at {:.15} s, rate {:.9}{end}",
+            event.name, event.time, event.rate
+        ));
+    }
+    for line in left_out.iter().flatten().map(explanation) {
+        say(&line);
+    }
+    for file in [&options.out, &options.rrd].into_iter().flatten() {
+        say(&format!("  written                {}", file.display()));
+    }
+    if let Some(problem) = stopped {
+        eprintln!("{} {problem}", crate::cli::terminal::error_label());
+    }
+}
+
+fn explanation(left: &SkippedItem) -> String {
+    let switch = if left.on { "on " } else { "off" };
+    format!("  left out: {:<10} {switch}  {}", left.word, left.what)
+}
+
+fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<String> {
+    let mut lines = vec![
+        format!("{}: {} s of {} s", scene.name, s.time, scene.simulation.duration),
+        format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
+        format!(
+            "  constraint violation   {:.2e} position, {:.2e} velocity",
+            s.position_violation, s.velocity_violation
+        ),
+        format!(
+            "  steps                  {} accepted, {} rejected, last {:.3e} s",
+            s.steps, s.rejected, s.step_size
+        ),
+        format!(
+            "  work                   {} evaluations, {} factorizations, {} solves, {} projections",
+            s.evaluations, s.factorizations, s.solves, s.projections
+        ),
+    ];
+    lines.push(format!("  integrator             {}: {}", s.integrator, s.reason));
+    if let Some((first, last)) = s.singularities.first().zip(s.singularities.last()) {
+        let (count, joints) = (s.singularities.len(), first.joints.join(", "));
+        let times = if count == 1 {
+            format!("at {:.6} s", first.time)
+        } else {
+            format!("{count} times, first at {:.6} s, last at {:.6} s", first.time, last.time)
+        };
+        lines.push(format!("  singular positions     passed {times}, at {joints}"));
+    }
+    lines.extend(s.doubts.iter().map(|doubt| format!("  doubt                  {doubt}")));
+    if let Some(v) = verified {
+        let (by, tolerance) = (v.integrator, v.tolerance);
+        lines.push(format!(
+            "  error estimate         {:.2e} m, {:.2e} rad ({by} at {tolerance:.0e}, {} times compared)",
+            v.position, v.turn, v.compared
+        ));
+        let bodies =
+            v.bodies.iter().map(|b| format!("    {:<20} {:.2e} m, {:.2e} rad", b.body, b.position, b.turn));
+        lines.extend(bodies);
+    }
+    lines.extend(notes.iter().map(|note| format!("  note                   {note}")));
+    lines
+}

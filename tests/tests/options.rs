@@ -1,0 +1,231 @@
+//! Every command with every option over every built-in scene, every lesson's scene, every scene of `tests/data` and every
+//! problem there: each call is answered, or refused with a reason and a remedy; nothing panics, prints what is no number,
+//! or replaces what was asked for.
+//!
+//! The options are those that the program's own help lists: a new one without a case here fails.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use triad_engine::catalogue;
+use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, Scene};
+use triad_tests::options::{commands, faults, options};
+use triad_tests::root;
+
+/// Time that runs of one call cover, s: some steps of each integrator.
+const UNTIL: &str = "0.01";
+/// Steps after which a call ends, answered with `step-limit`.
+const MOST_STEPS: &str = "40";
+
+/// Options that have their cases in other tests, or open a port: the command, and where.
+const ELSEWHERE: [(&str, &str); 9] = [
+    ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
+    ("lesson preview", "it serves a page"),
+    ("lesson list", "commands.rs"),
+    ("lesson check", "the course is proved by lessons/src/tests"),
+    ("lesson new", "lessons/src/tests"),
+    ("lesson starter", "lessons/src/tests"),
+    ("grade", "workbench.rs and bad_input.rs"),
+    ("paper", "engine/lab/tests/paper.rs"),
+    ("stress", "engine/lab/tests/stress.rs"),
+];
+
+/// Options of every command: this test gives the first to all, the other is for courses.
+const GLOBAL: [&str; 2] = ["--json", "--course"];
+
+/// The calls for one scene, without its name: the command, then the options.
+fn calls(scene: &Scene, folder: &Path, index: usize) -> Vec<Vec<String>> {
+    let file = |ending: &str| folder.join(format!("{index}.{ending}")).to_string_lossy().into_owned();
+    let (table, recording) = (file("csv"), file("rrd"));
+    let body = scene.bodies.first().map_or("none", |body| body.name.as_str());
+    let mut calls: Vec<Vec<String>> = Vec::new();
+    let mut add = |command: &str, options: &[&str]| {
+        calls.push([command].iter().chain(options).map(|&word| word.to_owned()).collect());
+    };
+    for command in ["check", "equilibrium", "kinematics", "modes"] {
+        add(command, &[]);
+    }
+    for coordinates in [Coordinates::Reduced, Coordinates::Shared] {
+        let coordinates = coordinates.to_string();
+        for command in ["check", "equilibrium", "assemble", "kinematics"] {
+            add(command, &["--coordinates", &coordinates]);
+        }
+        add("modes", &["--coordinates", &coordinates]);
+        add("reactions", &["--coordinates", &coordinates, "--at", UNTIL]);
+        for integrator in ["taylor", "dop853"] {
+            add("run", &["--coordinates", &coordinates, "--integrator", integrator]);
+        }
+    }
+    add("modes", &["--at-start"]);
+    add("assemble", &["--keep", body]);
+    for (on, about, frame) in [("i", "center-of-mass", "joint"), ("i", "origin", "body")] {
+        for command in ["reactions", "kinematics"] {
+            add(command, &["--on", on, "--about", about, "--in", frame]);
+        }
+    }
+    for integrator in IntegratorKind::ALL {
+        add("run", &["--integrator", &integrator.to_string()]);
+    }
+    for treatment in ConstraintMethod::ALL {
+        add("run", &["--treatment", &treatment.to_string()]);
+        add("run", &["--treatment", &treatment.to_string(), "--integrator", "radau"]);
+    }
+    for tolerance in ["1e-3", "1e-12"] {
+        add("run", &["--tolerance", tolerance, "--verify", "--explain"]);
+    }
+    add("run", &["--step", "1e-3", "--no-skip", "all", "--most-seconds", "10"]);
+    add("run", &["--every", "0.004", "--out", &table, "--rrd", &recording]);
+    calls
+}
+
+/// Every scene that there is, by the name or file that the program takes.
+fn scenes() -> Vec<(String, Scene)> {
+    let mut names: Vec<String> =
+        catalogue::ENTRIES.iter().map(|entry| entry.name.replace(":N", ":2")).collect();
+    let below = |folder: &str, list: &mut Vec<String>| {
+        let mut files = Vec::new();
+        json_files(&root().join(folder), &mut files);
+        files.sort();
+        list.extend(files);
+    };
+    for folder in ["tests/data/scenes", "tests/data/problems", "lessons/course"] {
+        below(folder, &mut names);
+    }
+    let read = |name: String| {
+        let scene = match fs::read_to_string(&name) {
+            Ok(text) => Scene::from_json(&text).ok()?,
+            Err(_) => catalogue::scene(&name).unwrap(),
+        };
+        Some((name, scene))
+    };
+    names.into_iter().filter_map(read).collect()
+}
+
+fn json_files(folder: &Path, files: &mut Vec<String>) {
+    for entry in folder.read_dir().unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            json_files(&path, files);
+        } else if path.extension().is_some_and(|ending| ending == "json")
+            && (!folder.starts_with(root().join("lessons"))
+                || path.ends_with("scene.json")
+                || folder.ends_with("scenes"))
+        {
+            files.push(path.to_string_lossy().into_owned());
+        }
+    }
+}
+
+/// All calls, as the program takes them.
+fn all_calls(folder: &Path) -> Vec<Vec<String>> {
+    let mut all = Vec::new();
+    for (index, (name, scene)) in scenes().into_iter().enumerate() {
+        for mut call in calls(&scene, folder, index) {
+            call.insert(1, name.clone());
+            if call[0] == "run" {
+                call.extend(["--until", UNTIL, "--most-steps", MOST_STEPS].map(str::to_owned));
+            }
+            call.push("--json".to_owned());
+            all.push(call);
+        }
+    }
+    all
+}
+
+#[test]
+fn every_option_of_the_help_has_a_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut met: BTreeSet<(String, String)> = BTreeSet::new();
+    let others = others(folder.path());
+    for call in all_calls(folder.path()).iter().chain(&others) {
+        met.extend(
+            call.iter().filter(|word| word.starts_with("--")).map(|word| (call[0].clone(), word.clone())),
+        );
+    }
+    let mut missing = Vec::new();
+    for command in
+        commands().into_iter().filter(|command| ELSEWHERE.iter().all(|(other, _)| other != command))
+    {
+        let listed = options(&command);
+        assert!(listed.contains(&"--json".to_owned()), "{command}: {listed:?}");
+        let without = listed.into_iter().filter(|option| !GLOBAL.contains(&option.as_str()));
+        missing.extend(
+            without
+                .filter(|option| !met.contains(&(command.clone(), option.clone())))
+                .map(|o| format!("{command} {o}")),
+        );
+    }
+    assert!(missing.is_empty(), "no case for: {}", missing.join(", "));
+}
+
+/// Calls that are not about one scene each.
+fn others(folder: &Path) -> Vec<Vec<String>> {
+    let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let data = |name: &str| root().join("tests/data").join(name).to_string_lossy().into_owned();
+    let lines: [&[&str]; 8] = [
+        &["run", "simple-pendulum", "--until", UNTIL, "--rerun", "rerun+http://127.0.0.1:1/proxy"],
+        &["scenes", "free-fall"],
+        &["scenes", "--list"],
+        &["scenes", "free-fell"],
+        &["schema", "scene"],
+        &["import", &data("arm.urdf"), "--out", &file("arm.json")],
+        &["import", &data("problems/mimic/mimic.urdf"), "--with", &data("problems/mimic/side.json")],
+        &[
+            "bench",
+            "--quick",
+            "--scenes",
+            "pendulum",
+            "--integrators",
+            "taylor",
+            "--coordinates",
+            "full",
+            "--tolerances",
+            "1e-4",
+            "--treatment",
+            "projection",
+            "--out",
+            &file("bench"),
+        ],
+    ];
+    let call =
+        |line: &&[&str]| line.iter().map(|&word| word.to_owned()).chain(["--json".to_owned()]).collect();
+    lines.iter().map(call).collect()
+}
+
+#[test]
+fn every_call_is_answered_or_refused_with_a_reason_and_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut all = all_calls(folder.path());
+    all.extend(others(folder.path()));
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new(Vec::new());
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(call) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let faults = faults(call);
+                    let line = call.join(" ").replace(&root().to_string_lossy().into_owned(), "");
+                    found
+                        .lock()
+                        .unwrap()
+                        .extend(faults.into_iter().map(|fault| format!("triad {line}\n    {fault}")));
+                }
+            });
+        }
+    });
+    for entry in folder.path().read_dir().unwrap().map(|entry| entry.unwrap().path()) {
+        if entry.extension().is_some_and(|ending| ending == "csv") {
+            let text = fs::read_to_string(&entry).unwrap();
+            let none = text.split([',', '\n']).any(|field| ["NaN", "inf", "-inf"].contains(&field));
+            assert!(!none, "{}: a field that is no number", entry.display());
+        }
+    }
+    let mut found = found.into_inner().unwrap();
+    found.sort();
+    assert!(found.is_empty(), "{} of {} calls:\n{}", found.len(), all.len(), found.join("\n"));
+}
