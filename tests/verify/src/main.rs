@@ -4,6 +4,7 @@
 //! that need the network are done only where they are named: `cargo verify deny peers`, before a release. All steps build in the release profile, so that build scripts and macros are compiled once. A step that fails does not stop
 //! those after it, but the program ends with a failure.
 
+mod bits;
 mod deny;
 mod setup;
 
@@ -32,10 +33,11 @@ impl Step {
 }
 
 /// The steps in their order.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, npm packages", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
+    Step::new("bits", "the same results from builds for old and for new processors", bits::run),
     Step::new("size", "the program is at most 40 MB", size),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
