@@ -22,6 +22,7 @@ pub mod lecture;
 
 pub mod app;
 
+pub mod guide;
 pub mod page;
 pub mod reports;
 

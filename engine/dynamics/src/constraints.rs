@@ -4,7 +4,13 @@ mod error;
 
 pub mod violation;
 
+mod changed;
+
 pub mod mechanism;
+
+pub mod rough;
+
+pub mod start;
 
 pub mod rank;
 

@@ -16,6 +16,7 @@ mod joint_keys;
 mod load;
 mod marker;
 mod parameter;
+mod placement;
 mod reader;
 
 pub use body::ModelBody;
@@ -26,6 +27,7 @@ pub use event::{EventQuantity, ModelEvent};
 pub use joint::{JointGeometry, ModelJoint, director_along};
 pub use load::{ForceLaw, LoadKind, ModelLoad};
 pub use marker::ModelMarker;
+pub use placement::ModelStart;
 
 use crate::scene::{ConstraintMethod, Scene, Settings};
 use nalgebra::Vector3;
@@ -52,6 +54,8 @@ pub struct Model {
     pub bodies: Vec<ModelBody>,
     /// The joints, in the scene's order.
     pub joints: Vec<ModelJoint>,
+    /// Starts that are given by joints.
+    pub starts: Vec<ModelStart>,
     /// The drivers, in the scene's order.
     pub drivers: Vec<ModelDriver>,
     /// The loads besides gravity, in the scene's order.
@@ -89,7 +93,8 @@ impl Model {
         }
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
-        let joints = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
+        let (joints, starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
+        placement::place(&mut bodies, &joints, &starts);
         let reader = |list, index, name| ModelReader {
             list,
             index,
@@ -97,6 +102,7 @@ impl Model {
             names: &names,
             bodies: &bodies,
             joints: &joints,
+            duration: scene.simulation.duration,
         };
         let mut marker_names = HashMap::new();
         let mut markers = Vec::with_capacity(scene.markers.len());
@@ -127,6 +133,7 @@ impl Model {
             gravity: Vector3::from(scene.gravity),
             bodies,
             joints,
+            starts,
             drivers,
             loads,
             custom_loads: Vec::new(),
@@ -138,25 +145,28 @@ impl Model {
     }
 }
 
-/// The joints of a scene. A gear refers to joints that stand before it.
+/// The joints of a scene, and the starts of those that have one. A gear refers to joints that stand before it.
 fn read_joints(
     scene: &Scene,
     names: &HashMap<String, usize>,
     bodies: &[ModelBody],
     row_names: &mut HashMap<String, usize>,
     notes: &mut Vec<String>,
-) -> Result<Vec<ModelJoint>, ModelError> {
+) -> Result<(Vec<ModelJoint>, Vec<ModelStart>), ModelError> {
     let mut joints = Vec::with_capacity(scene.joints.len());
+    let mut starts = Vec::new();
     for (index, written) in scene.joints.iter().enumerate() {
         unique_name(row_names, "joints", index, &written.name)?;
         let (list, name) = ("joints", written.name.as_str());
         let joint = {
-            let reader = ModelReader { list, index, name, names, bodies, joints: &joints };
+            let duration = scene.simulation.duration;
+            let reader = ModelReader { list, index, name, names, bodies, joints: &joints, duration };
+            starts.extend(ModelStart::new(written, &reader)?);
             ModelJoint::new(written, &reader, notes)?
         };
         joints.push(joint);
     }
-    Ok(joints)
+    Ok((joints, starts))
 }
 
 fn unique_name(

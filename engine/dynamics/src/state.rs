@@ -257,13 +257,6 @@ impl State {
         }
     }
 
-    /// Counts whole turns of angles from zero.
-    pub fn reset_revolutions(&mut self) {
-        for angle in &mut self.angles {
-            angle.reference = 0.0;
-        }
-    }
-
     /// Counts whole turns of angles from the given values on, rad.
     pub fn set_revolutions(&mut self, values: impl Iterator<Item = f64>) {
         for (angle, value) in self.angles.iter_mut().zip(values) {

@@ -329,6 +329,15 @@ impl System {
         self.bodies.iter().any(|b| b.regularizing_inertia > 0.0)
     }
 
+    /// The angles of joints that whole turns are counted from at the start: those that the author gives, or zero.
+    pub fn start_angles(&self) -> impl Iterator<Item = f64> + use<'_> {
+        let model = &self.model;
+        self.angle_joints.iter().map(|name| {
+            let given = model.starts.iter().find(|start| model.joints[start.joint].name == *name);
+            given.and_then(|start| start.angle).unwrap_or(0.0)
+        })
+    }
+
     /// Writes the start of the model as (q, q̇), each of [`System::coordinates`] numbers.
     pub fn start(&self, q: &mut [f64], q_dot: &mut [f64]) {
         self.start_of(&self.model.bodies, q, q_dot);

@@ -64,6 +64,21 @@ pub const ENTRIES: &[SceneEntry] = &[
         name: "spatial-slider-crank:mbdyn",
         summary: "The same with a slender rod and the crank balanced on its axis",
     },
+    SceneEntry {
+        name: "squeezer",
+        summary: "Andrews' squeezing mechanism, seven bodies in three loops, for 0.05 s (A03)",
+    },
+    SceneEntry { name: "squeezer:ivp", summary: "The same from the start of the Test Set for IVP Solvers" },
+    SceneEntry {
+        name: "governor",
+        summary: "A flyball governor on springs of 800 kN/m and dampers of 40 kN s/m (A05)",
+    },
+    SceneEntry {
+        name: "car-axis",
+        summary: "A chassis on stiff springs over a bumpy road (Test Set for IVP Solvers)",
+    },
+    SceneEntry { name: "rssr", summary: "A crank drives a rocker in space by a coupler on two ball joints" },
+    SceneEntry { name: "crank-rocker", summary: "A Grashof four-bar whose crank turns at 5 rad/s" },
 ];
 
 /// Scenes that are plain data.
@@ -76,6 +91,12 @@ const FIXED: &[(&str, &str)] = &[
     ("heavy-top", include_str!("catalogue/heavy-top.json")),
     ("bricard", include_str!("catalogue/bricard.json")),
     ("spatial-slider-crank", include_str!("catalogue/spatial-slider-crank.json")),
+    ("squeezer", include_str!("catalogue/squeezer.json")),
+    ("squeezer:ivp", include_str!("catalogue/squeezer-ivp.json")),
+    ("governor", include_str!("catalogue/governor.json")),
+    ("car-axis", include_str!("catalogue/car-axis.json")),
+    ("rssr", include_str!("catalogue/rssr.json")),
+    ("crank-rocker", include_str!("catalogue/crank-rocker.json")),
 ];
 
 /// Why there is no such built-in scene.

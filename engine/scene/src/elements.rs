@@ -16,10 +16,10 @@ mod marker;
 
 mod event;
 
-pub use body::{Body, Coordinates, Inertia, Shape};
+pub use body::{AttachedMass, Body, Coordinates, Inertia, Shape};
 pub use driver::Driver;
 pub use event::{Event, Passing, Quantity};
-pub use joint::{AxisRows, Joint, JointKind};
+pub use joint::{AxisRows, Joint, JointKind, JointStart};
 pub use load::{Friction, Load, LoadFrame};
 pub use marker::Marker;
 pub use motion::{Motion, VectorMotion};

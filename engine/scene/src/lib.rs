@@ -15,6 +15,8 @@
 
 pub mod text;
 
+pub mod expression;
+
 mod value;
 
 mod limits;
@@ -37,8 +39,9 @@ pub mod catalogue;
 
 pub use changes::WrittenScene;
 pub use elements::{
-    AxisRows, Body, Coordinates, Driver, Event, Friction, Inertia, Joint, JointKind, Load, LoadFrame, Marker,
-    Motion, Orientation, Passing, Quantity, Shape, VectorMotion, WrittenOrientation,
+    AttachedMass, AxisRows, Body, Coordinates, Driver, Event, Friction, Inertia, Joint, JointKind,
+    JointStart, Load, LoadFrame, Marker, Motion, Orientation, Passing, Quantity, Shape, VectorMotion,
+    WrittenOrientation,
 };
 pub use error::SceneError;
 pub use handle::{

@@ -110,7 +110,8 @@ pub enum ConstraintMethod {
     /// Penalty: instead of multipliers, each row has a mass, a damper and a spring against its violation,
     /// λ = α (Φ̈ + 2 Ω μ Φ̇ + Ω² Φ).
     Penalty {
-        /// α, kg: how many times the masses of the mechanism. Violations shrink with 1/α.
+        /// α, kg: the mass that each row has against its violation, an absolute number and not one relative to the mechanism.
+        /// Violations shrink with 1/α; for mechanisms of grams choose it a thousand times smaller.
         #[serde(default = "penalty_alpha")]
         alpha: f64,
         /// Ω, rad/s.

@@ -4,8 +4,8 @@
 
 use thiserror::Error;
 
-use super::lexer::{Cursor, normalise};
 use crate::text::shorten;
+use triad_engine::scene::expression::{Cursor, normalise};
 
 /// Longest number text that is read, in characters.
 const MAX_LENGTH: usize = 80;

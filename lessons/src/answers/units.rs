@@ -7,8 +7,8 @@ use thiserror::Error;
 
 pub use super::dimension::Dimension;
 use super::dimension::MAX_EXPONENT;
-use super::lexer::{Cursor, plain_sign};
 use super::unit_table;
+use triad_engine::scene::expression::{Cursor, plain_sign};
 
 /// Longest unit text that is read, in characters.
 const MAX_LENGTH: usize = 64;

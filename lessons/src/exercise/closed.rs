@@ -3,8 +3,8 @@
 use super::context::{BuildError, build_error, refuse};
 use super::question::{ChoiceOption, Formula, QuestionBody};
 use crate::answers::TypedValue;
-use crate::answers::expression::Expression;
 use crate::files::{QuestionFile, ReferenceFile};
+use triad_engine::scene::expression::Expression;
 
 pub(super) fn choice(question: &QuestionFile, reference: &ReferenceFile) -> Result<QuestionBody, BuildError> {
     refuse(question.unit.is_some(), "a unit", "choice")?;

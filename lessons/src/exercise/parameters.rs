@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::answers::expression::{Expression, ExpressionError};
 use crate::files::ParameterFile;
 use crate::random::SeededRandom;
 use crate::text::plain;
+use triad_engine::scene::expression::{Expression, ExpressionError};
 
 /// Named numbers of a lesson.
 #[derive(Debug, Clone, Default, PartialEq)]

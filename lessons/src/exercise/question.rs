@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use triad_engine::scene::{IntegratorKind, Scene};
 
 use crate::answers::RunSettings;
-use crate::answers::expression::Expression;
 use crate::answers::tolerance::{Tolerance, ValueShape};
 use crate::answers::units::Unit;
 use crate::files::{
     EquationPart, FollowFile, MeasuredFile, ModelFile, OpensFile, ProvenanceKind, QuestionKind, ScoreBand,
     WatchFile,
 };
+use triad_engine::scene::expression::Expression;
 
 /// The questions of a lesson, with their answers. Never leaves the server.
 #[derive(Debug, Clone, PartialEq)]

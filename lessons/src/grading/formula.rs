@@ -1,11 +1,11 @@
 //! Formulas: two are the same if they agree at many random points of the symbols' ranges.
 
-use crate::answers::expression::Expression;
 use crate::answers::{Answer, TypedValue};
 use crate::exercise::Formula;
 use crate::random::SeededRandom;
 use crate::verdict::feedback::{Feedback, FormulaFinding, Judgement};
 use crate::verdict::invalid::InvalidClosed;
+use triad_engine::scene::expression::Expression;
 
 /// Points at which formulas are compared.
 const POINTS: usize = 24;

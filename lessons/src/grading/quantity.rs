@@ -1,6 +1,5 @@
 //! Numbers, vectors and matrices: unit and magnitude are judged apart, misconceptions are recognised.
 
-use crate::answers::lexer::normalise;
 use crate::answers::number::{self, ParsedNumber};
 use crate::answers::tolerance::{ValueShape, distance, norm};
 use crate::answers::units::{Dimension, Unit, is_millinewton_for_newton_metre};
@@ -9,6 +8,7 @@ use crate::exercise::QuantityQuestion;
 use crate::text::shorten;
 use crate::verdict::feedback::{Feedback, Judgement, NumberFinding, QuantityFeedback, UnitFinding};
 use crate::verdict::invalid::InvalidQuantity;
+use triad_engine::scene::expression::normalise;
 
 /// Share of the points that belongs to the unit.
 const UNIT_SHARE: f64 = 0.25;

@@ -75,5 +75,6 @@ fn scaled(motion: &Motion, k: f64) -> Motion {
         Motion::Table { times, values } => {
             Motion::Table { times, values: values.into_iter().map(|v| v * k).collect() }
         }
+        Motion::Expression { value } => Motion::expression(format!("{k:?}*({value})")),
     }
 }

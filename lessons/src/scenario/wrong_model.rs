@@ -122,9 +122,15 @@ fn at_rest(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, WrongMode
 /// The scene with its drivers held where they are at time t.
 fn stopped(scene: &Scene, t: f64) -> Scene {
     let mut scene = scene.clone();
-    let hold = |motion: &mut Motion| *motion = Motion::Constant { value: Curve::new(motion).at(t)[0] };
+    let hold = |motion: &mut Motion| {
+        if let Ok(curve) = Curve::new(motion) {
+            *motion = Motion::Constant { value: curve.at(t)[0] };
+        }
+    };
     let hold_vector = |motion: &mut VectorMotion| {
-        *motion = VectorMotion::Fixed { vector: VectorCurve::new(motion).at(t)[0].into() };
+        if let Ok(curve) = VectorCurve::new(motion) {
+            *motion = VectorMotion::Fixed { vector: curve.at(t)[0].into() };
+        }
     };
     for driver in &mut scene.drivers {
         match driver {

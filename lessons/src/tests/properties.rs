@@ -3,11 +3,11 @@
 
 use proptest::prelude::*;
 
-use crate::answers::expression::Expression;
 use crate::answers::number;
 use crate::answers::table;
 use crate::answers::units::Unit;
 use crate::rendering::figure::Figure;
+use triad_engine::scene::expression::Expression;
 
 /// Signs that students and hostile clients type, ordinary and not.
 fn typed() -> impl Strategy<Value = String> {

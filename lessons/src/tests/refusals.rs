@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 use triad_tests::refusals::{Refusals, all_reviewed};
 use triad_tests::variants;
 
-use crate::answers::expression::{Expression, ExpressionError};
 use crate::answers::number::{self, NumberError};
 use crate::answers::table::{self, TableError};
 use crate::answers::units::{Unit, UnitError};
@@ -18,6 +17,7 @@ use crate::rendering::figure::{Figure, FigureError};
 use crate::scenario::measure::MeasureError;
 use crate::tasks::instances::InstanceError;
 use crate::tasks::program_output::{self, OutputError, OutputSize};
+use triad_engine::scene::expression::{Expression, ExpressionError};
 
 /// What is quoted beside the refusal.
 fn quoted(text: &str) -> String {

@@ -4,7 +4,6 @@ use thiserror::Error;
 use triad_engine::EngineError;
 use triad_engine::scene::SceneError;
 
-use crate::answers::expression::ExpressionError;
 use crate::answers::number::NumberError;
 use crate::answers::table::TableError;
 use crate::answers::units::UnitError;
@@ -12,6 +11,7 @@ use crate::scenario::measure::MeasureError;
 use crate::tasks::InstanceError;
 use crate::tasks::program_output::OutputError;
 use crate::text::{plain, sentence};
+use triad_engine::scene::expression::ExpressionError;
 
 /// An answer that cannot be judged, by kind of question.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -22,6 +22,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 
 use crate::app::App;
+use crate::guide;
 use crate::page;
 use crate::problem::{Problem, ProblemDocument};
 use crate::reports;
@@ -90,6 +91,7 @@ pub fn router(app: App) -> Router {
         .route("/api/{*rest}", axum::routing::any(unknown_address))
         .route("/bench", get(reports::bench))
         .route("/stress", get(reports::stress))
+        .route("/guide", get(guide::show))
         .fallback(page::serve)
         .method_not_allowed_fallback(|| async { page::method_not_allowed() })
         .layer(DefaultBodyLimit::max(limit))

@@ -144,6 +144,9 @@ enum Command {
         /// List them, as without a name.
         #[arg(long, conflicts_with = "name")]
         list: bool,
+        /// Print how a scene is written, with an example, instead.
+        #[arg(long, conflicts_with_all = ["name", "list"])]
+        guide: bool,
     },
     /// Grade a submission as the workbench would; nothing is kept.
     #[command(
@@ -255,6 +258,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Paper(options) => paper::paper(&options, json),
         Command::Import(options) => import::import(&options, json),
         Command::Scenes { name: Some(name), .. } => check::show(&name),
+        Command::Scenes { name: None, guide: true, .. } => Ok(check::guide(json)),
         Command::Scenes { name: None, .. } => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),

@@ -11,9 +11,9 @@ use std::collections::BTreeMap;
 
 use triad_engine::Scene;
 use triad_engine::run::Simulation;
+use triad_engine::scene::expression::Expression;
 use triad_lessons::Lesson;
 use triad_lessons::Submission;
-use triad_lessons::answers::expression::Expression;
 use triad_lessons::answers::number;
 use triad_lessons::answers::units::Unit;
 use triad_lessons::rendering::markdown;

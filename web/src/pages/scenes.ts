@@ -38,6 +38,8 @@ export function scenesPage(outlet: HTMLElement): Page {
             { class: "button", href: `/scenes/${OWN_SCENE}` },
             recall("scene-draft") ? "Continue your own scene" : "Write your own scene",
           ),
+          " ",
+          h("a", { href: "/guide", target: "_blank", rel: "noopener" }, "How a scene is written"),
         ),
         urdfImport(`/scenes/${OWN_SCENE}`),
       ),

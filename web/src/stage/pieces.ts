@@ -34,10 +34,19 @@ const BOX_EDGES = [
   [3, 7],
 ] as const;
 
-/** Turns a point of the body's own frame into the axes that the server reports, using the first state. */
-export function converter(frame: BodyState, origin: Vec3 = frame.position, stated: Axes): (p: Vec3) => Vec3 {
+/**
+ * Turns a point of the body's own frame into the axes that the server reports. Where those are not the author's, they are
+ * found from the first state, in which the body stands as it is stated.
+ */
+export function converter(frame: BodyState, stated: Body | undefined): (p: Vec3) => Vec3 {
+  const inertia = stated?.inertia;
+  if (stated && !stated.attached?.length && !(inertia && "tensor" in inertia)) {
+    const center = stated.center_of_mass ?? [0, 0, 0];
+    return (p) => sub(p, center);
+  }
   const axes: Axes = [frame.u, frame.v, frame.w];
-  return (p) => along(axes, sub(add(origin, out(stated, p)), frame.position));
+  const [origin, own] = [stated?.position ?? frame.position, axesOf(stated?.orientation)];
+  return (p) => along(axes, sub(add(origin, out(own, p)), frame.position));
 }
 
 /** A shape of a body; `toBody` turns points of the body's own frame into its reported axes. */
@@ -72,10 +81,12 @@ export function jointPiece(
   stated: Body | undefined,
   joint: Joint,
 ): Piece | undefined {
-  const point = joint.point
-    ? along([frame.u, frame.v, frame.w], sub(joint.point, frame.position))
-    : joint.point_j && converter(frame, stated?.position, axesOf(stated?.orientation))(joint.point_j);
-  if (!point) return undefined;
+  // A point of the world is meant where the bodies are stated, which need not be where they start.
+  const own = joint.point
+    ? along(axesOf(stated?.orientation), sub(joint.point, stated?.position ?? [0, 0, 0]))
+    : joint.point_j;
+  if (!own) return undefined;
+  const point = converter(frame, stated)(own);
   return circlePiece(svg("circle", { r: JOINT_RADIUS, class: "sketch-joint" }), body, point);
 }
 

@@ -2,7 +2,7 @@
 
 import type { Body, BodyState, Scene, SessionState, Vec3 } from "../api/types";
 import { svg } from "../core/dom";
-import { type Axes, add, axesOf, cross, dot, norm, out, scale, sub, unit } from "../mechanics/vec";
+import { type Axes, add, cross, dot, norm, out, scale, sub, unit } from "../mechanics/vec";
 import {
   axisPieces,
   converter,
@@ -133,7 +133,7 @@ export class Sketch {
   private shapes(state: SessionState): Piece[] {
     return state.bodies.flatMap((frame, at) => {
       const stated = this.stated(frame);
-      const toBody = converter(frame, stated?.position, axesOf(stated?.orientation));
+      const toBody = converter(frame, stated);
       return (stated?.shape ?? []).map((shape) => shapePiece(shape, at, toBody));
     });
   }
@@ -165,7 +165,7 @@ export class Sketch {
       const frame = state.bodies[at];
       if (!frame) return [];
       const stated = this.stated(frame);
-      const toBody = converter(frame, stated?.position, axesOf(stated?.orientation));
+      const toBody = converter(frame, stated);
       return [markerPiece(at, name, toBody(point ?? [0, 0, 0]))];
     });
   }

@@ -1,6 +1,7 @@
 //! A system with its changing state: what integrators move, and where consistency is made and kept.
 
 use crate::constraints::ConstraintError;
+use crate::constraints::changed;
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination, ProjectableState};
 use crate::model::Model;
@@ -103,7 +104,7 @@ impl Mechanism {
     ///
     /// Those of [`Mechanism::assemble_at`].
     pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
-        self.state.reset_revolutions();
+        self.state.set_revolutions(self.system.start_angles());
         self.assemble_at(0.0, y)
     }
 
@@ -157,13 +158,14 @@ impl Mechanism {
         }))
     }
 
-    /// Moves the velocities onto the constraints, with the positions in place, and says so if it had to.
+    /// Moves the velocities onto the constraints, with the positions in place, and says so if it had to, and if little is left of
+    /// one that was given.
     fn assemble_velocities(
         &mut self,
         t: f64,
         given: &[f64],
         y: &mut [f64],
-    ) -> Result<Option<String>, ConstraintError> {
+    ) -> Result<Vec<String>, ConstraintError> {
         let (n, length) = (self.system.coordinates, self.system.length);
         self.state.set_velocities(&self.system, &y[n..]);
         let rate = self.state.velocity_violation(&self.system);
@@ -172,12 +174,14 @@ impl Mechanism {
             project_velocities(&mut self.projectable(y), &rules::ASSEMBLY_VELOCITIES, length);
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
+        if rate <= 1e-9 * length {
+            return Ok(Vec::new());
+        }
         let changed = largest_difference(&given[n..], &y[n..]);
-        Ok((rate > 1e-9 * length).then(|| {
-            format!(
-                "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
-            )
-        }))
+        let moved = format!(
+            "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
+        );
+        Ok([Some(moved), changed::velocity_lost(&self.system, given, y)].into_iter().flatten().collect())
     }
 
     /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.

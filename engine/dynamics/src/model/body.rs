@@ -53,18 +53,14 @@ impl ModelBody {
         for (key, vector) in vectors {
             finite(&vector, &at(key))?;
         }
-        finite(&[body.mass], &at("mass"))?;
-        if body.mass <= 0.0 {
-            return Err(ModelError::Mass { body: body.name.clone(), pointer: at("mass"), mass: body.mass });
-        }
-        let (principal, principal_axes) = principal_inertia(body, &at("inertia"), notes)?;
+        check_mass(body, body.mass, &at("mass"))?;
+        let Composite { mass, center_of_mass, principal, principal_axes } = Composite::of(body, &at, notes)?;
         let frame = orientation(body, &at("orientation"), notes)?;
-        let center_of_mass = Vector3::from(body.center_of_mass);
         let angular_velocity = Vector3::from(body.angular_velocity);
         let arm = frame * center_of_mass;
         Ok(Self {
             name: body.name.clone(),
-            mass: body.mass,
+            mass,
             principal,
             coordinates: body.coordinates.unwrap_or(coordinates),
             center_of_mass,
@@ -92,13 +88,77 @@ impl ModelBody {
     }
 }
 
-/// Principal moments and axes (columns, right-handed) of a body's inertia.
+fn check_mass(body: &Body, mass: f64, pointer: &str) -> Result<(), ModelError> {
+    finite(&[mass], pointer)?;
+    if mass > 0.0 {
+        return Ok(());
+    }
+    Err(ModelError::Mass { body: body.name.clone(), pointer: pointer.to_owned(), mass })
+}
+
+/// Mass, centre of mass and principal axes of a body with all that is attached to it.
+struct Composite {
+    mass: f64,
+    center_of_mass: Vector3<f64>,
+    principal: Vector3<f64>,
+    principal_axes: Matrix3<f64>,
+}
+
+impl Composite {
+    fn of(body: &Body, at: &impl Fn(&str) -> String, notes: &mut Vec<String>) -> Result<Self, ModelError> {
+        let own = Vector3::from(body.center_of_mass);
+        let (moments, axes) = principal_inertia(body, body.inertia.as_ref(), &at("inertia"), notes)?;
+        if body.attached.is_empty() {
+            let (principal, principal_axes) = (moments, axes);
+            return Ok(Self { mass: body.mass, center_of_mass: own, principal, principal_axes });
+        }
+        // Each part as (mass, centre, inertia about its centre), in the author's frame.
+        let mut parts = vec![(body.mass, own, tensor(&moments, &axes))];
+        for (index, attached) in body.attached.iter().enumerate() {
+            let at = |key: &str| at(&format!("attached/{index}/{key}"));
+            check_mass(body, attached.mass, &at("mass"))?;
+            finite(&attached.point, &at("point"))?;
+            let (moments, axes) = principal_inertia(body, attached.inertia.as_ref(), &at("inertia"), notes)?;
+            parts.push((attached.mass, Vector3::from(attached.point), tensor(&moments, &axes)));
+        }
+        let mass: f64 = parts.iter().map(|part| part.0).sum();
+        let center_of_mass = parts.iter().map(|part| part.1 * part.0).sum::<Vector3<f64>>() / mass;
+        // Steiner's theorem: the parallel axes of all parts meet in the common centre.
+        let whole: Matrix3<f64> = parts
+            .iter()
+            .map(|(mass, center, inertia)| {
+                let arm = center - center_of_mass;
+                inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
+            })
+            .sum();
+        let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| whole[(i, j)]));
+        let (principal, principal_axes) =
+            principal_inertia(body, Some(&Inertia::Tensor(rows)), &at("attached"), notes)?;
+        notes.push(format!(
+            "body \"{}\": with {} attached masses it has {mass} kg, its centre of mass at ({:.6}, {:.6}, {:.6})",
+            body.name,
+            body.attached.len(),
+            center_of_mass[0],
+            center_of_mass[1],
+            center_of_mass[2]
+        ));
+        Ok(Self { mass, center_of_mass, principal, principal_axes })
+    }
+}
+
+/// The tensor of principal moments about axes, the columns.
+fn tensor(moments: &Vector3<f64>, axes: &Matrix3<f64>) -> Matrix3<f64> {
+    axes * Matrix3::from_diagonal(moments) * axes.transpose()
+}
+
+/// Principal moments and axes (columns, right-handed) of an inertia of a body or of one of its parts.
 fn principal_inertia(
     body: &Body,
+    inertia: Option<&Inertia>,
     pointer: &str,
     notes: &mut Vec<String>,
 ) -> Result<(Vector3<f64>, Matrix3<f64>), ModelError> {
-    let (moments, axes) = match &body.inertia {
+    let (moments, axes) = match inertia {
         None => (Vector3::zeros(), Matrix3::identity()),
         Some(Inertia::Principal(moments)) => {
             finite(moments, &format!("{pointer}/principal"))?;
@@ -176,7 +236,12 @@ fn diagonalize(
         let third = -axes.column(2);
         axes.set_column(2, &third);
     }
-    Ok((Vector3::from_fn(|k, _| eigen.eigenvalues[order[k]]), axes))
+    // Rounding may leave a rod less than no inertia about its axis.
+    let moment = |k: usize| match eigen.eigenvalues[order[k]] {
+        moment if moment < 0.0 && moment > -PRINTED * largest => 0.0,
+        moment => moment,
+    };
+    Ok((Vector3::from_fn(|k, _| moment(k)), axes))
 }
 
 fn orientation(body: &Body, pointer: &str, notes: &mut Vec<String>) -> Result<Matrix3<f64>, ModelError> {

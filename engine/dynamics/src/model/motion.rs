@@ -2,7 +2,10 @@
 
 mod expansion;
 
+mod formula;
+
 pub use expansion::{MAX_TERMS, sine_cosine};
+pub use formula::{TimeFormula, TimeFormulaError};
 
 use crate::scene::{Motion, VectorMotion};
 use nalgebra::{Matrix3, Vector3};
@@ -34,12 +37,18 @@ pub enum Curve {
         /// Coefficients of each piece.
         pieces: Vec<[f64; 6]>,
     },
+    /// A formula in t.
+    Formula(TimeFormula),
 }
 
 impl Curve {
-    /// Prepares a motion that the model has checked.
-    pub fn new(motion: &Motion) -> Self {
-        match motion {
+    /// Prepares a motion whose numbers the model has checked.
+    ///
+    /// # Errors
+    ///
+    /// [`TimeFormulaError`]: a formula that cannot be read, or is not smooth.
+    pub fn new(motion: &Motion) -> Result<Self, TimeFormulaError> {
+        Ok(match motion {
             Motion::Constant { value } => Self::Polynomial(vec![*value]),
             Motion::Ramp { start, rate } => Self::Polynomial(vec![*start, *rate]),
             Motion::Polynomial { coefficients } => Self::Polynomial(coefficients.clone()),
@@ -48,7 +57,8 @@ impl Curve {
             }
             &Motion::SmoothStep { from, to, start, end } => smooth_step(from, to, start, end),
             Motion::Table { times, values } => natural_spline(times, values),
-        }
+            Motion::Expression { value } => Self::Formula(TimeFormula::parse(value)?),
+        })
     }
 
     /// A curve that never changes.
@@ -66,6 +76,7 @@ impl Curve {
                 *amplitude *= factor;
             }
             Self::Pieces { pieces, .. } => pieces.iter_mut().flatten().for_each(|c| *c *= factor),
+            Self::Formula(formula) => formula.scale(factor),
         }
         self
     }
@@ -139,17 +150,21 @@ pub enum VectorCurve {
 }
 
 impl VectorCurve {
-    /// Prepares a motion that the model has checked.
-    pub fn new(motion: &VectorMotion) -> Self {
-        match motion {
+    /// Prepares a motion whose numbers the model has checked.
+    ///
+    /// # Errors
+    ///
+    /// [`TimeFormulaError`]: a formula that cannot be read, or is not smooth.
+    pub fn new(motion: &VectorMotion) -> Result<Self, TimeFormulaError> {
+        Ok(match motion {
             VectorMotion::Fixed { vector } => Self::Components(vector.map(Curve::constant)),
             VectorMotion::Components { x, y, z } => {
-                Self::Components([Curve::new(x), Curve::new(y), Curve::new(z)])
+                Self::Components([Curve::new(x)?, Curve::new(y)?, Curve::new(z)?])
             }
             VectorMotion::Turning { start, axis, angle } => {
-                Self::turning(&Vector3::from(*start), &Vector3::from(*axis).normalize(), Curve::new(angle))
+                Self::turning(&Vector3::from(*start), &Vector3::from(*axis).normalize(), Curve::new(angle)?)
             }
-        }
+        })
     }
 
     /// The same vector with its components in another frame, v' = rotation · v.

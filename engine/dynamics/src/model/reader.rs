@@ -26,6 +26,8 @@ pub(super) struct ModelReader<'a> {
     pub bodies: &'a [ModelBody],
     /// The joints, for drivers and loads that act in one.
     pub joints: &'a [ModelJoint],
+    /// End of the run, s: up to there a formula must be defined.
+    pub duration: f64,
 }
 
 impl ModelReader<'_> {
@@ -231,9 +233,23 @@ impl ModelReader<'_> {
                 }
                 times.iter().chain(values).copied().collect()
             }
+            Motion::Expression { .. } => Vec::new(),
         };
         finite(&numbers, &self.at(key))?;
-        Ok(Curve::new(motion))
+        let curve = Curve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
+        match &curve {
+            Curve::Formula(formula) => match formula.undefined_until(self.duration) {
+                Some(time) => {
+                    let reason = format!(
+                        "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
+                        self.duration
+                    );
+                    Err(self.wrong(key, reason))
+                }
+                None => Ok(curve),
+            },
+            Curve::Polynomial(_) | Curve::Harmonic { .. } | Curve::Pieces { .. } => Ok(curve),
+        }
     }
 
     /// A checked vector motion.
@@ -255,6 +271,6 @@ impl ModelReader<'_> {
                 self.curve(&format!("{key}/angle"), angle)?;
             }
         }
-        Ok(VectorCurve::new(motion))
+        VectorCurve::new(motion).map_err(|error| self.wrong(key, error.to_string()))
     }
 }

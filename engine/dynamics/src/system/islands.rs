@@ -203,6 +203,7 @@ fn without_rows(model: &Model, bodies: &[usize]) -> Model {
         gravity: model.gravity,
         bodies: bodies.iter().map(|&body| model.bodies[body].clone()).collect(),
         joints: Vec::new(),
+        starts: Vec::new(),
         drivers: Vec::new(),
         loads: Vec::new(),
         custom_loads: Vec::new(),

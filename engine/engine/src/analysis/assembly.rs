@@ -2,22 +2,19 @@
 
 use super::AnalysisError;
 use crate::error::EngineError;
-use crate::scene::{Ground, Joint, Scene};
+use crate::scene::Scene;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::dynamics::elimination::ProjectableState;
-use triad_dynamics::model::Model;
-use triad_dynamics::newton::{Projectable, project_positions, project_velocities, rules};
+use triad_dynamics::constraints::{rough, start};
+use triad_dynamics::model::{BodyRef, JointGeometry, Model, ModelJoint};
+use triad_dynamics::newton::{project_velocities, rules};
 use triad_dynamics::system::System;
 
 /// How much heavier a body is made that is to keep its velocity.
 const HEAVY: f64 = 1e8;
-/// Longest step of Newton's method, m or, of directors, without a unit: a rotation that is cut short stays near a rotation only
-/// if the step is short.
-const MAX_STEP: f64 = 0.3;
 
 /// A body's place after assembly, in the terms in which its author writes it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -59,21 +56,20 @@ pub struct Assembly {
 ///
 /// [`AnalysisError`]: a scene that cannot be, joints that cannot be closed, or a body that cannot be kept in place.
 pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisError> {
-    let mut held = scene.clone();
+    let mut model = Model::new(scene).map_err(EngineError::from)?;
     for (index, name) in pinned.iter().enumerate() {
-        let Some(body) = scene.bodies.iter().find(|body| body.name == *name) else {
+        let Some(place) = model.bodies.iter().position(|body| body.name == *name) else {
             return Err(AnalysisError::Pinned {
                 body: name.clone(),
                 reason: "there is no such body".to_owned(),
             });
         };
-        let mut pin = Joint::fixed(format!("keep {name} ({index})"), Ground, name);
-        (pin.point, pin.axis) = (Some(body.position), Some([0.0, 0.0, 1.0]));
-        held.joints.push(pin);
+        let pin = pin(format!("keep {name} ({index})"), place, &model);
+        model.joints.push(pin);
     }
-    let (mut mechanism, mut y) = Mechanism::from_model(Model::new(&held).map_err(EngineError::from)?);
+    let (mut mechanism, mut y) = start::mechanism(model);
     mechanism.set_state(0.0, &y);
-    let (violation, iterations, left) = close(&mut mechanism, &mut y);
+    let (violation, iterations, left) = rough::close(&mut mechanism, &mut y);
     // A comparison that is false for NaN as well.
     let closed = left <= 1e-9 * mechanism.system.length.max(1.0);
     if !closed {
@@ -93,6 +89,21 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
     Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, violation, left })
 }
 
+/// A joint that fixes a body to the ground where it starts.
+fn pin(name: String, place: usize, model: &Model) -> ModelJoint {
+    let body = &model.bodies[place];
+    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let on_body = |v: &Vector3<f64>| body.directors.tr_mul(v);
+    ModelJoint {
+        name,
+        geometry: JointGeometry::Fixed,
+        bodies: [BodyRef::Ground, BodyRef::Moving(place)],
+        points: [body.position, Vector3::zeros()],
+        axes: [z, on_body(&z)],
+        cross: [[x, y], [on_body(&x), on_body(&y)]],
+    }
+}
+
 /// Makes the velocities of consistent positions fit; pinned bodies weigh so much that they hardly yield.
 fn velocities(scene: &Scene, pinned: &[String], mut y: Vec<f64>) -> Result<Vec<Placement>, AnalysisError> {
     let mut model = Model::new(scene).map_err(EngineError::from)?;
@@ -106,47 +117,6 @@ fn velocities(scene: &Scene, pinned: &[String], mut y: Vec<f64>) -> Result<Vec<P
     let length = mechanism.system.length;
     project_velocities(&mut mechanism.projectable(&mut y), &rules::ROUGH_VELOCITIES, length);
     Ok(placements(&mechanism, &y))
-}
-
-/// A rough start, which is moved onto the constraints by steps no longer than [`MAX_STEP`].
-struct Damped<'a> {
-    on: ProjectableState<'a>,
-    /// q before a step.
-    from: Vec<f64>,
-}
-
-impl Projectable for Damped<'_> {
-    fn linearize(&mut self) {
-        self.on.linearize();
-    }
-
-    /// q ← q + min(1, MAX_STEP/|Δq|) Δq; the size of the whole Δq.
-    fn correct_positions(&mut self) -> f64 {
-        let ProjectableState { system, state, elimination, q, .. } = &mut self.on;
-        self.from.copy_from_slice(q);
-        let step = elimination.correct_positions(system, state, q);
-        let part = if step > MAX_STEP { MAX_STEP / step } else { 1.0 };
-        for (q, from) in q.iter_mut().zip(&self.from) {
-            *q = from + part * (*q - from);
-        }
-        state.set_positions(system, q);
-        step
-    }
-
-    fn correct_velocities(&mut self) -> f64 {
-        self.on.correct_velocities()
-    }
-}
-
-/// Newton's method with short steps. Returns the violation at the start, the steps taken and what is left.
-fn close(mechanism: &mut Mechanism, y: &mut [f64]) -> (f64, usize, f64) {
-    mechanism.elimination.set_redundant(true);
-    let violation = mechanism.state.position_violation(&mechanism.system);
-    let length = mechanism.system.length;
-    let from = vec![0.0; mechanism.system.coordinates];
-    let mut damped = Damped { on: mechanism.projectable(y), from };
-    let projected = project_positions(&mut damped, &rules::ROUGH_POSITIONS, length);
-    (violation, projected.corrections, mechanism.state.position_violation(&mechanism.system))
 }
 
 fn placements(mechanism: &Mechanism, y: &[f64]) -> Vec<Placement> {

@@ -5,7 +5,7 @@ use crate::error::EngineError;
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::constraints::tangent;
+use triad_dynamics::constraints::{start, tangent};
 use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
 use triad_dynamics::model::Model;
 use triad_dynamics::newton::{project_positions, rules};
@@ -39,8 +39,8 @@ impl Stage {
         if model.bodies.len() > MAX_BODIES {
             return Err(AnalysisError::TooLarge { bodies: model.bodies.len() });
         }
-        let mut notes = model.notes.clone();
-        let (mut mechanism, mut start) = Mechanism::from_model(model);
+        let (mut mechanism, mut start) = start::mechanism(model);
+        let mut notes = mechanism.system.model.notes.clone();
         notes.extend(mechanism.assemble(&mut start)?);
         mechanism.elimination.set_redundant(true);
         let q_dot = start.split_off(mechanism.system.coordinates);

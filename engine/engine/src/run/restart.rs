@@ -4,6 +4,7 @@ use super::{Simulation, explain};
 use crate::error::EngineError;
 use crate::integrate::Integrator;
 use nalgebra::{Matrix3, Vector3};
+use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Counters;
 use triad_dynamics::model::ModelBody;
 use triad_dynamics::state::BodyFrame;
@@ -11,7 +12,8 @@ use triad_dynamics::state::BodyFrame;
 impl Simulation {
     /// Goes back to the start; counters are reset.
     pub fn reset(&mut self) {
-        self.mechanism.state.reset_revolutions();
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        state.set_revolutions(system.start_angles());
         let start = std::mem::take(&mut self.start);
         self.begin(0.0, &start);
         self.start = start;

@@ -10,6 +10,7 @@ use crate::scene::{IntegratorKind, Scene};
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::{self, Rank};
+use triad_dynamics::constraints::start;
 use triad_dynamics::dynamics::elimination::Counters;
 
 impl Simulation {
@@ -61,8 +62,7 @@ impl Simulation {
     ///
     /// [`EngineError::Constraint`] and [`EngineError::CustomLoad`].
     pub fn from_model(model: Model) -> Result<Self, EngineError> {
-        let mut notes = model.notes.clone();
-        let (mut mechanism, start) = assemble(model, &mut notes)?;
+        let (mut mechanism, start, mut notes) = assemble(model)?;
         let rank = analyze_rank(&mut mechanism, &start, &mut notes)?;
         mechanism.set_state(0.0, &start);
         let state = &mechanism.state;
@@ -102,11 +102,12 @@ impl Simulation {
     }
 }
 
-/// A mechanism, and its start (q, q̇) moved onto the constraints.
-fn assemble(model: Model, notes: &mut Vec<String>) -> Result<(Mechanism, Vec<f64>), ConstraintError> {
-    let (mut mechanism, mut start) = Mechanism::from_model(model);
+/// A mechanism, its start (q, q̇) moved onto the constraints, and what was found or corrected.
+fn assemble(model: Model) -> Result<(Mechanism, Vec<f64>, Vec<String>), ConstraintError> {
+    let (mut mechanism, mut start) = start::mechanism(model);
+    let mut notes = mechanism.system.model.notes.clone();
     notes.extend(mechanism.assemble(&mut start)?);
-    Ok((mechanism, start))
+    Ok((mechanism, start, notes))
 }
 
 /// Finds the rank of a mechanism near its start, and hands the dependent rows to its elimination; counters are reset.

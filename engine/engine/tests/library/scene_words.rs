@@ -147,3 +147,208 @@ fn an_axis_of_body_i_is_enough_for_a_line_or_a_plane() {
         assert_eq!(with(None), with(Some([0.0, 1.0, 0.0])), "{kind}");
     }
 }
+
+/// A double pendulum of rods, its elbow turned.
+fn double_pendulum(start: Value, hand: bool) -> Scene {
+    let (angle, bend) = (0.7f64, -1.2f64);
+    let elbow = [angle.cos(), angle.sin(), 0.0];
+    let second = angle + bend;
+    let body = |name: &str, from: [f64; 3], turned: f64| {
+        json!({ "name": name, "mass": 1, "inertia": { "principal": [0.01, 0.1, 0.1] }, "center_of_mass": [0.5, 0, 0],
+            "position": from, "orientation": { "axis": [0, 0, 1], "angle": turned } })
+    };
+    let mut bodies = vec![body("upper", [0.0; 3], 0.0), body("lower", [1.0, 0.0, 0.0], 0.0)];
+    if hand {
+        bodies = vec![body("upper", [0.0; 3], angle), body("lower", elbow, second)];
+        bodies[0]["angular_velocity"] = json!([0, 0, 2]);
+        bodies[1]["angular_velocity"] = json!([0, 0, 5]);
+        bodies[1]["velocity"] = json!([-2.0 * elbow[1], 2.0 * elbow[0], 0.0]);
+    }
+    let mut scene = json!({
+        "name": "double", "gravity": [0, -9.81, 0], "bodies": bodies,
+        "joints": [
+            { "name": "shoulder", "type": "revolute", "body_i": "ground", "body_j": "upper", "point_i": [0, 0, 0],
+                "point_j": [0, 0, 0], "axis_i": [0, 0, 1], "axis_j": [0, 0, 1] },
+            { "name": "elbow", "type": "revolute", "body_i": "lower", "body_j": "upper", "point_i": [0, 0, 0],
+                "point_j": [1, 0, 0], "axis_i": [0, 0, -1], "axis_j": [0, 0, -1] }]
+    });
+    if !start.is_null() {
+        scene["joints"][0]["start"] = start[0].clone();
+        scene["joints"][1]["start"] = start[1].clone();
+    }
+    self::scene(&scene)
+}
+
+#[test]
+fn joints_place_the_bodies_that_hang_on_them() {
+    let by_hand = double_pendulum(Value::Null, true).simulate(0.0..1.0).unwrap();
+    // The elbow's axis is −z and its body i the lower rod: both signs turn about.
+    let start = json!([{ "angle": 0.7, "rate": 2.0 }, { "angle": -1.2, "rate": 3.0 }]);
+    let by_joints = double_pendulum(start, false).simulate(0.0..1.0).unwrap();
+    for t in [0.0, 0.5, 1.0] {
+        for body in ["upper", "lower"] {
+            let [a, b] = [&by_hand, &by_joints].map(|motion| motion.at(t).unwrap().position(body).unwrap());
+            assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-7), "{body} at {t} s: {a:?} and {b:?}");
+            let [a, b] = [&by_hand, &by_joints].map(|motion| motion.at(t).unwrap().velocity(body).unwrap());
+            assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-6), "{body} at {t} s: {a:?} and {b:?}");
+        }
+    }
+}
+
+/// A loop is closed with the given angle held, and its rate too.
+#[test]
+fn a_loop_closes_with_the_given_angle_held() {
+    let mut scene = catalogue::scene("crank-rocker").unwrap();
+    scene.drivers.clear();
+    scene.joints[0] = scene.joints[0].clone().starting_at(1.0, 5.0);
+    let motion = scene.simulate(0.0..0.1).unwrap();
+    let start = motion.at(0.0).unwrap();
+    // The crank is stated at 0.4 rad.
+    let crank = start.marker("A").unwrap();
+    assert!(
+        (crank.position[0] - 1.4f64.cos()).abs() < 1e-12
+            && (crank.velocity[1] - 5.0 * 1.4f64.cos()).abs() < 1e-9
+    );
+    let rocker = start.marker("B").unwrap();
+    let length = f64::hypot(rocker.position[0] - crank.position[0], rocker.position[1] - crank.position[1]);
+    assert!((length - 3.4).abs() < 1e-9, "the coupler is {length} m long");
+    let notes = Simulation::new(&scene).unwrap().notes().join("\n");
+    assert!(!notes.contains("leave") && !notes.contains("keeps"), "{notes}");
+}
+
+/// What is asked for and cannot be had is told with both numbers.
+#[test]
+fn lost_velocities_and_rates_are_told() {
+    // Spinning the shaft alone leaves nothing: it weighs little.
+    let mut scene = catalogue::scene("governor").unwrap();
+    scene.joints[0].start = None;
+    scene.bodies[0].angular_velocity = [0.0, 0.0, 6.283];
+    let notes = Simulation::new(&scene).unwrap().notes().join("\n");
+    assert!(
+        notes.contains("body \"shaft\": of the angular velocity (0.0000e0, 0.0000e0, 6.2830e0) rad/s"),
+        "{notes}"
+    );
+    // Two rates of a mechanism with one freedom contradict each other.
+    let mut scene = catalogue::scene("crank-rocker").unwrap();
+    scene.drivers.clear();
+    scene.joints[3] = scene.joints[3].clone().starting_at(0.0, 5.0);
+    let notes = Simulation::new(&scene).unwrap().notes().join("\n");
+    assert!(notes.contains("joint \"D\": of the 5 rad/s that are given for the start"), "{notes}");
+    // A joint without an axis has no angle.
+    let mut scene = catalogue::scene("spatial-chain:2").unwrap();
+    scene.joints[0] = scene.joints[0].clone().starting_at(0.1, 0.0);
+    let error = Simulation::new(&scene).unwrap_err();
+    assert_eq!(error.pointer().as_deref(), Some("/joints/0/start"));
+}
+
+/// An angle of more than a turn at the start counts its turns.
+#[test]
+fn a_start_of_several_turns_is_counted() {
+    let mut scene = Scene::new("turns").gravity([0.0; 3]);
+    let wheel = scene.add(Body::new("wheel", 1.0).inertia(Inertia::Principal([1.0; 3])));
+    let axle =
+        Joint::revolute("axle", Ground, &wheel).at([0.0; 3]).about([0.0, 0.0, 1.0]).starting_at(20.0, 1.0);
+    let axle = scene.add(axle);
+    let past = scene.add(Event::new("past", Quantity::angle(&axle), 20.5));
+    let times = scene.simulate(0.0..1.0).unwrap().times_of(&past).unwrap();
+    assert!(times.len() == 1 && (times[0] - 0.5).abs() < 1e-12, "{times:?}");
+}
+
+/// Two balls and a tilted block on a rod, against the same as bodies of their own.
+#[test]
+fn attached_masses_are_part_of_their_body() {
+    let rod = || Body::rod("rod", 1.0, [0.0; 3], [1.0, 0.0, 0.0]).angular_velocity([0.3, 1.0, -2.0]);
+    let places = [[0.5, 0.0, 0.0], [0.1, 0.4, -0.2], [-0.3, 0.0, 0.6]];
+    let inertia = Inertia::Tensor([[0.2, 0.01, 0.0], [0.01, 0.1, 0.02], [0.0, 0.02, 0.15]]);
+    let hinge = |scene: &mut Scene| {
+        scene.add(Joint::spherical("hinge", Ground, "rod").at([0.0; 3]));
+        scene.add(Marker::new("tip", "rod", [0.5, 0.0, 0.0]));
+    };
+    let mut whole = Scene::new("whole");
+    whole.add(rod().attach(2.0, places[0], None).attach(3.0, places[1], None).attach(
+        4.0,
+        places[2],
+        Some(inertia.clone()),
+    ));
+    hinge(&mut whole);
+    let mut parts = Scene::new("parts");
+    parts.add(rod());
+    for (k, place) in places.into_iter().enumerate() {
+        let at = [place[0] + 0.5, place[1], place[2]];
+        let mut ball = Body::new(format!("part {k}"), 2.0 + k as f64).position(at);
+        ball.inertia = (k == 2).then(|| inertia.clone());
+        let ball = scene_with_spin(&mut parts, ball);
+        parts.add(Joint::fixed(format!("weld {k}"), "rod", &ball).at(at));
+    }
+    hinge(&mut parts);
+    let [a, b] = [whole, parts].map(|scene| scene.simulate(0.0..1.0).unwrap());
+    for t in [0.3, 1.0] {
+        let [a, b] = [&a, &b].map(|motion| motion.at(t).unwrap().marker("tip").unwrap().position);
+        assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-7), "at {t} s: {a:?} and {b:?}");
+    }
+    let error = Simulation::new(&{
+        let mut scene = Scene::new("wrong");
+        scene.add(rod().attach(0.0, [0.0; 3], None));
+        scene
+    });
+    assert_eq!(error.unwrap_err().pointer().as_deref(), Some("/bodies/0/attached/0/mass"));
+}
+
+/// A part that turns with the rod.
+fn scene_with_spin(scene: &mut Scene, mut part: Body) -> triad_engine::scene::BodyHandle {
+    let (omega, arm) = ([0.3, 1.0, -2.0], [part.position[0] - 0.5, part.position[1], part.position[2]]);
+    part.velocity = [
+        omega[1] * arm[2] - omega[2] * arm[1],
+        omega[2] * arm[0] - omega[0] * arm[2],
+        omega[0] * arm[1] - omega[1] * arm[0],
+    ];
+    part.angular_velocity = omega;
+    scene.add(part)
+}
+
+/// Formulas move what a harmonic motion moves, and end where they are not defined.
+#[test]
+fn a_formula_of_t_is_a_motion() {
+    let driven = |motion: Motion| {
+        let mut scene = Scene::new("driven");
+        let wheel = scene.add(Body::new("wheel", 1.0).inertia(Inertia::Principal([1.0, 2.0, 3.0])));
+        let axle = scene.add(Joint::revolute("axle", Ground, &wheel).at([0.0; 3]).about([0.0, 0.0, 1.0]));
+        scene.add(Driver::angle("motor", axle, motion));
+        scene
+    };
+    let torque = |motion: Motion| {
+        driven(motion).simulate(0.0..2.0).unwrap().driver_reaction("motor", 1.3).unwrap().moment[2]
+    };
+    let (formula, harmonic) = (torque(Motion::expression("0.2*sin(7*t)")), torque(Motion::sine(0.2, 7.0)));
+    assert!((formula - harmonic).abs() < 1e-9, "{formula} and {harmonic}");
+    for (text, told) in [
+        ("asin(2*t)", "t = 0.500000000 s"),
+        ("1/(t-0.3333)", "t = 0.333300000 s"),
+        ("2*x", "known are t"),
+        ("abs(t-1)", "abs of something that depends on t"),
+        ("2*(t", "a bracket is not closed"),
+    ] {
+        let error = Simulation::new(&driven(Motion::expression(text))).unwrap_err();
+        assert!(error.to_string().contains(told), "{text}: {error}");
+        assert_eq!(error.pointer().as_deref(), Some("/drivers/0/motion"));
+    }
+}
+
+/// The example of docs/SCENES.md is a scene that runs, and both of its events happen.
+#[test]
+fn the_example_of_the_guide_runs() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/SCENES.md");
+    let guide = std::fs::read_to_string(path).unwrap();
+    let example = guide.split("```json\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let scene = Scene::from_json(example).unwrap();
+    let motion = scene.simulate(0.0..scene.simulation.duration).unwrap();
+    assert!(!motion.times_of("lowest").unwrap().is_empty());
+    assert!((motion.at(0.0).unwrap().marker("bob").unwrap().position[0] - 1.2f64.cos()).abs() < 1e-12);
+    // Each kind of joint and of motion has its row in a table.
+    for kind in JointKind::ALL {
+        assert!(guide.contains(&format!("| `{kind}` |")), "{kind}");
+    }
+    for kind in ["ramp", "polynomial", "harmonic", "smooth-step", "table", "expression"] {
+        assert!(guide.contains(&format!("| `{kind}` |")), "{kind}");
+    }
+}

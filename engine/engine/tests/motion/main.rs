@@ -9,6 +9,7 @@ mod exactness;
 mod explicit;
 mod integrators;
 mod parts;
+mod problems;
 mod radau;
 mod references;
 mod series;

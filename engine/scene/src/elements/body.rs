@@ -36,6 +36,9 @@ pub struct Body {
     /// Centre of mass in the body's frame, m.
     #[serde(default, skip_serializing_if = "is_default")]
     pub center_of_mass: Triple,
+    /// Masses that are part of the body; `mass`, `inertia` and `center_of_mass` are those of the body without them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attached: Vec<AttachedMass>,
     /// Position of the body's reference point in the world, m.
     #[serde(default)]
     pub position: Triple,
@@ -77,6 +80,7 @@ impl Body {
             mass,
             inertia: None,
             center_of_mass: [0.0; 3],
+            attached: Vec::new(),
             position: [0.0; 3],
             orientation: None,
             velocity: [0.0; 3],
@@ -191,6 +195,18 @@ impl Body {
         self
     }
 
+    /// A mass more that is part of it, kg, at a point of its frame, m; without an inertia it is a point.
+    ///
+    /// ```
+    /// let arm = triad_scene::Body::rod("arm", 1.0, [0.0; 3], [1.0, 0.0, 0.0]).attach(5.0, [0.5, 0.0, 0.0], None);
+    /// assert_eq!(arm.attached[0].mass, 5.0);
+    /// ```
+    #[must_use]
+    pub fn attach(mut self, mass: f64, point: Triple, inertia: Option<Inertia>) -> Self {
+        self.attached.push(AttachedMass { mass, point, inertia });
+        self
+    }
+
     /// The position of its reference point in the world at the start, m.
     #[must_use]
     pub fn position(mut self, position: Triple) -> Self {
@@ -258,6 +274,20 @@ pub enum Inertia {
     Principal(Triple),
     /// The full symmetric tensor; the engine finds the principal axes.
     Tensor([Triple; 3]),
+}
+
+/// A mass that is part of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AttachedMass {
+    /// Mass, kg; positive.
+    pub mass: f64,
+    /// Its centre in the body's frame, m.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub point: Triple,
+    /// Its inertia about its own centre, along the axes of the body's frame; without it a point mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<Inertia>,
 }
 
 /// A primitive drawn in a body's frame, lengths in m.

@@ -101,6 +101,25 @@ pub enum AxisRows {
     Shared,
 }
 
+/// Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0;
+/// the bodies that hang on the joint are carried from there, and loops are closed with what is given here held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct JointStart {
+    /// Angle of body j relative to body i about the axis (revolute, cylindrical, screw), rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+    /// Rate of the angle, rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rate: Option<f64>,
+    /// Displacement along the axis from the joint's point on body i to that on body j (prismatic, cylindrical), m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slide: Option<f64>,
+    /// Rate of the displacement, m/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+}
+
 /// A joint between two bodies, or between a body and the ground.
 ///
 /// Its points and axes are given in the world at the start (`point`, `points`, `axis`, `axes`) or in the frames of
@@ -159,6 +178,9 @@ pub struct Joint {
     /// Angle of a gear's second joint for each radian of its first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ratio: Option<f64>,
+    /// Where the joint stands at the start, and how fast it moves there, in place of positions and velocities of bodies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<JointStart>,
 }
 
 impl Joint {
@@ -187,6 +209,7 @@ impl Joint {
             pitch: None,
             joints: None,
             ratio: None,
+            start: None,
         }
     }
 
@@ -275,6 +298,30 @@ impl Joint {
     #[must_use]
     pub fn rows(mut self, rows: AxisRows) -> Self {
         self.rows = Some(rows);
+        self
+    }
+
+    /// The angle and its rate at the start, rad and rad/s: the bodies that hang on the joint are carried from their stated
+    /// positions.
+    ///
+    /// ```
+    /// use triad_scene::{Ground, Joint};
+    ///
+    /// let pin = Joint::revolute("pin", Ground, "rod").at([0.0; 3]).about([0.0, 0.0, 1.0]).starting_at(0.5, -2.0);
+    /// assert_eq!(pin.start.and_then(|start| start.angle), Some(0.5));
+    /// ```
+    #[must_use]
+    pub fn starting_at(mut self, angle: f64, rate: f64) -> Self {
+        let start = self.start.get_or_insert_default();
+        (start.angle, start.rate) = (Some(angle), Some(rate));
+        self
+    }
+
+    /// The displacement and its rate at the start, m and m/s, likewise.
+    #[must_use]
+    pub fn starting_out(mut self, slide: f64, speed: f64) -> Self {
+        let start = self.start.get_or_insert_default();
+        (start.slide, start.speed) = (Some(slide), Some(speed));
         self
     }
 

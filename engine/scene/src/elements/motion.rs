@@ -61,6 +61,11 @@ pub enum Motion {
         /// Values at those times.
         values: Vec<f64>,
     },
+    /// A formula in t, s: `asin(0.1*sin(10*t))`.
+    Expression {
+        /// The formula: numbers, t, pi, + - * / ^, brackets, and sin, cos, tan, asin, acos, atan, sqrt, exp, ln.
+        value: String,
+    },
 }
 
 /// A vector as a function of time: one of the kinds of motion, or three plain numbers, which are constant.
@@ -123,6 +128,17 @@ impl Motion {
     /// From one value, held until `start`, to another, reached at `end` (s), without a jump of the acceleration.
     pub const fn smooth_step(from: f64, to: f64, start: f64, end: f64) -> Self {
         Self::SmoothStep { from, to, start, end }
+    }
+
+    /// A formula in t.
+    ///
+    /// ```
+    /// let motion = triad_scene::Motion::expression("asin(0.1*sin(10*t))");
+    /// assert_eq!(serde_json::to_value(&motion)?["kind"], "expression");
+    /// # Ok::<(), serde_json::Error>(())
+    /// ```
+    pub fn expression(value: impl Into<String>) -> Self {
+        Self::Expression { value: value.into() }
     }
 
     /// The natural cubic spline through values at times (s), which increase.

@@ -7,6 +7,7 @@ use triad_engine::catalogue;
 use super::source::Source;
 use crate::cli::clock::{Clock, Timed};
 use crate::cli::terminal::{Outcome, print_json, print_line};
+use crate::guide::GUIDE;
 use crate::problem::Problem;
 use crate::scenes;
 
@@ -51,6 +52,16 @@ fn print(report: &CheckReport) {
 pub(in crate::cli) fn show(name: &str) -> Result<Outcome, Problem> {
     print_line(&scenes::builtin(name)?.to_json());
     Ok(Outcome::Done)
+}
+
+/// Prints how a scene is written.
+pub(in crate::cli) fn guide(json: bool) -> Outcome {
+    if json {
+        print_json(&json!({ "guide": GUIDE }));
+    } else {
+        print_line(GUIDE.trim_end());
+    }
+    Outcome::Done
 }
 
 /// Lists the built-in scenes.

@@ -28,13 +28,14 @@ impl Curve {
                 let piece = knots.partition_point(|&knot| knot <= t).saturating_sub(1);
                 shift(&pieces[piece], t - knots[piece], out);
             }
+            Self::Formula(formula) => formula.expand(t, out),
         }
     }
 
     /// The first time after t at which another piece begins, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
         match self {
-            Self::Polynomial(_) | Self::Harmonic { .. } => f64::INFINITY,
+            Self::Polynomial(_) | Self::Harmonic { .. } | Self::Formula(_) => f64::INFINITY,
             Self::Pieces { knots, .. } => {
                 // Nothing begins at the first knot: its piece holds before it, too.
                 let next = knots.partition_point(|&knot| knot <= t).max(1);

@@ -3,10 +3,12 @@
 //! Bounded in length and depth, with a closed list of functions; evaluating it runs no code. Multiplication may
 //! be left out between a number, a name and a bracket. `^` binds tighter than a sign in front, and to the right.
 
-use thiserror::Error;
+mod cursor;
 
-use super::lexer::{Cursor, plain_sign};
-use crate::text::shorten;
+pub use cursor::{Cursor, normalise, plain_sign};
+
+use crate::text::{UnknownWord, words};
+use thiserror::Error;
 
 /// Longest formula that is read, in characters.
 const MAX_LENGTH: usize = 400;
@@ -14,8 +16,53 @@ const MAX_LENGTH: usize = 400;
 const MAX_DEPTH: usize = 40;
 
 /// Functions that a formula may call.
-const FUNCTIONS: &[&str] =
-    &["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "ellipk"];
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Tangent.
+    Tan,
+    /// Arcsine.
+    Asin,
+    /// Arccosine.
+    Acos,
+    /// Arctangent.
+    Atan,
+    /// Square root.
+    Sqrt,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm, also written `ln`.
+    Log,
+    /// Absolute value.
+    Abs,
+    /// Complete elliptic integral of the first kind of the parameter m = k².
+    EllipticK,
+}
+
+words!(
+    ///
+    /// ```
+    /// use triad_scene::expression::Function;
+    ///
+    /// assert_eq!("sin".parse(), Ok(Function::Sin));
+    /// ```
+    Function {
+        Sin => "sin",
+        Cos => "cos",
+        Tan => "tan",
+        Asin => "asin",
+        Acos => "acos",
+        Atan => "atan",
+        Sqrt => "sqrt",
+        Exp => "exp",
+        Log => "log",
+        Abs => "abs",
+        EllipticK => "ellipk",
+    }
+);
 
 /// A formula, ready to be evaluated.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,13 +70,19 @@ pub struct Expression {
     root: Node,
 }
 
+/// A part of a formula.
 #[derive(Debug, Clone, PartialEq)]
-enum Node {
+pub enum Node {
+    /// A number.
     Number(f64),
+    /// A symbol, by its place among those that were named.
     Symbol(usize),
-    Negative(Box<Node>),
-    Binary(char, Box<Node>, Box<Node>),
-    Call(&'static str, Box<Node>),
+    /// The part with the other sign.
+    Negative(Box<Self>),
+    /// Two parts with one of `+-*/^` between them.
+    Binary(char, Box<Self>, Box<Self>),
+    /// A function of a part.
+    Call(Function, Box<Self>),
 }
 
 /// Why a formula could not be read.
@@ -41,8 +94,8 @@ pub enum ExpressionError {
     /// Too long or too deeply nested.
     #[error("the formula is too long or too deeply nested; simplify it")]
     TooLarge,
-    /// A name that the question does not define.
-    #[error("\u{201c}{name}\u{201d} is not one of the symbols of this question; known are {known}")]
+    /// A name that is not defined.
+    #[error("\u{201c}{name:.24}\u{201d} is not one of the symbols here; known are {known}")]
     UnknownSymbol {
         /// The name as written.
         name: String,
@@ -93,54 +146,73 @@ impl Expression {
 
     /// The value for these values of the symbols; not finite where the formula is not defined.
     pub fn eval(&self, values: &[f64]) -> f64 {
-        eval(&self.root, values)
+        self.root.eval(values)
     }
 
     /// Whether the symbol with this index occurs.
     pub fn uses(&self, symbol: usize) -> bool {
-        fn visit(node: &Node, symbol: usize) -> bool {
-            match node {
-                Node::Number(_) => false,
-                Node::Symbol(index) => *index == symbol,
-                Node::Negative(a) | Node::Call(_, a) => visit(a, symbol),
-                Node::Binary(_, a, b) => visit(a, symbol) || visit(b, symbol),
-            }
-        }
-        visit(&self.root, symbol)
+        self.root.uses(symbol)
+    }
+
+    /// The whole of it as its outermost part.
+    pub fn into_root(self) -> Node {
+        self.root
     }
 }
 
-fn eval(node: &Node, values: &[f64]) -> f64 {
-    match node {
-        Node::Number(x) => *x,
-        Node::Symbol(index) => values.get(*index).copied().unwrap_or(f64::NAN),
-        Node::Negative(a) => -eval(a, values),
-        Node::Binary(operator, a, b) => {
-            let (a, b) = (eval(a, values), eval(b, values));
-            match operator {
-                '+' => a + b,
-                '-' => a - b,
-                '*' => a * b,
-                '/' => a / b,
-                _ => libm::pow(a, b),
-            }
+impl Node {
+    /// Whether the symbol with this index occurs in it.
+    pub fn uses(&self, symbol: usize) -> bool {
+        match self {
+            Self::Number(_) => false,
+            Self::Symbol(index) => *index == symbol,
+            Self::Negative(a) | Self::Call(_, a) => a.uses(symbol),
+            Self::Binary(_, a, b) => a.uses(symbol) || b.uses(symbol),
         }
-        Node::Call(name, a) => {
-            let a = eval(a, values);
-            match *name {
-                "sin" => libm::sin(a),
-                "cos" => libm::cos(a),
-                "tan" => libm::tan(a),
-                "asin" => libm::asin(a),
-                "acos" => libm::acos(a),
-                "atan" => libm::atan(a),
-                "sqrt" => a.sqrt(),
-                "exp" => libm::exp(a),
-                "log" => libm::log(a),
-                "abs" => a.abs(),
-                _ => elliptic_k(a),
+    }
+
+    /// Its value for these values of the symbols.
+    pub fn eval(&self, values: &[f64]) -> f64 {
+        match self {
+            Self::Number(x) => *x,
+            Self::Symbol(index) => values.get(*index).copied().unwrap_or(f64::NAN),
+            Self::Negative(a) => -a.eval(values),
+            Self::Binary(operator, a, b) => {
+                let (a, b) = (a.eval(values), b.eval(values));
+                match operator {
+                    '+' => a + b,
+                    '-' => a - b,
+                    '*' => a * b,
+                    '/' => a / b,
+                    _ => libm::pow(a, b),
+                }
             }
+            Self::Call(function, a) => function.eval(a.eval(values)),
         }
+    }
+}
+
+impl Function {
+    /// Its value; not finite where it is not defined.
+    pub fn eval(self, a: f64) -> f64 {
+        match self {
+            Self::Sin => libm::sin(a),
+            Self::Cos => libm::cos(a),
+            Self::Tan => libm::tan(a),
+            Self::Asin => libm::asin(a),
+            Self::Acos => libm::acos(a),
+            Self::Atan => libm::atan(a),
+            Self::Sqrt => a.sqrt(),
+            Self::Exp => libm::exp(a),
+            Self::Log => libm::log(a),
+            Self::Abs => a.abs(),
+            Self::EllipticK => elliptic_k(a),
+        }
+    }
+
+    /// The function of a name in a formula.
+    fn named(name: &str) -> Result<Self, UnknownWord> {
+        if name == "ln" { Ok(Self::Log) } else { name.parse() }
     }
 }
 
@@ -280,7 +352,7 @@ impl Parser<'_> {
                     self.at += 1;
                     return Ok(Node::Symbol(index));
                 }
-                if let Some(function) = FUNCTIONS.iter().find(|f| **f == name) {
+                if let Ok(function) = Function::named(&name) {
                     self.at += 1;
                     if !self.take('(') {
                         return Err(self.error(&format!("write the argument of {name} in brackets")));
@@ -292,7 +364,7 @@ impl Parser<'_> {
                     return Ok(Node::Number(std::f64::consts::PI));
                 }
                 let known = if self.symbols.is_empty() { "none".to_owned() } else { self.symbols.join(", ") };
-                Err(ExpressionError::UnknownSymbol { name: shorten(&name), known })
+                Err(ExpressionError::UnknownSymbol { name, known })
             }
             _ => Err(self.error("a number, a symbol or a bracket is missing")),
         }

@@ -1,7 +1,7 @@
 //! Reads typed text from left to right, with the typographic characters of word processors made plain.
 
 /// The plain ASCII character that a typographic one stands for: minus and dash, times and dot, fraction slashes, spaces.
-pub(super) fn plain_sign(c: char) -> char {
+pub fn plain_sign(c: char) -> char {
     match c {
         '\u{2212}' | '\u{2013}' => '-',
         '·' | '⋅' | '×' | '∙' => '*',
@@ -12,53 +12,53 @@ pub(super) fn plain_sign(c: char) -> char {
 }
 
 /// Trimmed text with plain signs, character for character.
-pub(crate) fn normalise(text: &str) -> String {
+pub fn normalise(text: &str) -> String {
     text.trim().chars().map(plain_sign).collect()
 }
 
 /// Characters of a text and a place among them.
-pub(super) struct Cursor {
+pub struct Cursor {
     chars: Vec<char>,
     at: usize,
 }
 
 impl Cursor {
     /// A cursor at the first character.
-    pub(super) fn new(text: &str) -> Self {
+    pub fn new(text: &str) -> Self {
         Self { chars: text.chars().collect(), at: 0 }
     }
 
     /// Place of the next character, from 0.
-    pub(super) fn position(&self) -> usize {
+    pub fn position(&self) -> usize {
         self.at
     }
 
     /// The next character, left where it is.
-    pub(super) fn peek(&self) -> Option<char> {
+    pub fn peek(&self) -> Option<char> {
         self.peek_at(0)
     }
 
     /// The character `ahead` places after the next one.
-    pub(super) fn peek_at(&self, ahead: usize) -> Option<char> {
+    pub fn peek_at(&self, ahead: usize) -> Option<char> {
         self.chars.get(self.at + ahead).copied()
     }
 
     /// Takes the next character.
-    pub(super) fn next(&mut self) -> Option<char> {
+    pub fn next(&mut self) -> Option<char> {
         let c = self.peek()?;
         self.at += 1;
         Some(c)
     }
 
     /// Takes the next character if it is one of these.
-    pub(super) fn take(&mut self, wanted: &[char]) -> Option<char> {
+    pub fn take(&mut self, wanted: &[char]) -> Option<char> {
         let c = self.peek().filter(|c| wanted.contains(c))?;
         self.at += 1;
         Some(c)
     }
 
     /// Takes all characters up to the first one that does not fit, at most `most`.
-    pub(super) fn take_while(&mut self, most: usize, fits: impl Fn(char) -> bool) -> String {
+    pub fn take_while(&mut self, most: usize, fits: impl Fn(char) -> bool) -> String {
         let start = self.at;
         while self.at - start < most && self.peek().is_some_and(&fits) {
             self.at += 1;
@@ -68,7 +68,7 @@ impl Cursor {
 
     /// Takes a decimal number with a point and perhaps an exponent (`1.5`, `.5`, `2e-3`), unread and perhaps empty.
     /// An exponent is taken only if digits follow: `2e` is 2 times e.
-    pub(super) fn take_number(&mut self) -> String {
+    pub fn take_number(&mut self) -> String {
         let mut text = self.take_while(usize::MAX, |c| c.is_ascii_digit() || c == '.');
         let signed = usize::from(matches!(self.peek_at(1), Some('-' | '+')));
         let exponent = matches!(self.peek(), Some('e' | 'E'))
@@ -83,7 +83,7 @@ impl Cursor {
     }
 
     /// What has not been taken yet.
-    pub(super) fn rest(&self) -> String {
+    pub fn rest(&self) -> String {
         self.chars[self.at..].iter().collect()
     }
 }

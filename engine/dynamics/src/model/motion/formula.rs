@@ -1,0 +1,333 @@
+//! Formulas in t as functions of time, with their power series about any moment — eq. (11.9).
+
+use super::expansion::{MAX_TERMS, sine_cosine};
+use triad_scene::expression::{Expression, ExpressionError, Function, Node};
+
+/// Moments of a run at which a formula is tried before it starts.
+const TRIED: u32 = 1_000;
+/// Halvings that find the end of a formula's domain between two of them to the last digit.
+const HALVINGS: u32 = 60;
+/// Greatest whole exponent that is multiplied out: then the base may be zero.
+const MAX_WHOLE: f64 = 64.0;
+
+/// Coefficients of a power series.
+type Series = [f64; MAX_TERMS];
+
+/// A formula in t that has a power series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeFormula {
+    root: Node,
+}
+
+/// Why a text is no function of time that can be prescribed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TimeFormulaError {
+    /// It cannot be read.
+    #[error("{0}")]
+    Expression(#[from] ExpressionError),
+    /// It uses t in a function without derivatives of every order.
+    #[error(
+        "{function} of something that depends on t has no power series; a table or pieces with `smooth-step` do"
+    )]
+    NotSmooth {
+        /// The function.
+        function: Function,
+    },
+}
+
+impl TimeFormula {
+    /// Reads a formula in t.
+    ///
+    /// # Errors
+    ///
+    /// [`TimeFormulaError`]: what cannot be read, with its place, or a function of t that is not smooth.
+    pub fn parse(text: &str) -> Result<Self, TimeFormulaError> {
+        let root = folded(Expression::parse(text, &["t"])?.into_root());
+        match not_smooth(&root) {
+            Some(function) => Err(TimeFormulaError::NotSmooth { function }),
+            None => Ok(Self { root }),
+        }
+    }
+
+    /// Multiplies it by a constant.
+    pub fn scale(&mut self, factor: f64) {
+        let root = std::mem::replace(&mut self.root, Node::Number(factor));
+        self.root = Node::Binary('*', Box::new(Node::Number(factor)), Box::new(root));
+    }
+
+    /// Writes the coefficients of the series in τ about time t, at most [`MAX_TERMS`]. They are not finite where the formula
+    /// is not defined, or has no such series.
+    pub fn expand(&self, t: f64, out: &mut [f64]) {
+        let terms = out.len().min(MAX_TERMS);
+        let series = expand(&self.root, t, terms);
+        out[..terms].copy_from_slice(&series[..terms]);
+    }
+
+    /// The first time from 0 to `end`, s, at which value, rate or second derivative are not defined, as far as a thousand
+    /// moments tell: those, and zeros of what it divides by between them.
+    pub fn undefined_until(&self, end: f64) -> Option<f64> {
+        let mut divisors = Vec::new();
+        collect_divisors(&self.root, &mut divisors);
+        let defined = |t: f64| {
+            let series = expand(&self.root, t, 3);
+            series[..3].iter().all(|c| c.is_finite())
+        };
+        let signs = |t: f64| divisors.iter().map(|node| expand(node, t, 1)[0] > 0.0).collect::<Vec<_>>();
+        let mut before = (0.0, signs(0.0));
+        if !defined(0.0) {
+            return Some(0.0);
+        }
+        for k in 1..=TRIED {
+            let t = end * f64::from(k) / f64::from(TRIED);
+            let now = signs(t);
+            if !defined(t) || now != before.1 {
+                return Some(first_where(before.0, t, |t| !defined(t) || signs(t) != before.1));
+            }
+            before = (t, now);
+        }
+        None
+    }
+}
+
+/// The earliest time at which a statement that is false at `from` and true at `to` becomes true, by halving.
+fn first_where(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (from + to);
+        if holds(middle) {
+            to = middle;
+        } else {
+            from = middle;
+        }
+    }
+    to
+}
+
+/// The same formula with every part that does not depend on t as its number.
+fn folded(node: Node) -> Node {
+    if !node.uses(0) {
+        return Node::Number(node.eval(&[0.0]));
+    }
+    match node {
+        Node::Negative(a) => Node::Negative(Box::new(folded(*a))),
+        Node::Binary(operator, a, b) => Node::Binary(operator, Box::new(folded(*a)), Box::new(folded(*b))),
+        Node::Call(function, a) => Node::Call(function, Box::new(folded(*a))),
+        Node::Number(_) | Node::Symbol(_) => node,
+    }
+}
+
+/// A function without derivatives of every order, of something that depends on t.
+fn not_smooth(node: &Node) -> Option<Function> {
+    match node {
+        Node::Number(_) | Node::Symbol(_) => None,
+        Node::Call(function @ (Function::Abs | Function::EllipticK), _) => Some(*function),
+        Node::Negative(a) | Node::Call(_, a) => not_smooth(a),
+        Node::Binary(_, a, b) => not_smooth(a).or_else(|| not_smooth(b)),
+    }
+}
+
+/// What a formula divides by.
+fn collect_divisors(node: &Node, found: &mut Vec<Node>) {
+    match node {
+        Node::Number(_) | Node::Symbol(_) => {}
+        Node::Negative(a) => collect_divisors(a, found),
+        Node::Call(function, a) => {
+            if *function == Function::Tan {
+                found.push(Node::Call(Function::Cos, a.clone()));
+            }
+            collect_divisors(a, found);
+        }
+        Node::Binary(operator, a, b) => {
+            if *operator == '/' {
+                found.push((**b).clone());
+            }
+            collect_divisors(a, found);
+            collect_divisors(b, found);
+        }
+    }
+}
+
+/// The first `terms` coefficients of a formula about time t.
+fn expand(node: &Node, t: f64, terms: usize) -> Series {
+    let mut out = [0.0; MAX_TERMS];
+    match node {
+        Node::Number(x) => out[0] = *x,
+        Node::Symbol(_) => (out[0], out[1]) = (t, 1.0),
+        Node::Negative(a) => out = expand(a, t, terms).map(|c| -c),
+        Node::Binary('^', a, b) => out = power(a, b, t, terms),
+        Node::Binary(operator, a, b) => {
+            let (a, b) = (expand(a, t, terms), expand(b, t, terms));
+            match operator {
+                '+' => (0..terms).for_each(|n| out[n] = a[n] + b[n]),
+                '-' => (0..terms).for_each(|n| out[n] = a[n] - b[n]),
+                '*' => out = product(&a, &b, terms),
+                _ => out = quotient(&a, &b, terms),
+            }
+        }
+        Node::Call(function, a) => out = call(*function, &expand(a, t, terms), terms),
+    }
+    out
+}
+
+/// A function of a series.
+fn call(function: Function, u: &Series, terms: usize) -> Series {
+    let one_and_square = |sign: f64| {
+        let mut w = product(u, u, terms).map(|c| sign * c);
+        w[0] += 1.0;
+        w
+    };
+    match function {
+        Function::Sin | Function::Cos | Function::Tan => {
+            let (mut sin, mut cos) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
+            sine_cosine(&u[..terms], &mut sin, &mut cos);
+            match function {
+                Function::Sin => sin,
+                Function::Cos => cos,
+                _ => quotient(&sin, &cos, terms),
+            }
+        }
+        Function::Asin => {
+            integral_of_rate_over(u, &constant_power(&one_and_square(-1.0), 0.5, terms), function, terms)
+        }
+        Function::Acos => integral_of_rate_over(
+            u,
+            &constant_power(&one_and_square(-1.0), 0.5, terms).map(|c| -c),
+            function,
+            terms,
+        ),
+        Function::Atan => integral_of_rate_over(u, &one_and_square(1.0), function, terms),
+        Function::Log => integral_of_rate_over(u, u, function, terms),
+        Function::Sqrt => constant_power(u, 0.5, terms),
+        Function::Exp => {
+            let mut e = [0.0; MAX_TERMS];
+            e[0] = function.eval(u[0]);
+            for n in 1..terms {
+                e[n] = (1..=n).map(|j| j as f64 * u[j] * e[n - j]).sum::<f64>() / n as f64;
+            }
+            e
+        }
+        // Parsing refuses those of t; of a number they are numbers.
+        Function::Abs | Function::EllipticK => {
+            let mut value = [0.0; MAX_TERMS];
+            value[0] = function.eval(u[0]);
+            value
+        }
+    }
+}
+
+/// f with f' w = u': w fₙ n = n uₙ − Σ j fⱼ wₙ₋ⱼ; the value is that of the function.
+fn integral_of_rate_over(u: &Series, w: &Series, function: Function, terms: usize) -> Series {
+    let mut f = [0.0; MAX_TERMS];
+    f[0] = function.eval(u[0]);
+    for n in 1..terms {
+        let known: f64 = (1..n).map(|j| j as f64 * f[j] * w[n - j]).sum();
+        f[n] = (n as f64 * u[n] - known) / (n as f64 * w[0]);
+    }
+    f
+}
+
+fn product(a: &Series, b: &Series, terms: usize) -> Series {
+    let mut out = [0.0; MAX_TERMS];
+    for n in 0..terms {
+        out[n] = (0..=n).map(|j| a[j] * b[n - j]).sum();
+    }
+    out
+}
+
+fn quotient(a: &Series, b: &Series, terms: usize) -> Series {
+    let mut out = [0.0; MAX_TERMS];
+    for n in 0..terms {
+        let known: f64 = (1..=n).map(|j| b[j] * out[n - j]).sum();
+        out[n] = (a[n] - known) / b[0];
+    }
+    out
+}
+
+/// a to the power of b.
+fn power(a: &Node, b: &Node, t: f64, terms: usize) -> Series {
+    let base = expand(a, t, terms);
+    let Node::Number(exponent) = *b else {
+        let logarithm = call(Function::Log, &base, terms);
+        return call(Function::Exp, &product(&expand(b, t, terms), &logarithm, terms), terms);
+    };
+    if exponent.fract() != 0.0 || exponent.abs() > MAX_WHOLE {
+        return constant_power(&base, exponent, terms);
+    }
+    let mut out = [0.0; MAX_TERMS];
+    out[0] = 1.0;
+    let whole = out;
+    let mut left = exponent.abs();
+    while left > 0.0 {
+        out = product(&out, &base, terms);
+        left -= 1.0;
+    }
+    if exponent < 0.0 { quotient(&whole, &out, terms) } else { out }
+}
+
+/// pₙ = Σ (b j − (n − j)) aⱼ pₙ₋ⱼ / (n a₀): a to the power of a number.
+fn constant_power(a: &Series, exponent: f64, terms: usize) -> Series {
+    let mut p = [0.0; MAX_TERMS];
+    p[0] = if exponent == 0.5 { a[0].sqrt() } else { libm::pow(a[0], exponent) };
+    for n in 1..terms {
+        let sum: f64 = (1..=n).map(|j| (exponent * j as f64 - (n - j) as f64) * a[j] * p[n - j]).sum();
+        p[n] = sum / (n as f64 * a[0]);
+    }
+    p
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// The value at t + τ by the series about t, against the value itself.
+    #[test]
+    fn series_of_all_functions_sum_to_their_values() {
+        for text in [
+            "asin(0.1*sin(10*t))",
+            "acos(t/3) + atan(2 t)",
+            "tan(t/2)",
+            "exp(-t) * cos(3 t)",
+            "ln(2 + t)/t^2",
+            "sqrt(1 + t^2)",
+            "t^3 - 2 t^-1",
+            "(1 + t)^1.7",
+            "2^t",
+            "(1 + t)^t",
+            "ellipk(1/2) * t",
+            "-(t - 5)^2",
+        ] {
+            let formula = TimeFormula::parse(text).unwrap();
+            let (t, tau) = (0.8, 0.05);
+            let (mut series, mut there) = ([0.0; MAX_TERMS], [0.0; 1]);
+            formula.expand(t, &mut series);
+            formula.expand(t + tau, &mut there);
+            let sum = series.iter().rev().fold(0.0, |sum, c| sum * tau + c);
+            assert!((sum - there[0]).abs() < 1e-13 * (1.0 + sum.abs()), "{text}: {sum} and {}", there[0]);
+            assert_eq!(
+                formula.undefined_until(0.8).is_some(),
+                text.contains("t^-1") || text.contains("/t^2"),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn where_a_formula_ends_is_found() {
+        let until = |text: &str| TimeFormula::parse(text).unwrap().undefined_until(2.0).unwrap();
+        assert!((until("asin(2 sin(t))") - std::f64::consts::FRAC_PI_6).abs() < 1e-9);
+        assert!((until("sqrt(1.234567 - t)") - 1.234_567).abs() < 1e-9);
+        assert!((until("1/(t - 0.33333)") - 0.333_33).abs() < 1e-12);
+        assert!((until("tan(t)") - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        assert_eq!(until("ln(t)"), 0.0);
+    }
+
+    #[test]
+    fn what_is_not_smooth_is_refused() {
+        assert_eq!(
+            TimeFormula::parse("abs(sin(t))"),
+            Err(TimeFormulaError::NotSmooth { function: Function::Abs })
+        );
+        assert!(TimeFormula::parse("abs(-3) * t").is_ok());
+        assert!(TimeFormula::parse("3 x").unwrap_err().to_string().contains("known are t"));
+    }
+}

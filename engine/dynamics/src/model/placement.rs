@@ -1,0 +1,234 @@
+//! Starts that are given by joints: bodies are placed along the tree of joints, from the ground outwards.
+//!
+//! The positions that a scene states are where the joints have the angle 0. A joint with a start carries all bodies that
+//! hang on it. Joints that close loops are left open here: `constraints::start` closes them.
+
+use super::reader::ModelReader;
+use super::{BodyRef, JointGeometry, ModelBody, ModelError, ModelJoint};
+use crate::scene::{Joint, JointKind};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use std::collections::VecDeque;
+
+/// Greatest angle, displacement or rate of a joint at the start, SI units.
+const MAX_START: f64 = 1e6;
+
+/// What an author gives of a joint at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelStart {
+    /// The joint.
+    pub joint: usize,
+    /// Its angle, from the stated positions of the bodies, rad.
+    pub angle: Option<f64>,
+    /// The rate of its angle, rad/s.
+    pub rate: Option<f64>,
+    /// Its displacement, m.
+    pub slide: Option<f64>,
+    /// The rate of its displacement, m/s.
+    pub speed: Option<f64>,
+}
+
+impl ModelStart {
+    /// Checks the start of joint `reader.index`, if it has one.
+    pub(super) fn new(joint: &Joint, reader: &ModelReader) -> Result<Option<Self>, ModelError> {
+        let Some(start) = joint.start else { return Ok(None) };
+        let (turns, slides) = match joint.kind {
+            JointKind::Revolute | JointKind::Screw => (true, false),
+            JointKind::Prismatic => (false, true),
+            JointKind::Cylindrical => (true, true),
+            JointKind::Spherical
+            | JointKind::Universal
+            | JointKind::Planar
+            | JointKind::Fixed
+            | JointKind::Rod
+            | JointKind::PointOnLine
+            | JointKind::PointInPlane
+            | JointKind::Gear => {
+                let reason = "only revolute, prismatic, cylindrical and screw joints have a start; \
+                              place the bodies of others by their positions";
+                return Err(reader.wrong("start", reason));
+            }
+        };
+        let numbers = [
+            ("angle", start.angle, turns, "an angle"),
+            ("rate", start.rate, turns, "the rate of an angle"),
+            ("slide", start.slide, slides, "a displacement of its own"),
+            ("speed", start.speed, slides, "a displacement of its own"),
+        ];
+        for (key, number, known, what) in numbers {
+            let key = format!("start/{key}");
+            match number {
+                Some(_) if !known => {
+                    return Err(reader.wrong(&key, format!("a {} joint has not {what}", joint.kind)));
+                }
+                Some(number) => reader.number(&key, number, -MAX_START, MAX_START)?,
+                None => 0.0,
+            };
+        }
+        let (angle, rate, slide, speed) = (start.angle, start.rate, start.slide, start.speed);
+        Ok(Some(Self { joint: reader.index, angle, rate, slide, speed }))
+    }
+}
+
+/// How far a body was carried from where its author states it, and how it moves.
+#[derive(Clone, Copy)]
+struct Carried {
+    by: Isometry3<f64>,
+    /// Where its centre of mass is.
+    center: Vector3<f64>,
+    /// Velocity of the centre of mass, and angular velocity.
+    motion: [Vector3<f64>; 2],
+    /// Whether a joint gives them.
+    moved: bool,
+}
+
+/// Places the bodies as the starts say.
+pub(super) fn place(bodies: &mut [ModelBody], joints: &[ModelJoint], starts: &[ModelStart]) {
+    if starts.is_empty() {
+        return;
+    }
+    let tree = tree(bodies.len(), joints, starts);
+    let mut carried: Vec<Option<Carried>> = vec![None; bodies.len()];
+    let ground = Carried {
+        by: Isometry3::identity(),
+        center: Vector3::zeros(),
+        motion: [Vector3::zeros(); 2],
+        moved: false,
+    };
+    let mut queue: VecDeque<(BodyRef, Carried)> = VecDeque::from([(BodyRef::Ground, ground)]);
+    let mut next_root = 0;
+    loop {
+        while let Some((parent, at)) = queue.pop_front() {
+            for &index in &tree {
+                let [i, j] = joints[index].bodies;
+                let side = usize::from(j == parent);
+                let BodyRef::Moving(child) = (if side == 0 { j } else { i }) else { continue };
+                if (i != parent && j != parent) || carried[child].is_some() {
+                    continue;
+                }
+                let start = starts.iter().find(|start| start.joint == index);
+                let next = carry(bodies, &joints[index], start, (side, at), child);
+                carried[child] = Some(next);
+                queue.push_back((BodyRef::Moving(child), next));
+            }
+        }
+        // What does not hang on the ground stands where it is stated.
+        let Some(root) = (next_root..bodies.len()).find(|&body| carried[body].is_none()) else { break };
+        next_root = root + 1;
+        let at = follow(&bodies[root], ground, Isometry3::identity(), None);
+        carried[root] = Some(at);
+        queue.push_back((BodyRef::Moving(root), at));
+    }
+    for (body, carried) in bodies.iter_mut().zip(carried.into_iter().flatten()) {
+        put(body, &carried);
+    }
+}
+
+/// The joints along which bodies are placed: those with a start, then those that leave the least freedom, without loops.
+fn tree(bodies: usize, joints: &[ModelJoint], starts: &[ModelStart]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..joints.len()).filter(|&k| joints[k].coupled_joints().is_none()).collect();
+    order.sort_by_key(|&k| {
+        let given = starts.iter().any(|start| start.joint == k);
+        (!given, freedoms(&joints[k].geometry))
+    });
+    // Bodies that are already connected have the same label; the ground's is that behind all bodies.
+    let mut label: Vec<usize> = (0..=bodies).collect();
+    order.retain(|&k| {
+        let [a, b] = joints[k].bodies.map(|body| match body {
+            BodyRef::Ground => label[bodies],
+            BodyRef::Moving(body) => label[body],
+        });
+        for l in &mut label {
+            if *l == b {
+                *l = a;
+            }
+        }
+        a != b
+    });
+    order
+}
+
+/// Freedoms that a joint leaves between its two bodies.
+fn freedoms(geometry: &JointGeometry) -> usize {
+    match geometry {
+        JointGeometry::Fixed => 0,
+        JointGeometry::Revolute { .. } | JointGeometry::Prismatic | JointGeometry::Screw { .. } => 1,
+        JointGeometry::Universal | JointGeometry::Cylindrical => 2,
+        JointGeometry::Spherical | JointGeometry::Planar => 3,
+        JointGeometry::PointOnLine => 4,
+        JointGeometry::Rod { .. } | JointGeometry::PointInPlane | JointGeometry::Gear { .. } => 5,
+    }
+}
+
+/// The child of a joint whose body `side`, the parent, was carried.
+fn carry(
+    bodies: &[ModelBody],
+    joint: &ModelJoint,
+    start: Option<&ModelStart>,
+    (side, parent): (usize, Carried),
+    child: usize,
+) -> Carried {
+    let Some(start) = start else { return follow(&bodies[child], parent, parent.by, None) };
+    // Body j moves by +, body i by −.
+    let sign = if side == 0 { 1.0 } else { -1.0 };
+    let point =
+        |side: usize| at_start(bodies, joint.bodies[side]) * nalgebra::Point3::from(joint.points[side]);
+    let axis = parent.by * (at_start(bodies, joint.bodies[side]).rotation * joint.axes[side]);
+    let pivot = (parent.by * point(side)).coords;
+    let stated = (at_start(bodies, joint.bodies[0]).rotation * joint.axes[0]).dot(&(point(1) - point(0)));
+    let angle = start.angle.unwrap_or(0.0);
+    let (slide, speed) = match joint.geometry {
+        JointGeometry::Screw { pitch } => (angle * pitch - stated, start.rate.map(|rate| rate * pitch)),
+        _ => (start.slide.map_or(0.0, |slide| slide - stated), start.speed),
+    };
+    let turn = UnitQuaternion::from_scaled_axis(axis * (sign * angle));
+    let shift = Translation3::from(pivot - turn * pivot + axis * (sign * slide));
+    let by = Isometry3::from_parts(shift, turn) * parent.by;
+    let given = start.rate.is_some() || start.speed.is_some();
+    let relative = given.then(|| {
+        let spin = axis * (sign * start.rate.unwrap_or(0.0));
+        let arm = (by * nalgebra::Point3::from(bodies[child].position)).coords - pivot;
+        [axis * (sign * speed.unwrap_or(0.0)) + spin.cross(&arm), spin]
+    });
+    follow(&bodies[child], parent, by, relative)
+}
+
+/// A body that was carried by `by`, with its motion relative to its parent.
+fn follow(
+    body: &ModelBody,
+    parent: Carried,
+    by: Isometry3<f64>,
+    relative: Option<[Vector3<f64>; 2]>,
+) -> Carried {
+    let center = (by * nalgebra::Point3::from(body.position)).coords;
+    let moved = parent.moved || relative.is_some();
+    let motion = if moved {
+        let [velocity, spin] = parent.motion;
+        let [more, turning] = relative.unwrap_or_default();
+        [velocity + spin.cross(&(center - parent.center)) + more, spin + turning]
+    } else {
+        // The author's reference point keeps the velocity that is stated for it.
+        let arm = body.directors * body.principal_axes.tr_mul(&body.center_of_mass);
+        let reference = body.velocity - body.angular_velocity.cross(&arm);
+        [reference + body.angular_velocity.cross(&(by.rotation * arm)), body.angular_velocity]
+    };
+    Carried { by, center, motion, moved }
+}
+
+/// The principal frame of a body where its author states it.
+fn at_start(bodies: &[ModelBody], body: BodyRef) -> Isometry3<f64> {
+    match body {
+        BodyRef::Ground => Isometry3::identity(),
+        BodyRef::Moving(index) => {
+            let body = &bodies[index];
+            let rotation = nalgebra::Rotation3::from_matrix_unchecked(body.directors);
+            Isometry3::from_parts(body.position.into(), UnitQuaternion::from_rotation_matrix(&rotation))
+        }
+    }
+}
+
+/// Writes the place and the motion of a body.
+fn put(body: &mut ModelBody, at: &Carried) {
+    body.directors = at.by.rotation.to_rotation_matrix().matrix() * body.directors;
+    body.position = at.center;
+    [body.velocity, body.angular_velocity] = at.motion;
+}
