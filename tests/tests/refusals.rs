@@ -146,6 +146,12 @@ fn scenes_that_cannot_be() {
     all_reviewed("refusals-model", [met.text()]);
 }
 
+/// A scene of `tests/data/problems`.
+fn problem(name: &str) -> Value {
+    let path = triad_tests::root().join(format!("tests/data/problems/{name}.json"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
 /// A slider-crank whose block is pushed farther than rod and crank reach.
 fn pushed(integrator: &str, stabilization: Value) -> Scene {
     let mut scene: Value =
@@ -280,7 +286,8 @@ fn runs_that_cannot_go_on() {
 #[test]
 fn analyses_without_a_result() {
     let mut met = Refusals::new(variants!(
-        AnalysisError: Engine, TooLarge, NoEquilibrium, Massless, Free, Unreachable, Pinned
+        AnalysisError: Engine, TooLarge, NoEquilibrium, Massless, Free, Spins, SingularStart, Unreachable, BranchLost,
+        TooManyPositions, Pinned
     ));
     let mut meet =
         |tried: &str, error: &AnalysisError| met.meet(tried, error, error.code(), None, &error.hint());
@@ -298,6 +305,28 @@ fn analyses_without_a_result() {
         "kinematics without drivers",
         &kinematics(&builtin("n-four-bar:1"), Convention::default()).unwrap_err(),
     );
+    let mut link = problem("rssr/ss");
+    link["bodies"][2]["center_of_mass"] = json!([0, 0.01, 0]);
+    meet(
+        "kinematics of a link that something turns about itself",
+        &kinematics(&scene(&link), Convention::default()).unwrap_err(),
+    );
+    let mut flat = problem("four-bars/parallelogram");
+    for (body, x) in [(0, 0.0), (1, 1.0), (2, 4.0)] {
+        flat["bodies"][body]["position"] = json!([x, 0, 0]);
+        flat["bodies"][body]["orientation"] = json!({"axis": [0, 0, 1], "angle": 0});
+    }
+    for (joint, x) in [(0, 0.0), (1, 1.0), (2, 5.0), (3, 4.0)] {
+        flat["joints"][joint]["point"] = json!([x, 0, 0]);
+    }
+    meet(
+        "kinematics from where branches meet",
+        &kinematics(&scene(&flat), Convention::default()).unwrap_err(),
+    );
+    meet("kinematics between branches", &AnalysisError::BranchLost { time: 0.3, moved: 0.02 });
+    let mut often = builtin("spatial-slider-crank");
+    (often.simulation.every, often.simulation.duration) = (1e-5, 2.0);
+    meet("kinematics of 200000 positions", &kinematics(&often, Convention::default()).unwrap_err());
     meet(
         "kinematics past the reach",
         &kinematics(&pushed("auto", json!({"kind": "projection"})), Convention::default()).unwrap_err(),

@@ -20,7 +20,7 @@ pub use modes::{Mode, ModeShape, Modes, ModesAbout, modes};
 pub use stage::Stage;
 
 use crate::error::EngineError;
-use triad_dynamics::constraints::ConstraintError;
+use triad_dynamics::constraints::{ConstraintError, quoted};
 
 /// Greatest number of bodies in analyses with dense matrices, whose work grows with its cube.
 pub const MAX_BODIES: usize = 150;
@@ -59,22 +59,73 @@ pub enum AnalysisError {
         body: String,
     },
     /// Kinematic analysis of a scene that is free to move.
-    #[error("the drivers leave freedoms of motion ({freedoms}): it is not a matter of geometry alone")]
+    #[error(
+        "the drivers leave freedoms of motion ({freedoms}{}): it is not a matter of geometry alone",
+        body.as_ref().map_or_else(String::new, |body| format!("; \"{body}\" moves most in one"))
+    )]
     Free {
         /// Degrees of freedom that are left.
         freedoms: usize,
+        /// The body that moves most in one of them, where that is known.
+        body: Option<String>,
     },
-    /// The drivers ask for what the joints do not allow.
+    /// A body that the drivers leave free to spin about itself, and that something turns.
     #[error(
-        "at t = {time:.6} s the drivers and joints contradict each other: \"{origin}\" stays open by {violation:.3e}"
+        "body \"{body}\" is free to spin about its axis through {}, and at t = {time:.6} s a moment of {moment:.3e} N m turns it \
+         there: how it spins is not a matter of geometry alone",
+        quoted(joints)
     )]
-    Unreachable {
+    Spins {
+        /// The body.
+        body: String,
+        /// The joints that it spins in.
+        joints: Vec<String>,
         /// Time, s.
         time: f64,
-        /// The joint or driver that is violated most.
-        origin: String,
-        /// By how much.
-        violation: f64,
+        /// The moment about the axis, N m.
+        moment: f64,
+    },
+    /// Drivers that start in a position where branches of the motion meet.
+    #[error(
+        "the start is a singular position of the driven mechanism, where the rows of {} depend on others: several branches of \
+         the motion begin there, and the drivers do not say which is meant",
+        quoted(joints)
+    )]
+    SingularStart {
+        /// The joints and drivers whose rows depend on others there, and not a little later.
+        joints: Vec<String>,
+    },
+    /// The drivers come to a dead point: beyond it they ask for what the joints do not allow.
+    #[error(
+        "at t = {time:.9} s driver {} comes to a dead point: the bodies would have to move infinitely fast there, and no position \
+         beyond it closes {}",
+        quoted(drivers),
+        quoted(joints)
+    )]
+    Unreachable {
+        /// When it gets there, s.
+        time: f64,
+        /// The drivers that push into it.
+        drivers: Vec<String>,
+        /// The joints that hold against them.
+        joints: Vec<String>,
+    },
+    /// The motion that was followed and the position that meets the drivers are not the same.
+    #[error(
+        "at t = {time:.6} s the nearest position that meets the drivers is {moved:.3e} away from the one that the motion leads \
+         to: it may be another branch"
+    )]
+    BranchLost {
+        /// Time, s.
+        time: f64,
+        /// The distance, m or, of directors, without a unit.
+        moved: f64,
+    },
+    /// More outputs than one analysis gives.
+    #[error("{positions:.0} positions are more than one analysis gives")]
+    TooManyPositions {
+        /// Positions asked for.
+        positions: f64,
     },
     /// A body to be kept in place that is not there, or had to move.
     #[error("body \"{body}\" cannot be kept in place: {reason}")]
@@ -101,7 +152,11 @@ impl AnalysisError {
             Self::NoEquilibrium { .. } => "no-equilibrium",
             Self::Massless { .. } => "massless-motion",
             Self::Free { .. } => "not-driven",
+            Self::Spins { .. } => "free-to-spin",
+            Self::SingularStart { .. } => "singular-start",
             Self::Unreachable { .. } => "unreachable",
+            Self::BranchLost { .. } => "branch-lost",
+            Self::TooManyPositions { .. } => "too-many-positions",
             Self::Pinned { .. } => "cannot-pin",
         }
     }
@@ -117,9 +172,18 @@ impl AnalysisError {
             }
             Self::Massless { .. } => "Give the body a small moment of inertia about that axis.",
             Self::Free { .. } => "Add a driver for each degree of freedom, or run the scene forward in time.",
-            Self::Unreachable { .. } => {
-                "Look at the driver's motion at that time: it may ask for more than the links can reach."
+            Self::Spins { .. } => {
+                "Put a universal joint in place of a spherical one at one end, leave the body out by a joint of the kind \"rod\", \
+                 or run the scene forward in time."
             }
+            Self::SingularStart { .. } => {
+                "Start a little before or after that position, on the branch that is meant: it is passed on its smooth branch."
+            }
+            Self::Unreachable { .. } => {
+                "Let the driver turn back before that time, change lengths, drive another joint, or end the analysis before."
+            }
+            Self::BranchLost { .. } => "Look whether the mechanism is next to a singular position there, and change a length.",
+            Self::TooManyPositions { .. } => "Raise \"every\", the interval of outputs, or shorten the duration.",
             Self::Pinned { .. } => "Check the name, and keep fewer bodies in place.",
         }
         .to_owned()

@@ -145,6 +145,18 @@ impl Simulation {
         self.step_limit = steps;
     }
 
+    /// Start and end of the last step, s.
+    pub(crate) fn last_step(&self) -> [f64; 2] {
+        let last = self.integrator.last();
+        [last.t - last.h, last.t]
+    }
+
+    /// Writes the state y = (q, q̇) at a time within the last step; the current state stays as it is. At its end the state is
+    /// that after the projection onto the constraints, before it that of the step's polynomial.
+    pub(crate) fn look_into_step(&mut self, t: f64, y: &mut [f64]) {
+        self.integrator.interpolate(&mut self.mechanism, t, y);
+    }
+
     /// From now on finds outputs by interpolation within steps that are not shortened for them, whatever the settings say.
     pub(crate) fn interpolate_outputs(&mut self) {
         self.mechanism.system.model.settings.skip.outputs = true;

@@ -993,12 +993,27 @@ export interface components {
         /** @description A driven motion. */
         Kinematics: {
             /**
+             * Format: double
+             * @description The largest number by which Newton-Raphson has moved an output from where the series lead, m or, of directors, without
+             *     a unit: their error. Another branch would be far beyond it.
+             */
+            correction: number;
+            /**
              * Format: uint
-             * @description Newton-Raphson steps in all.
+             * @description Newton-Raphson steps at the outputs in all.
              */
             iterations: number;
+            /** @description What was corrected at the start, or has to be known of the result. */
+            notes: string[];
+            /** @description Singular positions passed, where other branches begin: the smooth one was taken. */
+            passages: components["schemas"]["SingularConfiguration"][];
             /** @description The positions, in the order of time. */
             states: components["schemas"]["KinematicState"][];
+            /**
+             * Format: uint64
+             * @description Steps of the power series from the start to the end.
+             */
+            steps: number;
         };
         /** @description What followers are sent in text. */
         LectureMessage: components["schemas"]["LectureState"] | components["schemas"]["SessionState"] | {
@@ -2399,6 +2414,16 @@ export interface components {
         };
         /** @description Which of the two bodies of a joint. */
         Side: "i" | "j";
+        /** @description A singular configuration that a run passed. */
+        SingularConfiguration: {
+            /** @description Joints whose rows become dependent there. */
+            joints: string[];
+            /**
+             * Format: double
+             * @description When, s.
+             */
+            time: number;
+        };
         /**
          * @description What is left out because nothing depends on it. Every word is true unless it is switched off; then the run takes
          *     longer and gives the same motion. `triad run --explain` tells what each word saved.

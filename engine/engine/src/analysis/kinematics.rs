@@ -1,24 +1,34 @@
 //! Kinematic analysis of driven mechanisms, and the forces that drive them.
 //!
-//! With a driver for each degree of freedom, positions follow from Φ(q, t) = 0 by Newton-Raphson, velocities from
-//! Φ_q q̇ = ν and accelerations from Φ_q q̈ = γ; rows that repeat others are met in the sense of least squares. The
-//! multipliers of the equations of motion are then those of inverse dynamics: what joints and drivers have to exert.
+//! With a driver for each degree of freedom, positions, velocities and accelerations follow from Φ(q, t) = 0 and its
+//! derivatives. Positions alone do not say which branch of the mechanism is meant: the motion is therefore followed from its
+//! start by power series, in steps of its own between the outputs, and Newton-Raphson only puts the last digits right. Rows
+//! that repeat others are met in the sense of least squares. The multipliers of the equations of motion are then those of
+//! inverse dynamics: what joints and drivers have to exert.
+
+mod inverse;
+
+mod idle;
+
+mod dead_point;
+
+mod path;
 
 use super::{AnalysisError, Stage};
+use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport, report};
+use crate::run::SingularConfiguration;
 use crate::scene::Scene;
+use idle::Idle;
+use inverse::Masses;
 use nalgebra::Vector3;
+use path::Path;
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
-use triad_dynamics::newton::{project_positions, project_velocities, rules};
 use triad_dynamics::state::BodyFrame;
-use triad_dynamics::system::index::ConstraintId;
 
-/// Violation, relative to the mechanism's length, above which a position counts as not reached.
-const MAX_VIOLATION: f64 = 1e-9;
 /// Greatest number of positions of one analysis.
-const MAX_POSITIONS: usize = 100_000;
+const MAX_POSITIONS: f64 = 100_000.0;
 
 /// A driven mechanism at one moment.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -40,11 +50,21 @@ pub struct KinematicState {
 pub struct Kinematics {
     /// The positions, in the order of time.
     pub states: Vec<KinematicState>,
-    /// Newton-Raphson steps in all.
+    /// Newton-Raphson steps at the outputs in all.
     pub iterations: usize,
+    /// Steps of the power series from the start to the end.
+    pub steps: u64,
+    /// The largest number by which Newton-Raphson has moved an output from where the series lead, m or, of directors, without
+    /// a unit: their error. Another branch would be far beyond it.
+    pub correction: f64,
+    /// Singular positions passed, where other branches begin: the smooth one was taken.
+    #[serde(rename = "passages")]
+    pub singularities: Vec<SingularConfiguration>,
+    /// What was corrected at the start, or has to be known of the result.
+    pub notes: Vec<String>,
 }
 
-/// Follows the drivers of a scene over its duration, at the interval of its settings.
+/// Follows the drivers of a scene over its duration, with a state at each interval of its settings.
 ///
 /// # Errors
 ///
@@ -62,84 +82,97 @@ pub struct Kinematics {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, AnalysisError> {
-    let mut stage = Stage::new(scene)?;
-    let freedoms = stage.tangent().ncols();
-    if freedoms > 0 {
-        return Err(AnalysisError::Free { freedoms });
-    }
     let settings = &scene.simulation;
+    let mut path = Path::new(scene)?;
+    let positions = settings.duration / settings.every;
+    if positions > MAX_POSITIONS {
+        return Err(AnalysisError::TooManyPositions { positions });
+    }
+    let idle = idle_bodies(scene, &mut path)?;
+    let mut masses = Masses::new(scene)?;
+    let mut notes = path.notes().to_vec();
     let mut states = Vec::new();
-    let mut iterations = 0;
-    let mut last = 0.0;
-    let mut acceleration = vec![0.0; stage.q.len()];
-    while states.len() < MAX_POSITIONS {
+    loop {
         let time = (states.len() as f64 * settings.every).min(settings.duration);
-        // The next position is near the one that the last accelerations lead to.
-        let h = time - last;
-        for ((q, v), a) in stage.q.iter_mut().zip(&stage.q_dot).zip(&acceleration) {
-            *q += h * (v + 0.5 * h * a);
+        path.go_to(time)?;
+        masses.take(&path.stage, &path.accelerations);
+        for idle in &idle {
+            idle.check(&path.stage, &masses)?;
+            if states.is_empty() {
+                notes.push(idle.note(&path.stage));
+            }
         }
-        stage.time = time;
-        iterations += positions(&mut stage)?;
-        velocities(&mut stage);
-        let found = stage.accelerate();
-        found.write(&mut acceleration);
-        let reactions = report(&found.multipliers, convention);
-        let (linear, angular) = accelerations(&found);
-        states.push(KinematicState {
-            time,
-            bodies: stage.frames(),
-            accelerations: linear,
-            angular_accelerations: angular,
-            reactions: reactions.map_err(crate::EngineError::from)?,
-        });
+        if path.singular {
+            notes.push(format!(
+                "t = {time:.6} s is next to a singular position: forces grow beyond all bounds there, unless what acts on the \
+                 bodies happens to be in balance, and those shown are not unique"
+            ));
+        }
+        states.push(state(&mut path, &masses, convention)?);
         if time >= settings.duration {
             break;
         }
-        last = time;
     }
-    Ok(Kinematics { states, iterations })
+    let singularities = path.singularities();
+    if !singularities.is_empty() {
+        notes.push(
+            "singular positions were passed, where other branches begin; the smooth one was followed. Where lengths differ by \
+             less than a millionth from those that make the position singular, either may be right"
+                .to_owned(),
+        );
+    }
+    Ok(Kinematics {
+        states,
+        iterations: path.iterations,
+        steps: path.steps(),
+        correction: path.correction,
+        singularities,
+        notes,
+    })
 }
 
-/// Newton-Raphson to Φ(q, t) = 0. Returns the number of steps.
-fn positions(stage: &mut Stage) -> Result<usize, AnalysisError> {
-    let (time, length) = (stage.time, stage.mechanism.system.length);
-    let mut on = stage.projectable();
-    on.state.set_time(on.system, time);
-    on.state.set_positions(on.system, on.q);
-    let steps = project_positions(&mut on, &rules::KINEMATICS_POSITIONS, length).corrections;
-    let ProjectableState { system, state, .. } = on;
-    let open = state.position_violation(system);
-    // A comparison that is false for NaN as well.
-    let closed = open <= MAX_VIOLATION * system.length.max(1.0);
-    if !closed {
-        let open = triad_dynamics::constraints::violation::measure(system, state);
-        let (id, violation) = open.constraints.first().copied().unwrap_or((ConstraintId(0), open.relative));
-        let origin = system.constraints.get(id.index()).map_or_else(String::new, |worst| worst.name.clone());
-        return Err(AnalysisError::Unreachable { time, origin, violation });
+/// The state that a path is held at.
+fn state(path: &mut Path, masses: &Masses, convention: Convention) -> Result<KinematicState, AnalysisError> {
+    let Path { stage, accelerations, singular, .. } = path;
+    let mut reactions = report(&masses.multipliers(stage), convention).map_err(EngineError::from)?;
+    if *singular {
+        let numbers = reactions.reactions.iter_mut().flat_map(|r| r.force.iter_mut().chain(&mut r.moment));
+        numbers.for_each(|number| number.unique = false);
     }
-    state.commit_revolutions();
-    Ok(steps)
+    let bodies = stage.mechanism.state.bodies();
+    // α = ½ Σ e_k × ë_k, as Σ ė_k × ė_k = 0 — eq. (6.4).
+    let angular = bodies.iter().zip(&*accelerations).map(|(at, second)| {
+        ((0..3).map(|k| at.q.e[k].cross(&second.e[k])).sum::<Vector3<f64>>() * 0.5).into()
+    });
+    Ok(KinematicState {
+        time: stage.time,
+        bodies: stage.frames(),
+        accelerations: accelerations.iter().map(|second| second.r.into()).collect(),
+        angular_accelerations: angular.collect(),
+        reactions,
+    })
 }
 
-/// Φ_q q̇ = ν at the positions that were found.
-fn velocities(stage: &mut Stage) {
-    let length = stage.mechanism.system.length;
-    let mut on = stage.projectable();
-    on.state.set_velocities(on.system, on.q_dot);
-    project_velocities(&mut on, &rules::KINEMATICS_VELOCITIES, length);
+/// The bodies whose spin about themselves is all that the drivers leave free.
+fn idle_bodies(scene: &Scene, path: &mut Path) -> Result<Vec<Idle>, AnalysisError> {
+    let freedoms = path.freedoms();
+    if freedoms == 0 {
+        return Ok(Vec::new());
+    }
+    if let Some(idle) = Idle::of_all(&mut path.stage, freedoms) {
+        return Ok(idle);
+    }
+    let joints = path.dependent_at_start();
+    if !joints.is_empty() {
+        return Err(AnalysisError::SingularStart { joints });
+    }
+    Err(AnalysisError::Free { freedoms, body: freest(scene) })
 }
 
-/// Accelerations of the centres of mass and angular accelerations.
-fn accelerations(found: &Accelerations) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
-    let (mut linear, mut angular) = (Vec::new(), Vec::new());
-    for (index, state) in found.multipliers.state.bodies().iter().enumerate() {
-        let second = found.of_body(index);
-        // α = ½ Σ e_k × ë_k, as Σ ė_k × ė_k = 0 — eq. (6.4).
-        let alpha: Vector3<f64> =
-            (0..3).map(|k| state.q.e[k].cross(&second.e[k])).sum::<Vector3<f64>>() * 0.5;
-        linear.push(second.r.into());
-        angular.push(alpha.into());
-    }
-    (linear, angular)
+/// The body that moves most in what the drivers leave free, where the scene is small enough to tell.
+fn freest(scene: &Scene) -> Option<String> {
+    let mut stage = Stage::new(scene).ok()?;
+    let free = stage.tangent();
+    let first = free.column_iter().next()?.into_owned();
+    Some(stage.foremost(&first))
 }

@@ -39,6 +39,15 @@ impl Stage {
         if model.bodies.len() > MAX_BODIES {
             return Err(AnalysisError::TooLarge { bodies: model.bodies.len() });
         }
+        Self::from_model(model)
+    }
+
+    /// Assembles a model of any size, for what needs no dense matrices.
+    ///
+    /// # Errors
+    ///
+    /// [`AnalysisError`]: a scene that cannot be assembled.
+    pub(super) fn from_model(model: Model) -> Result<Self, AnalysisError> {
         let (mut mechanism, mut start) = start::mechanism(model);
         let mut notes = mechanism.system.model.notes.clone();
         notes.extend(mechanism.assemble(&mut start)?);

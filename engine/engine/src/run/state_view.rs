@@ -125,6 +125,11 @@ impl<'a> StateView<'a> {
         self.run.system()
     }
 
+    /// What is known at this state without solving.
+    pub(crate) fn known(&self) -> &State {
+        &self.cached.state
+    }
+
     /// Rank of the joint rows near the start — THEORY section 8.
     pub fn rank(&self) -> &'a Rank {
         self.run.rank()

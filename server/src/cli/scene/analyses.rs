@@ -236,11 +236,22 @@ pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> 
         return Ok(Outcome::Done);
     }
     print_line(&format!(
-        "{}: {} positions, {} Newton-Raphson steps",
+        "{}: {} positions, {} steps between them; Newton-Raphson moved none by more than {:.1e}",
         scene.name,
         found.states.len(),
-        found.iterations
+        found.steps,
+        found.correction
     ));
+    for passed in &found.singularities {
+        print_line(&format!(
+            "  passes a singular position of {} at t = {:.6} s",
+            passed.joints.join(", "),
+            passed.time
+        ));
+    }
+    for note in &found.notes {
+        print_line(&format!("  note: {note}"));
+    }
     for state in &found.states {
         print_line(&format!("t = {:.6} s", state.time));
         print_bodies(&scene, &state.bodies);

@@ -15,7 +15,9 @@ export interface AssemblyResult {
 
 export interface KinematicsResult {
   states: { time: number; bodies: Placed[]; reactions: { reactions: Reaction[] } }[];
-  iterations: number;
+  steps: number;
+  passages: { time: number; joints: string[] }[];
+  notes: string[];
 }
 
 export interface EquilibriumResult {
@@ -120,7 +122,11 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
       })),
   );
   return [
-    h("p", null, `${plural(states.length, "position")}, ${plural(found.iterations, "Newton step")}.`),
+    h("p", null, `${plural(states.length, "position")}, ${plural(found.steps, "step")} between them.`),
+    ...found.passages.map((passed) =>
+      h("p", null, `Passes a singular position of ${passed.joints.join(", ")} at ${seconds(passed.time)}.`),
+    ),
+    ...found.notes.map((note) => h("p", null, note)),
     table.root,
   ];
 }

@@ -1,6 +1,7 @@
 //! The singular configurations that were found.
 
 use crate::system::System;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -12,7 +13,7 @@ const MAX_CONFIGURATIONS: usize = 1000;
 const SAME_TIME: f64 = 1e-6;
 
 /// A singular configuration that a run passed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SingularConfiguration {
     /// When, s.
     pub time: f64,
