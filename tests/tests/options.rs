@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use triad_engine::catalogue;
-use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, Scene};
+use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, OutputKind, Scene};
 use triad_tests::options::{commands, faults, options};
 use triad_tests::root;
 
@@ -79,6 +79,8 @@ fn calls(scene: &Scene, folder: &Path, index: usize) -> Vec<Vec<String>> {
     }
     add("run", &["--step", "1e-3", "--no-skip", "all", "--most-seconds", "10"]);
     add("run", &["--every", "0.004", "--out", &table, "--rrd", &recording]);
+    let words: Vec<String> = OutputKind::ALL.map(|kind| kind.to_string()).to_vec();
+    add("run", &["--outputs", &words.join(","), "--out", &file("all.csv")]);
     calls
 }
 
@@ -166,8 +168,38 @@ fn every_option_of_the_help_has_a_case() {
 fn others(folder: &Path) -> Vec<Vec<String>> {
     let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let data = |name: &str| root().join("tests/data").join(name).to_string_lossy().into_owned();
-    let lines: [&[&str]; 8] = [
+    let lines: [&[&str]; 11] = [
         &["run", "simple-pendulum", "--until", UNTIL, "--rerun", "rerun+http://127.0.0.1:1/proxy"],
+        &[
+            "sweep",
+            "simple-pendulum",
+            "--vary",
+            "/bodies/0/mass=1:2:3",
+            "--vary",
+            "/gravity/1=normal:-9:0.1",
+            "--samples",
+            "2",
+            "--seed",
+            "3",
+            "--threads",
+            "2",
+            "--until",
+            UNTIL,
+            "--tolerance",
+            "1e-6",
+            "--integrator",
+            "taylor",
+            "--outputs",
+            "joints,energy",
+            "--out",
+            &file("sweep.csv"),
+            "--svg",
+            &file("sweep.svg"),
+            "--draw",
+            "energy",
+        ],
+        &["sweep", "simple-pendulum", "--vary", "mass=1:2"],
+        &["sweep", "simple-pendulum", "--vary", "/bodies/7/mass=1:2:2"],
         &["scenes", "free-fall"],
         &["scenes", "--list"],
         &["scenes", "free-fell"],

@@ -15,6 +15,7 @@ mod joint;
 mod joint_keys;
 mod load;
 mod marker;
+mod output;
 mod parameter;
 mod placement;
 mod reader;
@@ -27,6 +28,7 @@ pub use event::{EventQuantity, ModelEvent};
 pub use joint::{JointGeometry, ModelJoint, director_along};
 pub use load::{ForceLaw, LoadKind, ModelLoad};
 pub use marker::ModelMarker;
+pub use output::wants_joint;
 pub use placement::ModelStart;
 
 use crate::scene::{ConstraintMethod, Scene, Settings};
@@ -128,6 +130,7 @@ impl Model {
             events.push(ModelEvent::new(written, &reader("events", index, &written.name), &markers)?);
         }
         parameter::check(scene)?;
+        output::check(scene)?;
         Ok(Self {
             name: scene.name.clone(),
             gravity: Vector3::from(scene.gravity),

@@ -29,7 +29,7 @@ pub mod islands;
 pub mod planar;
 
 use crate::model::motion::VectorCurve;
-use crate::model::{BodyRef, Model, ModelBody};
+use crate::model::{BodyRef, Model, ModelBody, wants_joint};
 use crate::system::angle::Angle;
 use crate::system::body::RigidBody;
 use crate::system::event::EventFunction;
@@ -168,6 +168,11 @@ impl System {
             model.loads.iter().map(|l| SystemLoad::new(&model, l, &mut builder)).collect();
         let event_functions =
             model.events.iter().map(|event| EventFunction::new(&model, event, &mut builder)).collect();
+        for joint in model.joints.iter().filter(|joint| wants_joint(&model.settings.outputs, &joint.name)) {
+            if joint.has_angle() {
+                builder.angle(joint);
+            }
+        }
         let place = builder.sort_features();
         for load in &mut loads {
             load.rename(&place);

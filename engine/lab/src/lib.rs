@@ -7,3 +7,5 @@ pub mod stress;
 pub mod paper;
 
 pub mod bench;
+
+pub mod sweep;

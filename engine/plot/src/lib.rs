@@ -10,8 +10,10 @@ pub const DASHES: [&str; 3] = ["none", "7 3", "2 3"];
 /// What an axis spans, and the labels of its lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Decimal exponents at its ends.
+    /// Decimal exponents at its ends; of a linear axis the values there.
     pub decades: (f64, f64),
+    /// Whether equal distances are equal differences, not equal ratios.
+    pub linear: bool,
     /// Whether large values stand at its beginning (left or bottom).
     pub reversed: bool,
     /// Values with a line across the plot, each with its label.
@@ -45,7 +47,42 @@ impl Axis {
             ticks.push((libm::pow(10f64, exponent), label(exponent)));
             exponent += step;
         }
-        Self { decades, reversed: false, ticks }
+        Self { decades, linear: false, reversed: false, ticks }
+    }
+
+    /// A linear axis that holds all finite values, with lines at round numbers.
+    ///
+    /// ```
+    /// use triad_plot::Axis;
+    ///
+    /// let axis = Axis::linear([0.0, 9.0, 3.0].into_iter());
+    /// assert_eq!(axis.decades, (0.0, 10.0));
+    /// assert_eq!(axis.ticks[1], (2.0, "2".to_owned()));
+    /// ```
+    pub fn linear(values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = values
+            .filter(|x| x.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let (low, high) = match high - low {
+            span if span > 0.0 => (low, high),
+            _ if low.is_finite() => (low - 0.5, low + 0.5),
+            _ => (0.0, 1.0),
+        };
+        // Five to ten lines at 1, 2 or 5 times a power of ten.
+        let rough = (high - low) / 5.0;
+        let power = libm::pow(10.0, libm::floor(libm::log10(rough)));
+        let step =
+            [5.0, 2.0, 1.0].map(|k| k * power).into_iter().find(|step| *step <= rough).unwrap_or(power);
+        let (first, last) = ((low / step).floor(), (high / step).ceil());
+        let mut ticks = Vec::new();
+        let mut at = first;
+        while at <= last {
+            // Rounded: a multiple of 0.1 is not to be read as 0.30000000000000004.
+            let value = libm::round(at * step / power * 10.0) / 10.0 * power;
+            ticks.push((value, format!("{}", libm::round(value * 1e12) / 1e12)));
+            at += 1.0;
+        }
+        Self { decades: (first * step, last * step), linear: true, reversed: false, ticks }
     }
 
     /// The same axis with large values at its beginning.
@@ -55,9 +92,10 @@ impl Axis {
         self
     }
 
-    /// Where a positive value stands: 0 at the beginning, 1 at the end.
+    /// Where a value stands, a positive one on an axis of decades: 0 at the beginning, 1 at the end.
     fn part(&self, value: f64) -> f64 {
-        let part = (libm::log10(value) - self.decades.0) / (self.decades.1 - self.decades.0);
+        let at = if self.linear { value } else { libm::log10(value) };
+        let part = (at - self.decades.0) / (self.decades.1 - self.decades.0);
         if self.reversed { 1.0 - part } else { part }
     }
 }
@@ -78,7 +116,7 @@ pub struct PlotFrame {
 }
 
 impl PlotFrame {
-    /// Where a point of two positive values stands.
+    /// Where a point of two values stands.
     pub fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let [left, right, top, bottom] = self.margins;
         (
@@ -91,7 +129,8 @@ impl PlotFrame {
     pub fn axes(&self, out: &mut String) {
         let [left, right, top, bottom] = self.margins;
         let (end, foot, grid) = (self.size.0 - right, self.size.1 - bottom, self.grid);
-        let origin = (libm::pow(10f64, self.x.decades.0), libm::pow(10f64, self.y.decades.0));
+        let first = |axis: &Axis| if axis.linear { axis.decades.0 } else { libm::pow(10f64, axis.decades.0) };
+        let origin = (first(&self.x), first(&self.y));
         for (value, label) in &self.x.ticks {
             let (at, _) = self.place((*value, origin.1));
             let _ = writeln!(

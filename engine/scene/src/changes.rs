@@ -73,6 +73,24 @@ impl WrittenScene {
         self.0
     }
 
+    /// The scene with other numbers at some places, each named by a JSON pointer: as [`Scene::changed`], without writing and
+    /// reading a text for each of many changes of one scene.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`]: a place without a number, or a scene that cannot be read any more.
+    pub fn with_numbers<'a>(
+        &self,
+        numbers: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Scene, SceneError> {
+        let mut written = Self(self.0.clone());
+        for (pointer, number) in numbers {
+            written.set(pointer, &json!(number))?;
+        }
+        // The text is only needed to say where a scene cannot be read.
+        serde_json::from_value(written.0.clone()).or_else(|_| Scene::from_json(&written.0.to_string()))
+    }
+
     /// What can be said about a place that is not there.
     fn deepest(&self, pointer: &str) -> String {
         let mut known = "";

@@ -23,6 +23,8 @@ mod limits;
 
 mod handle;
 
+mod outputs;
+
 mod settings;
 
 mod elements;
@@ -48,6 +50,7 @@ pub use handle::{
     BodyHandle, DriverHandle, EventHandle, GROUND, Ground, JointHandle, LoadHandle, MarkerHandle,
 };
 pub use limits::{MAX_BODIES, MAX_EVENTS, MAX_JOINTS, MAX_TEXT};
+pub use outputs::{Output, OutputKind};
 pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places};
 pub use scene::{Scene, SceneElement, schema};
 pub use settings::{ConstraintMethod, IntegratorKind, Settings, Skip};

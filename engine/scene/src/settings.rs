@@ -1,5 +1,6 @@
 //! How to run a scene.
 
+use crate::outputs::Output;
 use crate::text::words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,9 @@ pub struct Settings {
     /// Size of the steps, s: fixed, instead of chosen by the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
+    /// What a table of the run holds besides the time.
+    #[serde(skip_serializing_if = "Output::are_usual")]
+    pub outputs: Vec<Output>,
 }
 
 impl Default for Settings {
@@ -37,6 +41,7 @@ impl Default for Settings {
             constraint_method: ConstraintMethod::default(),
             skip: Skip::default(),
             step: None,
+            outputs: Output::usual(),
         }
     }
 }

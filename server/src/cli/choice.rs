@@ -1,6 +1,6 @@
 //! Words of the command line that choose an integrator, a treatment of the constraints or coordinates.
 
-use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, UnknownWord};
+use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, Output, UnknownWord};
 
 /// The integrator of that name.
 pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
@@ -15,6 +15,11 @@ pub(super) fn treatment(word: &str) -> Result<ConstraintMethod, String> {
 /// The coordinates of that name.
 pub(super) fn coordinates(word: &str) -> Result<Coordinates, String> {
     word.parse().map_err(|UnknownWord(words)| format!("no such coordinates; there are {words}"))
+}
+
+/// The output of that name.
+pub(super) fn output(word: &str) -> Result<Output, String> {
+    word.parse().map_err(|UnknownWord(words)| format!("no such output; there are {words}"))
 }
 
 /// The words of `simulation.skip`, and one for all of them.

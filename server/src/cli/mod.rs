@@ -17,7 +17,7 @@ use clap::{Parser, Subcommand};
 
 use crate::problem::Problem;
 use course::{grade, lesson, preview};
-use measure::{bench, paper, stress};
+use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
 use scene::{analyses, check, import, run};
@@ -70,6 +70,7 @@ enum Command {
     /// {"name": "lowest", "of": {"type": "coordinate", "body": "bob", "direction": [0, 1, 0]}, "value": -0.5}
     #[command(after_help = "Examples:\n  triad run simple-pendulum\n  \
         triad run n-four-bar:2 --until 5 --every 0.01 --out positions.csv\n  \
+        triad run my-scene.json --outputs joints,drivers,loads,reactions:pin --out forces.csv\n  \
         triad run my-scene.json --rrd run.rrd      (then: rerun run.rrd)\n  \
         triad run free-body --json | jq .summary.energy_drift")]
     Run(Run),
@@ -173,6 +174,16 @@ enum Command {
         --treatment '{\"kind\": \"baumgarte\", \"alpha\": 5, \"beta\": 5}'"
     )]
     Bench(bench::Bench),
+    /// Run a scene many times with varied numbers, in parallel: grids and random samples (Monte Carlo).
+    ///
+    /// Each run tells its chosen outputs at its end. The results do not depend on the number of threads. A run that
+    /// cannot start or go on is listed and ends nothing else; Ctrl-C keeps what is done.
+    #[command(
+        after_help = "Examples:\n  triad sweep simple-pendulum --vary /gravity/1=-9.81:-1.62:20 --outputs joints\n  \
+        triad sweep simple-pendulum --vary /bodies/0/mass=normal:1:0.1 --samples 1000 --out runs.csv\n  \
+        triad sweep my-scene.json --vary stiffness=50:200:31 --outputs energy,loads:spring --svg energy.svg"
+    )]
+    Sweep(sweep::Options),
     /// Try to break the engine: singular positions, redundancy, extreme scales, random mechanisms, each judged.
     #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
         triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html\n  triad stress --treatments --svg treatments.svg")]
@@ -269,6 +280,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         }
         Command::Lesson(Lesson::Starter(options)) => lesson::starter(&course()?, &options, json),
         Command::Bench(options) => bench::bench(options, json),
+        Command::Sweep(options) => sweep::run(&options, json),
         Command::Stress(options) => stress::stress(&options, json),
         Command::Schema { of } => lesson::schema(&of),
     }

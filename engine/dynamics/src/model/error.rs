@@ -1,5 +1,8 @@
 //! What can be wrong with a scene that reads well.
 
+/// Where a scene chooses outputs.
+const OUTPUTS: &str = "/simulation/outputs";
+
 /// A scene that cannot be: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
@@ -163,6 +166,7 @@ impl ModelError {
             Self::Parameter { .. } => "parameter-invalid",
             Self::Geometry { pointer, .. } if pointer.starts_with("/joints") => "joint-geometry",
             Self::Geometry { pointer, .. } if pointer.starts_with("/drivers") => "driver-invalid",
+            Self::Geometry { pointer, .. } if pointer.starts_with(OUTPUTS) => "output-invalid",
             Self::Geometry { .. } => "load-invalid",
         }
     }
@@ -221,6 +225,10 @@ impl ModelError {
             Self::Parameter { .. } => {
                 "A parameter names numbers of this scene by JSON pointers from 0, like /bodies/0/mass, and a range \
                  that holds the number written there."
+                    .to_owned()
+            }
+            Self::Geometry { pointer, .. } if pointer.starts_with(OUTPUTS) => {
+                "Write a word alone, like reactions, or with the name of one element behind a colon, like reactions:pin."
                     .to_owned()
             }
             Self::Geometry { pointer, .. } if !pointer.starts_with("/joints") => {

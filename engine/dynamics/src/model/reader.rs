@@ -1,5 +1,6 @@
 //! Resolving names, points and vectors of the elements of a scene.
 
+use super::output::{WITH_ANGLE, WITH_SLIDE};
 use super::{BodyRef, ModelBody, ModelError, ModelJoint, finite};
 use crate::model::motion::{Curve, VectorCurve};
 use crate::scene::{GROUND, JointKind, Motion, Triple, VectorMotion};
@@ -99,7 +100,7 @@ impl ModelReader<'_> {
     ///
     /// [`ModelError`]: no joint of that name, or one without an angle.
     pub fn joint_with_angle(&self, name: &str) -> Result<usize, ModelError> {
-        self.joint(name, &[JointKind::Revolute, JointKind::Cylindrical, JointKind::Screw])
+        self.joint(name, &WITH_ANGLE)
     }
 
     /// A joint whose displacement along its axis is measured.
@@ -108,7 +109,7 @@ impl ModelReader<'_> {
     ///
     /// [`ModelError`]: no joint of that name, or one without a displacement.
     pub fn joint_with_displacement(&self, name: &str) -> Result<usize, ModelError> {
-        self.joint(name, &[JointKind::Prismatic, JointKind::Cylindrical, JointKind::Screw])
+        self.joint(name, &WITH_SLIDE)
     }
 
     /// Finite numbers as a vector.

@@ -135,6 +135,26 @@ impl SystemLoad {
         }
     }
 
+    /// The length, angle or displacement that a load with a law acts along, its rate, and the force or moment in the
+    /// direction in which it grows — eq. (6.9). `None` for other loads, and for a spring of no length.
+    pub fn acting(&self, at: &State) -> Option<[f64; 3]> {
+        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
+            return None;
+        };
+        let (x, rate) = self.coordinate(at)?;
+        Some([x, rate, law.value(x, rate, at.time)])
+    }
+
+    /// The force or moment in the world of a load that is one.
+    pub fn given(&self, at: &State) -> Option<Vector3<f64>> {
+        match self {
+            Self::Force { body, force: vector, frame, .. } | Self::Moment { body, moment: vector, frame } => {
+                Some(in_world(at, *body, *frame, vector.at(at.time)[0]))
+            }
+            Self::Spring { .. } | Self::Torsion { .. } | Self::Slider { .. } => None,
+        }
+    }
+
     /// Adds the generalized force of a force or moment `value` along its coordinate: the gradient of the coordinate
     /// times that.
     fn push(&self, system: &System, at: &State, value: f64, forces: &mut AppliedForces) {

@@ -4,6 +4,7 @@
 //! that rigid connections tie to the ground is ground.
 
 use crate::model::{BodyRef, DriverKind, JointGeometry, LoadKind, Model, ModelJoint};
+use crate::scene::Settings;
 use crate::system::System;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
@@ -209,7 +210,8 @@ fn without_rows(model: &Model, bodies: &[usize]) -> Model {
         custom_loads: Vec::new(),
         markers: Vec::new(),
         events: Vec::new(),
-        settings: model.settings.clone(),
+        // Outputs are read off the whole system.
+        settings: Settings { outputs: Vec::new(), ..model.settings.clone() },
         notes: Vec::new(),
     }
 }

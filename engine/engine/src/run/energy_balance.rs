@@ -6,6 +6,7 @@ use super::Simulation;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::equations::{Source, equation};
+use triad_dynamics::system::Constraint;
 
 /// Nodes and weights of Gauss-Legendre quadrature of order 10 on [0, 1].
 const NODES: [(f64, f64); 5] = [
@@ -26,16 +27,20 @@ pub fn power(at: &Multipliers) -> f64 {
 
 /// −λᵀ ν: constraints act with −Φ_qᵀ λ, and Φ_q q̇ = ν.
 fn driver_power(at: &Multipliers) -> f64 {
-    let system = at.system;
     let mut power = 0.0;
-    for constraint in system.constraints.iter().filter(|constraint| constraint.driver) {
-        for row in constraint.row_ids() {
-            for (component, lambda) in at.of_row(row).into_iter().enumerate() {
-                power -= lambda * equation(system, at.state, Source::Joint { row, component }).nu;
-            }
-        }
+    for constraint in at.system.constraints.iter().filter(|constraint| constraint.driver) {
+        add_power(at, constraint, &mut power);
     }
     power
+}
+
+/// Adds the power of one driver, W.
+pub fn add_power(at: &Multipliers, constraint: &Constraint, power: &mut f64) {
+    for row in constraint.row_ids() {
+        for (component, lambda) in at.of_row(row).into_iter().enumerate() {
+            *power -= lambda * equation(at.system, at.state, Source::Joint { row, component }).nu;
+        }
+    }
 }
 
 impl Simulation {

@@ -6,7 +6,7 @@ use crate::reactions::matrices::{self, Symmetric};
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::reactions::{self, JointMultipliers};
 use std::borrow::Cow;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::dynamics::elimination::{Accelerations, Elimination};
@@ -29,6 +29,8 @@ pub(super) struct CachedState {
 struct Results {
     /// A solver with the accelerations and multipliers of the state.
     solved: OnceLock<Box<Elimination>>,
+    /// The solver of the state before, to be used again: a table asks for one row after the other.
+    spare: Mutex<Option<Box<Elimination>>>,
     /// Work of drivers and of loads without potential since the start of the last step, J.
     work: OnceLock<f64>,
 }
@@ -54,7 +56,10 @@ impl CachedState {
         time: f64,
         write: impl FnOnce(&mut Mechanism, &mut [f64]),
     ) {
-        self.results = Results::default();
+        let Results { solved, spare, .. } = std::mem::take(&mut self.results);
+        let spare =
+            solved.into_inner().or_else(|| spare.into_inner().unwrap_or_else(PoisonError::into_inner));
+        self.results.spare = Mutex::new(spare);
         self.time = time;
         write(mechanism, &mut self.y);
         let turns = mechanism.state.angles().iter().map(|angle| angle.reference);
@@ -223,10 +228,11 @@ impl<'a> StateView<'a> {
     }
 
     /// Accelerations and multipliers of the state.
-    fn solved(&self) -> Accelerations<'_> {
+    pub(super) fn solved(&self) -> Accelerations<'_> {
         let (mechanism, CachedState { state, results, .. }) = (&self.run.mechanism, &*self.cached);
         let solver = results.solved.get_or_init(|| {
-            let mut solver = Box::new(mechanism.elimination.clone());
+            let spare = results.spare.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let mut solver = spare.unwrap_or_else(|| Box::new(mechanism.elimination.clone()));
             solver.accelerate(&mechanism.system, state, mechanism.baumgarte());
             solver
         });

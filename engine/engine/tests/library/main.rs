@@ -10,6 +10,7 @@ mod examples;
 mod kinematics;
 mod kinematics_in_space;
 mod loops;
+mod outputs;
 mod parameters;
 mod pure;
 mod scene_words;

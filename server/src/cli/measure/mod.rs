@@ -4,3 +4,4 @@ pub(in crate::cli) mod bench;
 pub(in crate::cli) mod paper;
 pub(in crate::cli) mod raster;
 pub(in crate::cli) mod stress;
+pub(in crate::cli) mod sweep;

@@ -2,9 +2,9 @@
 
 pub(in crate::cli) mod analyses;
 pub(in crate::cli) mod check;
-pub(in crate::cli) mod csv;
 pub(in crate::cli) mod import;
 pub(in crate::cli) mod options;
 mod report;
 pub(in crate::cli) mod run;
 pub(in crate::cli) mod source;
+mod table;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use triad_engine::scene::{ConstraintMethod, IntegratorKind};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind, Output};
 
 use super::source::Source;
 use crate::cli::choice;
@@ -46,9 +46,13 @@ pub(in crate::cli) struct Run {
     /// Stop after so many seconds of computing; what was reached is kept.
     #[arg(long, value_name = "S")]
     pub(super) most_seconds: Option<f64>,
-    /// Write positions, velocities and reactions as CSV (`-` for standard output).
+    /// Write a table: CSV (`-` for standard output), or Arrow (Feather) if the file ends in .arrow or .feather.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) out: Option<PathBuf>,
+    /// What the table holds, instead of the scene's choice: bodies, frames, accelerations, reactions, drivers, joints,
+    /// loads, markers, energy, balance, violations; of one element with its name behind a colon, like reactions:pin.
+    #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = choice::output)]
+    pub(super) outputs: Vec<Output>,
     /// Write a recording for the rerun viewer.
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) rrd: Option<PathBuf>,

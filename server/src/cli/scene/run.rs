@@ -9,9 +9,9 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene, Skip};
 use triad_lab::verify::Verifier;
 
-use super::csv::Table;
 use super::options::Run;
 use super::report::{Found, report};
+use super::table::Table;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::{make_room, unwritable};
@@ -76,6 +76,9 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     simulation.integrator = options.integrator.unwrap_or(simulation.integrator);
     simulation.constraint_method = options.treatment.unwrap_or(simulation.constraint_method);
     simulation.step = options.step.or(simulation.step);
+    if !options.outputs.is_empty() {
+        simulation.outputs.clone_from(&options.outputs);
+    }
     let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
     if writes && outputs > MAX_OUTPUTS {
@@ -231,10 +234,7 @@ impl Outputs {
         let mut table = None;
         if let Some(path) = &options.out {
             make_room(path)?;
-            let joints = simulation.multipliers();
-            let bodies: Vec<&str> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
-            let opened = Table::create(path, &scene.name, &bodies, &joints);
-            table = Some(opened.map_err(|error| unwritable(path, &error))?);
+            table = Some(Table::create(path, simulation)?);
         }
         let mut recorders = Vec::new();
         let id = uuid::Uuid::new_v4().simple().to_string();
@@ -254,10 +254,7 @@ impl Outputs {
 
     fn write(&mut self, simulation: &Simulation) -> Result<(), Problem> {
         if let Some(table) = &mut self.table {
-            let frame = simulation.frame();
-            let joints = simulation.multipliers();
-            let summary = simulation.summary();
-            table.row(&frame, &joints, &summary).map_err(|error| output_failed(&error))?;
+            table.row(simulation).map_err(|error| output_failed(&error))?;
         }
         if !self.recorders.is_empty() {
             self.waiting.push(sample(simulation));

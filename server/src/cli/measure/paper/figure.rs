@@ -63,6 +63,7 @@ pub(super) fn svg(curves: &[PlottedCurve]) -> String {
         margins: MARGINS,
         x: Axis {
             decades: (0.0, libm::log10(most)),
+            linear: false,
             reversed: false,
             ticks: lines.map(|bodies| (*bodies, bodies.to_string())).collect(),
         },

@@ -1,0 +1,123 @@
+//! Chosen outputs are what the other questions to a run answer, and choosing them changes no motion.
+
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
+use triad_engine::prelude::*;
+use triad_engine::run::Outputs;
+use triad_engine::scene::{Output, OutputKind};
+
+/// The numbers of the current state by the names of their columns.
+fn row(run: &Simulation) -> impl Fn(&str) -> f64 + use<> {
+    let outputs = Outputs::new(run);
+    let mut numbers = Vec::new();
+    outputs.write(run, &mut numbers);
+    assert_eq!(numbers.len(), outputs.columns().len());
+    let names: Vec<String> = outputs.columns().iter().map(|column| column.name.clone()).collect();
+    let mut sorted = names.clone();
+    sorted.sort();
+    sorted.dedup();
+    assert_eq!(sorted.len(), names.len(), "each name once: {names:?}");
+    move |name| {
+        numbers[names.iter().position(|known| known == name).unwrap_or_else(|| panic!("{name}: {names:?}"))]
+    }
+}
+
+fn all() -> Vec<Output> {
+    OutputKind::ALL.map(Output::from).to_vec()
+}
+
+/// A motor turns a crank against a damper; a slider hangs on a spring at its tip.
+fn machine() -> Scene {
+    let mut scene = Scene::new("machine").gravity([0.0, -9.81, 0.0]).duration(3.0);
+    let crank = scene.add(Body::rod("crank", 2.0, [0.0; 3], [0.5, 0.0, 0.0]));
+    let block =
+        scene.add(Body::new("block", 1.0).inertia(Inertia::Principal([0.1; 3])).position([2.0, 0.0, 0.0]));
+    let pin = scene.add(Joint::revolute("pin", Ground, &crank).at([0.0; 3]).about([0.0, 0.0, 1.0]));
+    let rail = scene.add(Joint::prismatic("rail", Ground, &block).at([2.0, 0.0, 0.0]).about([1.0, 0.0, 0.0]));
+    scene.add(Driver::angle("motor", &pin, Motion::ramp(0.0, 7.0)));
+    scene.add(Load::torsion("damper", &pin, 0.0, 3.0));
+    scene.add(Load::slider("buffer", &rail, 20.0, 0.5));
+    scene.add(
+        Load::spring("spring", (&crank, [0.25, 0.0, 0.0]), (&block, [0.0; 3]), 50.0, 1.0).free_length(1.5),
+    );
+    scene.add(Marker::new("tip", &crank, [0.25, 0.0, 0.0]));
+    scene.simulation.outputs = all();
+    scene
+}
+
+fn near(a: f64, b: f64) {
+    assert!((a - b).abs() <= 1e-9 * (1.0 + a.abs().max(b.abs())), "{a} {b}");
+}
+
+#[test]
+fn angles_loads_drivers_and_markers_are_those_of_the_mechanism() {
+    let mut run = Simulation::new(&machine()).unwrap();
+    // More than a turn passes between two looks.
+    for time in [0.0, 1.3, 2.9] {
+        run.advance_to(time).unwrap();
+        let at = row(&run);
+        near(at("pin.angle"), 7.0 * time);
+        near(at("pin.angle_rate"), 7.0);
+        near(at("motor.angle"), 7.0 * time);
+        near(at("rail.slide"), at("block.rx") - 2.0);
+        near(at("rail.slide_rate"), at("block.v_rx"));
+        near(at("buffer.force"), -20.0 * at("rail.slide") - 0.5 * at("rail.slide_rate"));
+        near(at("damper.torque"), -3.0 * 7.0);
+        near(at("damper.power"), -3.0 * 49.0);
+        near(at("tip.px"), 0.5 * (7.0 * time).cos());
+        near(at("tip.v_py"), 3.5 * (7.0 * time).cos());
+        let length = (at("block.rx") - at("tip.px")).hypot(at("tip.py"));
+        near(at("spring.length"), length);
+        near(at("spring.force"), -50.0 * (length - 1.5) - at("spring.length_rate"));
+        near(at("motor.power"), at("motor.torque") * 7.0);
+        // The motor holds against the damper, the weight and the spring: moments about the pin.
+        let pull = -at("spring.force") / length;
+        let spring =
+            pull * (at("tip.px") * (0.0 - at("tip.py")) - at("tip.py") * (at("block.rx") - at("tip.px")));
+        near(at("motor.torque"), 21.0 + 2.0 * 9.81 * at("crank.rx") - spring);
+        near(at("crank.px"), at("crank.rx"));
+        near(at("crank.x_y"), (7.0 * time).sin());
+        near(at("crank.a_rx"), -49.0 * at("crank.rx"));
+        near(
+            at("block.a_rx"),
+            at("buffer.force") + at("spring.force") * (at("block.rx") - at("tip.px")) / length,
+        );
+        near(at("energy"), at("kinetic_energy") + at("potential_energy"));
+        assert!(at("energy_drift").abs() < 1e-6, "{}", at("energy_drift"));
+    }
+}
+
+#[test]
+fn the_choice_of_outputs_changes_no_bit_of_the_motion_and_rows_repeat_no_solution() {
+    for name in ["n-four-bar:2", "spatial-slider-crank", "bricard"] {
+        let mut scene = catalogue::scene(name).unwrap();
+        let mut plain = Simulation::new(&scene).unwrap();
+        scene.simulation.outputs = all();
+        let mut chosen = Simulation::new(&scene).unwrap();
+        let outputs = Outputs::new(&chosen);
+        for step in 1..20 {
+            let time = 0.1 * f64::from(step);
+            plain.advance_to(time).unwrap();
+            chosen.advance_to(time).unwrap();
+            let mut numbers = Vec::new();
+            outputs.write(&chosen, &mut numbers);
+            assert_eq!((plain.q(), plain.q_dot()), (chosen.q(), chosen.q_dot()), "{name}");
+            // The solver that is used again finds what a new one finds.
+            assert_eq!(chosen.multipliers(), chosen.clone().multipliers(), "{name}");
+        }
+    }
+}
+
+#[test]
+fn one_element_is_chosen_by_its_name() {
+    let mut scene = machine();
+    scene.simulation.outputs =
+        ["reactions:pin", "loads:spring", "bodies:block"].map(|word| word.parse().unwrap()).to_vec();
+    let outputs = Outputs::new(&Simulation::new(&scene).unwrap());
+    let elements: Vec<&str> = outputs.columns().iter().filter_map(|c| c.name.split('.').next()).collect();
+    assert_eq!((elements.len(), elements[0], elements[6], elements[10]), (28, "pin", "spring", "block"));
+    scene.simulation.outputs = vec!["reactions:pim".parse().unwrap()];
+    let error = Simulation::new(&scene).unwrap_err();
+    assert_eq!((error.code(), error.pointer().as_deref()), ("output-invalid", Some("/simulation/outputs/0")));
+    assert!(error.to_string().contains("did you mean \"pin\""), "{error}");
+}

@@ -1,0 +1,140 @@
+//! Many runs of one scene with varied numbers, in parallel: grids and random samples.
+//!
+//! The numbers of a run depend on the plan and on its index alone, so that the results are the same for any number of
+//! threads. A run that cannot start or go on is listed with its error and ends nothing else.
+
+mod plan;
+mod plot;
+
+pub use plan::{SweepError, SweepPlan, Values, Variation};
+pub use plot::svg;
+
+use rayon::ThreadPoolBuilder;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use triad_engine::EngineError;
+use triad_engine::model::Model;
+use triad_engine::run::{Column, Outputs, Simulation};
+use triad_scene::{Scene, WrittenScene};
+
+/// Steps between two looks at whether the sweep is to end.
+const PIECE: u64 = 256;
+
+/// One run of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepRun {
+    /// Its place in the plan, from 0.
+    pub index: usize,
+    /// The varied numbers, in the order of the plan.
+    pub values: Vec<f64>,
+    /// The outputs at its end, or why there are none.
+    pub result: Result<Reached, EngineError>,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reached {
+    /// Time at the end, s: earlier than the scene's where an event stops the run.
+    pub time: f64,
+    /// The chosen outputs there, in the order of the columns.
+    pub outputs: Vec<f64>,
+    /// Evaluations of the accelerations.
+    pub evaluations: u64,
+    /// How many things speak against the result.
+    pub doubts: usize,
+}
+
+/// The runs of a sweep that were done, in the order of the plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Names of the varied numbers.
+    pub varied: Vec<String>,
+    /// What is told of each run.
+    pub columns: Vec<Column>,
+    /// The runs; those that were cancelled are left out.
+    pub runs: Vec<SweepRun>,
+}
+
+/// How a sweep is watched: both are called from many threads.
+pub trait Watch: Sync {
+    /// A run is done.
+    fn done(&self) {}
+
+    /// Whether no further run is to be begun, and those that are under way are to be left.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody watches.
+pub struct Unwatched;
+
+impl Watch for Unwatched {}
+
+/// Runs a plan on `threads` threads; 0 takes one for each core.
+///
+/// # Errors
+///
+/// [`SweepError`]: the scene or the plan cannot be. Errors of single runs stand with them.
+///
+/// ```
+/// use triad_lab::sweep::{SweepPlan, Unwatched, Values, Variation, sweep};
+/// use triad_scene::catalogue;
+///
+/// let mut scene = catalogue::scene("simple-pendulum")?.duration(0.5);
+/// scene.simulation.outputs = vec!["joints:pin".parse()?];
+/// let gravity = Variation::new(&scene, "/gravity/1", Values::Grid { from: -9.81, to: -1.62, count: 3 })?;
+/// let found = sweep(&SweepPlan { varied: vec![gravity], ..SweepPlan::new(scene) }, 2, &Unwatched)?;
+/// let angles: Vec<f64> = found.runs.iter().map(|run| run.result.as_ref().unwrap().outputs[0]).collect();
+/// assert!(angles[0] < angles[1] && angles[1] < angles[2], "{angles:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn sweep(plan: &SweepPlan, threads: usize, watch: &impl Watch) -> Result<Sweep, SweepError> {
+    let count = plan.count()?;
+    let written = WrittenScene::new(&plan.scene);
+    let columns = Outputs::new(&Simulation::new(&plan.scene)?).columns().to_vec();
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| SweepError::Threads { threads, reason: error.to_string() })?;
+    let runs = pool.install(|| {
+        let runs = (0..count).into_par_iter().map(|index| one(plan, &written, index, watch));
+        runs.flatten().collect()
+    });
+    let varied = plan.varied.iter().map(|variation| variation.name.clone()).collect();
+    Ok(Sweep { varied, columns, runs })
+}
+
+/// One run; none if it was cancelled.
+fn one(plan: &SweepPlan, written: &WrittenScene, index: usize, watch: &impl Watch) -> Option<SweepRun> {
+    if watch.cancelled() {
+        return None;
+    }
+    let values = plan.values(index);
+    let changes = plan.varied.iter().zip(&values).flat_map(|(variation, value)| variation.changes(*value));
+    let result =
+        match written.with_numbers(changes).map_err(EngineError::from).and_then(|scene| start(&scene)) {
+            Ok(run) => advance(run, watch)?,
+            Err(error) => Err(error),
+        };
+    watch.done();
+    Some(SweepRun { index, values, result })
+}
+
+fn start(scene: &Scene) -> Result<Simulation, EngineError> {
+    Simulation::from_model(Model::new(scene)?)
+}
+
+/// Runs to the end; none if it was cancelled on the way.
+fn advance(mut run: Simulation, watch: &impl Watch) -> Option<Result<Reached, EngineError>> {
+    loop {
+        match run.advance_towards(run.duration(), PIECE) {
+            Err(error) => return Some(Err(error)),
+            Ok(true) => break,
+            Ok(false) if watch.cancelled() => return None,
+            Ok(false) => {}
+        }
+    }
+    let mut outputs = Vec::new();
+    Outputs::new(&run).write(&run, &mut outputs);
+    let summary = run.summary();
+    let (evaluations, doubts) = (summary.evaluations, summary.doubts.len());
+    Some(Ok(Reached { time: run.time(), outputs, evaluations, doubts }))
+}

@@ -1,0 +1,168 @@
+//! What is varied, and how.
+
+use triad_engine::EngineError;
+use triad_linalg::random::Random;
+use triad_scene::{Scene, SceneError, WrittenScene};
+
+/// Runs that a sweep may have.
+const MAX_RUNS: usize = 10_000_000;
+
+/// Which values a number takes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Equally spaced, both ends included; all grids of a plan are crossed.
+    Grid {
+        /// The first.
+        from: f64,
+        /// The last.
+        to: f64,
+        /// How many.
+        count: usize,
+    },
+    /// Drawn between two numbers, each alike.
+    Uniform {
+        /// The least.
+        from: f64,
+        /// The bound above.
+        to: f64,
+    },
+    /// Drawn from a normal distribution.
+    Normal {
+        /// Its mean.
+        mean: f64,
+        /// Its standard deviation.
+        deviation: f64,
+    },
+}
+
+/// A number of the scene that is varied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variation {
+    /// Its name: that of the parameter, or the JSON pointer.
+    pub name: String,
+    /// JSON pointers of the numbers that follow it, each with its factor.
+    places: Vec<(String, f64)>,
+    /// Its values.
+    pub values: Values,
+}
+
+impl Variation {
+    /// Of a parameter of the scene by its name, or of a number by a JSON pointer such as `/bodies/0/mass`.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`]: no such parameter, or no number there.
+    pub fn new(scene: &Scene, name: &str, values: Values) -> Result<Self, SceneError> {
+        let places = if name.starts_with('/') {
+            vec![(name.to_owned(), 1.0)]
+        } else {
+            let parameter = scene.parameter(name)?;
+            parameter.places().iter().map(|place| (place.pointer().to_owned(), place.factor())).collect()
+        };
+        let written = WrittenScene::new(scene);
+        for (pointer, _) in &places {
+            written.number(pointer)?;
+        }
+        Ok(Self { name: name.to_owned(), places, values })
+    }
+
+    /// The numbers of the scene at a value.
+    pub(super) fn changes(&self, value: f64) -> impl Iterator<Item = (&str, f64)> {
+        self.places.iter().map(move |(pointer, factor)| (pointer.as_str(), value * factor))
+    }
+}
+
+/// What is run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepPlan {
+    /// The scene; its outputs at the end are what is told of each run.
+    pub scene: Scene,
+    /// What is varied: grids are crossed, the last one changes fastest.
+    pub varied: Vec<Variation>,
+    /// Runs with numbers drawn anew, at each point of the grids.
+    pub samples: usize,
+    /// Where the drawn numbers come from.
+    pub seed: u64,
+}
+
+/// Why a sweep cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SweepError {
+    /// The scene cannot be.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// Too many runs, or none.
+    #[error("the sweep would have {runs} runs; there may be from 1 to {MAX_RUNS}")]
+    Count {
+        /// How many.
+        runs: String,
+    },
+    /// Threads that cannot be started.
+    #[error("{threads} threads cannot be started: {reason}")]
+    Threads {
+        /// How many.
+        threads: usize,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl SweepPlan {
+    /// The scene alone, once.
+    pub fn new(scene: Scene) -> Self {
+        Self { scene, varied: Vec::new(), samples: 1, seed: 1 }
+    }
+
+    /// How many runs there are.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Count`]: none, or too many.
+    pub fn count(&self) -> Result<usize, SweepError> {
+        let grids = self.varied.iter().map(|variation| match variation.values {
+            Values::Grid { count, .. } => count,
+            Values::Uniform { .. } | Values::Normal { .. } => 1,
+        });
+        let runs = grids.chain([self.samples]).try_fold(1_usize, usize::checked_mul);
+        runs.filter(|runs| (1..=MAX_RUNS).contains(runs)).ok_or_else(|| SweepError::Count {
+            runs: runs.map_or_else(|| "too many".to_owned(), |runs| runs.to_string()),
+        })
+    }
+
+    /// The varied numbers of run `index`.
+    pub fn values(&self, index: usize) -> Vec<f64> {
+        let mut rest = index / self.samples.max(1);
+        let mut values: Vec<f64> = self
+            .varied
+            .iter()
+            .enumerate()
+            .rev()
+            .map(|(place, variation)| match variation.values {
+                Values::Grid { from, to, count } => {
+                    let at = rest % count.max(1);
+                    rest /= count.max(1);
+                    // Both ends exactly.
+                    let part = if count > 1 { at as f64 / (count - 1) as f64 } else { 0.0 };
+                    from * (1.0 - part) + to * part
+                }
+                Values::Uniform { from, to } => self.draw(index, place).between(from, to),
+                Values::Normal { mean, deviation } => mean + deviation * normal(&mut self.draw(index, place)),
+            })
+            .collect();
+        values.reverse();
+        values
+    }
+
+    /// A generator for one number of one run: a stream of its own, whichever thread asks.
+    fn draw(&self, index: usize, place: usize) -> Random {
+        let mut seeds = Random::new(self.seed);
+        let mut run = Random::new(seeds.bits() ^ index as u64);
+        Random::new(run.bits() ^ (place as u64).rotate_left(32))
+    }
+}
+
+/// A number of the standard normal distribution, by Box and Muller.
+fn normal(random: &mut Random) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - random.unit())).sqrt();
+    radius * libm::cos(std::f64::consts::TAU * random.unit())
+}

@@ -1,0 +1,127 @@
+//! Sweeps: the same for any number of threads, each run that of the changed scene alone, errors listed, cancelled runs
+//! left out.
+
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
+use serde_json::json;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use triad_engine::run::{Outputs, Simulation};
+use triad_lab::sweep::{Sweep, SweepPlan, Unwatched, Values, Variation, Watch, sweep};
+use triad_scene::{Scene, catalogue};
+
+fn pendulum() -> Scene {
+    let mut scene = catalogue::scene("simple-pendulum").unwrap().duration(0.7).tolerance(1e-6);
+    scene.simulation.outputs = ["joints", "reactions", "energy"].map(|word| word.parse().unwrap()).to_vec();
+    scene
+}
+
+fn plan(varied: &[(&str, Values)], samples: usize) -> SweepPlan {
+    let scene = pendulum();
+    let vary = |(name, values): &(&str, Values)| Variation::new(&scene, name, values.clone()).unwrap();
+    SweepPlan {
+        varied: varied.iter().map(vary).collect(),
+        samples,
+        seed: 11,
+        ..SweepPlan::new(scene.clone())
+    }
+}
+
+fn both() -> SweepPlan {
+    let mass = Values::Normal { mean: 2.0, deviation: 0.3 };
+    plan(&[("/bodies/0/mass", mass), ("/gravity/1", Values::Grid { from: -9.81, to: -1.62, count: 4 })], 9)
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let plan = both();
+    let one = sweep(&plan, 1, &Unwatched).unwrap();
+    assert_eq!(one.runs.len(), 36);
+    for threads in [2, 7] {
+        assert_eq!(sweep(&plan, threads, &Unwatched).unwrap(), one, "{threads} threads");
+    }
+}
+
+#[test]
+fn each_run_is_that_of_the_changed_scene() {
+    let found = sweep(&both(), 2, &Unwatched).unwrap();
+    for run in &found.runs {
+        let [mass, gravity] = [json!(run.values[0]), json!(run.values[1])];
+        let scene = pendulum().changed([], [("/bodies/0/mass", &mass), ("/gravity/1", &gravity)]).unwrap();
+        let mut alone = Simulation::new(&scene).unwrap();
+        alone.advance_to(0.7).unwrap();
+        let mut outputs = Vec::new();
+        Outputs::new(&alone).write(&alone, &mut outputs);
+        assert_eq!(run.result.as_ref().unwrap().outputs, outputs);
+    }
+    let ends: Vec<f64> = found.runs.iter().map(|run| run.values[1]).collect();
+    assert_eq!(
+        (ends[0], ends[8], ends[35]),
+        (-9.81, -9.81, -1.62),
+        "both ends exactly, samples within a point"
+    );
+}
+
+#[test]
+fn drawn_numbers_have_their_distribution_and_their_seed() {
+    let plan = plan(
+        &[
+            ("/bodies/0/mass", Values::Normal { mean: 5.0, deviation: 0.5 }),
+            ("/gravity/1", Values::Uniform { from: -10.0, to: -8.0 }),
+        ],
+        20_000,
+    );
+    let moments = |place: usize| {
+        let values: Vec<f64> = (0..plan.samples).map(|index| plan.values(index)[place]).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let square = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / values.len() as f64;
+        (mean, square.sqrt())
+    };
+    // Four times the standard errors.
+    let (mean, deviation) = moments(0);
+    assert!((mean - 5.0).abs() < 0.015 && (deviation - 0.5).abs() < 0.01, "{mean} {deviation}");
+    let (mean, deviation) = moments(1);
+    assert!((mean + 9.0).abs() < 0.017 && (deviation - 1.0 / 3f64.sqrt()).abs() < 0.01, "{mean} {deviation}");
+    let other = SweepPlan { seed: 12, ..plan.clone() };
+    assert_ne!(other.values(0), plan.values(0));
+    assert_ne!(plan.values(0), plan.values(1));
+}
+
+#[test]
+fn a_run_that_cannot_be_is_listed_and_ends_nothing_else() {
+    let masses = Values::Grid { from: -1.0, to: 1.0, count: 5 };
+    let found = sweep(&plan(&[("/bodies/0/mass", masses)], 1), 2, &Unwatched).unwrap();
+    let codes: Vec<&str> =
+        found.runs.iter().map(|run| run.result.as_ref().map_or_else(|error| error.code(), |_| "")).collect();
+    assert_eq!(codes, ["mass-not-positive", "mass-not-positive", "mass-not-positive", "", ""]);
+}
+
+/// Cancels after some runs.
+struct Impatient(AtomicUsize);
+
+impl Watch for Impatient {
+    fn done(&self) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed) >= 5
+    }
+}
+
+#[test]
+fn what_was_done_before_it_is_cancelled_is_kept() {
+    let whole = sweep(&both(), 1, &Unwatched).unwrap();
+    let part = sweep(&both(), 2, &Impatient(AtomicUsize::new(0))).unwrap();
+    assert!((5..20).contains(&part.runs.len()), "{}", part.runs.len());
+    for run in &part.runs {
+        assert_eq!(*run, whole.runs[run.index]);
+    }
+}
+
+#[test]
+fn a_picture_has_a_mark_for_each_run() {
+    let found: Sweep = sweep(&both(), 0, &Unwatched).unwrap();
+    let picture = triad_lab::sweep::svg(&found, 1);
+    assert_eq!(picture.matches("<circle").count(), 36);
+    assert!(picture.contains("pin.angle_rate, rad/s") && !picture.contains("NaN"), "{picture}");
+}

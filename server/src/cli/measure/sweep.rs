@@ -1,0 +1,292 @@
+//! `triad sweep`: many runs of one scene with varied numbers.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use axum::http::StatusCode;
+use clap::Args;
+use serde_json::{Value, json};
+use triad_engine::EngineError;
+use triad_engine::scene::{IntegratorKind, Output, Scene};
+use triad_lab::sweep::{Sweep, SweepError, SweepPlan, SweepRun, Values, Variation, Watch, svg, sweep};
+
+use crate::cli::choice;
+use crate::cli::clock::Clock;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::output::write;
+use crate::cli::terminal::{Outcome, TimeBar, counted, print_json, print_line, progress};
+use crate::problem::Problem;
+use crate::scenes;
+
+/// Columns that are summed up on the terminal; the table has all of them.
+const SHOWN: usize = 12;
+/// Failed runs that are told on the terminal; the table has all of them.
+const TOLD: usize = 5;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Options {
+    /// A built-in scene's name (`triad scenes` lists them), or a file.
+    scene: String,
+    /// A number that varies, and its values: FROM:TO:COUNT for a grid, uniform:FROM:TO or normal:MEAN:DEVIATION for
+    /// numbers drawn at random. NAME is a parameter of the scene or a JSON pointer like /bodies/0/mass. May be given
+    /// more than once: grids are crossed.
+    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    vary: Vec<String>,
+    /// Runs with numbers drawn at random, at each point of the grids.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    samples: usize,
+    /// Where the drawn numbers come from: the same seed gives the same runs.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Threads; 0 takes one for each core. The results do not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// End of each run in seconds, instead of the scene's.
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Tolerance of the integrator, instead of the scene's.
+    #[arg(long, value_name = "TOL")]
+    tolerance: Option<f64>,
+    /// Integrator, instead of the scene's.
+    #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
+    integrator: Option<IntegratorKind>,
+    /// What is told of each run at its end, instead of the scene's choice; see `triad run --help`.
+    #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = choice::output)]
+    outputs: Vec<Output>,
+    /// Write all runs as CSV.
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+    /// Draw an output over the first varied number, as SVG.
+    #[arg(long, value_name = "FILE.svg")]
+    svg: Option<PathBuf>,
+    /// The output that is drawn, by the name of its column; without it the first.
+    #[arg(long, value_name = "COLUMN", requires = "svg")]
+    draw: Option<String>,
+}
+
+/// Shows how far a sweep is, and ends it with Ctrl-C.
+struct Watcher {
+    interrupt: Interrupt,
+    done: AtomicUsize,
+    bar: TimeBar,
+}
+
+impl Watch for Watcher {
+    fn done(&self) {
+        self.bar.reached((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.interrupt.asked()
+    }
+}
+
+impl From<SweepError> for Problem {
+    fn from(error: SweepError) -> Self {
+        let (code, hint) = match error {
+            SweepError::Engine(error) => return error.into(),
+            SweepError::Count { .. } => ("sweep-size", "give grids fewer points, and --samples at least 1"),
+            SweepError::Threads { .. } => ("threads", "give fewer --threads, or leave it out"),
+        };
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, error.to_string(), hint)
+    }
+}
+
+/// Runs all, and tells what came out; what was done before Ctrl-C is kept.
+pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let plan = plan(options)?;
+    let count = plan.count()?;
+    clock.lap("read");
+    let bar = progress(&plan.scene.name, count as f64, json);
+    let watcher = Watcher { interrupt: Interrupt::listen(), done: AtomicUsize::new(0), bar };
+    let found = sweep(&plan, options.threads, &watcher)?;
+    drop(watcher);
+    clock.lap("run");
+    let drawn = drawn(options, &found)?;
+    if let Some(path) = &options.out {
+        write(path, table(&found))?;
+    }
+    if let Some(path) = &options.svg {
+        write(path, svg(&found, drawn))?;
+    }
+    clock.lap("write");
+    let left = count - found.runs.len();
+    if json {
+        print_json(&json!({
+            "scene": plan.scene.name,
+            "varied": found.varied,
+            "seed": plan.seed,
+            "columns": found.columns.iter().map(|c| json!({"name": c.name, "unit": c.unit})).collect::<Vec<_>>(),
+            "runs": found.runs.iter().map(told).collect::<Vec<_>>(),
+            "cancelled": left,
+            "seconds": clock,
+        }));
+    } else {
+        print(&plan.scene, &found, left);
+        print_line(&clock.line());
+        for file in [&options.out, &options.svg].into_iter().flatten() {
+            print_line(&format!("  written                {}", file.display()));
+        }
+    }
+    Ok(if left == 0 && found.runs.iter().all(|run| run.result.is_ok()) { Outcome::Done } else { Outcome::No })
+}
+
+fn plan(options: &Options) -> Result<SweepPlan, Problem> {
+    let mut scene = scenes::named_or_in_file(&options.scene)?;
+    let settings = &mut scene.simulation;
+    settings.duration = options.until.unwrap_or(settings.duration);
+    settings.tolerance = options.tolerance.unwrap_or(settings.tolerance);
+    settings.integrator = options.integrator.unwrap_or(settings.integrator);
+    if !options.outputs.is_empty() {
+        settings.outputs.clone_from(&options.outputs);
+    }
+    let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
+    Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::new(scene) })
+}
+
+/// Reads `NAME=FROM:TO:COUNT`, `NAME=uniform:FROM:TO` or `NAME=normal:MEAN:DEVIATION`.
+fn variation(scene: &Scene, text: &str) -> Result<Variation, Problem> {
+    let read = || {
+        let (name, values) = text.rsplit_once('=')?;
+        let parts: Vec<&str> = values.split(':').collect();
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+        let values = match parts[..] {
+            ["uniform", from, to] => Values::Uniform { from: number(from)?, to: number(to)? },
+            ["normal", mean, deviation] => {
+                Values::Normal { mean: number(mean)?, deviation: number(deviation).filter(|x| *x >= 0.0)? }
+            }
+            [from, to, count] => {
+                let count = count.trim().parse().ok().filter(|count| *count > 0)?;
+                Values::Grid { from: number(from)?, to: number(to)?, count }
+            }
+            _ => return None,
+        };
+        Some((name, values))
+    };
+    let (name, values) = read().ok_or_else(|| {
+        Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "vary-syntax",
+            format!("--vary {text} is no name with values"),
+            "write NAME=FROM:TO:COUNT, NAME=uniform:FROM:TO or NAME=normal:MEAN:DEVIATION, like /bodies/0/mass=1:2:11",
+        )
+    })?;
+    Ok(Variation::new(scene, name, values).map_err(EngineError::from)?)
+}
+
+/// The column that is drawn.
+fn drawn(options: &Options, found: &Sweep) -> Result<usize, Problem> {
+    let Some(name) = &options.draw else { return Ok(0) };
+    found.columns.iter().position(|column| column.name == *name).ok_or_else(|| {
+        let names = found.columns.iter().map(|column| column.name.as_str());
+        Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "unknown-column",
+            format!("no output is called {name}"),
+            crate::problem::suggest(name, names),
+        )
+    })
+}
+
+/// One run, for machines.
+fn told(run: &SweepRun) -> Value {
+    let mut told = json!({ "run": run.index, "values": run.values });
+    match &run.result {
+        Ok(end) => {
+            told["time"] = json!(end.time);
+            told["outputs"] = json!(end.outputs);
+            told["evaluations"] = json!(end.evaluations);
+            told["doubts"] = json!(end.doubts);
+        }
+        Err(error) => {
+            told["stopped"] =
+                json!({ "code": error.code(), "detail": error.to_string(), "hint": error.hint() });
+        }
+    }
+    told
+}
+
+/// All runs as CSV: the varied numbers, the time at the end, the outputs there; of a failed run the code of its error.
+fn table(found: &Sweep) -> String {
+    let mut out = String::from("run");
+    for name in &found.varied {
+        let _ = write!(out, ",{name}");
+    }
+    out.push_str(",time");
+    for column in &found.columns {
+        let _ = write!(out, ",{} [{}]", column.name, column.unit);
+    }
+    out.push_str(",evaluations,doubts,stopped\n");
+    let mut digits = zmij::Buffer::new();
+    for run in &found.runs {
+        let _ = write!(out, "{}", run.index);
+        let mut number = |x: f64, out: &mut String| {
+            out.push(',');
+            out.push_str(digits.format(x));
+        };
+        run.values.iter().for_each(|x| number(*x, &mut out));
+        match &run.result {
+            Ok(end) => {
+                std::iter::once(&end.time).chain(&end.outputs).for_each(|x| number(*x, &mut out));
+                let _ = writeln!(out, ",{},{},", end.evaluations, end.doubts);
+            }
+            Err(error) => {
+                let _ = writeln!(out, "{},,,{}", ",".repeat(found.columns.len() + 1), error.code());
+            }
+        }
+    }
+    out
+}
+
+/// What came out, for people.
+fn print(scene: &Scene, found: &Sweep, left: usize) {
+    let reached: Vec<_> = found.runs.iter().filter_map(|run| run.result.as_ref().ok()).collect();
+    let cancelled = if left > 0 { format!(", {left} cancelled") } else { String::new() };
+    let failed = found.runs.len() - reached.len();
+    print_line(&format!(
+        "{}: {} of {}, {failed} failed{cancelled}",
+        scene.name,
+        reached.len(),
+        counted(found.runs.len() + left, "run")
+    ));
+    let doubted = reached.iter().filter(|end| end.doubts > 0).count();
+    if doubted > 0 {
+        print_line(&format!(
+            "  doubt                  {} with doubts; `triad run` tells them",
+            counted(doubted, "run")
+        ));
+    }
+    print_line(&format!(
+        "  {:<28}{:>15}{:>15}{:>15}{:>15}",
+        "at the end", "least", "mean", "greatest", "deviation"
+    ));
+    for (index, column) in found.columns.iter().enumerate().take(SHOWN) {
+        let values: Vec<f64> = reached.iter().filter_map(|end| end.outputs.get(index).copied()).collect();
+        let count = values.len().max(1) as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0).max(1.0);
+        let (least, greatest) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+        if !values.is_empty() {
+            let name = format!("{}, {}", column.name, column.unit);
+            print_line(&format!(
+                "  {name:<28}{least:>15.6e}{mean:>15.6e}{greatest:>15.6e}{:>15.6e}",
+                square.sqrt()
+            ));
+        }
+    }
+    if found.columns.len() > SHOWN {
+        print_line(&format!(
+            "  … and {} more; --out writes all",
+            counted(found.columns.len() - SHOWN, "column")
+        ));
+    }
+    for run in found.runs.iter().filter(|run| run.result.is_err()).take(TOLD) {
+        if let Err(error) = &run.result {
+            print_line(&format!("  run {} with {:?}: {error}", run.index, run.values));
+        }
+    }
+}
