@@ -77,6 +77,22 @@ export interface components {
              */
             opening: number;
         };
+        /** @description A mass that is part of a body. */
+        AttachedMass: {
+            /** @description Its inertia about its own centre, along the axes of the body's frame; without it a point mass. */
+            inertia?: components["schemas"]["Inertia"] | null;
+            /**
+             * Format: double
+             * @description Mass, kg; positive.
+             */
+            mass: number;
+            /** @description Its centre in the body's frame, m. */
+            point?: [
+                number,
+                number,
+                number
+            ];
+        };
         /** @description How the axis of a revolute joint is written. */
         AxisRows: "cp-2car" | "cp-cv" | "shared";
         /** @description A rigid body. */
@@ -87,6 +103,8 @@ export interface components {
                 number,
                 number
             ];
+            /** @description Masses that are part of the body; `mass`, `inertia` and `center_of_mass` are those of the body without them. */
+            attached?: components["schemas"]["AttachedMass"][];
             /** @description Centre of mass in the body's frame, m. */
             center_of_mass?: [
                 number,
@@ -849,6 +867,8 @@ export interface components {
             ratio?: number | null;
             /** @description Which rows hold the axis of a revolute joint. */
             rows?: components["schemas"]["AxisRows"] | null;
+            /** @description Where the joint stands at the start, and how fast it moves there, in place of positions and velocities of bodies. */
+            start?: components["schemas"]["JointStart"] | null;
             /** @description What it is. */
             type: components["schemas"]["JointKind"];
         };
@@ -911,6 +931,32 @@ export interface components {
             on: string;
             /** @description The multipliers of its rows. */
             rows: components["schemas"]["Multiplier"][];
+        };
+        /**
+         * @description Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0;
+         *     the bodies that hang on the joint are carried from there, and loops are closed with what is given here held.
+         */
+        JointStart: {
+            /**
+             * Format: double
+             * @description Angle of body j relative to body i about the axis (revolute, cylindrical, screw), rad.
+             */
+            angle?: number | null;
+            /**
+             * Format: double
+             * @description Rate of the angle, rad/s.
+             */
+            rate?: number | null;
+            /**
+             * Format: double
+             * @description Displacement along the axis from the joint's point on body i to that on body j (prismatic, cylindrical), m.
+             */
+            slide?: number | null;
+            /**
+             * Format: double
+             * @description Rate of the displacement, m/s.
+             */
+            speed?: number | null;
         };
         /** @description The answer to one question, as it is kept. */
         KeptAnswer: {
@@ -1450,6 +1496,11 @@ export interface components {
             times: number[];
             /** @description Values at those times. */
             values: number[];
+        } | {
+            /** @constant */
+            kind: "expression";
+            /** @description The formula: numbers, t, pi, + - * / ^, brackets, and sin, cos, tan, asin, acos, atan, sqrt, exp, ln. */
+            value: string;
         } | number;
         /** @description One multiplier λ of eq. (6.6) with the label of its equation. */
         Multiplier: {
@@ -2488,7 +2539,8 @@ export interface components {
         } | {
             /**
              * Format: double
-             * @description α, kg: how many times the masses of the mechanism. Violations shrink with 1/α.
+             * @description α, kg: the mass that each row has against its violation, an absolute number and not one relative to the mechanism.
+             *     Violations shrink with 1/α; for mechanisms of grams choose it a thousand times smaller.
              * @default 10000000
              */
             alpha?: number;
