@@ -31,7 +31,7 @@ pub use marker::ModelMarker;
 pub use output::wants_joint;
 pub use placement::ModelStart;
 
-use crate::scene::{ConstraintMethod, Scene, Settings};
+use crate::scene::{ConstraintMethod, Event, Load, Marker, Scene, Settings};
 use nalgebra::Vector3;
 use reader::ModelReader;
 use std::collections::HashMap;
@@ -106,29 +106,20 @@ impl Model {
             joints: &joints,
             duration: scene.simulation.duration,
         };
-        let mut marker_names = HashMap::new();
-        let mut markers = Vec::with_capacity(scene.markers.len());
-        for (index, written) in scene.markers.iter().enumerate() {
-            unique_name(&mut marker_names, "markers", index, &written.name)?;
-            markers.push(ModelMarker::new(written, &reader("markers", index, &written.name))?);
-        }
+        let markers = read_list("markers", &scene.markers, Marker::name, |index, written| {
+            ModelMarker::new(written, &reader("markers", index, &written.name))
+        })?;
         let mut drivers = Vec::with_capacity(scene.drivers.len());
         for (index, written) in scene.drivers.iter().enumerate() {
             unique_name(&mut row_names, "drivers", index, written.name())?;
             drivers.push(ModelDriver::new(written, &reader("drivers", index, written.name()))?);
         }
-        let mut load_names = HashMap::new();
-        let mut loads = Vec::with_capacity(scene.loads.len());
-        for (index, written) in scene.loads.iter().enumerate() {
-            unique_name(&mut load_names, "loads", index, written.name())?;
-            loads.push(ModelLoad::new(written, &reader("loads", index, written.name()))?);
-        }
-        let mut event_names = HashMap::new();
-        let mut events = Vec::with_capacity(scene.events.len());
-        for (index, written) in scene.events.iter().enumerate() {
-            unique_name(&mut event_names, "events", index, &written.name)?;
-            events.push(ModelEvent::new(written, &reader("events", index, &written.name), &markers)?);
-        }
+        let loads = read_list("loads", &scene.loads, Load::name, |index, written| {
+            ModelLoad::new(written, &reader("loads", index, written.name()))
+        })?;
+        let events = read_list("events", &scene.events, Event::name, |index, written| {
+            ModelEvent::new(written, &reader("events", index, &written.name), &markers)
+        })?;
         parameter::check(scene)?;
         output::check(scene)?;
         Ok(Self {
@@ -170,6 +161,22 @@ fn read_joints(
         joints.push(joint);
     }
     Ok((joints, starts))
+}
+
+/// The elements of a list that share no name.
+fn read_list<'a, W, R>(
+    list: &'static str,
+    written: &'a [W],
+    name: impl Fn(&W) -> &str,
+    mut read: impl FnMut(usize, &'a W) -> Result<R, ModelError>,
+) -> Result<Vec<R>, ModelError> {
+    let mut names = HashMap::new();
+    let mut elements = Vec::with_capacity(written.len());
+    for (index, written) in written.iter().enumerate() {
+        unique_name(&mut names, list, index, name(written))?;
+        elements.push(read(index, written)?);
+    }
+    Ok(elements)
 }
 
 fn unique_name(

@@ -119,15 +119,8 @@ fn place<'a>(robot: &'a Robot, side_car: &SideCar) -> Result<Vec<Placed<'a>>, Ur
         Root::Free if has_mass(root) => own,
         Root::Free => return Err(without_mass(root)),
     };
-    let rest = Vector3::zeros();
-    placed.push(Placed {
-        link: root,
-        pose: Isometry3::identity(),
-        velocity: rest,
-        spin: rest,
-        joint: None,
-        carrier,
-    });
+    let (pose, rest) = (Isometry3::identity(), Vector3::zeros());
+    placed.push(Placed { link: root, pose, velocity: rest, spin: rest, joint: None, carrier });
     let mut queue = VecDeque::from([0]);
     while let Some(at) = queue.pop_front() {
         let name = placed[at].link.name.clone();

@@ -151,7 +151,7 @@ fn an_axis_of_body_i_is_enough_for_a_line_or_a_plane() {
 /// A double pendulum of rods, its elbow turned.
 fn double_pendulum(start: Value, hand: bool) -> Scene {
     let (angle, bend) = (0.7f64, -1.2f64);
-    let elbow = [angle.cos(), angle.sin(), 0.0];
+    let elbow = [libm::cos(angle), libm::sin(angle), 0.0];
     let second = angle + bend;
     let body = |name: &str, from: [f64; 3], turned: f64| {
         json!({ "name": name, "mass": 1, "inertia": { "principal": [0.01, 0.1, 0.1] }, "center_of_mass": [0.5, 0, 0],
@@ -206,11 +206,11 @@ fn a_loop_closes_with_the_given_angle_held() {
     // The crank is stated at 0.4 rad.
     let crank = start.marker("A").unwrap();
     assert!(
-        (crank.position[0] - 1.4f64.cos()).abs() < 1e-12
-            && (crank.velocity[1] - 5.0 * 1.4f64.cos()).abs() < 1e-9
+        (crank.position[0] - libm::cos(1.4)).abs() < 1e-12
+            && (crank.velocity[1] - 5.0 * libm::cos(1.4)).abs() < 1e-9
     );
     let rocker = start.marker("B").unwrap();
-    let length = f64::hypot(rocker.position[0] - crank.position[0], rocker.position[1] - crank.position[1]);
+    let length = libm::hypot(rocker.position[0] - crank.position[0], rocker.position[1] - crank.position[1]);
     assert!((length - 3.4).abs() < 1e-9, "the coupler is {length} m long");
     let notes = Simulation::new(&scene).unwrap().notes().join("\n");
     assert!(!notes.contains("leave") && !notes.contains("keeps"), "{notes}");
@@ -343,7 +343,7 @@ fn the_example_of_the_guide_runs() {
     let scene = Scene::from_json(example).unwrap();
     let motion = scene.simulate(0.0..scene.simulation.duration).unwrap();
     assert!(!motion.times_of("lowest").unwrap().is_empty());
-    assert!((motion.at(0.0).unwrap().marker("bob").unwrap().position[0] - 1.2f64.cos()).abs() < 1e-12);
+    assert!((motion.at(0.0).unwrap().marker("bob").unwrap().position[0] - libm::cos(1.2)).abs() < 1e-12);
     // Each kind of joint and of motion has its row in a table.
     for kind in JointKind::ALL {
         assert!(guide.contains(&format!("| `{kind}` |")), "{kind}");

@@ -48,8 +48,8 @@ fn the_governor_from_the_rate_of_its_shaft() {
         let [t, s, alpha, psi] = [row[0], row[1], row[4], row[7]];
         let state = motion.at(t).unwrap();
         let ball = state.marker("ball").unwrap().position;
-        let radius = 0.05 + alpha.cos();
-        let wanted = [radius * psi.cos(), radius * psi.sin(), 1.0 - alpha.sin()];
+        let radius = 0.05 + libm::cos(alpha);
+        let wanted = [radius * libm::cos(psi), radius * libm::sin(psi), 1.0 - libm::sin(alpha)];
         let off = (0..3).map(|k| (ball[k] - wanted[k]).abs()).fold(0.0, f64::max);
         assert!(off < 1e-8, "the ball is {off:.1e} m off at {t} s");
         assert!((state.marker("collar").unwrap().position[2] - s).abs() < 1e-8, "at {t} s");
@@ -88,8 +88,8 @@ fn rocker_end(
     let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
     let (a, b) = (dot(d, e1), dot(d, e2));
     let k = (dot(d, d) + r * r - coupler * coupler) / (2.0 * r);
-    let psi = b.atan2(a) + sign * (k / a.hypot(b)).acos();
-    [0, 1, 2].map(|k| p[k] + r * (e1[k] * psi.cos() + e2[k] * psi.sin()))
+    let psi = libm::atan2(b, a) + sign * libm::acos(k / libm::hypot(a, b));
+    [0, 1, 2].map(|k| p[k] + r * (e1[k] * libm::cos(psi) + e2[k] * libm::sin(psi)))
 }
 
 #[test]
@@ -104,11 +104,12 @@ fn rockers_follow_their_cranks_as_the_loop_says() {
         let motion = motion(name);
         let state = |t: f64| motion.at(t).unwrap();
         let end = |t: f64, marker: &str| state(t).marker(marker).unwrap().position;
-        let distance = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+        let distance =
+            |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt();
         let coupler = distance(end(0.0, on_crank), end(0.0, on_rocker));
         let at = |t: f64, sign: f64| {
             let phi = start + 5.0 * t;
-            let c = [crank * phi.cos(), crank * phi.sin(), 0.0];
+            let c = [crank * libm::cos(phi), crank * libm::sin(phi), 0.0];
             rocker_end(c, pivot, radius, directions, coupler, sign)
         };
         let sign = if distance(at(0.0, 1.0), end(0.0, on_rocker)) < 1e-9 { 1.0 } else { -1.0 };
