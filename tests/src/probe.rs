@@ -35,8 +35,8 @@ impl TestMechanism {
     pub fn assembled(mut self) -> Self {
         self.mechanism.assemble(&mut self.y).unwrap();
         let n = self.n();
-        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
-        let rank = rank::analyze(system, state, elimination, &self.y[..n]).dependent;
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        let rank = rank::analyze(system, state, &self.y[..n]).dependent;
         self.mechanism.elimination.set_redundant(!rank.is_empty());
         self
     }
@@ -44,8 +44,8 @@ impl TestMechanism {
     /// Number of rows of joints that depend on others. The state is left elsewhere.
     pub fn dependent_rows(&mut self) -> usize {
         let n = self.n();
-        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
-        rank::analyze(system, state, elimination, &self.y[..n]).dependent.len()
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        rank::analyze(system, state, &self.y[..n]).dependent.len()
     }
 
     /// Number of generalized coordinates.

@@ -152,9 +152,9 @@ proptest! {
         let dependent = probe.dependent_rows();
         let system = &probe.mechanism.system;
         prop_assert_eq!(dependent, once + system.constraints[joint].solver.len());
-        let mut series = IslandSeries::in_space(system, 2, &[]);
+        let mut series = IslandSeries::in_space(&system.in_lengths(), 2, &[]);
         series.place(system, 0.0, &probe.y);
-        prop_assert_eq!(series.find_dependent(system.length, true), dependent);
+        prop_assert_eq!(series.find_dependent(system.length, true).len(), dependent);
     }
 
     /// Joints do no work: dE/dt = 0 under gravity alone.

@@ -254,11 +254,11 @@ fn runs_that_cannot_go_on() {
     meet("an event that is not there", &motion.times_of("lowest").unwrap_err());
 
     let mut unique = Refusals::new(variants!(UniquenessError: TooLarge, NotFinite));
-    let long = Simulation::new(&catalogue::scene("spatial-chain:201").unwrap()).unwrap();
+    let long = Simulation::new(&catalogue::scene("n-four-bar:120").unwrap()).unwrap();
     let error = long.reactions(Convention::default()).unwrap_err();
-    meet("reactions of 201 bodies", &error);
+    meet("reactions of 120 four-bars", &error);
     let EngineError::Uniqueness(large) = error else { panic!("{error}") };
-    unique.meet("reactions of 201 bodies", &large, large.code(), None, &large.hint());
+    unique.meet("reactions of 120 four-bars", &large, large.code(), None, &large.hint());
     let error = UniquenessError::NotFinite;
     unique.meet("a state that is not finite", &error, error.code(), None, &error.hint());
 
@@ -286,7 +286,7 @@ fn runs_that_cannot_go_on() {
 #[test]
 fn analyses_without_a_result() {
     let mut met = Refusals::new(variants!(
-        AnalysisError: Engine, TooLarge, NoEquilibrium, Massless, Free, Spins, SingularStart, Unreachable, BranchLost,
+        AnalysisError: Engine, TooLarge, NoEquilibrium, NoSteadyMotion, NoModes, Free, Spins, SingularStart, Unreachable, BranchLost,
         TooManyPositions, Pinned
     ));
     let mut meet =
@@ -296,11 +296,11 @@ fn analyses_without_a_result() {
         "equilibrium of a scene without bodies",
         &equilibrium(&scene(&with("/bodies", json!([])))).unwrap_err(),
     );
-    meet("equilibrium of 151 bodies", &equilibrium(&builtin("spatial-chain:151")).unwrap_err());
+    meet("equilibrium of 201 bodies", &equilibrium(&builtin("spatial-chain:201")).unwrap_err());
     meet("equilibrium of a body that falls", &equilibrium(&builtin("free-fall")).unwrap_err());
-    let mut point = with("/bodies/0", json!({"name": "bob", "mass": 1, "position": [1, 0, 0]}));
-    point["joints"] = json!([]);
-    meet("vibrations of a point that may turn", &modes(&scene(&point), ModesAbout::Start).unwrap_err());
+    let error = modes(&pushed("auto", json!({"kind": "projection"})), ModesAbout::Steady).unwrap_err();
+    meet("vibrations about a motion that is not steady", &error);
+    meet("eigenvalues that are not found", &AnalysisError::NoModes);
     meet(
         "kinematics without drivers",
         &kinematics(&builtin("n-four-bar:1"), Convention::default()).unwrap_err(),

@@ -12,6 +12,8 @@ pub mod rough;
 
 pub mod start;
 
+pub mod geometry;
+
 pub mod rank;
 
 pub mod tangent;

@@ -5,7 +5,7 @@ pub mod rules;
 
 mod redundancy;
 
-pub use redundancy::{DEPENDENT, Movable, find_dependent_rows};
+pub use redundancy::{DEPENDENT, Movable, find_dependent_rows, move_away};
 pub use rules::{Linearize, StopRule};
 
 /// A state that can be moved onto its constraints, with the matrices that do it.

@@ -106,6 +106,10 @@ const LACKING: f64 = 1e-7;
 /// δ over m l² of a body that lacks inertia — eq. (7.8).
 const REGULARIZING_INERTIA: f64 = 1e-4;
 
+/// Arm, in lengths of the mechanism, below which none is taken for the radius of gyration in a measure of lengths: radii that
+/// differ by more would hide rows behind rounding, as masses do.
+const SHORT_ARM: f64 = 1e-2;
+
 /// The assembled system.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -255,6 +259,24 @@ impl System {
             self.coordinates += layouts[index].size();
             self.rigid_rows += layouts[index].rigid_rows().count();
         }
+    }
+
+    /// The same joints with bodies of mass one, and the arm of their joints as radius of gyration about every axis: a measure of
+    /// lengths in which rank is decided — eq. (8.2).
+    pub fn in_lengths(&self) -> Self {
+        let mut system = self.clone();
+        for (body, arm) in system.bodies.iter_mut().zip(self.arms()) {
+            let radius = arm.max(SHORT_ARM * self.length);
+            let square = radius * radius;
+            body.mass = 1.0;
+            body.principal = Vector3::from_element(square);
+            body.ibar = match body.planar_pose {
+                None => Vector3::from_element(0.5 * square),
+                Some(_) => Vector3::new(square, 0.0, 0.0),
+            };
+            body.regularizing_inertia = 0.0;
+        }
+        system
     }
 
     fn add_constraint(&mut self, written: ConstraintBlock) {

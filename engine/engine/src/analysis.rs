@@ -8,6 +8,7 @@ pub mod check;
 
 mod assembly;
 mod equilibrium;
+mod flow;
 mod kinematics;
 mod modes;
 mod stage;
@@ -15,15 +16,15 @@ mod stage;
 pub use assembly::{Assembly, Placement, assemble};
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use kinematics::{KinematicState, Kinematics, kinematics};
-pub use modes::{Mode, ModeShape, Modes, ModesAbout, modes};
+pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, TurnsWithoutInertia, modes};
 #[doc(hidden)]
 pub use stage::Stage;
 
 use crate::error::EngineError;
 use triad_dynamics::constraints::{ConstraintError, quoted};
 
-/// Greatest number of bodies in analyses with dense matrices, whose work grows with its cube.
-pub const MAX_BODIES: usize = 150;
+/// Greatest number of degrees of freedom in analyses with dense matrices, whose work grows with its cube.
+pub const MAX_FREEDOMS: usize = 600;
 
 /// Why an analysis has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -31,11 +32,14 @@ pub enum AnalysisError {
     /// The scene, or its assembly.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// More bodies than dense matrices are good for.
-    #[error("this analysis takes at most {MAX_BODIES} bodies; the scene has {bodies}")]
+    /// More degrees of freedom than dense matrices are good for.
+    #[error(
+        "this analysis takes at most {MAX_FREEDOMS} degrees of freedom, because its work grows with their cube; the scene has \
+         {freedoms}"
+    )]
     TooLarge {
-        /// Bodies of the scene.
-        bodies: usize,
+        /// Degrees of freedom of the scene.
+        freedoms: usize,
     },
     /// No position without acceleration was reached.
     #[error(
@@ -50,14 +54,15 @@ pub enum AnalysisError {
         /// The body that it acts on most.
         body: String,
     },
-    /// A motion without inertia.
-    #[error(
-        "body \"{body}\" can turn about an axis about which it has no inertia: that motion has no frequency"
-    )]
-    Massless {
-        /// The body that moves most.
-        body: String,
+    /// No motion in which all bodies keep their places in a frame that turns and slides uniformly.
+    #[error("there is no steady motion near the start: {reason}")]
+    NoSteadyMotion {
+        /// What stands against it.
+        reason: String,
     },
+    /// The QR algorithm did not converge.
+    #[error("the eigenvalues of the small motions were not found")]
+    NoModes,
     /// Kinematic analysis of a scene that is free to move.
     #[error(
         "the drivers leave freedoms of motion ({freedoms}{}): it is not a matter of geometry alone",
@@ -150,7 +155,8 @@ impl AnalysisError {
             Self::Engine(error) => error.code(),
             Self::TooLarge { .. } => "analysis-too-large",
             Self::NoEquilibrium { .. } => "no-equilibrium",
-            Self::Massless { .. } => "massless-motion",
+            Self::NoSteadyMotion { .. } => "no-steady-motion",
+            Self::NoModes => "no-modes",
             Self::Free { .. } => "not-driven",
             Self::Spins { .. } => "free-to-spin",
             Self::SingularStart { .. } => "singular-start",
@@ -170,7 +176,11 @@ impl AnalysisError {
                 "Look whether anything holds that body: a body that falls freely has no equilibrium. Otherwise start \
                  nearer to where it comes to rest."
             }
-            Self::Massless { .. } => "Give the body a small moment of inertia about that axis.",
+            Self::NoSteadyMotion { .. } => {
+                "Give the start the velocities of that motion, drive at constant speed, and turn about an axis along the weight. \
+                 Modes about a position at rest are those about the equilibrium or the start."
+            }
+            Self::NoModes => "Look whether stiffness and damping of the loads are of a sensible size.",
             Self::Free { .. } => "Add a driver for each degree of freedom, or run the scene forward in time.",
             Self::Spins { .. } => {
                 "Put a universal joint in place of a spherical one at one end, leave the body out by a joint of the kind \"rod\", \

@@ -151,8 +151,7 @@ fn run(scene: &Scene, kind: IntegratorKind, tolerance: f64, sample: bool) -> Opt
     let (q, q_dot) = y.split_at_mut(n);
     mechanism.system.start(q, q_dot);
     mechanism.assemble(&mut y).ok()?;
-    let Mechanism { system, state, elimination, .. } = &mut mechanism;
-    let rank = rank::analyze(system, state, elimination, &y[..n]);
+    let rank = rank::analyze(&mechanism.system, &mut mechanism.state, &y[..n]);
     mechanism.elimination.set_redundant(!rank.dependent.is_empty());
     mechanism.set_state(0.0, &y);
     let mut integrator = Integrator::start(kind, &mut mechanism, 0.0, &y);

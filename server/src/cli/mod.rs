@@ -15,6 +15,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use triad_engine::analysis::ModesAbout;
+
 use crate::problem::Problem;
 use course::{grade, lesson, preview};
 use measure::{bench, paper, stress, sweep};
@@ -94,13 +96,16 @@ enum Command {
     Equilibrium(Source),
     /// Frequencies and shapes of small vibrations about the equilibrium.
     #[command(after_help = "Examples:\n  triad modes spatial-double-pendulum\n  \
-        triad modes n-four-bar:2 --at-start")]
+        triad modes n-four-bar:2 --at-start\n  triad modes my-driven-scene.json --steady")]
     Modes {
         #[command(flatten)]
         source: Source,
         /// About the start, at rest, instead of the equilibrium.
         #[arg(long)]
         at_start: bool,
+        /// About the steady motion near the start, drivers at their speed, instead of a position at rest.
+        #[arg(long, conflicts_with = "at_start")]
+        steady: bool,
     },
     /// Follow the drivers of a scene: positions, velocities, accelerations, and the forces that drive it.
     ///
@@ -263,7 +268,14 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Check(source) => check::check(&source, json),
         Command::Reactions { source, at, words } => analyses::reactions(&source, at, &words, json),
         Command::Equilibrium(source) => analyses::equilibrium(&source, json),
-        Command::Modes { source, at_start } => analyses::modes(&source, at_start, json),
+        Command::Modes { source, at_start, steady } => {
+            let about = match (at_start, steady) {
+                (true, _) => ModesAbout::Start,
+                (_, true) => ModesAbout::Steady,
+                _ => ModesAbout::Equilibrium,
+            };
+            analyses::modes(&source, about, json)
+        }
         Command::Kinematics { source, words } => analyses::kinematics(&source, &words, json),
         Command::Assemble { source, keep } => analyses::assemble(&source, &keep, json),
         Command::Paper(options) => paper::paper(&options, json),

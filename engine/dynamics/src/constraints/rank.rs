@@ -1,9 +1,11 @@
 //! Rank of the joint rows, degrees of freedom and dependent rows — THEORY section 8.
 //!
 //! The rank is taken at a consistent position a little away from the given one: a mechanism often starts in a
-//! singular position, where it would mislead. The dependent rows are those that the factorization of S has to drop.
+//! singular position, where it would mislead. The dependent rows are those that the factorization of S, in a measure of lengths,
+//! has to drop.
 
 use crate::constraints::ConstraintError;
+use crate::constraints::geometry::Geometry;
 use crate::dynamics::elimination::{Elimination, ProjectableState};
 use crate::newton::{DEPENDENT, find_dependent_rows};
 use crate::state::State;
@@ -11,47 +13,55 @@ use crate::system::System;
 use crate::system::index::SolverRow;
 use crate::system::islands;
 
-/// What the pivots say.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rank {
-    /// Rank of the joint rows that the solver keeps.
-    pub rank: usize,
-    /// The same exactly at the start: less where that is a singular position.
-    pub at_start: usize,
-    /// The solver rows that depend on others.
-    pub dependent: Vec<SolverRow>,
-}
+pub use crate::constraints::geometry::Rank;
 
-/// Finds the rank near the consistent position q; `state` and `elimination` are left elsewhere.
-pub fn analyze(system: &System, state: &mut State, elimination: &mut Elimination, q: &[f64]) -> Rank {
-    let was_redundant = elimination.is_redundant();
-    elimination.set_redundant(true);
-    state.set_positions(system, q);
-    let lost = elimination.dependent_rows(system, state, DEPENDENT).len();
-    let mut dependent = Vec::new();
-    // Rows that are independent somewhere are so nearly everywhere.
-    if lost > 0 {
-        let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
-        let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
-        dependent = find_dependent_rows(&mut on, system.length);
+/// Finds the rank near the consistent position q; `state` is left elsewhere.
+pub fn analyze(system: &System, state: &mut State, q: &[f64]) -> Rank {
+    if is_tree(system) {
+        let rank = system.solver_rows;
+        return Rank { rank, at_start: rank, dependent: Vec::new() };
     }
-    elimination.set_redundant(was_redundant);
-    Rank { rank: system.solver_rows - dependent.len(), at_start: system.solver_rows - lost, dependent }
+    Geometry::new(system).analyze(state, q)
 }
 
-/// Rows of a tree of joints are independent whatever the position: if rounding finds them dependent, the masses are to
-/// blame, and what would be computed has nothing to do with the mechanism.
+/// Whether the joints are those of a tree and nothing else: their rows are independent whatever the position.
+pub fn is_tree(system: &System) -> bool {
+    let model = &system.model;
+    let simple =
+        model.drivers.is_empty() && model.joints.iter().all(|joint| joint.coupled_joints().is_none());
+    simple && !islands::has_loops(model)
+}
+
+/// Rows of a tree of joints are independent: if rounding finds them dependent in the measure of the masses, with which the
+/// motion is computed, the masses are to blame, and what would be computed has nothing to do with the mechanism. `state` and
+/// `elimination` are left elsewhere.
 ///
 /// # Errors
 ///
 /// [`ConstraintError::MassesTooDifferent`], with the lightest and the heaviest body.
-pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
-    let System { constraints, bodies, model, .. } = system;
-    let Some(row) = rank.dependent.first() else { return Ok(()) };
-    let tree = model.drivers.is_empty() && model.joints.iter().all(|joint| joint.coupled_joints().is_none());
-    if !tree || islands::has_loops(model) {
+pub fn check_masses(
+    system: &System,
+    state: &mut State,
+    elimination: &mut Elimination,
+    q: &[f64],
+) -> Result<(), ConstraintError> {
+    if !is_tree(system) {
         return Ok(());
     }
+    state.set_positions(system, q);
+    if elimination.dependent_rows(system, state, DEPENDENT).is_empty() {
+        return Ok(());
+    }
+    elimination.set_redundant(true);
+    let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
+    let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
+    let dependent = find_dependent_rows(&mut on, system.length);
+    elimination.set_redundant(false);
+    dependent.first().map_or(Ok(()), |&row| Err(masses_too_different(system, row)))
+}
+
+fn masses_too_different(system: &System, row: SolverRow) -> ConstraintError {
+    let System { constraints, bodies, model, .. } = system;
     let by_mass = || bodies.iter().zip(&model.bodies).map(|(body, named)| (body.mass, named.name.clone()));
     let light = by_mass().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     let heavy = by_mass().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
@@ -59,12 +69,12 @@ pub fn check(system: &System, rank: &Rank) -> Result<(), ConstraintError> {
         .iter()
         .position(|constraint| constraint.solver.contains(&row.index()))
         .unwrap_or_default();
-    Err(ConstraintError::MassesTooDifferent {
+    ConstraintError::MassesTooDifferent {
         joint: constraints[joint].name.clone(),
         pointer: format!("/joints/{joint}"),
         light: light.1,
         light_mass: light.0,
         heavy: heavy.1,
         heavy_mass: heavy.0,
-    })
+    }
 }

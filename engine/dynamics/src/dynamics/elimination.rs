@@ -6,6 +6,7 @@
 //! directors, orthonormal or not, and for full and reduced bodies alike.
 
 mod factor;
+mod idle;
 mod increment;
 mod projectable;
 mod right_side;

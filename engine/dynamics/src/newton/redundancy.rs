@@ -22,25 +22,29 @@ pub trait Movable: Projectable {
     fn for_each(&mut self, change: impl FnMut(&mut f64, &mut f64));
 
     /// The solver rows, in ascending order, that depend on those before them at the positions in place: with pivots of S of
-    /// at most the part `least` of its diagonal. The factor is none to solve with.
+    /// at most the part `least` of its diagonal.
     fn dependent_rows(&mut self, least: f64) -> Vec<SolverRow>;
 }
 
 /// The solver rows that depend on others everywhere: rank A in (8.1) is the number of the other rows. Leaves the state
 /// elsewhere.
 pub fn find_dependent_rows(on: &mut impl Movable, length: f64) -> Vec<SolverRow> {
-    let mut start = Vec::new();
-    on.for_each(|x, _| start.push(*x));
-    if !move_away(on, length) {
-        let mut start = start.iter();
-        on.for_each(|x, _| *x = start.next().copied().unwrap_or(*x));
-    }
+    move_away(on, length);
     on.dependent_rows(DEPENDENT)
 }
 
 /// Moves a consistent state by the part [`AWAY`] of the mechanism's length along an admissible velocity without symmetry,
-/// Φ_q q̇ = 0, and back onto Φ = 0. Returns false if nothing can move, or if Newton's method does not find back.
-fn move_away(on: &mut impl Movable, length: f64) -> bool {
+/// Φ_q q̇ = 0, and back onto Φ = 0; it stays where it is if nothing can move, or if Newton's method does not find back.
+pub fn move_away(on: &mut impl Movable, length: f64) {
+    let mut start = Vec::new();
+    on.for_each(|x, _| start.push(*x));
+    if !has_moved(on, length) {
+        let mut start = start.iter();
+        on.for_each(|x, _| *x = start.next().copied().unwrap_or(*x));
+    }
+}
+
+fn has_moved(on: &mut impl Movable, length: f64) -> bool {
     let mut place = 0.0;
     on.for_each(|_, v| {
         *v = libm::sin(1.0 + place * PHASE);

@@ -13,6 +13,10 @@ use triad_dynamics::state::BodyFrame;
 const STEPS: usize = 300;
 /// Generalized force, relative to the largest force on a body, below which it counts as zero.
 const BALANCED: f64 = 1e-10;
+/// Stiffness, relative to the largest, below which the search takes none.
+const SOFTEST: f64 = 1e-9;
+/// Step, in lengths of the mechanism, that no stiffness is soft enough for: it is cut short to [`LARGEST`] in any case.
+const FARTHEST: f64 = 1e6;
 /// Largest step, relative to the length of the mechanism.
 const LARGEST: f64 = 0.2;
 
@@ -75,7 +79,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     // What is left over where a further step leads to no numbers.
     let mut last = (0.0, String::new());
     for iterations in 0..STEPS {
-        let basis = stage.tangent();
+        let basis = stage.tangent()?;
         stage.rest();
         let force = stage.forces();
         let along = basis.tr_mul(&force);
@@ -102,7 +106,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
             break;
         }
         last = (residual, stage.foremost(&(&basis * &along)));
-        let floor = (1e-9 * stiffest).max(f64::MIN_POSITIVE);
+        let floor = (SOFTEST * stiffest).max(residual / (FARTHEST * length)).max(f64::MIN_POSITIVE);
         let mut step = motions.tr_mul(&along);
         for (x, stiffness) in step.iter_mut().zip(stiffnesses.iter()) {
             *x /= stiffness.abs().max(floor);
@@ -116,7 +120,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
             break;
         }
     }
-    let basis = stage.tangent();
+    let basis = stage.tangent()?;
     stage.rest();
     let force = stage.forces();
     let along = basis.tr_mul(&force);

@@ -172,7 +172,7 @@ fn idle_bodies(scene: &Scene, path: &mut Path) -> Result<Vec<Idle>, AnalysisErro
 /// The body that moves most in what the drivers leave free, where the scene is small enough to tell.
 fn freest(scene: &Scene) -> Option<String> {
     let mut stage = Stage::new(scene).ok()?;
-    let free = stage.tangent();
+    let free = stage.tangent().ok()?;
     let first = free.column_iter().next()?.into_owned();
     Some(stage.foremost(&first))
 }

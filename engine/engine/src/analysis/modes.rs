@@ -1,15 +1,31 @@
 //! Small vibrations about a position at rest: eigenfrequencies and mode shapes.
 
+mod inertia;
+mod pencil;
+mod steady;
+
+pub use inertia::TurnsWithoutInertia;
+pub use steady::SteadyMotion;
+
 use super::{AnalysisError, Stage, equilibrium};
 use crate::scene::Scene;
-use nalgebra::{Complex, ComplexField, DMatrix, DVector, Matrix3, Schur, SymmetricEigen, Vector3};
+use inertia::Inertia;
+use nalgebra::{Complex, ComplexField, DMatrix, DVector};
+use pencil::{Eigen, Pencil, null_and_rest, solve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::state::BodyFrame;
 
-/// Damping or asymmetry, relative to the stiffness, below which it counts as zero.
-const NEGLIGIBLE: f64 = 1e-6;
+/// Damping or asymmetry below this part of the stiffness is none.
+const NEGLIGIBLE: f64 = 1e-9;
+/// Generalized force, as a part of the largest one on a body, above which a position is not an equilibrium.
+const UNBALANCED: f64 = 1e-6;
+/// Stiffness or damping below this part of the largest is none: differences of order four give both to about 1e-13.
+const STIFFLESS: f64 = 1e-11;
+/// Part of the unit force of a damped load that a drift may feel and yet go on for ever.
+const UNDAMPED: f64 = 1e-9;
+/// Relative difference above which two numbers differ by more than rounding.
+const CLEARLY: f64 = 1e-9;
 
 /// The position about which the motion is linearized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -20,18 +36,22 @@ pub enum ModesAbout {
     Equilibrium,
     /// The start itself, at rest.
     Start,
+    /// The steady motion near the start, drivers at their speed: all bodies keep their places in a frame that turns and slides
+    /// uniformly, and spin at most about an axis around which they are alike.
+    Steady,
 }
 
 /// The part of a mode that one body takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ModeShape {
-    /// Displacement of the centre of mass, m; of a mode with damping, its part in phase.
+    /// Displacement of the centre of mass at the time at which the largest of all is at its peak, m, in the world's axes or, about a
+    /// steady motion, along those of its frame.
     pub translation: [f64; 3],
-    /// Rotation, rad.
+    /// Rotation vector at that time, rad.
     pub rotation: [f64; 3],
-    /// Displacement a quarter of a period later, zero without damping, m.
+    /// Displacement a quarter of a period later but for growth and decay, zero where all bodies move in phase, m.
     pub translation_later: [f64; 3],
-    /// Rotation a quarter of a period later, rad.
+    /// Rotation vector then, rad.
     pub rotation_later: [f64; 3],
 }
 
@@ -46,7 +66,8 @@ pub struct Mode {
     pub growth: f64,
     /// Part of critical damping.
     pub damping_ratio: f64,
-    /// The motion of each body, the largest displacement (or rotation times the mechanism's length) being one.
+    /// The motion of each body. The component of displacement (m, or rad times the mechanism's length) with the largest amplitude, the
+    /// first of equal ones, is one now and zero a quarter of a period from now: this fixes size, sign and phase.
     pub shape: Vec<ModeShape>,
 }
 
@@ -55,8 +76,14 @@ pub struct Mode {
 pub struct Modes {
     /// Degrees of freedom.
     pub freedoms: usize,
-    /// The modes, slowest first.
+    /// The modes, slowest first; those without a frequency by their growth.
     pub modes: Vec<Mode>,
+    /// Degrees of freedom that have no inertia, and neither stiffness nor damping: they have no mode.
+    pub left_out: usize,
+    /// The bodies that turn in those, and their axes.
+    pub without_inertia: Vec<TurnsWithoutInertia>,
+    /// The steady motion, if the modes are about one.
+    pub steady: Option<SteadyMotion>,
     /// The bodies at that position.
     pub bodies: Vec<BodyFrame>,
     /// What has to be known of the result.
@@ -65,12 +92,13 @@ pub struct Modes {
 
 /// Linearizes a scene about a position at rest.
 ///
-/// M ẍ + C ẋ + K x = 0 in an orthonormal basis of small motions; K holds the stiffness of loads and the geometric
-/// stiffness of the constraint forces.
+/// M ẍ + C ẋ + K x = 0 in a basis of small motions; K holds the stiffness of loads and the geometric stiffness of the constraint
+/// forces — eq. (10.11). About a steady motion x is measured in its frame, C holds the gyroscopic matrix besides and K the
+/// stiffness of the centrifugal forces — eq. (10.13).
 ///
 /// # Errors
 ///
-/// [`AnalysisError`]: as for [`equilibrium`](super::equilibrium()), and a motion without inertia.
+/// [`AnalysisError`]: as for [`equilibrium`](super::equilibrium()), and eigenvalues that are not found.
 ///
 /// ```
 /// use triad_engine::{analysis::{ModesAbout, modes}, prelude::*};
@@ -86,185 +114,198 @@ pub struct Modes {
 pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     let mut notes = Vec::new();
-    if stage.q_dot.iter().any(|v| *v != 0.0) {
+    if about != ModesAbout::Steady && stage.q_dot.iter().any(|v| *v != 0.0) {
         notes.push(
-            "velocities of the start are left out: modes are those of the mechanism at rest".to_owned(),
+            "velocities of the start are left out: modes are those of the mechanism at rest; those about the steady motion at these \
+             velocities, if there is one, can be asked for"
+                .to_owned(),
         );
     }
-    if about == ModesAbout::Equilibrium {
-        equilibrium::find(&mut stage)?;
-    }
+    let steady = match about {
+        ModesAbout::Equilibrium => {
+            equilibrium::find(&mut stage)?;
+            None
+        }
+        ModesAbout::Start => None,
+        ModesAbout::Steady => Some(steady::find(&mut stage)?),
+    };
     stage.rest();
-    let basis = stage.tangent();
+    let basis = stage.tangent()?;
     let freedoms = basis.ncols();
     if freedoms == 0 {
         notes.push("joints and drivers leave no freedom: nothing can vibrate".to_owned());
-        return Ok(Modes { freedoms, modes: Vec::new(), bodies: stage.frames(), notes });
     }
     stage.rest();
     let force = stage.forces();
     let left = basis.tr_mul(&force).amax();
-    if left > 1e-6 * force.amax() {
+    if left > UNBALANCED * force.amax() {
         notes.push(format!(
             "the position is not an equilibrium: a generalized force of {left:.3e} N is left, which the linear \
              equations leave out"
         ));
     }
-    let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
-    let stiffness = stage.stiffness(&basis, &multipliers);
-    let damping = damping(&mut stage, &basis);
-    let mass = mass(&stage, &basis);
-    let Some(cholesky) = mass.cholesky() else {
-        return Err(AnalysisError::Massless { body: massless(&stage) });
-    };
-    // x = L⁻ᵀ z makes the mass matrix the identity.
-    let l = cholesky.l();
-    let reduce = |matrix: &DMatrix<f64>| {
-        let half = l.solve_lower_triangular(matrix).unwrap_or_else(|| matrix.clone());
-        l.solve_lower_triangular(&half.transpose()).unwrap_or(half).transpose()
-    };
-    let (k, c) = (reduce(&stiffness), reduce(&damping));
-    let scale = k.amax().max(f64::MIN_POSITIVE);
-    let plain = c.amax() <= NEGLIGIBLE * scale.sqrt() && (&k - k.transpose()).amax() <= NEGLIGIBLE * scale;
-    let found = if plain { undamped(&k) } else { damped(&k, &c) };
-    let back = |z: &DVector<f64>| &basis * l.tr_solve_lower_triangular(z).unwrap_or_else(|| z.clone());
+    let small = SmallMotions::new(&mut stage, &basis);
     let length = stage.mechanism.system.length;
-    let mut modes: Vec<Mode> = found
-        .iter()
-        .map(|(value, real, imaginary)| mode(*value, scale, &back(real), &back(imaginary), length))
-        .collect();
+    let mut modes: Vec<Mode> =
+        small.eigen()?.iter().map(|eigen| mode(eigen.value, &small.moved(&eigen.vector), length)).collect();
+    modes.extend(
+        small
+            .drifts()
+            .column_iter()
+            .map(|motion| mode(Complex::new(0.0, 0.0), &motion.map(|x| Complex::new(x, 0.0)), length)),
+    );
     modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency).then(a.growth.total_cmp(&b.growth)));
-    Ok(Modes { freedoms, modes, bodies: stage.frames(), notes })
+    let without_inertia = inertia::turning_bodies(&stage, &small.left_out);
+    let left_out = small.left_out.ncols();
+    Ok(Modes { freedoms, modes, left_out, without_inertia, steady, bodies: stage.frames(), notes })
 }
 
-/// Without damping: λ² = −(eigenvalue of K).
-fn undamped(k: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>, DVector<f64>)> {
-    let eigen = SymmetricEigen::new((k + k.transpose()) * 0.5);
-    (0..k.ncols())
-        .map(|i| {
-            let square = eigen.eigenvalues[i];
-            let value = if square >= 0.0 {
-                Complex::new(0.0, square.sqrt())
-            } else {
-                Complex::new((-square).sqrt(), 0.0)
-            };
-            (value, eigen.eigenvectors.column(i).into_owned(), DVector::zeros(k.ncols()))
-        })
-        .collect()
+/// The linear equations of the small motions.
+struct SmallMotions {
+    /// Twists of each body as columns, those with inertia first.
+    motions: DMatrix<f64>,
+    /// The equations in them.
+    pencil: Pencil,
+    /// Twists that have neither inertia nor stiffness nor damping.
+    left_out: DMatrix<f64>,
 }
 
-/// With damping: eigenvalues of the first-order form with Im λ ≥ 0, each with its vector by inverse iteration.
-fn damped(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>, DVector<f64>)> {
-    let n = k.ncols();
-    let mut first_order = DMatrix::zeros(2 * n, 2 * n);
-    first_order.view_mut((0, n), (n, n)).fill_with_identity();
-    first_order.view_mut((n, 0), (n, n)).copy_from(&-k);
-    first_order.view_mut((n, n), (n, n)).copy_from(&-c);
-    let Some(schur) = Schur::try_new(first_order, f64::EPSILON, 100_000) else { return Vec::new() };
-    let values = schur.complex_eigenvalues();
-    let scale = values.iter().fold(0.0f64, |a, v| a.max(v.modulus()));
-    let mut list = Vec::new();
-    for value in values.iter().copied().filter(|v| v.im >= -1e-12 * scale) {
-        // (λ² + λ C + K) x = 0, slightly beside the eigenvalue.
-        let beside = value + Complex::new(1e-9 * scale, 1e-9 * scale);
-        let matrix = DMatrix::from_fn(n, n, |i, j| {
-            let unit = if i == j { beside * beside } else { Complex::new(0.0, 0.0) };
-            unit + beside * c[(i, j)] + k[(i, j)]
-        });
-        let lu = matrix.lu();
-        let mut x = DVector::from_fn(n, |i, _| Complex::new(1.0 + 0.3 * i as f64, 0.1));
-        for _ in 0..4 {
-            if let Some(next) = lu.solve(&x) {
-                x = next.unscale(next.norm().max(f64::MIN_POSITIVE));
+impl SmallMotions {
+    fn new(stage: &mut Stage, basis: &DMatrix<f64>) -> Self {
+        let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
+        stage.rest();
+        let force = stage.forces().amax() / stage.mechanism.system.length;
+        let Inertia { inertial, massless } = Inertia::new(stage, basis);
+        let orthonormal = |k: &DMatrix<f64>| k.amax().max(force).max(f64::MIN_POSITIVE);
+        // Which motions without inertia are damped, which only held, and which neither.
+        let damping = stage.damping(&massless);
+        let (undamped, creeping) = null_and_rest(&damping, STIFFLESS * orthonormal(&damping));
+        let (undamped, creeping) = (&massless * undamped, &massless * creeping);
+        let own = stage.stiffness(&undamped, &multipliers);
+        stage.rest();
+        let (free, held) = null_and_rest(&own, STIFFLESS * orthonormal(&own));
+        let (left_out, held) = (&undamped * free, &undamped * held);
+        let moving = columns([&inertial, &creeping]);
+        // What is held without inertia follows the others at once: K_hh x_h = −K_h· x.
+        let all = columns([&moving, &held]);
+        let stiffness = stage.stiffness(&all, &multipliers);
+        stage.rest();
+        let (n, h) = (moving.ncols(), held.ncols());
+        let follows =
+            solve(stiffness.view((n, n), (h, h)).into_owned(), &stiffness.view((n, 0), (h, n)).into_owned());
+        let motions = &moving - &held * &follows;
+        let stiffness = stiffness.view((0, 0), (n, n)) - stiffness.view((0, n), (n, h)) * &follows;
+        let damping = stage.damping(&motions);
+        // Which motions meet no stiffness is decided where all motions have the same length.
+        let mut scaled = stiffness.clone();
+        let sizes: Vec<f64> = motions.column_iter().map(|column| size(stage, &column.into_owned())).collect();
+        for (i, size_i) in sizes.iter().enumerate() {
+            for (j, size_j) in sizes.iter().enumerate() {
+                scaled[(i, j)] /= size_i * size_j;
             }
         }
-        // Turn the phase so that the largest entry is real.
-        let largest = x
-            .iter()
-            .copied()
-            .fold(Complex::new(0.0, 0.0), |a, b| if b.modulus() > a.modulus() { b } else { a });
-        let phase = largest.conj() / largest.modulus().max(f64::MIN_POSITIVE);
-        list.push((value, x.map(|x| (x * phase).re), x.map(|x| (x * phase).im)));
+        let (mut drifts, _) = null_and_rest(&scaled, STIFFLESS * orthonormal(&scaled));
+        for (i, size) in sizes.iter().enumerate() {
+            drifts.row_mut(i).unscale_mut(*size);
+        }
+        let drifts = if drifts.is_empty() { drifts } else { drifts.qr().q() };
+        let undamped = undamped_drifts(stage, &motions, &drifts);
+        let (dampers, gyroscopic) = (stage.dampers(&motions), stage.gyroscopic(&motions));
+        let inertial = inertial.ncols();
+        let pencil = Pencil { inertial, stiffness, damping, dampers, gyroscopic, drifts, undamped };
+        Self { motions, pencil, left_out }
     }
-    list
+
+    fn eigen(&self) -> Result<Vec<Eigen>, AnalysisError> {
+        let Pencil { stiffness: k, damping: c, .. } = &self.pencil;
+        let scale = k.amax().max(f64::MIN_POSITIVE);
+        let plain = c.amax() <= NEGLIGIBLE * scale.sqrt() && (k - k.transpose()).amax() <= NEGLIGIBLE * scale;
+        if plain { Ok(self.pencil.undamped()) } else { self.pencil.damped().ok_or(AnalysisError::NoModes) }
+    }
+
+    /// Twists of a solution.
+    fn moved(&self, solution: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
+        let (real, imaginary) =
+            (&self.motions * solution.map(|x| x.re), &self.motions * solution.map(|x| x.im));
+        real.zip_map(&imaginary, Complex::new)
+    }
+
+    fn drifts(&self) -> DMatrix<f64> {
+        &self.motions * &self.pencil.drifts
+    }
 }
 
-/// C = −∂(generalized force)/∂(velocity).
-fn damping(stage: &mut Stage, basis: &DMatrix<f64>) -> DMatrix<f64> {
-    let step = 1e-6 * stage.mechanism.system.length;
-    let mut out = DMatrix::zeros(basis.ncols(), basis.ncols());
-    for k in 0..basis.ncols() {
-        let rate = stage.velocity(&basis.column(k).into_owned());
-        let [ahead, behind] = [step, -step].map(|size| {
-            let q_dot: Vec<f64> = rate.iter().map(|v| v * size).collect();
-            let y = [stage.q.as_slice(), q_dot.as_slice()].concat();
-            stage.mechanism.set_state(stage.time, &y);
-            stage.forces()
-        });
-        out.set_column(k, &(basis.tr_mul(&(behind - ahead)) / (2.0 * step)));
+/// Those of the drifts, orthonormal columns, that nothing damps either.
+fn undamped_drifts(stage: &Stage, motions: &DMatrix<f64>, drifts: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut drifting = motions * drifts;
+    let sizes: Vec<f64> = drifting.column_iter().map(|column| size(stage, &column.into_owned())).collect();
+    for (mut column, size) in drifting.column_iter_mut().zip(&sizes) {
+        column.unscale_mut(*size);
     }
-    stage.rest();
+    let length = stage.mechanism.system.length.min(1.0);
+    let (mut free, _) = null_and_rest(&stage.resistance(&drifting), UNDAMPED * length);
+    for (mut row, size) in free.row_iter_mut().zip(&sizes) {
+        row.unscale_mut(*size);
+    }
+    if free.is_empty() { free } else { drifts * free.qr().q() }
+}
+
+/// Length of a motion, arcs measured at the mechanism's length.
+fn size(stage: &Stage, motion: &DVector<f64>) -> f64 {
+    let length = stage.mechanism.system.length;
+    let square = |k: usize| {
+        let arc = if k % 6 >= 3 { length * motion[k] } else { motion[k] };
+        arc * arc
+    };
+    (0..motion.len()).map(square).sum::<f64>().sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// Matrices beside each other.
+fn columns<const N: usize>(parts: [&DMatrix<f64>; N]) -> DMatrix<f64> {
+    let rows = parts.first().map_or(0, |part| part.nrows());
+    let mut out = DMatrix::zeros(rows, parts.iter().map(|part| part.ncols()).sum());
+    let mut first = 0;
+    for part in parts {
+        out.columns_mut(first, part.ncols()).copy_from(part);
+        first += part.ncols();
+    }
     out
 }
 
-/// Basisᵀ diag(m, I_g) basis.
-fn mass(stage: &Stage, basis: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut weighted = basis.clone();
-    let Mechanism { system, state, .. } = &stage.mechanism;
-    for (index, (body, at)) in system.bodies.iter().zip(state.bodies()).enumerate() {
-        let directors = Matrix3::from_columns(&at.q.e);
-        let inertia = directors * Matrix3::from_diagonal(&body.principal) * directors.transpose();
-        for mut column in weighted.column_iter_mut() {
-            for k in 0..3 {
-                column[6 * index + k] *= body.mass;
-            }
-            let omega = column.fixed_rows::<3>(6 * index + 3).into_owned();
-            column.fixed_rows_mut::<3>(6 * index + 3).copy_from(&(inertia * omega));
-        }
-    }
-    basis.tr_mul(&weighted)
-}
-
-/// The body with the least inertia for its mass.
-fn massless(stage: &Stage) -> String {
-    let system = &stage.mechanism.system;
-    let inertia = |body: usize| system.bodies[body].principal.min() / system.bodies[body].mass;
-    (0..system.bodies.len())
-        .min_by(|a, b| inertia(*a).total_cmp(&inertia(*b)))
-        .map_or_else(String::new, |body| system.model.bodies[body].name.clone())
-}
-
-fn mode(value: Complex<f64>, scale: f64, real: &DVector<f64>, imaginary: &DVector<f64>, length: f64) -> Mode {
-    // Stiffness by differences is good to about ten digits: slower motion than this counts as rest.
-    let slow = 1e-4 * scale.sqrt();
-    let (growth, turning) = (value.re, value.im.abs());
+/// The mode of one solution; its shape is turned in phase so that its largest displacement is one, and now.
+fn mode(value: Complex<f64>, motion: &DVector<Complex<f64>>, length: f64) -> Mode {
+    let still = value.modulus() == 0.0;
     let kind = match () {
-        () if value.modulus() <= slow => "drifts",
-        () if growth > slow => "grows",
-        () if turning > slow => "oscillates",
+        () if still => "drifts",
+        () if value.re > CLEARLY * value.modulus() => "grows",
+        () if value.im > 0.0 => "oscillates",
         () => "decays",
     };
-    let size = (0..real.len())
-        .map(|k| {
-            let arc = if k % 6 >= 3 { length } else { 1.0 };
-            arc * real[k].abs().max(imaginary[k].abs())
-        })
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let part = |from: &DVector<f64>, at: usize| -> [f64; 3] {
-        (Vector3::new(from[at], from[at + 1], from[at + 2]) / size).into()
+    let arc = |k: usize| if k % 6 >= 3 { length } else { 1.0 };
+    // Among equal ones the first, so that rounding does not choose.
+    let mut largest = (f64::MIN_POSITIVE, Complex::new(f64::MIN_POSITIVE, 0.0));
+    for (k, x) in motion.iter().enumerate() {
+        let reach = arc(k) * x.modulus();
+        if reach > largest.0 * (1.0 + CLEARLY) {
+            largest = (reach, x * arc(k));
+        }
+    }
+    let unit = motion.map(|x| x / largest.1);
+    let part = |of: &dyn Fn(Complex<f64>) -> f64, at: usize| -> [f64; 3] {
+        [of(unit[at]), of(unit[at + 1]), of(unit[at + 2])]
     };
-    let shape = (0..real.len() / 6).map(|body| ModeShape {
-        translation: part(real, 6 * body),
-        rotation: part(real, 6 * body + 3),
-        translation_later: part(imaginary, 6 * body),
-        rotation_later: part(imaginary, 6 * body + 3),
+    let shape = (0..motion.len() / 6).map(|body| ModeShape {
+        translation: part(&|x| x.re, 6 * body),
+        rotation: part(&|x| x.re, 6 * body + 3),
+        // Re x e^(iωt) is −Im x a quarter of a period from now.
+        translation_later: part(&|x| 0.0 - x.im, 6 * body),
+        rotation_later: part(&|x| 0.0 - x.im, 6 * body + 3),
     });
-    let still = kind == "drifts";
     Mode {
         kind,
-        frequency: if still { 0.0 } else { turning / std::f64::consts::TAU },
-        growth: if still { 0.0 } else { growth },
-        damping_ratio: if still { 0.0 } else { -growth / value.modulus() },
+        frequency: value.im.abs() / std::f64::consts::TAU,
+        growth: value.re,
+        damping_ratio: if still { 0.0 } else { -value.re / value.modulus() },
         shape: shape.collect(),
     }
 }

@@ -1,29 +1,39 @@
 //! A mechanism held at one position, with its small motions.
 
-use super::{AnalysisError, MAX_BODIES};
+use super::flow::Flow;
+use super::{AnalysisError, MAX_FREEDOMS};
 use crate::error::EngineError;
 use crate::scene::Scene;
-use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
+use nalgebra::{DMatrix, DVector, Rotation3, RowDVector, Vector3};
+use std::ops::AddAssign;
+use triad_dynamics::constraints::geometry::Geometry;
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::constraints::{start, tangent};
+use triad_dynamics::constraints::start;
 use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
 use triad_dynamics::model::Model;
 use triad_dynamics::newton::{project_positions, rules};
-use triad_dynamics::state::{AppliedForces, BodyFrame};
+use triad_dynamics::state::{AppliedForces, BodyFrame, State};
 use triad_dynamics::system::index::IncidenceId;
 use triad_dynamics::system::natural::NaturalCoordinates;
+
+/// Step of differences in lengths of the mechanism: of order four, they are then right to about 1e-13.
+const STEP: f64 = 1e-3;
 
 /// A mechanism held at one position.
 #[derive(Clone, Debug)]
 pub struct Stage {
     /// The mechanism.
     pub mechanism: Mechanism,
+    /// Its joints in the measure of lengths.
+    geometry: Geometry,
     /// Its coordinates.
     pub q: Vec<f64>,
     /// Its velocities.
     pub q_dot: Vec<f64>,
     /// The time at which drivers and loads are taken, s.
     pub time: f64,
+    /// The steady motion in which it is held; rest, unless one is looked for.
+    pub flow: Flow,
     /// What was corrected on the way to a consistent start.
     pub notes: Vec<String>,
 }
@@ -33,16 +43,13 @@ impl Stage {
     ///
     /// # Errors
     ///
-    /// [`AnalysisError`]: a scene that cannot be or cannot be assembled, or one too large for dense matrices.
+    /// [`AnalysisError`]: a scene that cannot be or cannot be assembled.
     pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
         let model = Model::new(scene).map_err(EngineError::from)?;
-        if model.bodies.len() > MAX_BODIES {
-            return Err(AnalysisError::TooLarge { bodies: model.bodies.len() });
-        }
         Self::from_model(model)
     }
 
-    /// Assembles a model of any size, for what needs no dense matrices.
+    /// Assembles a model.
     ///
     /// # Errors
     ///
@@ -53,14 +60,57 @@ impl Stage {
         notes.extend(mechanism.assemble(&mut start)?);
         mechanism.elimination.set_redundant(true);
         let q_dot = start.split_off(mechanism.system.coordinates);
-        Ok(Self { mechanism, q: start, q_dot, time: 0.0, notes })
+        let geometry = Geometry::new(&mechanism.system);
+        Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow: Flow::default(), notes })
     }
 
-    /// Takes over the held position at rest.
+    /// Takes over the held position at rest, or in the steady motion.
     pub fn rest(&mut self) {
-        self.q_dot.fill(0.0);
+        self.q_dot = self.velocities(&self.q);
         let y = [self.q.as_slice(), self.q_dot.as_slice()].concat();
         self.mechanism.set_state(self.time, &y);
+    }
+
+    /// Velocities q̇ of the steady motion, or zero, at positions q.
+    pub fn velocities(&self, q: &[f64]) -> Vec<f64> {
+        let mut q_dot = vec![0.0; q.len()];
+        if !self.flow.is_rest() {
+            for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
+                body.layout.store(&self.flow.rate(index, &body.layout.position(q)), &mut q_dot);
+            }
+        }
+        q_dot
+    }
+
+    /// Twists (v, ω) body by body of the held velocities.
+    pub fn twists(&self) -> DVector<f64> {
+        let mut out = DVector::zeros(6 * self.mechanism.system.bodies.len());
+        for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
+            let at = body.layout.position(&self.q);
+            let rate = body.layout.velocity(&at, &self.q_dot);
+            // ω = ½ Σ e_k × ė_k — eq. (6.4).
+            let omega = (0..3).map(|k| at.e[k].cross(&rate.e[k])).sum::<Vector3<f64>>() * 0.5;
+            out.fixed_rows_mut::<3>(6 * index).copy_from(&rate.r);
+            out.fixed_rows_mut::<3>(6 * index + 3).copy_from(&omega);
+        }
+        out
+    }
+
+    /// A times twists, columns of (v, ω) body by body, at the held position.
+    pub fn rows_times(&mut self, twists: &DMatrix<f64>) -> DMatrix<f64> {
+        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
+        state.set_positions(system, &self.q);
+        elimination.fill_rows(system, state);
+        let mut out = DMatrix::zeros(system.solver_rows, twists.ncols());
+        for (index, incidence) in system.incidences.iter().enumerate() {
+            let first = system[incidence.constraint].solver.start;
+            let rows = elimination.jacobian().rows_on(system, IncidenceId(index)).chunks_exact(6);
+            for (k, row) in rows.enumerate() {
+                let product = RowDVector::from_row_slice(row) * twists.rows(6 * incidence.body, 6);
+                out.row_mut(first + k).add_assign(&product);
+            }
+        }
+        out
     }
 
     /// The held state, to be moved onto the constraints.
@@ -76,32 +126,68 @@ impl Stage {
         elimination.accelerate(system, state, (0.0, 0.0))
     }
 
+    /// How many independent small motions the joints and drivers allow at the held position.
+    pub fn freedoms(&mut self) -> usize {
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        state.set_positions(system, &self.q);
+        self.geometry.place(state);
+        self.geometry.freedoms()
+    }
+
     /// An orthonormal basis of small motions, lengths of arc measured with the mechanism's length: columns of
     /// (v, ω) body by body.
-    pub fn tangent(&mut self) -> DMatrix<f64> {
-        let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
-        state.set_positions(system, &self.q);
-        tangent::twists(system, state, elimination)
+    ///
+    /// # Errors
+    ///
+    /// [`AnalysisError::TooLarge`]: more of them than dense matrices are good for.
+    pub fn tangent(&mut self) -> Result<DMatrix<f64>, AnalysisError> {
+        let freedoms = self.freedoms();
+        if freedoms > MAX_FREEDOMS {
+            return Err(AnalysisError::TooLarge { freedoms });
+        }
+        Ok(self.geometry.twists())
     }
 
     /// Resultant force and moment about the centre of mass of all loads, body by body, at the state taken over last.
-    pub fn forces(&self) -> DVector<f64> {
+    pub fn loads(&self) -> DVector<f64> {
         let Mechanism { system, state, .. } = &self.mechanism;
-        let forces = AppliedForces::new(system, state).bodies;
-        let mut out = DVector::zeros(6 * system.bodies.len());
-        for (index, (at, force)) in state.bodies().iter().zip(&forces).enumerate() {
-            let moment: Vector3<f64> = (0..3).map(|k| at.q.e[k].cross(&force.e[k])).sum();
-            out.fixed_rows_mut::<3>(6 * index).copy_from(&force.r);
-            out.fixed_rows_mut::<3>(6 * index + 3).copy_from(&moment);
+        resultants(state, &AppliedForces::new(system, state))
+    }
+
+    /// The same with the forces of inertia of the steady motion.
+    pub fn forces(&self) -> DVector<f64> {
+        let mut out = self.loads();
+        if !self.flow.is_rest() {
+            self.for_inertial(
+                |_| [Vector3::zeros(); 2],
+                |index, [force, moment]| {
+                    let mut force_on = out.fixed_rows_mut::<3>(6 * index);
+                    force_on += force;
+                    let mut moment_on = out.fixed_rows_mut::<3>(6 * index + 3);
+                    moment_on += moment;
+                },
+            );
         }
         out
+    }
+
+    /// Calls `take` with the force and moment of inertia on each body, whose velocities in the frame of the steady motion are given.
+    fn for_inertial(
+        &self,
+        velocities: impl Fn(usize) -> [Vector3<f64>; 2],
+        mut take: impl FnMut(usize, [Vector3<f64>; 2]),
+    ) {
+        let Mechanism { system, state, .. } = &self.mechanism;
+        for (index, (body, at)) in system.bodies.iter().zip(state.bodies()).enumerate() {
+            take(index, self.flow.inertial(index, body, &at.q, velocities(index)));
+        }
     }
 
     /// Aᵀ λ − F: what is left to accelerate the bodies, for given multipliers, at the state taken over last.
     pub fn imbalance(&mut self, multipliers: &[f64]) -> DVector<f64> {
         let mut out = -self.forces();
         let Mechanism { system, state, elimination, .. } = &mut self.mechanism;
-        elimination.linearize(system, state);
+        elimination.fill_rows(system, state);
         for (index, incidence) in system.incidences.iter().enumerate() {
             let first = system[incidence.constraint].solver.start;
             let rows = elimination.jacobian().rows_on(system, IncidenceId(index)).chunks_exact(6);
@@ -127,23 +213,11 @@ impl Stage {
         q
     }
 
-    /// Generalized velocities of a twist of each body at the held position.
-    pub fn velocity(&self, twist: &DVector<f64>) -> Vec<f64> {
-        let mut q_dot = vec![0.0; self.q.len()];
-        for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
-            let at = body.layout.position(&self.q);
-            let part = |k: usize| Vector3::new(twist[k], twist[k + 1], twist[k + 2]);
-            let omega = part(6 * index + 3);
-            let rate = NaturalCoordinates { r: part(6 * index), e: at.e.map(|e| omega.cross(&e)) };
-            body.layout.store(&rate, &mut q_dot);
-        }
-        q_dot
-    }
-
-    /// Takes over positions, at rest.
+    /// Takes over positions, at rest or in the steady motion.
     pub fn place(&mut self, q: &[f64]) {
+        let q_dot = self.velocities(q);
         let Mechanism { system, state, .. } = &mut self.mechanism;
-        state.set(system, self.time, q, &vec![0.0; q.len()]);
+        state.set(system, self.time, q, &q_dot);
     }
 
     /// Takes over a position after closing the joints. Returns the violation that is left.
@@ -154,27 +228,104 @@ impl Stage {
         on.state.set_time(on.system, time);
         on.state.set_positions(on.system, on.q);
         project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
+        let q_dot = self.velocities(&self.q);
         let Mechanism { system, state, .. } = &mut self.mechanism;
         state.commit_revolutions();
-        state.set_velocities(system, &vec![0.0; self.q.len()]);
+        state.set_velocities(system, &q_dot);
         state.position_violation(system)
     }
 
     /// −∂(generalized force)/∂(motion) along a basis, with multipliers held: the stiffness matrix at rest.
     pub fn stiffness(&mut self, basis: &DMatrix<f64>, multipliers: &[f64]) -> DMatrix<f64> {
-        let step = 1e-5 * self.mechanism.system.length;
+        let length = self.mechanism.system.length;
         let mut out = DMatrix::zeros(basis.ncols(), basis.ncols());
         for k in 0..basis.ncols() {
             let direction = basis.column(k).into_owned();
-            let [ahead, behind] = [step, -step].map(|size| {
+            // Columns may have any length: the step is one of the motion.
+            let reach = (0..direction.len()).fold(0.0f64, |a, i| {
+                a.max(if i % 6 >= 3 { length * direction[i].abs() } else { direction[i].abs() })
+            });
+            let step = STEP * length / reach.max(f64::MIN_POSITIVE);
+            let mut at = |size: f64| {
                 let q = self.moved(&direction, size);
                 self.place(&q);
                 self.imbalance(multipliers)
-            });
-            out.set_column(k, &(basis.tr_mul(&(ahead - behind)) / (2.0 * step)));
+            };
+            let (near, far) = (at(step) - at(-step), at(2.0 * step) - at(-2.0 * step));
+            out.set_column(k, &basis.tr_mul(&((near * 8.0 - far) / (12.0 * step))));
         }
         let q = self.q.clone();
         self.place(&q);
+        out
+    }
+
+    /// −∂(generalized force)/∂(velocity) along a basis, at the state taken over last: Σ d g gᵀ over the loads, with d = −∂f/∂ẋ and g
+    /// the generalized force of a unit force along x, and the gyroscopic matrix of the steady motion.
+    pub fn damping(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut out = self.gyroscopic(basis);
+        for (damping, along) in self.dampers(basis) {
+            out.ger(damping, &along, &along, 1.0);
+        }
+        out
+    }
+
+    /// d of each damped load, and its g along a basis.
+    pub fn dampers(&self, basis: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
+        let mut out = Vec::new();
+        self.for_damped(|damping, unit| out.push((damping, basis.tr_mul(unit))));
+        out
+    }
+
+    /// What resists motions along a basis at any speed, as rows: of each damped load its unit force, of length one, and the
+    /// gyroscopic matrix relative to its largest entry. What none of them feels goes on for ever, however strong the others are.
+    pub fn resistance(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut rows: Vec<RowDVector<f64>> = Vec::new();
+        self.for_damped(|_, unit| rows.push(basis.tr_mul(&(unit / unit.norm())).transpose()));
+        let gyroscopic = self.gyroscopic(basis);
+        let largest = gyroscopic.amax();
+        if largest > 0.0 {
+            rows.extend(gyroscopic.row_iter().map(|row| row / largest));
+        }
+        if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) }
+    }
+
+    /// Calls `take` with d and the wrenches of a unit force of each damped load.
+    fn for_damped(&self, mut take: impl FnMut(f64, &DVector<f64>)) {
+        let Mechanism { system, state, .. } = &self.mechanism;
+        for load in &system.loads {
+            let mut unit = AppliedForces::none(system);
+            if let Some((_, damping)) = load.linearized(system, state, &mut unit)
+                && damping != 0.0
+            {
+                let unit = resultants(state, &unit);
+                if unit.norm() > 0.0 {
+                    take(damping, &unit);
+                }
+            }
+        }
+    }
+
+    /// −∂(forces of inertia of the steady motion)/∂(velocity) along a basis: they are quadratic, so that differences are exact.
+    pub fn gyroscopic(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut out = DMatrix::zeros(basis.ncols(), basis.ncols());
+        if self.flow.is_rest() {
+            return out;
+        }
+        for k in 0..basis.ncols() {
+            let mut change = DVector::zeros(basis.nrows());
+            for sign in [1.0, -1.0] {
+                let part = |at: usize| Vector3::from_fn(|c, _| sign * basis[(at + c, k)]);
+                self.for_inertial(
+                    |body| [part(6 * body), part(6 * body + 3)],
+                    |body, wrench| {
+                        for (c, part) in wrench.iter().flat_map(|part| part.iter()).enumerate() {
+                            change[6 * body + c] -= 0.5 * sign * part;
+                        }
+                    },
+                );
+            }
+            out.set_column(k, &basis.tr_mul(&change));
+        }
         out
     }
 
@@ -196,4 +347,15 @@ impl Stage {
             .max_by(|a, b| size(*a).total_cmp(&size(*b)))
             .map_or_else(String::new, |body| bodies[body].name.clone())
     }
+}
+
+/// Resultant force and moment about the centre of mass, body by body.
+fn resultants(state: &State, forces: &AppliedForces) -> DVector<f64> {
+    let mut out = DVector::zeros(6 * forces.bodies.len());
+    for (index, (at, force)) in state.bodies().iter().zip(&forces.bodies).enumerate() {
+        let moment: Vector3<f64> = (0..3).map(|k| at.q.e[k].cross(&force.e[k])).sum();
+        out.fixed_rows_mut::<3>(6 * index).copy_from(&force.r);
+        out.fixed_rows_mut::<3>(6 * index + 3).copy_from(&moment);
+    }
+    out
 }

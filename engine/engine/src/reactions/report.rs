@@ -1,11 +1,12 @@
 //! Reactions as they are told: on which body, about which point, in which frame, and which numbers are unique.
 
-use crate::reactions::uniqueness::{NullSpace, RANK_TOLERANCE, Redundancy, TOLERANCE, UniquenessError};
+use crate::reactions::uniqueness::{NullSpace, Redundancy, TOLERANCE, UniquenessError};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::model::{BodyRef, DriverKind, ModelJoint};
+use triad_dynamics::newton::DEPENDENT;
 use triad_dynamics::state::State;
 use triad_dynamics::system::index::SolverRow;
 use triad_dynamics::system::{Constraint, System};
@@ -131,7 +132,7 @@ pub struct ReactionReport {
 #[doc(hidden)]
 pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport, UniquenessError> {
     let system = at.system;
-    let null = NullSpace::new(system, at.jacobian)?;
+    let null = NullSpace::new(system, at.state, at.jacobian)?;
     let multipliers = null.smallest(at.solver_rows());
     let tell = |constraint| reaction(at, constraint, convention, &null, &multipliers);
     let reactions = system.constraints.iter().map(tell).collect();
@@ -139,7 +140,7 @@ pub fn report(at: &Multipliers, convention: Convention) -> Result<ReactionReport
         time: at.state.time(),
         reactions,
         redundancies: null.redundancies(system, at.state),
-        rank_tolerance: RANK_TOLERANCE,
+        rank_tolerance: DEPENDENT.sqrt(),
         tolerance: TOLERANCE,
     })
 }

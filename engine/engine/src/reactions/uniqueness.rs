@@ -12,29 +12,32 @@ pub use remedy::Remedy;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Serialize;
+use triad_dynamics::constraints::geometry::Geometry;
+use triad_dynamics::constraints::rank;
 use triad_dynamics::dynamics::elimination::TwistJacobian;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
 use triad_dynamics::system::index::{ConstraintId, IncidenceId, SolverRow};
-use triad_linalg::left_null_space;
 
-/// Greatest number of rows that are analysed: the work grows with its cube.
-pub const MAX_ROWS: usize = 600;
-/// A row, scaled to unit length, depends on the others if its component orthogonal to them is shorter than this.
-pub const RANK_TOLERANCE: f64 = 1e-9;
+/// Greatest square of the number of rows times the number of those that are too many: what finding the joints that share them
+/// costs, a second or two at most.
+pub const MAX_WORK: usize = 1_000_000_000;
 /// A component that a unit null vector changes by less than this part of its own size is unique.
 pub const TOLERANCE: f64 = 1e-7;
 
 /// Why uniqueness is not determined.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UniquenessError {
-    /// Too many rows.
+    /// Too many redundant rows.
     #[error(
-        "which reactions are unique is found for at most {MAX_ROWS} rows of joints; the scene has {rows}"
+        "which reactions are unique is not found for {redundant} redundant rows among {rows}: the work grows with the square of \
+         the one times the other"
     )]
     TooLarge {
         /// Rows of the scene.
         rows: usize,
+        /// How many of them are too many.
+        redundant: usize,
     },
     /// The state is not finite.
     #[error("the rows of the joints hold numbers that are not finite")]
@@ -98,37 +101,35 @@ impl NullSpace {
     ///
     /// # Errors
     ///
-    /// [`UniquenessError`]: too many rows, or rows that are not finite.
-    pub fn new(system: &System, jacobian: &TwistJacobian) -> Result<Self, UniquenessError> {
-        let rows = system.solver_rows;
-        if rows > MAX_ROWS {
-            return Err(UniquenessError::TooLarge { rows });
-        }
-        let mut a = DMatrix::zeros(rows, 6 * system.bodies.len());
-        for (index, incidence) in system.incidences.iter().enumerate() {
-            let first = system[incidence.constraint].solver.start;
-            for (k, row) in jacobian.rows_on(system, IncidenceId(index)).chunks_exact(6).enumerate() {
-                for c in 0..6 {
-                    let scale = if c < 3 { 1.0 } else { 1.0 / system.length };
-                    a[(first + k, 6 * incidence.body + c)] = row[c] * scale;
-                }
-            }
-        }
-        let lengths: Vec<f64> = a.row_iter().map(|row| row.norm()).collect();
-        for (mut row, length) in a.row_iter_mut().zip(&lengths) {
-            if *length > 0.0 {
-                row /= *length;
-            }
-        }
-        if a.iter().any(|x| !x.is_finite()) {
+    /// [`UniquenessError`]: too many redundant rows, or rows that are not finite.
+    pub fn new(system: &System, state: &State, jacobian: &TwistJacobian) -> Result<Self, UniquenessError> {
+        let lengths = lengths(system, jacobian);
+        if lengths.iter().any(|length| !length.is_finite()) {
             return Err(UniquenessError::NotFinite);
         }
-        let scaled = left_null_space(&a, RANK_TOLERANCE);
+        let rows = system.solver_rows;
+        if rank::is_tree(system) {
+            let none = DMatrix::zeros(rows, 0);
+            return Ok(Self { basis: none.clone(), scaled: none, lengths });
+        }
+        let mut geometry = Geometry::new(system);
+        geometry.place(state);
+        let redundant = geometry.dependent().len();
+        if rows * rows * redundant > MAX_WORK {
+            return Err(UniquenessError::TooLarge { rows, redundant });
+        }
+        let mut scaled = geometry.idle_multipliers();
+        // Rows between bodies that cannot move have no length, and multipliers without any effect.
+        let sizes: Vec<f64> = lengths.iter().map(|&length| if length > 0.0 { length } else { 1.0 }).collect();
+        for (mut row, size) in scaled.row_iter_mut().zip(&sizes) {
+            row *= *size;
+        }
+        if redundant > 0 {
+            scaled = scaled.qr().q();
+        }
         let mut basis = scaled.clone();
-        for (mut row, length) in basis.row_iter_mut().zip(&lengths) {
-            if *length > 0.0 {
-                row /= *length;
-            }
+        for (mut row, size) in basis.row_iter_mut().zip(&sizes) {
+            row /= *size;
         }
         Ok(Self { basis, scaled, lengths })
     }
@@ -169,6 +170,9 @@ impl NullSpace {
 
     /// The sets of joints that share redundant rows, with what would remove them.
     pub fn redundancies(&self, system: &System, at: &State) -> Vec<Redundancy> {
+        if self.dimension() == 0 {
+            return Vec::new();
+        }
         let mut sets: Vec<Vec<ConstraintId>> = Vec::new();
         let projector = &self.scaled * self.scaled.transpose();
         let coupled = |i: ConstraintId, j: ConstraintId| {
@@ -218,6 +222,20 @@ impl NullSpace {
         let own: Vec<usize> = (0..part.ncols()).filter(|&k| eigen.eigenvalues[k] > 0.5).collect();
         &self.basis * eigen.eigenvectors.select_columns(&own)
     }
+}
+
+/// Length of each solver row, rotations measured along the mechanism's length.
+fn lengths(system: &System, jacobian: &TwistJacobian) -> Vec<f64> {
+    let mut squares = vec![0.0; system.solver_rows];
+    for (index, incidence) in system.incidences.iter().enumerate() {
+        let first = system[incidence.constraint].solver.start;
+        let rows = jacobian.rows_on(system, IncidenceId(index)).chunks_exact(6);
+        for (row, square) in rows.zip(&mut squares[first..]) {
+            let part = |numbers: &[f64]| numbers.iter().map(|x| x * x).sum::<f64>();
+            *square += part(&row[..3]) + part(&row[3..]) / (system.length * system.length);
+        }
+    }
+    squares.into_iter().map(f64::sqrt).collect()
 }
 
 fn distance(count: usize, to: f64) -> f64 {

@@ -117,8 +117,9 @@ fn analyze_rank(
     notes: &mut Vec<String>,
 ) -> Result<Rank, ConstraintError> {
     let Mechanism { system, state, elimination, .. } = mechanism;
-    let rank = rank::analyze(system, state, elimination, &start[..system.coordinates]);
-    rank::check(system, &rank)?;
+    let q = &start[..system.coordinates];
+    let rank = rank::analyze(system, state, q);
+    rank::check_masses(system, state, elimination, q)?;
     if rank.at_start < rank.rank {
         notes.push(format!(
             "the start is a singular position: {} rows lose their hold there, and several branches of motion may \

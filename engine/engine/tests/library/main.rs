@@ -5,11 +5,13 @@ mod common;
 
 mod analyses;
 mod catalogue;
+mod counting;
 mod custom_loads;
 mod examples;
 mod kinematics;
 mod kinematics_in_space;
 mod loops;
+mod modes;
 mod outputs;
 mod parameters;
 mod pure;

@@ -140,10 +140,14 @@ fn order_zero_is_an_evaluation_of_the_accelerations() {
         let expected = simulation.accelerations();
         let y = [simulation.q(), simulation.q_dot()].concat();
         let redundant = !simulation.rank().dependent.is_empty();
-        let mut series = IslandSeries::in_space(simulation.system(), 2, &[]);
-        series.place(simulation.system(), simulation.time(), &y);
-        let dependent = series.find_dependent(simulation.system().length, redundant);
-        assert_eq!(dependent, simulation.rank().dependent.len(), "{name}");
+        let system = simulation.system();
+        let mut measured = IslandSeries::in_space(&system.in_lengths(), 2, &[]);
+        measured.place(system, simulation.time(), &y);
+        let dependent = measured.find_dependent(system.length, redundant);
+        let mut series = IslandSeries::in_space(system, 2, &[]);
+        series.place(system, simulation.time(), &y);
+        series.leave_out(&dependent);
+        assert_eq!(dependent.len(), simulation.rank().dependent.len(), "{name}");
         series.evaluate();
         let mut found = vec![0.0; expected.len()];
         series.store_accelerations(simulation.system(), &mut found);

@@ -188,11 +188,14 @@ pub(in crate::cli) fn equilibrium(source: &Source, json: bool) -> Result<Outcome
 }
 
 /// Eigenfrequencies and mode shapes.
-pub(in crate::cli) fn modes(source: &Source, at_start: bool, json: bool) -> Result<Outcome, Problem> {
+pub(in crate::cli) fn modes(
+    source: &Source,
+    about: analysis::ModesAbout,
+    json: bool,
+) -> Result<Outcome, Problem> {
     let mut clock = Clock::start();
     let scene = source.read()?;
     clock.lap("read");
-    let about = if at_start { analysis::ModesAbout::Start } else { analysis::ModesAbout::Equilibrium };
     let found = analysis::modes(&scene, about)?;
     clock.lap("solve");
     if json {
@@ -200,6 +203,16 @@ pub(in crate::cli) fn modes(source: &Source, at_start: bool, json: bool) -> Resu
         return Ok(Outcome::Done);
     }
     print_line(&format!("{}: {} degrees of freedom", scene.name, found.freedoms));
+    if let Some(steady) = &found.steady {
+        print_line(&format!(
+            "  in a frame that turns at {} rad/s and slides at {} m/s",
+            triple(steady.turning),
+            triple(steady.sliding)
+        ));
+        for spin in &steady.spins {
+            print_line(&format!("    {} spins in it at {:.6} rad/s", spin.body, spin.rate));
+        }
+    }
     for (index, mode) in found.modes.iter().enumerate() {
         print_line(&format!(
             "  mode {}: {:<10} {:>12.6} Hz, growth {:>12.6} 1/s, damping ratio {:.6}",
@@ -216,6 +229,13 @@ pub(in crate::cli) fn modes(source: &Source, at_start: bool, json: bool) -> Resu
                 triple(motion.translation),
                 triple(motion.rotation)
             ));
+        }
+    }
+    if found.left_out > 0 {
+        print_line(&format!("  motions left out because they have no inertia: {}", found.left_out));
+        for turns in &found.without_inertia {
+            let axes: Vec<String> = turns.axes.iter().map(|axis| triple(*axis)).collect();
+            print_line(&format!("    {} turns about {}", turns.body, axes.join(" and ")));
         }
     }
     for note in &found.notes {

@@ -41,6 +41,9 @@ export interface Mode {
 export interface ModesResult {
   freedoms: number;
   modes: Mode[];
+  /** Motions that have no inertia, and the bodies that turn in them. */
+  left_out: number;
+  without_inertia: { body: string; axes: Vec3[] }[];
   bodies: Placed[];
   notes: string[];
 }
@@ -173,8 +176,19 @@ export function modesView(found: ModesResult, show: (mode: Mode) => void): HTMLE
         "Choose a mode to see it swing in the sketch.",
     ),
     modesTable(found.modes, show),
+    ...leftOutView(found),
     ...found.notes.map((note) => h("p", { class: "help" }, note)),
   ];
+}
+
+function leftOutView(found: ModesResult): HTMLElement[] {
+  if (found.left_out === 0) return [];
+  const axis = (to: Vec3): string => `(${to.map((x) => fixed(x, 3)).join(", ")})`;
+  const turns = found.without_inertia.map(
+    ({ body, axes }) => `${body} turns about ${axes.map(axis).join(" and ")}`,
+  );
+  const what = `${plural(found.left_out, "motion")} without inertia left out: ${turns.join("; ")}.`;
+  return [h("p", { class: "help" }, what)];
 }
 
 function modesTable(modes: Mode[], show: (mode: Mode) => void): HTMLElement {

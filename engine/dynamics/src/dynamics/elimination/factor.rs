@@ -25,12 +25,30 @@ impl Elimination {
         }
     }
 
+    /// Builds A alone at the positions of a state.
+    pub fn fill_rows(&mut self, system: &System, state: &State) {
+        self.jacobian.fill(system, state);
+    }
+
     /// The solver rows that depend on others at the positions of a state, by the pivots of S below the part `least` of its
-    /// diagonal — eq. (8.1). The factor is none to solve with.
+    /// diagonal — eq. (8.1). The factor is left without these rows.
     pub fn dependent_rows(&mut self, system: &System, state: &State, least: f64) -> Vec<SolverRow> {
         self.set_up(system, state);
         self.assemble(system);
         self.factor.dependent_rows(least).into_iter().map(SolverRow).collect()
+    }
+
+    /// The least relative pivot above `least` of the last factorization.
+    pub fn least_pivot(&self, least: f64) -> f64 {
+        let pivots = self.factor.relative_pivots().iter();
+        pivots.filter(|pivot| **pivot > least).fold(f64::INFINITY, |smallest, pivot| smallest.min(*pivot))
+    }
+
+    /// Factors S of the last positions without the given rows.
+    pub fn factor_without(&mut self, system: &System, rows: &[SolverRow]) {
+        self.factor.leave_out(rows.iter().map(|row| row.index()));
+        self.assemble(system);
+        self.factor.factor(0.0, 0.0);
     }
 
     /// From now on each factorization keeps its pivot products.

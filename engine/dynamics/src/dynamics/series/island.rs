@@ -4,6 +4,7 @@ use super::{Planar, Series, SeriesStep, StepPlan};
 use crate::dynamics::elimination::{Counters, TwistJacobian};
 use crate::newton::Projectable;
 use crate::system::System;
+use crate::system::index::SolverRow;
 
 /// The series, bundled as suits the number of bodies.
 #[derive(Clone, Debug)]
@@ -71,10 +72,14 @@ impl IslandSeries {
         with!(&mut self.0, s => s.place(system, t, y));
     }
 
-    /// Finds the rows that depend on others everywhere, which are then left out; `expected` tells that there are some. Returns
-    /// how many there are.
-    pub fn find_dependent(&mut self, length: f64, expected: bool) -> usize {
+    /// The rows that depend on others everywhere; `expected` tells that there are some. The state is left elsewhere.
+    pub fn find_dependent(&mut self, length: f64, expected: bool) -> Vec<SolverRow> {
         with!(&mut self.0, s => s.find_dependent(length, expected))
+    }
+
+    /// From now on leaves out rows that depend on others everywhere. S must be factored afterwards.
+    pub fn leave_out(&mut self, rows: &[SolverRow]) {
+        with!(&mut self.0, s => s.leave_out(rows));
     }
 
     /// Makes room for evaluations of S inside steps.

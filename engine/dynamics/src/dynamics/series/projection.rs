@@ -80,16 +80,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         moved
     }
 
-    /// Finds the rows that depend on others everywhere, which the factorization then leaves out. Returns how many there
-    /// are. S must be factored afterwards. Where some are expected, S is regularized from the beginning.
-    pub fn find_dependent(&mut self, length: f64, expected: bool) -> usize {
-        let state = self.state.clone();
+    /// The rows that depend on others everywhere — eq. (8.1); the state is left elsewhere. Where some are expected, S is
+    /// regularized from the beginning.
+    pub fn find_dependent(&mut self, length: f64, expected: bool) -> Vec<SolverRow> {
         self.redundant = expected;
-        let rows = find_dependent_rows(self, length);
-        self.redundant = false;
+        find_dependent_rows(self, length)
+    }
+
+    /// From now on leaves out rows that depend on others everywhere. S must be factored afterwards.
+    pub fn leave_out(&mut self, rows: &[SolverRow]) {
         self.schur.factor.leave_out_weakest(rows.iter().map(|row| row.index()));
         self.rows_left_out = !rows.is_empty();
-        self.state = state;
-        rows.len()
     }
 }

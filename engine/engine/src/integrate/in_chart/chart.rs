@@ -81,10 +81,7 @@ impl Chart {
     ) -> Option<(Self, Guess)> {
         let n = mechanism.system.coordinates;
         mechanism.set_state(t, y);
-        let rank = {
-            let Mechanism { system, state, elimination, .. } = &mut *mechanism;
-            rank::analyze(system, state, elimination, &y[..n])
-        };
+        let rank = rank::analyze(&mechanism.system, &mut mechanism.state, &y[..n]);
         let freedoms = 6 * mechanism.system.bodies.len() - rank.rank;
         let mut chart = Self {
             choice,

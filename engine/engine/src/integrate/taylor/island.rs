@@ -63,13 +63,22 @@ impl IslandStepper {
         let order = order_for(tolerance, flat.is_some());
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
         let loops = islands::has_loops(&system.model);
-        let mut series = match &flat {
-            None => IslandSeries::in_space(system, order, turns),
-            Some(flat) => IslandSeries::in_plane(flat, order, turns),
+        let series_of = |measured: &System, order: usize| match flat {
+            None => IslandSeries::in_space(measured, order, turns),
+            Some(_) => IslandSeries::in_plane(measured, order, turns),
         };
+        let solved = flat.as_ref().unwrap_or(system);
+        let mut series = series_of(solved, order);
         series.keep_constants(skip.constants);
         series.place(system, t, y);
-        let redundant = (flat.is_some() || redundant) && series.find_dependent(system.length, redundant) > 0;
+        let mut dependent = Vec::new();
+        if flat.is_some() || redundant {
+            let mut measured = series_of(&solved.in_lengths(), 1);
+            measured.place(system, t, y);
+            dependent = measured.find_dependent(system.length, redundant);
+            series.leave_out(&dependent);
+        }
+        let redundant = !dependent.is_empty();
         if loops {
             series.enable_probes();
         }

@@ -1,0 +1,184 @@
+//! The rows of the joints in a measure of lengths — eq. (8.2).
+//!
+//! Whether rows depend on each other is a matter of geometry. Measured by masses, a rod without inertia about its own axis
+//! turns so easily that rounding along this turn hides what the other rows say. Here each body has the mass one, and the arm
+//! of its joints as radius of gyration about every axis. All that counts rows, freedoms or redundancies asks here.
+
+use crate::dynamics::elimination::{Elimination, ProjectableState};
+use crate::newton::{DEPENDENT, move_away};
+use crate::state::State;
+use crate::system::System;
+use crate::system::index::{IncidenceId, SolverRow};
+use nalgebra::DMatrix;
+use triad_linalg::random::Random;
+use triad_linalg::{independent_rows, left_null_space};
+
+/// Relative pivot below which rounding could hide that later rows depend on others: it leaves ε over this pivot in theirs. Then the
+/// decision is taken anew with pivots in the order of their size.
+const UNCLEAR: f64 = 1e-5;
+/// Rounds of projecting and orthonormalizing: the first leaves the rounding of columns that were nearly parallel, the second
+/// nothing.
+const ROUNDS: usize = 2;
+/// Projections in a row: each takes away what the one before left beside a position that is nearly singular, where it is up to
+/// ε / [`DEPENDENT`].
+const PROJECTIONS: usize = 2;
+/// Where the columns begin that are projected.
+const SEED: u64 = 14;
+
+/// What the pivots say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rank {
+    /// Rank of the joint rows that the solver keeps.
+    pub rank: usize,
+    /// The same exactly at the start: less where that is a singular position.
+    pub at_start: usize,
+    /// The solver rows that depend on others.
+    pub dependent: Vec<SolverRow>,
+}
+
+/// A system measured in lengths, with its rows at one position.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    system: System,
+    elimination: Elimination,
+    dependent: Vec<SolverRow>,
+    /// The rows, of length one, where the factorization leaves the decision unclear.
+    unclear: Option<DMatrix<f64>>,
+}
+
+impl Geometry {
+    /// Of a system; its rows are taken by [`Geometry::place`].
+    pub fn new(system: &System) -> Self {
+        let system = system.in_lengths();
+        let mut elimination = Elimination::new(&system);
+        elimination.set_redundant(true);
+        Self { system, elimination, dependent: Vec::new(), unclear: None }
+    }
+
+    /// Takes the rows at the positions of a state.
+    pub fn place(&mut self, state: &State) {
+        let Self { system, elimination, .. } = self;
+        self.unclear = None;
+        self.dependent = elimination.dependent_rows(system, state, DEPENDENT);
+        if elimination.least_pivot(DEPENDENT) < UNCLEAR {
+            let rows = unit_rows(system, elimination);
+            let kept = independent_rows(&rows, DEPENDENT.sqrt());
+            let depends = |row: &SolverRow| kept.binary_search(&row.index()).is_err();
+            self.dependent = (0..system.solver_rows).map(SolverRow).filter(depends).collect();
+            elimination.factor_without(system, &self.dependent);
+            self.unclear = Some(rows);
+        }
+    }
+
+    /// The solver rows that depend on others at the position — eq. (8.1).
+    pub fn dependent(&self) -> &[SolverRow] {
+        &self.dependent
+    }
+
+    /// How many independent motions the joints allow at the position.
+    pub fn freedoms(&self) -> usize {
+        6 * self.system.bodies.len() + self.dependent.len() - self.system.solver_rows
+    }
+
+    /// The rank near the consistent position q, and at it; the state is left elsewhere.
+    pub fn analyze(&mut self, state: &mut State, q: &[f64]) -> Rank {
+        state.set_positions(&self.system, q);
+        self.place(state);
+        let lost = self.dependent.len();
+        // Rows that are independent somewhere are so nearly everywhere.
+        if lost > 0 {
+            let Self { system, elimination, .. } = self;
+            let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
+            let length = system.length;
+            let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
+            move_away(&mut on, length);
+            self.place(state);
+        }
+        let rows = self.system.solver_rows;
+        Rank { rank: rows - self.dependent.len(), at_start: rows - lost, dependent: self.dependent.clone() }
+    }
+
+    /// An orthonormal basis of the twists that the joints allow at the position — eq. (10.9), lengths of arc measured with the
+    /// mechanism's length: columns of (v, ω) body by body.
+    pub fn twists(&mut self) -> DMatrix<f64> {
+        let Self { system, elimination, .. } = self;
+        let length = system.length;
+        let mut random = Random::new(SEED);
+        let size = 6 * system.bodies.len();
+        let freedoms = size + self.dependent.len() - system.solver_rows;
+        // As many columns as there are freedoms stay independent where all that is not allowed is taken away from them.
+        let mut basis = DMatrix::from_fn(size, freedoms, |_, _| random.between(-1.0, 1.0));
+        if freedoms == 0 {
+            return basis;
+        }
+        if let Some(rows) = &self.unclear {
+            let exact = left_null_space(&rows.transpose(), DEPENDENT.sqrt());
+            if exact.ncols() == freedoms {
+                return from_unit_rows(system, exact);
+            }
+        }
+        scale_turns(&mut basis, 1.0 / length);
+        for _ in 0..ROUNDS {
+            for mut column in basis.column_iter_mut() {
+                (0..PROJECTIONS).for_each(|_| elimination.allow(system, column.as_mut_slice()));
+            }
+            scale_turns(&mut basis, length);
+            basis = basis.qr().q();
+            scale_turns(&mut basis, 1.0 / length);
+        }
+        basis
+    }
+
+    /// Multipliers n of the solver rows that do nothing, Aᵀ n = 0, as columns: one for each dependent row.
+    pub fn idle_multipliers(&mut self) -> DMatrix<f64> {
+        let Self { system, elimination, dependent, .. } = self;
+        let mut idle = DMatrix::zeros(system.solver_rows, dependent.len());
+        for (row, mut column) in dependent.iter().zip(idle.column_iter_mut()) {
+            column[row.index()] = 1.0;
+            (0..=PROJECTIONS).for_each(|_| elimination.relieve(system, column.as_mut_slice()));
+        }
+        idle
+    }
+}
+
+/// A of the position in lengths, each row of length one.
+fn unit_rows(system: &System, elimination: &Elimination) -> DMatrix<f64> {
+    let mut a = DMatrix::zeros(system.solver_rows, 6 * system.bodies.len());
+    for (index, incidence) in system.incidences.iter().enumerate() {
+        let first = system[incidence.constraint].solver.start;
+        let radius = system.bodies[incidence.body].principal[0].sqrt();
+        let rows = elimination.jacobian().rows_on(system, IncidenceId(index)).chunks_exact(6);
+        for (k, row) in rows.enumerate() {
+            for (c, x) in row.iter().enumerate() {
+                a[(first + k, 6 * incidence.body + c)] += if c < 3 { *x } else { x / radius };
+            }
+        }
+    }
+    for mut row in a.row_iter_mut() {
+        let norm = row.norm();
+        if norm > 0.0 {
+            row /= norm;
+        }
+    }
+    a
+}
+
+/// An orthonormal basis in the mechanism's length from one with rotations measured by the arms of bodies.
+fn from_unit_rows(system: &System, mut basis: DMatrix<f64>) -> DMatrix<f64> {
+    for (index, body) in system.bodies.iter().enumerate() {
+        let mut turns = basis.rows_mut(6 * index + 3, 3);
+        turns *= system.length / body.principal[0].sqrt();
+    }
+    let mut basis = basis.qr().q();
+    scale_turns(&mut basis, 1.0 / system.length);
+    basis
+}
+
+/// Multiplies the rotations in columns of (v, ω).
+fn scale_turns(basis: &mut DMatrix<f64>, factor: f64) {
+    for (row, mut values) in basis.row_iter_mut().enumerate() {
+        if row % 6 >= 3 {
+            values *= factor;
+        }
+    }
+}

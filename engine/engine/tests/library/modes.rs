@@ -1,0 +1,249 @@
+//! Modes against closed forms: bodies without inertia about an axis, slow decays beside fast ones, long chains.
+
+use std::f64::consts::TAU;
+use triad_engine::analysis::{Modes, ModesAbout, modes};
+use triad_engine::scene::Scene;
+
+fn path(name: &str) -> String {
+    format!("{}/../../tests/data/problems/modes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn problem(name: &str) -> Modes {
+    let scene = Scene::from_json(&std::fs::read_to_string(path(name)).unwrap()).unwrap();
+    modes(&scene, ModesAbout::Equilibrium).unwrap()
+}
+
+/// ω of those that oscillate.
+fn frequencies(found: &Modes) -> Vec<f64> {
+    found.modes.iter().filter(|mode| mode.kind == "oscillates").map(|mode| TAU * mode.frequency).collect()
+}
+
+fn same(found: &[f64], expected: &[f64], relative: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= relative * expected.abs(), "{found} instead of {expected}");
+    }
+}
+
+const G: f64 = 9.81;
+
+#[test]
+fn pendulums_of_points_and_thin_rods_have_their_closed_forms() {
+    let points = [2.0 - 2f64.sqrt(), 2.0 + 2f64.sqrt()].map(|square| (square * G).sqrt());
+    let rods = [3.0 - 6.0 / 7f64.sqrt(), 3.0 + 6.0 / 7f64.sqrt()].map(|square| (square * G).sqrt());
+    let twice = |[a, b]: [f64; 2]| [a, a, b, b];
+    for (name, expected, left_out) in [
+        ("one-point-spherical", vec![G.sqrt(); 2], 1),
+        ("one-rod-spherical", vec![(12.0 / 13.0 * G).sqrt(); 2], 1),
+        ("points", points.to_vec(), 0),
+        ("points-spherical", twice(points).to_vec(), 2),
+        ("rods", rods.to_vec(), 0),
+        ("rods-slender", rods.to_vec(), 0),
+    ] {
+        let found = problem(name);
+        same(&frequencies(&found), &expected, 1e-9);
+        assert_eq!(found.left_out, left_out, "{name}");
+        assert_eq!(found.freedoms, found.left_out + found.modes.len(), "{name}");
+        let axes: usize = found.without_inertia.iter().map(|body| body.axes.len()).sum();
+        assert_eq!(axes, left_out, "{name} {:?}", found.without_inertia);
+    }
+    // Rods that are not quite thin spin about themselves, and have a mode of their own for that.
+    let found = problem("spherical");
+    same(&frequencies(&found), &twice(rods), 1e-9);
+    assert_eq!((found.left_out, found.modes.iter().filter(|mode| mode.kind == "drifts").count()), (0, 2));
+}
+
+/// Two masses on a line, the damper between them of 10³, 10⁵ and 10⁷ times its critical damping. Eigenvalues by Newton's method on
+/// the characteristic polynomial in 60 digits.
+#[test]
+fn slow_decays_beside_fast_ones_keep_their_digits() {
+    let scene = std::fs::read_to_string(path("overdamped")).unwrap();
+    for (damping, fast, slow, pair) in [
+        (
+            "18973.665961010276",
+            -28460.559693865715,
+            -0.0047434176761071509,
+            [-0.067252116011640994, 8.1646791024037739],
+        ),
+        (
+            "1897366.5961010277",
+            -2846049.9607590651,
+            -4.7434164903711542e-05,
+            [-0.066672521174645019, 8.1646934957588613],
+        ),
+        (
+            "189736659.61010277",
+            -284604989.48182023,
+            -4.743416490252581e-07,
+            [-0.066666725211747879, 8.1646936377796813],
+        ),
+    ] {
+        let scene = Scene::from_json(&scene.replace("1897366.5961010277", damping)).unwrap();
+        let found = modes(&scene, ModesAbout::Equilibrium).unwrap();
+        let kinds: Vec<&str> = found.modes.iter().map(|mode| mode.kind).collect();
+        assert_eq!(kinds, ["decays", "decays", "oscillates"], "{damping}");
+        let growths: Vec<f64> = found.modes.iter().map(|mode| mode.growth).collect();
+        same(&growths, &[fast, slow, pair[0]], 1e-9);
+        same(&[TAU * found.modes[2].frequency], &pair[1..], 1e-9);
+    }
+}
+
+/// Points in a row on hinges: ω² L / g are the zeros of the Laguerre polynomial of that order.
+#[test]
+fn a_chain_of_300_has_its_modes() {
+    let chain = |count: usize, moment: f64, arm: f64| {
+        let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+        for k in 0..count {
+            let (top, before) = (k as f64, if k == 0 { "ground".to_owned() } else { format!("b{}", k - 1) });
+            bodies.push(format!(
+                r#"{{"name": "b{k}", "mass": 1, "position": [0, {}, 0], "inertia": {{"principal": [{moment}, 0, {moment}]}}}}"#,
+                -top - arm
+            ));
+            joints.push(format!(
+                r#"{{"name": "j{k}", "type": "revolute", "body_i": "{before}", "body_j": "b{k}", "point": [0, {}, 0], "axis": [0, 0, 1]}}"#,
+                -top
+            ));
+        }
+        let text = format!(
+            r#"{{"name": "chain", "gravity": [0, -{G}, 0], "bodies": [{}], "joints": [{}]}}"#,
+            bodies.join(","),
+            joints.join(",")
+        );
+        modes(&Scene::from_json(&text).unwrap(), ModesAbout::Equilibrium).unwrap()
+    };
+    let points = chain(300, 0.0, 1.0);
+    assert_eq!((points.freedoms, points.left_out), (300, 0));
+    let found = frequencies(&points);
+    assert_eq!(found.len(), 300);
+    for omega in found {
+        let x = omega * omega / G;
+        // L_k and its derivative by recurrence; a step of Newton's method says how far off the zero is.
+        let (mut before, mut polynomial) = (1.0, 1.0 - x);
+        for k in 1..300 {
+            let k = f64::from(k);
+            (before, polynomial) = (polynomial, ((2.0 * k + 1.0 - x) * polynomial - k * before) / (k + 1.0));
+        }
+        let slope = 300.0 * (polynomial - before) / x;
+        assert!((polynomial / slope).abs() < 1e-6 * x, "{x}: off by {}", polynomial / slope);
+    }
+    // Rods come near to a heavy rope, whose slowest frequency is half the first zero of J₀ times √(g/L).
+    let rods = chain(300, 1.0 / 12.0, 0.5);
+    assert_eq!(rods.modes.len(), 300);
+    same(&frequencies(&rods)[..1], &[0.5 * 2.404_825_557_695_773 * (G / 300.0).sqrt()], 2e-3);
+}
+
+fn steady(text: &str) -> Modes {
+    modes(&Scene::from_json(text).unwrap(), ModesAbout::Steady).unwrap()
+}
+
+/// A shaft about z, driven at a constant speed, and what is mounted on it.
+fn on_a_shaft(speed: f64, gravity: &str, bodies: &str, joints: &str, loads: &str) -> String {
+    format!(
+        r#"{{"name": "shaft", "gravity": {gravity}, "bodies": [
+            {{"name": "shaft", "mass": 1, "inertia": {{"principal": [0.1, 0.1, 0.2]}}, "angular_velocity": [0, 0, {speed}]}}, {bodies}],
+            "joints": [{{"name": "bearing", "type": "revolute", "body_i": "ground", "body_j": "shaft", "point": [0, 0, 0], "axis": [0, 0, 1]}}, {joints}],
+            "drivers": [{{"type": "angle", "name": "motor", "joint": "bearing", "motion": {{"kind": "ramp", "rate": {speed}}}}}],
+            "loads": [{loads}]}}"#
+    )
+}
+
+/// A point on a shaft that turns at Ω: cos θ = g / (L Ω²), and ω = Ω sin θ about that.
+#[test]
+fn a_pendulum_on_a_turning_shaft_swings_about_its_raised_position() {
+    let (speed, near) = (6.0, 1.2f64);
+    let (x, z) = (near.sin(), -near.cos());
+    let found = steady(&on_a_shaft(
+        speed,
+        "[0, 0, -9.81]",
+        &format!(
+            r#"{{"name": "bob", "mass": 2, "position": [{x}, 0, {z}], "velocity": [0, {}, 0], "angular_velocity": [0, 0, {speed}]}}"#,
+            speed * x
+        ),
+        r#"{"name": "hinge", "type": "revolute", "body_i": "shaft", "body_j": "bob", "point": [0, 0, 0], "axis": [0, 1, 0]}"#,
+        "",
+    ));
+    let cosine = G / (speed * speed);
+    let turning = found.steady.as_ref().unwrap().turning;
+    assert!((turning[2] - speed).abs() < 1e-12 && turning[0] == 0.0, "{turning:?}");
+    assert!((found.bodies[1].position[2] + cosine).abs() < 1e-9, "{:?}", found.bodies[1].position);
+    same(&frequencies(&found), &[speed * (1.0 - cosine * cosine).sqrt()], 1e-9);
+}
+
+/// Two slides across each other on a shaft that turns: M ẍ − 2 m Ω ẏ + (k − M Ω²) x = 0, m ÿ + 2 m Ω ẋ + (c − m Ω²) y = 0.
+#[test]
+fn slides_on_a_turning_shaft_feel_coriolis_forces() {
+    let (speed, both, bob) = (5.0f64, 3.0, 2.0);
+    let (stiff_x, stiff_y) = (400.0 - both * speed * speed, 150.0 - bob * speed * speed);
+    let found = steady(&on_a_shaft(
+        speed,
+        "[0, 0, 0]",
+        r#"{"name": "carriage", "mass": 1, "inertia": {"principal": [0.1, 0.1, 0.1]}, "angular_velocity": [0, 0, 5]},
+           {"name": "bob", "mass": 2, "inertia": {"principal": [0.1, 0.2, 0.1]}, "angular_velocity": [0, 0, 5]}"#,
+        r#"{"name": "x", "type": "prismatic", "body_i": "shaft", "body_j": "carriage", "point": [0, 0, 0], "axis": [1, 0, 0]},
+           {"name": "y", "type": "prismatic", "body_i": "carriage", "body_j": "bob", "point": [0, 0, 0], "axis": [0, 1, 0]}"#,
+        r#"{"type": "slider", "name": "k", "joint": "x", "stiffness": 400}, {"type": "slider", "name": "c", "joint": "y", "stiffness": 150}"#,
+    ));
+    // λ⁴ M m + λ² (M c' + m k' + 4 m² Ω²) + k' c' = 0.
+    let (a, b, c) =
+        (both * bob, both * stiff_y + bob * stiff_x + 4.0 * bob * bob * speed * speed, stiff_x * stiff_y);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    same(&frequencies(&found), &[(b - root) / (2.0 * a), (b + root) / (2.0 * a)].map(f64::sqrt), 1e-9);
+}
+
+/// Upright: I ω² − C s ω + m g l = 0, both turning the way the top spins; its spin is a drift.
+#[test]
+fn a_sleeping_top_nods_and_precesses() {
+    let (about_pivot, along, spin) = (0.1 + 0.25, 0.05, 80.0);
+    let found = steady(
+        r#"{"name": "top", "gravity": [0, 0, -9.81], "bodies": [{"name": "top", "mass": 1, "position": [0, 0, 0.5],
+            "inertia": {"principal": [0.1, 0.1, 0.05]}, "angular_velocity": [0, 0, 80]}],
+            "joints": [{"name": "tip", "type": "spherical", "body_i": "ground", "body_j": "top", "point": [0, 0, 0]}]}"#,
+    );
+    let told = found.steady.as_ref().unwrap();
+    assert_eq!((told.turning, told.spins.len()), ([0.0; 3], 1));
+    let (b, c) = (along * spin, G * 0.5);
+    let root = (b * b - 4.0 * about_pivot * c).sqrt();
+    same(&frequencies(&found), &[(b - root) / (2.0 * about_pivot), (b + root) / (2.0 * about_pivot)], 1e-9);
+    assert_eq!(found.modes[0].kind, "drifts");
+    for mode in &found.modes[1..] {
+        let shape = mode.shape[0];
+        assert!(mode.growth.abs() < 1e-9, "{}", mode.growth);
+        let ([x, y, _], [x_later, y_later, _]) = (shape.rotation, shape.rotation_later);
+        assert!((x * y_later - y * x_later - (x * x + y * y)).abs() < 1e-9, "{shape:?}");
+    }
+}
+
+/// With its shaft driven, a governor has three motions besides, all damped or at least not growing.
+#[test]
+fn a_driven_governor_has_modes_about_its_steady_motion() {
+    let governor = format!("{}/../../tests/data/problems/governor/scene.json", env!("CARGO_MANIFEST_DIR"));
+    let mut scene = Scene::from_json(&std::fs::read_to_string(governor).unwrap()).unwrap();
+    let free = modes(&scene, ModesAbout::Steady).unwrap();
+    let motor = r#"{"type": "angle", "name": "motor", "joint": "bearing", "motion": {"kind": "ramp", "rate": 6.283185307179586}}"#;
+    scene.drivers.push(serde_json::from_str(motor).unwrap());
+    let found = modes(&scene, ModesAbout::Steady).unwrap();
+    assert_eq!((free.freedoms, found.freedoms), (4, 3));
+    assert_eq!(free.modes.iter().filter(|mode| mode.kind == "drifts").count(), 1);
+    assert!(found.modes.iter().all(|mode| mode.growth < 0.0), "{:?}", found.modes);
+    assert!(found.bodies[2].position[2] < 1.0);
+}
+
+#[test]
+fn a_motion_that_is_not_steady_is_refused_with_the_reason() {
+    let pendulum = |axis: &str, motion: &str| {
+        let text = on_a_shaft(
+            3.0,
+            "[0, 0, -9.81]",
+            r#"{"name": "bob", "mass": 2, "position": [0, 0, -1], "angular_velocity": [0, 0, 3]}"#,
+            r#"{"name": "hinge", "type": "revolute", "body_i": "shaft", "body_j": "bob", "point": [0, 0, 0], "axis": [0, 1, 0]}"#,
+            "",
+        );
+        let text = text.replace("[0, 0, -9.81]", axis).replace(r#"{"kind": "ramp", "rate": 3}"#, motion);
+        modes(&Scene::from_json(&text).unwrap(), ModesAbout::Steady).unwrap_err().to_string()
+    };
+    let ramp = r#"{"kind": "ramp", "rate": 3}"#;
+    let tilted = pendulum("[0, -5, -8]", ramp);
+    assert!(tilted.contains("change in the frame"), "{tilted}");
+    let harmonic = pendulum("[0, 0, -9.81]", r#"{"kind": "harmonic", "amplitude": 1, "frequency": 3}"#);
+    assert!(harmonic.contains("\"motor\" does not go on"), "{harmonic}");
+}
