@@ -121,30 +121,31 @@ fn next_to_a_change_point_the_branch_is_kept_or_the_place_told() {
 /// Through its flat positions a parallelogram stays one: coupler and rocker are not free to turn into the other branch.
 #[test]
 fn a_parallelogram_passes_its_flat_positions() {
-    let flat = (std::f64::consts::PI - 0.4) / 5.0;
+    // 0.4 + 5 t + 1.5 t² is a whole number of half turns.
+    let flat = |turns: f64| ((25.0 + 6.0 * (turns * std::f64::consts::PI - START)).sqrt() - 5.0) / 3.0;
     let mut scene = problem("four-bars/parallelogram");
-    (scene.simulation.every, scene.simulation.duration) = (0.5 * flat, 4.0 * flat);
+    (scene.simulation.every, scene.simulation.duration) = (0.5 * flat(1.0), 4.0 * flat(1.0));
+    let motion = Motion::Polynomial { coefficients: vec![0.0, 5.0, 1.5] };
+    scene.drivers = vec![Driver::Angle { name: "motor".to_owned(), joint: "O".to_owned(), motion }];
     let found = follow(&scene);
     assert_eq!(found.states.len(), 9);
     for state in &found.states {
-        let angle = 0.4 + 5.0 * state.time;
+        let (angle, rate) =
+            (START + 5.0 * state.time + 1.5 * state.time * state.time, 5.0 + 3.0 * state.time);
         let (u, n) = (direction(angle), direction(angle + std::f64::consts::FRAC_PI_2));
-        let turning = |reach: f64, from: Vector2<f64>, spin: f64| Planar {
+        let turning = |reach: f64, from: Vector2<f64>, turns: f64| Planar {
             place: from + u * reach,
-            velocity: n * 5.0 * reach,
-            acceleration: u * -25.0 * reach,
-            spin,
-            spin_rate: 0.0,
+            velocity: n * rate * reach,
+            acceleration: (n * 3.0 - u * (rate * rate)) * reach,
+            spin: turns * rate,
+            spin_rate: turns * 3.0,
         };
-        meets(state, 0, &turning(0.5, Vector2::zeros(), 5.0), 1e-8);
+        meets(state, 0, &turning(0.5, Vector2::zeros(), 1.0), 1e-8);
         meets(state, 1, &turning(1.0, Vector2::new(2.0, 0.0), 0.0), 1e-8);
-        meets(state, 2, &turning(0.5, Vector2::new(4.0, 0.0), 5.0), 1e-8);
+        meets(state, 2, &turning(0.5, Vector2::new(4.0, 0.0), 1.0), 1e-8);
     }
     let times: Vec<f64> = found.singularities.iter().map(|passed| passed.time).collect();
-    let expected: Vec<f64> = (1..)
-        .map(|k| (f64::from(k) * std::f64::consts::PI - 0.4) / 5.0)
-        .take_while(|t| *t < 4.0 * flat)
-        .collect();
+    let expected: Vec<f64> = (1..).map(|k| flat(f64::from(k))).take_while(|t| *t < 4.0 * flat(1.0)).collect();
     assert_eq!(times.len(), expected.len(), "{times:?}");
     assert!(times.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-6), "{times:?} {expected:?}");
 }
