@@ -26,6 +26,9 @@ NEAR = 1e-2
 
 TRUSTED = 1e-10
 """Largest difference between a reference and the one with steps twice as long, m."""
+REPEATS = 3
+"""Batches of each program in a round; the median counts."""
+
 ENOUGH = 5e-10
 """A family of settings is not refined beyond this error, m."""
 
@@ -78,7 +81,7 @@ class Program:
         """Largest distance from the reference, m, and the time of one run, s."""
         seconds = self.ask(1, setting, self.file)[0]
         if seconds < 0.1:
-            # Short runs are easily disturbed.
+            # Short runs are easily disturbed, also as batches.
             seconds = min(seconds, *self.ask(2, setting))
         table = np.fromfile(self.file, dtype="<f8").reshape(-1, 1 + truth[0].size)
         if table[-1, 0] < (len(truth) - 1) * reference.GRID - 1e-6:
@@ -130,13 +133,10 @@ def quartiles(values):
 def alternate(ours, theirs, our_row, their_row, rounds):
     """Rounds of Triad and the other, in turns; medians of each round's repeats."""
 
-    def repeats(row):
-        return int(min(max(0.02 / row["seconds"], 1), 50))
-
     times = ([], [])
     for _ in range(rounds):
         for program, row, list_ in ((ours, our_row, times[0]), (theirs, their_row, times[1])):
-            list_.append(statistics.median(program.ask(repeats(row), row["setting"])))
+            list_.append(statistics.median(program.ask(REPEATS, row["setting"])))
     ratios = [b / a for a, b in zip(*times, strict=True)]
     return {"triad": quartiles(times[0]), "other": quartiles(times[1]), "ratio": quartiles(ratios)}
 
