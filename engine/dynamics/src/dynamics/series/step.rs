@@ -17,6 +17,12 @@ const MAX_REJECTED: u64 = 12;
 /// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
 /// end of a step.
 const MAX_TURN: f64 = 3.0;
+/// A term of the series at the step's end that is three orders lower must allow a step shorter by 1 + this / (order − 3) for a
+/// higher order to pay: the work of a step grows with the power 1.0 to 1.3 of the order (measured, docs/PERFORMANCE.md), and
+/// (k/(k − 3))^1.5 is about this.
+const ORDER_PAYS: f64 = 4.5;
+/// The same for the present order to pay: (k/(k − 3))^1.2.
+const ORDER_HOLDS: f64 = 3.6;
 /// A step that reaches what is left to the end when stretched by this factor ends there.
 const LAST_STEP: f64 = 1.01;
 
@@ -48,6 +54,8 @@ pub struct SeriesStep {
     pub at_break: bool,
     /// The order at which the series was cut.
     pub order: usize,
+    /// The order that the next step had better have: higher where terms fall so fast that more of them pay.
+    pub next_order: usize,
     /// How often it was halved because its end was too far from the constraints, or a prescribed function from its series.
     pub rejected: u64,
     /// Whether its end is too far from the constraints even after all halvings.
@@ -142,29 +150,33 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let allowance = self.allowance(plan.tolerance);
         // Between breakpoints, prescribed functions are polynomials of degree five: only terms of higher order than those of
         // their accelerations show how well the series converge.
-        let order = self.expand(plan.order, |s, k| {
+        let expanded = self.expand(plan.order, |s, k| {
             end < plan.end
                 && !plan.dry_run
                 && k > MIN_ORDER
                 && s.reached(k - 1, allowance, 0.0).min(s.reached(k, allowance, 0.0)) >= left
         });
         if !self.power.is_empty() {
-            self.find_power(order);
+            self.find_power(expanded);
         }
-        let (h, order) = self.reach(order, allowance);
+        let (natural, order) = self.reach(expanded, allowance);
         if plan.dry_run {
             return SeriesStep {
-                h,
+                h: natural,
                 time: start,
                 at_break: false,
                 order,
+                next_order: plan.order,
                 rejected: 0,
                 far: false,
                 finite: true,
                 proven: false,
             };
         }
-        let mut h = self.loads.limit(self.angles.limit(h.min(left), order, MAX_TURN), order);
+        let mut h = self.loads.limit(self.angles.limit(natural.min(left), order, MAX_TURN), order);
+        // A longer series would not make a step longer that something else keeps short.
+        let next_order =
+            if h < natural { plan.order } else { self.next_order(plan.order, expanded, order, h, allowance) };
         let mut rejected = 0;
         loop {
             let mut time = start + h;
@@ -185,6 +197,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                         time,
                         at_break: time == end,
                         order,
+                        next_order,
                         rejected,
                         far,
                         finite,
@@ -232,17 +245,54 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         [0, 1].map(|which| tolerance * (1.0 + size(which)))
     }
 
-    /// The step that the term of order k allows, or zero if it is shorter than `least`: found without roots.
+    /// What the tolerance allows of the position, per hᵏ, and of the velocity, per hᵏ⁻¹, by the term of order k.
     #[inline(always)]
-    fn reached(&self, k: usize, [position, velocity]: [f64; 2], least: f64) -> f64 {
+    fn room(&self, k: usize, [position, velocity]: [f64; 2]) -> [f64; 2] {
         let term = self.size_of(k);
-        let (by_position, by_velocity) = (position / term, velocity / (k as f64 * term));
-        let power = (1..k).fold(1.0, |power, _| power * least);
-        if by_velocity < power || by_position < power * least {
+        [position / term, velocity / (k as f64 * term)]
+    }
+
+    /// Whether the term of order k allows only steps shorter than h: found without roots.
+    #[inline(always)]
+    fn falls_short(&self, k: usize, allowance: [f64; 2], h: f64) -> bool {
+        let [by_position, by_velocity] = self.room(k, allowance);
+        let power = (1..k).fold(1.0, |power, _| power * h);
+        by_velocity < power || by_position < power * h
+    }
+
+    /// The step that the term of order k allows, or zero if it is shorter than `least`.
+    #[inline(always)]
+    fn reached(&self, k: usize, allowance: [f64; 2], least: f64) -> f64 {
+        if self.falls_short(k, allowance, least) {
             return 0.0;
         }
-        let root = |x: f64, k: usize| libm::exp(libm::log(x) / k as f64);
-        root(by_position, k).min(root(by_velocity, k - 1))
+        let [by_position, by_velocity] = self.room(k, allowance);
+        // The smaller of two roots.
+        libm::exp((libm::log(by_position) / k as f64).min(libm::log(by_velocity) / (k - 1) as f64))
+    }
+
+    /// The order that pays for the next step, where h is what the series allow: that of motions that are fast but smooth, like the
+    /// spinning of a top, get longer steps with each order, others hardly. `order` was planned, `expanded` computed, and the
+    /// step uses terms up to `cut`.
+    #[inline(always)]
+    fn next_order(&self, order: usize, expanded: usize, cut: usize, h: f64, allowance: [f64; 2]) -> usize {
+        if expanded < order {
+            return order;
+        }
+        if cut < order {
+            return order - 1;
+        }
+        let short = |factor: f64| {
+            let least = h / (1.0 + factor / (order - 3) as f64);
+            self.falls_short(order - 3, allowance, least) || self.falls_short(order - 4, allowance, least)
+        };
+        if short(ORDER_PAYS) {
+            order + 2
+        } else if short(ORDER_HOLDS) {
+            order
+        } else {
+            order - 1
+        }
     }
 
     /// The step and the order at which the series is cut: the longest step that two successive terms of positions and

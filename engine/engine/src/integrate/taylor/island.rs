@@ -2,6 +2,7 @@
 
 use crate::integrate::step::StopReason;
 use crate::integrate::stepper::IslandStep;
+use std::ops::RangeInclusive;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, StepPlan};
 use triad_dynamics::state::State;
@@ -11,6 +12,9 @@ use triad_dynamics::system::planar;
 
 /// Highest order of the series.
 const MAX_ORDER: usize = 30;
+/// Bodies up to which there is room for orders above the first one: in large mechanisms some body is always near the end of
+/// what its series reach, and more of them would only lengthen what is kept.
+const FEW_BODIES: usize = 16;
 /// Mean distance of breakpoints, in natural steps of the series, below which they are dense (measured: docs/PERFORMANCE.md).
 const DENSE_BREAKPOINTS: f64 = 0.1;
 /// Greatest number of breakpoints that are counted.
@@ -27,7 +31,9 @@ pub struct IslandStepper {
     /// Its bodies, if it is not the whole.
     own: Option<Box<System>>,
     tolerance: f64,
+    /// The order of the next step, not below the one for the tolerance and not above what there is room for.
     order: usize,
+    orders: RangeInclusive<usize>,
     length: f64,
     bodies: usize,
     rows: usize,
@@ -61,6 +67,7 @@ impl IslandStepper {
         let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
         let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
         let order = order_for(tolerance, flat.is_some());
+        let most = if system.bodies.len() > FEW_BODIES { order } else { MAX_ORDER };
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
         let loops = islands::has_loops(&system.model);
         let series_of = |measured: &System, order: usize| match flat {
@@ -68,7 +75,7 @@ impl IslandStepper {
             Some(_) => IslandSeries::in_plane(measured, order, turns),
         };
         let solved = flat.as_ref().unwrap_or(system);
-        let mut series = series_of(solved, order);
+        let mut series = series_of(solved, most);
         series.keep_constants(skip.constants);
         series.place(system, t, y);
         let mut dependent = Vec::new();
@@ -90,6 +97,7 @@ impl IslandStepper {
             own,
             tolerance,
             order,
+            orders: order..=most,
             length,
             bodies,
             rows,
@@ -182,6 +190,7 @@ impl IslandStepper {
         self.t_old = self.t;
         self.h_old = taken.h;
         self.order_old = taken.order;
+        self.order = taken.next_order.clamp(*self.orders.start(), *self.orders.end());
         self.t = taken.time;
         self.steps += 1;
         Ok((taken.proven, taken.rejected))
@@ -225,7 +234,7 @@ impl IslandStepper {
     }
 }
 
-/// Order for a tolerance: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13. In a plane a further order costs little against what
+/// Order of the first step for a tolerance, and the least of all: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13. In a plane a further order costs little against what
 /// each step costs anyway.
 fn order_for(tolerance: f64, planar: bool) -> usize {
     let powers = std::iter::successors(Some(tolerance), |t| Some(10.0 * t));
