@@ -5,7 +5,7 @@ use crate::equations;
 use crate::equations::jacobian::Jacobian;
 use crate::state::State;
 use crate::system::System;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use std::ops::Range;
 use triad_linalg::{Columns, SparseLu};
 
@@ -18,6 +18,28 @@ pub struct RankOne {
     pub vector: Vec<(usize, f64)>,
 }
 
+/// A square matrix to which entries are added: of each column those that were ever added to, by growing rows. A matrix of
+/// all entries would not fit into memory for a mechanism of a thousand bodies.
+#[derive(Clone, Debug)]
+struct SparseSum {
+    columns: Vec<Vec<(usize, f64)>>,
+}
+
+impl SparseSum {
+    /// Sets all entries to zero; their places stay.
+    fn clear(&mut self) {
+        self.columns.iter_mut().flatten().for_each(|(_, value)| *value = 0.0);
+    }
+
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        let column = &mut self.columns[column];
+        match column.binary_search_by_key(&row, |&(row, _)| row) {
+            Ok(place) => column[place].1 += value,
+            Err(place) => column.insert(place, (row, value)),
+        }
+    }
+}
+
 /// The equations at one state, and the factors of M + c Φ_qᵀ Φ_q.
 #[derive(Clone, Debug)]
 pub struct Normal {
@@ -25,7 +47,7 @@ pub struct Normal {
     /// Entries of each row of the Jacobian.
     rows: Vec<Range<usize>>,
     mass: Vec<(usize, usize, f64)>,
-    matrix: DMatrix<f64>,
+    matrix: SparseSum,
     entries: Vec<(usize, usize, f64)>,
     columns: Columns,
     lu: SparseLu,
@@ -47,7 +69,7 @@ impl Normal {
             jacobian,
             rows,
             mass: Vec::new(),
-            matrix: DMatrix::zeros(n, n),
+            matrix: SparseSum { columns: vec![Vec::new(); n] },
             entries: Vec::new(),
             columns: Columns::default(),
             lu: SparseLu::new(n),
@@ -69,30 +91,30 @@ impl Normal {
 
     /// Factors M + c Φ_qᵀ Φ_q and further matrices of rank one. False if the sum is singular.
     pub fn factor(&mut self, penalty: f64, others: &[RankOne]) -> bool {
-        self.matrix.fill(0.0);
+        self.matrix.clear();
         for &(row, column, value) in &self.mass {
-            self.matrix[(row, column)] += value;
+            self.matrix.add(row, column, value);
         }
         for range in &self.rows {
             for a in &self.jacobian.entries[range.clone()] {
                 for b in &self.jacobian.entries[range.clone()] {
-                    self.matrix[(a.column, b.column)] += penalty * a.value * b.value;
+                    self.matrix.add(a.column, b.column, penalty * a.value * b.value);
                 }
             }
         }
         for RankOne { weight, vector } in others {
             for &(i, a) in vector {
                 for &(j, b) in vector {
-                    self.matrix[(i, j)] += weight * a * b;
+                    self.matrix.add(i, j, weight * a * b);
                 }
             }
         }
         self.entries.clear();
-        for (column, values) in self.matrix.column_iter().enumerate() {
-            let nonzero = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
-            self.entries.extend(nonzero.map(|(row, value)| (row, column, *value)));
+        for (column, values) in self.matrix.columns.iter().enumerate() {
+            let nonzero = values.iter().filter(|(_, value)| *value != 0.0);
+            self.entries.extend(nonzero.map(|&(row, value)| (row, column, value)));
         }
-        self.columns.fill(self.matrix.ncols(), &self.entries);
+        self.columns.fill(self.matrix.columns.len(), &self.entries);
         self.lu.factor(&self.columns)
     }
 
