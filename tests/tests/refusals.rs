@@ -52,6 +52,19 @@ fn check_error(scene: &Scene) -> EngineError {
     check::check(scene).expect_err("the scene is refused")
 }
 
+/// A parallelogram whose links all lie on one line, at rest: two motions can begin there.
+fn flat(integrator: &str) -> Value {
+    let bar = |name: &str, x: f64| json!({ "name": name, "mass": 1, "inertia": { "principal": [0.1, 1, 1] }, "position": [x, 0, 0] });
+    let pin = |name: &str, i: &str, j: &str, x: f64| json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point": [x, 0, 0], "axis": [0, 0, 1] });
+    json!({
+        "name": "flat",
+        "bodies": [bar("crank", 0.5), bar("coupler", 2.0), bar("rocker", 2.5)],
+        "joints": [pin("A", "ground", "crank", 0.0), pin("B", "crank", "coupler", 1.0),
+            pin("C", "coupler", "rocker", 3.0), pin("D", "rocker", "ground", 2.0)],
+        "simulation": { "duration": 1, "integrator": integrator }
+    })
+}
+
 /// The error with which a scene's run ends, or does not begin.
 fn run_error(scene: &Scene) -> EngineError {
     let mut run = match Simulation::new(scene) {
@@ -223,7 +236,7 @@ fn constraints_that_cannot_be_satisfied() {
 fn runs_that_cannot_go_on() {
     let mut met = Refusals::new(variants!(
         EngineError: Scene, Catalogue, Model, Uniqueness, Constraint, CustomLoad, StepTooSmall, Diverged, NoConvergence, Stalled,
-        Undetermined, StepLimit, TimeOutside, UnknownName
+        Undetermined, Integrator, StepLimit, TimeOutside, UnknownName
     ));
     let mut meet = |tried: &str, error: &EngineError| {
         met.meet(tried, error, error.code(), error.pointer().as_deref(), &error.hint());
@@ -234,6 +247,11 @@ fn runs_that_cannot_go_on() {
     meet("a driver that pushes past the reach", &run_error(&pushed("taylor", json!({"kind": "projection"}))));
     meet("the same with another integrator", &run_error(&pushed("dopri5", json!({"kind": "projection"}))));
     meet("the same in independent coordinates", &run_error(&pushed("radau", json!({"kind": "projection"}))));
+    meet("flat links at rest, in independent coordinates", &run_error(&scene(&flat("radau"))));
+    meet(
+        "the trapezoidal rule alone",
+        &run_error(&scene(&with("/simulation/integrator", json!("trapezoidal")))),
+    );
     let falling = |gravity: f64, integrator: &str| {
         let mut scene = with("/gravity", json!([0, gravity, 0]));
         scene["simulation"]["integrator"] = json!(integrator);

@@ -5,6 +5,15 @@ pub trait OdeSystem {
     /// Writes ẏ = f(t, y). The result must depend on nothing but t and y.
     fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]);
 
+    /// Says that the next evaluation is that of a stage of an implicit step, and whether it is the first one of the stage in this
+    /// step: what was found there before is near.
+    fn begin_stage(&mut self, _stage: usize, _first: bool) {}
+
+    /// Power of what changes the energy at the state that was evaluated last, W, where there is such and the system knows it.
+    fn power(&self) -> Option<f64> {
+        None
+    }
+
     /// Called once after each accepted step, with ẏ = f(t, y) at its end. It may move y onto the constraints; then it must
     /// evaluate ẏ again unless the change was negligible.
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]);
@@ -13,6 +22,12 @@ pub trait OdeSystem {
 impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
         (**self).rhs(t, y, rate);
+    }
+    fn begin_stage(&mut self, stage: usize, first: bool) {
+        (**self).begin_stage(stage, first);
+    }
+    fn power(&self) -> Option<f64> {
+        (**self).power()
     }
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
         (**self).after_step(t, y, rate);

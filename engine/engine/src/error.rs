@@ -7,6 +7,7 @@ pub use last_good::{Cause, LastGood};
 use crate::catalogue::CatalogueError;
 use crate::integrate::StopReason;
 use crate::reactions::uniqueness::UniquenessError;
+use crate::scene::IntegratorKind;
 use crate::scene::SceneError;
 use crate::scene::text::nearest_name;
 use triad_dynamics::constraints::ConstraintError;
@@ -97,13 +98,21 @@ pub enum EngineError {
     },
     /// There are no independent coordinates to integrate.
     #[error(
-        "at t = {time:.6} s no independent coordinates can be chosen: nothing is free to move, or a singular position leaves open what is{last}"
+        "at t = {time:.6} s no independent coordinates can be chosen: a singular position leaves open what is free to move{last}"
     )]
     Undetermined {
         /// Time, s.
         time: f64,
         /// What is known of the last good state.
         last: LastGood,
+    },
+    /// An integrator that the scene asks for, and whose partner it does not ask for.
+    #[error("{integrator} cannot run this scene: {why}")]
+    Integrator {
+        /// The integrator.
+        integrator: IntegratorKind,
+        /// Why not.
+        why: &'static str,
     },
     /// The run has reached its limit of steps.
     #[error("the run stops at t = {time:.6} s: its {steps} steps are used up{last}")]
@@ -162,6 +171,10 @@ impl EngineError {
             StopReason::NoConvergence { time, step } => Self::NoConvergence { time, step, last },
             StopReason::Undetermined { time } => Self::Undetermined { time, last },
             StopReason::Stalled { time, step } => Self::Stalled { time, step, last },
+            StopReason::Alone => Self::Integrator {
+                integrator: IntegratorKind::Trapezoidal,
+                why: "it is the partner of the augmented Lagrangian alone",
+            },
         }
     }
 
@@ -199,6 +212,7 @@ impl EngineError {
             Self::NoConvergence { .. } => "no-convergence",
             Self::Stalled { .. } => "stalled",
             Self::Undetermined { .. } => "undetermined-motion",
+            Self::Integrator { .. } => "integrator-alone",
             Self::StepLimit { .. } => "step-limit",
             Self::TimeOutside { .. } => "time-outside-run",
             Self::UnknownName { .. } => "unknown-name",
@@ -214,6 +228,7 @@ impl EngineError {
             Self::Scene(SceneError::TooMany { what, .. }) => Some(format!("/{what}")),
             Self::Model(error) => Some(error.pointer()),
             Self::Constraint { error, .. } => error.pointer().map(str::to_owned),
+            Self::Integrator { .. } => Some("/simulation/integrator".to_owned()),
             _ => None,
         }
     }
@@ -272,8 +287,10 @@ impl EngineError {
                     .to_owned()
             }
             Self::Undetermined { .. } => {
-                "Use projection as the stabilization, with taylor or dop853; a mechanism whose drivers prescribe all of \
-                 its motion has nothing to integrate: see `triad kinematics`."
+                "Use projection as the stabilization, with taylor or dop853.".to_owned()
+            }
+            Self::Integrator { .. } => {
+                "Ask for the stabilization augmented-lagrangian, which brings it along, or leave the integrator to auto."
                     .to_owned()
             }
             Self::StepLimit { .. } => {

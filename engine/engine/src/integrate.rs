@@ -1,6 +1,7 @@
 //! Integrators of the equations of motion. Each fills a [`StepRecord`]; [`Stepper`] is what a run needs of it.
 
 mod hermite;
+mod power;
 mod step;
 
 mod stepper;
@@ -9,6 +10,7 @@ mod explicit;
 mod radau;
 
 mod augmented;
+mod driven;
 mod in_chart;
 mod penalty;
 mod rattle;
@@ -19,10 +21,12 @@ mod integrator;
 
 pub use augmented::Augmented;
 pub use choice::choose;
+pub use driven::Driven;
 pub use explicit::{DOP853, DOPRI5, Explicit, ODE45_TOLERANCE, Tableau};
 pub use in_chart::{Chart, Guess, InChart, IndependentCoordinates};
 pub use integrator::Integrator;
 pub use penalty::{Penalty, PenaltyParameters};
+pub use power::{add_power, power};
 pub use radau::Radau;
 pub use rattle::Rattle;
 pub use step::{StepRecord, Steps, StopReason};

@@ -63,8 +63,8 @@ pub enum IntegratorKind {
     /// The same with the step control of MATLAB's ode45: relative tolerance as given, absolute tolerance a thousandth of
     /// it, so 1e-3 for MATLAB's defaults.
     Ode45,
-    /// Radau IIA of order 5, implicit, in independent coordinates: for stiff springs, dampers and friction. Dense output
-    /// of order 3.
+    /// Radau IIA of orders 5, 9 and 13 by the tolerance, implicit, in independent coordinates: for stiff springs, dampers and
+    /// friction. With steps of one size order 5. Dense output of orders 3, 5 and 7.
     Radau,
     /// RATTLE, composed symmetrically to order 6, with steps of one size: energy and momentum of conservative mechanisms
     /// stay within bounds however long the run. Dense output of order 5.

@@ -30,6 +30,8 @@ pub enum Cause {
         joint: String,
         /// The product of its relative pivots beside that at the start.
         pivot_product: f64,
+        /// Whether the run was made in the way that passes singular positions best: then its tolerance was too tight.
+        best_way: bool,
     },
     /// The rows of a joint or driver nearly depend on others since the start.
     Weak {
@@ -49,7 +51,7 @@ impl fmt::Display for Cause {
                 quoted(drivers),
                 if open.is_empty() { "all of them".to_owned() } else { quoted(open) }
             ),
-            Self::Losing { joint, pivot_product } => {
+            Self::Losing { joint, pivot_product, .. } => {
                 write!(f, "\"{joint}\" is about to lose its hold, of which {pivot_product:.0e} is left")
             }
             Self::Weak { joint, pivot_product } => {
@@ -68,6 +70,10 @@ impl Cause {
         match self {
             Self::OutOfReach { .. } => {
                 "Look at the last good state: let the driver ask for less, change lengths, or end the run before."
+            }
+            Self::Losing { best_way: true, .. } => {
+                "Loosen the tolerance, tenfold at first: the mechanism comes to a singular position, near which rounding is larger \
+                 than this one allows. Else change lengths, or end the run before."
             }
             Self::Losing { .. } => {
                 "Look at the last good state: the mechanism comes to a singular position. Use taylor or dop853 with \

@@ -86,7 +86,6 @@ fn conflict(requested: IntegratorKind, method: ConstraintMethod) -> Option<&'sta
         (IntegratorKind::Radau | IntegratorKind::Rattle, _) => Some(
             "it satisfies the constraints at each step by itself, and leaves nothing for another treatment",
         ),
-        (IntegratorKind::Trapezoidal, _) => Some("it is the partner of the augmented Lagrangian alone"),
         _ => None,
     }
 }

@@ -293,7 +293,7 @@ impl OdeMethod for Explicit {
         }
     }
 
-    fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64]) {
+    fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64], _: &[Vec<f64>]) {
         self.last.y.copy_from_slice(y);
         system.rhs(self.last.t, y, &mut self.rate);
         self.last.h = 0.0;

@@ -6,6 +6,7 @@ mod chart;
 pub use chart::{Chart, Guess, IndependentCoordinates};
 
 use super::hermite;
+use super::power::power;
 use super::step::{StepRecord, StopReason};
 use super::stepper::{OdeMethod, Stepper};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -16,6 +17,10 @@ struct InCoordinates<'a> {
     mechanism: &'a mut Mechanism,
     chart: &'a Chart,
     guess: &'a mut Guess,
+    /// What was found at the stages of an implicit step.
+    at_stages: &'a mut Vec<Guess>,
+    /// The stage that is evaluated next.
+    stage: Option<usize>,
     y: &'a mut [f64],
     rate: &'a mut [f64],
 }
@@ -23,7 +28,15 @@ struct InCoordinates<'a> {
 impl OdeSystem for InCoordinates<'_> {
     fn rhs(&mut self, t: f64, x: &[f64], rate: &mut [f64]) {
         let f = self.chart.freedoms();
-        if !self.chart.find_state(self.mechanism, t, x, self.guess, self.y) {
+        let found = match self.stage.take().and_then(|stage| self.at_stages.get_mut(stage)) {
+            Some(guess) => {
+                let found = self.chart.find_state(self.mechanism, t, x, guess, self.y);
+                self.guess.share_slowness(guess);
+                found
+            }
+            None => self.chart.find_state(self.mechanism, t, x, self.guess, self.y),
+        };
+        if !found {
             // A step that leaves the chart is too long.
             rate.fill(f64::NAN);
             return;
@@ -31,6 +44,25 @@ impl OdeSystem for InCoordinates<'_> {
         self.mechanism.rhs(t, self.y, self.rate);
         rate[..f].copy_from_slice(&x[f..]);
         self.chart.accelerations(&self.rate[self.mechanism.system.coordinates..], &mut rate[f..]);
+    }
+
+    /// A stage is first sought from the one before it, then from where it was found.
+    fn begin_stage(&mut self, stage: usize, first: bool) {
+        self.stage = Some(stage);
+        while self.at_stages.len() <= stage {
+            self.at_stages.push(self.guess.clone());
+        }
+        if first {
+            let (before, rest) = self.at_stages.split_at_mut(stage);
+            if let Some(guess) = rest.first_mut() {
+                guess.copy_from(before.last().unwrap_or(self.guess));
+            }
+        }
+    }
+
+    fn power(&self) -> Option<f64> {
+        let Mechanism { system, state, elimination, .. } = &*self.mechanism;
+        (!system.is_conservative()).then(|| power(&elimination.last_accelerations(system, state).multipliers))
     }
 
     fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {
@@ -45,6 +77,7 @@ pub struct InChart<M> {
     method: M,
     chart: Chart,
     guess: Guess,
+    at_stages: Vec<Guess>,
     last: StepRecord,
     /// State at the start of the last step.
     y_old: Vec<f64>,
@@ -55,31 +88,30 @@ pub struct InChart<M> {
 }
 
 impl<M: OdeMethod> InChart<M> {
-    /// Starts at the consistent state y with the method that `start` makes.
-    ///
-    /// # Errors
-    ///
-    /// [`StopReason::Undetermined`]: the free motions cannot be determined there, or nothing is free to move.
+    /// Starts at the consistent state y, about which the chart was taken, with the method that `start` makes.
     pub fn new(
-        coordinates: IndependentCoordinates,
+        (chart, mut guess): (Chart, Guess),
         mechanism: &mut Mechanism,
         t: f64,
         y: &[f64],
         start: impl FnOnce(&mut dyn OdeSystem, &[f64]) -> M,
-    ) -> Result<Self, StopReason> {
-        let undetermined = StopReason::Undetermined { time: t };
-        let (chart, mut guess) = Chart::new(coordinates, mechanism, t, y).ok_or(undetermined)?;
-        if chart.freedoms() == 0 {
-            return Err(undetermined);
-        }
+    ) -> Self {
         let mut x = vec![0.0; 2 * chart.freedoms()];
         chart.coordinates(y, &mut x);
         let last = StepRecord::new(t, y);
         let (mut y, mut rate) = (y.to_vec(), y.to_vec());
-        let mut system =
-            InCoordinates { mechanism, chart: &chart, guess: &mut guess, y: &mut y, rate: &mut rate };
+        let mut at_stages = Vec::new();
+        let mut system = InCoordinates {
+            mechanism,
+            chart: &chart,
+            guess: &mut guess,
+            at_stages: &mut at_stages,
+            stage: None,
+            y: &mut y,
+            rate: &mut rate,
+        };
         let method = start(&mut system, &x);
-        Ok(Self { method, chart, guess, y_old: last.y.clone(), last, x, y, rate })
+        Self { method, chart, guess, at_stages, y_old: last.y.clone(), last, x, y, rate }
     }
 
     /// How often independent coordinates were chosen.
@@ -87,8 +119,9 @@ impl<M: OdeMethod> InChart<M> {
         self.chart.choices
     }
 
-    /// Takes the chart at the current state, and restarts the method if its coordinates are others then.
-    fn renew(&mut self, mechanism: &mut Mechanism) -> Result<(), StopReason> {
+    /// Takes the chart at the current state, and restarts the method if its coordinates are others then. `just_stepped` says that
+    /// what was found at stages belongs to the last accepted step.
+    fn renew(&mut self, mechanism: &mut Mechanism, just_stepped: bool) -> Result<(), StopReason> {
         let time = self.method.last().t;
         let choices = self.chart.choices;
         if !self.chart.take(mechanism, time, &self.last.y, &mut self.guess) {
@@ -96,26 +129,34 @@ impl<M: OdeMethod> InChart<M> {
         }
         if self.chart.choices != choices {
             self.chart.coordinates(&self.last.y, &mut self.x);
-            let Self { method, chart, guess, y, rate, x, .. } = self;
-            method.restart(&mut InCoordinates { mechanism, chart, guess, y, rate }, x);
+            let mut step = Vec::new();
+            if just_stepped {
+                let mut start = vec![0.0; self.x.len()];
+                self.chart.coordinates(&self.y_old, &mut start);
+                step.push(start);
+                step.extend(self.at_stages.iter().map(|stage| self.chart.coordinates_of(stage)));
+            }
+            let Self { method, chart, guess, at_stages, y, rate, x, .. } = self;
+            let mut system = InCoordinates { mechanism, chart, guess, at_stages, stage: None, y, rate };
+            method.restart(&mut system, x, &step);
         }
         Ok(())
     }
 
     fn advance(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
-        let Self { method, chart, guess, y, rate, .. } = self;
-        method.step(&mut InCoordinates { mechanism, chart, guess, y, rate }, end)
+        let Self { method, chart, guess, at_stages, y, rate, .. } = self;
+        method.step(&mut InCoordinates { mechanism, chart, guess, at_stages, stage: None, y, rate }, end)
     }
 
     fn take_step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
-        if self.guess.needs_refresh() {
-            self.renew(mechanism)?;
+        if self.chart.needs_refresh(&self.guess) {
+            self.renew(mechanism, self.method.last().h > 0.0)?;
         }
         self.y_old.copy_from_slice(&self.last.y);
         let mut result = self.advance(mechanism, end);
         if result.is_err() {
             // Another chart may reach where this one ends.
-            self.renew(mechanism)?;
+            self.renew(mechanism, false)?;
             result = self.advance(mechanism, end);
         }
         let Self { method, chart, guess, last, .. } = self;
@@ -163,12 +204,17 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         }
         // The guess of the run stays as it is: outputs between steps must not change the run.
         let mut guess = self.guess.clone();
-        let Self { method, chart, y: scratch, rate, x, .. } = self;
-        let mut system = InCoordinates { mechanism, chart, guess: &mut guess, y: scratch, rate };
+        let Self { method, chart, at_stages, y: scratch, rate, x, .. } = self;
+        let guess = &mut guess;
+        let mut system = InCoordinates { mechanism, chart, guess, at_stages, stage: None, y: scratch, rate };
         method.interpolate(&mut system, t, x);
-        if !chart.find_state(mechanism, t, x, &mut guess, y) {
+        if !chart.find_state(mechanism, t, x, guess, y) {
             self.interpolate_ends(t, y);
         }
+    }
+
+    fn work_to(&self, t: f64) -> Option<f64> {
+        self.method.work_to(t)
     }
 
     fn boxed(&self) -> Box<dyn Stepper> {

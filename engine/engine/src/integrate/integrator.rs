@@ -3,8 +3,9 @@
 mod progress;
 
 use super::augmented::Augmented;
+use super::driven::Driven;
 use super::explicit::{DOP853, DOPRI5, Explicit};
-use super::in_chart::{InChart, IndependentCoordinates};
+use super::in_chart::{Chart, InChart, IndependentCoordinates};
 use super::penalty::{Penalty, PenaltyParameters};
 use super::radau::Radau;
 use super::rattle::Rattle;
@@ -117,7 +118,7 @@ fn start(
     let method = settings.constraint_method;
     let tolerance = match method {
         ConstraintMethod::Penalty { alpha, omega, mu } => {
-            tolerance.max(PenaltyParameters { alpha, omega, mu }.min_tolerance())
+            tolerance.max(PenaltyParameters { alpha, omega, mu }.min_tolerance(&mechanism.system))
         }
         _ => tolerance,
     };
@@ -142,6 +143,7 @@ fn start(
         (_, ConstraintMethod::AugmentedLagrangian { alpha }) => {
             Box::new(Augmented::new(mechanism, t, y, alpha, step))
         }
+        (IntegratorKind::Trapezoidal, _) => return Err(StopReason::Alone),
         (IntegratorKind::Radau, ConstraintMethod::Partitioning) => {
             in_chart(partition, mechanism, t, y, radau)?
         }
@@ -162,5 +164,10 @@ fn in_chart<M: OdeMethod>(
     y: &[f64],
     start: impl FnOnce(&mut dyn OdeSystem, &[f64]) -> M,
 ) -> Result<Box<dyn Stepper>, StopReason> {
-    Ok(Box::new(InChart::new(coordinates, mechanism, t, y, start)?))
+    let undetermined = StopReason::Undetermined { time: t };
+    let (chart, guess) = Chart::new(coordinates, mechanism, t, y).ok_or(undetermined)?;
+    if chart.freedoms() == 0 {
+        return Ok(Box::new(Driven::new(mechanism, t, y)));
+    }
+    Ok(Box::new(InChart::new((chart, guess), mechanism, t, y, start)))
 }

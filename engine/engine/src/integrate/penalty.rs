@@ -10,8 +10,10 @@ use super::stepper::{OdeMethod, Stepper};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::equations::augmented::{Normal, RightSides};
 use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::system::System;
 
-/// Tolerance for each kg of α below which the rounding of the accelerations, which grows with α, would be taken for motion.
+/// Tolerance, for each time that α exceeds the lightest mass, below which the rounding of the accelerations would be taken for
+/// motion: measured with bodies of 1 kg.
 const ROUNDING: f64 = 2e-15;
 
 /// The parameters of the penalty method.
@@ -26,9 +28,10 @@ pub struct PenaltyParameters {
 }
 
 impl PenaltyParameters {
-    /// The smallest tolerance that rounding admits.
-    pub fn min_tolerance(&self) -> f64 {
-        ROUNDING * self.alpha
+    /// The smallest tolerance that rounding admits: the part of the lightest mass that is lost in it.
+    pub fn min_tolerance(&self, system: &System) -> f64 {
+        let lightest = system.bodies.iter().fold(f64::INFINITY, |least, body| least.min(body.mass));
+        (ROUNDING * self.alpha / lightest).min(1.0)
     }
 }
 

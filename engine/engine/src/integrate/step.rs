@@ -50,6 +50,8 @@ pub enum StopReason {
         /// Time, s.
         time: f64,
     },
+    /// The trapezoidal rule was asked for without the augmented Lagrangian, which is solved together with it.
+    Alone,
     /// The equations of an implicit step cannot be solved.
     NoConvergence {
         /// Time, s.

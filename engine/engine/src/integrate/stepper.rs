@@ -19,8 +19,14 @@ pub trait OdeMethod: Clone + Debug + Send + Sync + 'static {
     /// Writes y(t) within the last step.
     fn interpolate(&mut self, system: &mut impl OdeSystem, t: f64, y: &mut [f64]);
 
-    /// Goes on from the same state y, written in other coordinates, with the step size that was reached.
-    fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64]);
+    /// Integral of [`OdeSystem::power`] from the start of the last step to time t within it, where the method knows it.
+    fn work_to(&self, _: f64) -> Option<f64> {
+        None
+    }
+
+    /// Goes on from the same state y, written in other coordinates, with the step size that was reached. `step` has the start and
+    /// the stages of the last step in these coordinates, or nothing.
+    fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64], step: &[Vec<f64>]);
 }
 
 /// The last step of an island of the mechanism, as far as it concerns singular configurations.

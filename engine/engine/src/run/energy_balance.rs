@@ -3,10 +3,8 @@
 //! The total energy of a run changes by exactly the work that these do. What is left over is the error of the run.
 
 use super::Simulation;
+use crate::integrate::power;
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::dynamics::elimination::Multipliers;
-use triad_dynamics::equations::{Source, equation};
-use triad_dynamics::system::Constraint;
 
 /// Nodes and weights of Gauss-Legendre quadrature of order 10 on [0, 1].
 const NODES: [(f64, f64); 5] = [
@@ -16,32 +14,6 @@ const NODES: [(f64, f64); 5] = [
     (0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
     (0.953_089_922_969_332, 0.118_463_442_528_094_54),
 ];
-
-/// Power of drivers and of loads without potential, W.
-pub fn power(at: &Multipliers) -> f64 {
-    let (system, state) = (at.system, at.state);
-    let custom = system.model.custom_loads.iter().map(|load| load.power(system, state));
-    let loads: f64 = system.loads.iter().map(|load| load.power(state)).chain(custom).sum();
-    loads + driver_power(at)
-}
-
-/// −λᵀ ν: constraints act with −Φ_qᵀ λ, and Φ_q q̇ = ν.
-fn driver_power(at: &Multipliers) -> f64 {
-    let mut power = 0.0;
-    for constraint in at.system.constraints.iter().filter(|constraint| constraint.driver) {
-        add_power(at, constraint, &mut power);
-    }
-    power
-}
-
-/// Adds the power of one driver, W.
-pub fn add_power(at: &Multipliers, constraint: &Constraint, power: &mut f64) {
-    for row in constraint.row_ids() {
-        for (component, lambda) in at.of_row(row).into_iter().enumerate() {
-            *power -= lambda * equation(at.system, at.state, Source::Joint { row, component }).nu;
-        }
-    }
-}
 
 impl Simulation {
     /// Work of drivers and of loads without potential from the start of the last step to time t, J. Counters stay.

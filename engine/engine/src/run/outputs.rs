@@ -3,7 +3,7 @@
 mod columns;
 
 use super::Simulation;
-use super::energy_balance::add_power;
+use crate::integrate::add_power;
 use crate::reactions::joint_wrench;
 use crate::scene::{Output, OutputKind};
 use nalgebra::Vector3;

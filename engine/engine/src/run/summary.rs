@@ -57,8 +57,7 @@ fn swallowed(system: &System) -> f64 {
     let ConstraintMethod::Penalty { alpha, omega, mu } = system.model.settings.constraint_method else {
         return 0.0;
     };
-    let lightest = system.bodies.iter().fold(f64::INFINITY, |least, body| least.min(body.mass));
-    (PenaltyParameters { alpha, omega, mu }.min_tolerance() / lightest).min(1.0)
+    PenaltyParameters { alpha, omega, mu }.min_tolerance(system)
 }
 
 impl Simulation {

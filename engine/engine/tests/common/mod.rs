@@ -67,6 +67,12 @@ pub fn random_scene(seed: u64, bodies: usize, coordinates: impl Fn(usize) -> &'s
     scene
 }
 
+/// A scene of `tests/data/problems`.
+pub fn problem(name: &str) -> Scene {
+    let path = format!("{}/../../tests/data/problems/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    Scene::from_json(&std::fs::read_to_string(path).expect("the problem is there")).expect("it reads well")
+}
+
 /// The system of a scene and its start (q, q̇), not assembled.
 pub fn start(scene: &Scene) -> (System, Vec<f64>, Vec<f64>) {
     let system = System::new(Model::new(scene).expect("the scene is sound"));

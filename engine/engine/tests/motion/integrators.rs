@@ -213,7 +213,6 @@ fn an_integrator_that_a_treatment_does_not_know_is_replaced_with_the_reason() {
     for (integrator, method, instead) in [
         (IntegratorKind::Radau, feedback, IntegratorKind::Dop853),
         (IntegratorKind::Rattle, ConstraintMethod::Partitioning, IntegratorKind::Dop853),
-        (IntegratorKind::Trapezoidal, ConstraintMethod::Projection, IntegratorKind::Dop853),
         (IntegratorKind::Dop853, augmented, IntegratorKind::Trapezoidal),
     ] {
         let scene = treated(scene("simple-pendulum", 0.01), integrator, method);

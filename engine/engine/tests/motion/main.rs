@@ -15,3 +15,4 @@ mod references;
 mod series;
 mod series_catalogue;
 mod skips;
+mod stiff;

@@ -3,12 +3,16 @@
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
 
-/// Decay rate of a load times the length of the run above which an implicit method pays: measured (docs/PERFORMANCE.md), the
-/// series take three quarters of its time at 6.5e4, and their steps grow with this number.
-const MANY_DECAYS: f64 = 1e5;
+/// Decay rate of a load times the length of the run above which an implicit method pays: measured, the series take half of its
+/// time on three rods with 6.5e4 of them, and one and a half times its time on the flyball governor with 8.1e4; their steps grow
+/// with this number.
+const MANY_DECAYS: f64 = 7e4;
 /// The tolerance at which [`MANY_DECAYS`] and [`MANY_OSCILLATIONS`] hold. At a tighter one the implicit method needs more
-/// steps, by the fourth root, between its order of five and that of its stages, three; the series do not.
+/// steps, the series do not.
 const AT_TOLERANCE: f64 = 1e-6;
+/// Powers with which the bounds then grow: the governor takes the implicit method twice as long at 1e-10; oscillations that it
+/// leaves out at a loose tolerance are resolved at a tight one.
+const GROWTH: [f64; 2] = [1.0 / 12.0, 0.25];
 /// Angular frequency of a load times the length of the run above which an implicit method pays, provided that the
 /// oscillations are not excited: only then may it leave them out.
 const MANY_OSCILLATIONS: f64 = 3e5;
@@ -26,7 +30,8 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         return None;
     }
     let length = mechanism.system.length;
-    let cost_factor = libm::pow(AT_TOLERANCE / tolerance, 0.25).max(1.0);
+    let [cost_of_decays, cost_of_oscillations] =
+        GROWTH.map(|power| libm::pow(AT_TOLERANCE / tolerance, power).max(1.0));
     let mut rate = vec![0.0; y.len()];
     mechanism.rhs(t, y, &mut rate);
     let n = mechanism.system.coordinates;
@@ -42,12 +47,14 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         let (speed, acceleration) = (along(&y[n..]).abs(), along(&rate[n..]).abs());
         let mobility = elimination.mobility(system, state, load).unwrap_or(0.0).max(0.0);
         let decay = system.loads[load].steepest_damping() * mobility;
-        if decay * duration > MANY_DECAYS * cost_factor {
+        if decay * duration > MANY_DECAYS * cost_of_decays {
             return Some(format!("load \"{name}\" makes motions decay within {:.0e} s", 1.0 / decay));
         }
         let omega = (stiffness * mobility).sqrt();
         let amplitude = (acceleration / (omega * omega)).max(speed / omega);
-        if omega * duration > MANY_OSCILLATIONS * cost_factor && amplitude <= EXCITED * tolerance * length {
+        if omega * duration > MANY_OSCILLATIONS * cost_of_oscillations
+            && amplitude <= EXCITED * tolerance * length
+        {
             return Some(format!("spring \"{name}\" could oscillate at {omega:.0e} rad/s, but does not"));
         }
     }

@@ -16,6 +16,8 @@ use triad_linalg::independent_rows;
 const SLOW: usize = 9;
 /// Largest entry of Z above which other independent coordinates are chosen.
 const ILL_CONDITIONED: f64 = 4.0;
+/// Largest entry of (L Z)⁻¹ above which tangent coordinates are taken anew: the chart is tilted by 34 degrees then.
+const TILTED: f64 = 1.2;
 /// Pivot of a row of the basis, relative to the largest, below which it depends on the rows that are chosen.
 const DEPENDENT: f64 = 1e-9;
 /// Distance beyond a singular configuration at which the basis is taken instead, in lengths of the mechanism.
@@ -52,6 +54,8 @@ pub struct Guess {
     q: DVector<f64>,
     q_dot: DVector<f64>,
     eta: DVector<f64>,
+    /// Where the chart was taken: q and η.
+    taken: (DVector<f64>, DVector<f64>),
     /// What η or η̇ still differ by.
     gap: DVector<f64>,
     /// Most iterations of a search since the chart was taken.
@@ -59,9 +63,26 @@ pub struct Guess {
 }
 
 impl Guess {
-    /// Whether searches have become slow: a new chart at the current state will be better.
-    pub fn needs_refresh(&self) -> bool {
-        self.iterations > SLOW
+    /// Takes over all that another one of the same chart has found.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.q.copy_from(&other.q);
+        self.q_dot.copy_from(&other.q_dot);
+        self.eta.copy_from(&other.eta);
+        self.taken.0.copy_from(&other.taken.0);
+        self.taken.1.copy_from(&other.taken.1);
+        self.iterations = other.iterations;
+    }
+
+    /// Is as slow as another one of the same chart.
+    pub fn share_slowness(&mut self, other: &Self) {
+        self.iterations = self.iterations.max(other.iterations);
+    }
+
+    /// Goes back to where the chart was taken: the next search must not begin where this one was lost.
+    fn go_back(&mut self) {
+        self.q.copy_from(&self.taken.0);
+        self.eta.copy_from(&self.taken.1);
+        self.iterations = usize::MAX;
     }
 
     /// Remembers how many times a search went on.
@@ -95,10 +116,16 @@ impl Chart {
             q: DVector::from_column_slice(&y[..n]),
             q_dot: DVector::from_column_slice(&y[n..]),
             eta: DVector::zeros(freedoms),
+            taken: (DVector::zeros(n), DVector::zeros(freedoms)),
             gap: DVector::zeros(freedoms),
             iterations: 0,
         };
         chart.take(mechanism, t, y, &mut guess).then_some((chart, guess))
+    }
+
+    /// Whether searches have become slow: a new chart at the current state will be better.
+    pub fn needs_refresh(&self, guess: &Guess) -> bool {
+        guess.iterations > SLOW
     }
 
     /// Number of independent coordinates f.
@@ -111,24 +138,39 @@ impl Chart {
     pub fn take(&mut self, mechanism: &mut Mechanism, t: f64, y: &[f64], guess: &mut Guess) -> bool {
         let n = mechanism.system.coordinates;
         let Some(basis) = allowed_motions(mechanism, t, y, self.freedoms()) else { return false };
-        self.base.copy_from_slice(&y[..n]);
         guess.q.copy_from_slice(&y[..n]);
         guess.q_dot.copy_from_slice(&y[n..]);
-        guess.eta.fill(0.0);
         guess.iterations = 0;
-        match self.choice {
+        let taken = match self.choice {
             IndependentCoordinates::Tangent => {
-                let weights = weights(mechanism);
-                self.basis = basis;
-                self.functionals = self.basis.transpose();
-                for (mut column, w) in self.functionals.column_iter_mut().zip(weights.iter()) {
-                    column *= *w;
-                }
-                self.choices += 1;
+                self.tilt(mechanism, basis, guess);
                 true
             }
             IndependentCoordinates::Partition => self.partition(&basis, guess),
+        };
+        guess.taken.0.copy_from(&guess.q);
+        guess.taken.1.copy_from(&guess.eta);
+        taken
+    }
+
+    /// Keeps L and q₀, and with them the coordinates, while the new basis is not tilted much against the old one; else takes
+    /// those of the new position.
+    fn tilt(&mut self, mechanism: &Mechanism, basis: DMatrix<f64>, guess: &mut Guess) {
+        let tilted = if self.choices > 0 { (&self.functionals * &basis).try_inverse() } else { None };
+        if let Some(back) = tilted.filter(|back| back.amax() < TILTED) {
+            self.basis = basis * back;
+            guess.eta = &self.functionals * (&guess.q - &self.base);
+            return;
         }
+        let weights = weights(mechanism);
+        self.functionals = basis.transpose();
+        for (mut column, w) in self.functionals.column_iter_mut().zip(weights.iter()) {
+            column *= *w;
+        }
+        self.basis = basis;
+        self.base.copy_from(&guess.q);
+        guess.eta.fill(0.0);
+        self.choices += 1;
     }
 
     /// Keeps the chosen coordinates while they are well conditioned, else chooses others. η counts from zero of q, so
@@ -152,6 +194,14 @@ impl Chart {
         }
         guess.eta = &self.functionals * &guess.q;
         true
+    }
+
+    /// x = (η, η̇) of what was found.
+    pub fn coordinates_of(&self, found: &Guess) -> Vec<f64> {
+        let mut x = vec![0.0; 2 * self.freedoms()];
+        let y: Vec<f64> = found.q.iter().chain(&found.q_dot).copied().collect();
+        self.coordinates(&y, &mut x);
+        x
     }
 
     /// x = (η, η̇) of a consistent state.
@@ -187,12 +237,7 @@ impl Chart {
         y[..n].copy_from_slice(guess.q.as_slice());
         y[n..].copy_from_slice(guess.q_dot.as_slice());
         if !found {
-            // The next search must not begin where this one was lost.
-            guess.q.copy_from(&self.base);
-            guess.eta.fill(0.0);
-            if self.choice == IndependentCoordinates::Partition {
-                guess.iterations = SLOW + 1;
-            }
+            guess.go_back();
         }
         found
     }

@@ -1,40 +1,154 @@
-//! Coefficients of Radau IIA of order 5 (Hairer, Wanner, Solving Ordinary Differential Equations II, sections IV.5 and
-//! IV.8).
+//! Coefficients of the Radau IIA methods of orders 5, 9 and 13: nodes, weights and eigenvalues as tables, everything else
+//! from them (Hairer, Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8; Stiff differential
+//! equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999)).
 
-#![allow(clippy::excessive_precision, reason = "the numbers stand as they were published")]
+use nalgebra::{Complex, DMatrix};
 
-use nalgebra::Complex;
+/// A method as tables.
+#[derive(Debug)]
+pub struct Tables {
+    /// Nodes c of the stages, in parts of a step, with their weights b.
+    pub nodes: &'static [(f64, f64)],
+    /// The real eigenvalue of A⁻¹.
+    pub real: f64,
+    /// One of each pair of complex eigenvalues of A⁻¹.
+    pub pairs: &'static [Complex<f64>],
+}
 
-/// Nodes c of the stages, in parts of a step.
-pub const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
-/// The real eigenvalue of A⁻¹.
-pub const REAL: f64 = 3.637_834_252_744_496;
-/// One of the pair of complex eigenvalues of A⁻¹.
-pub const PAIR: Complex<f64> = Complex::new(2.681_082_873_627_752_3, 3.050_430_199_247_410_5);
-/// T, which turns A⁻¹ into its real block form T⁻¹ A⁻¹ T.
-pub const T: [[f64; 3]; 3] = [
-    [0.091_232_394_870_892_94, -0.141_255_295_020_954_2, -0.030_029_194_105_147_424],
-    [0.241_717_932_707_107_02, 0.204_129_352_293_799_93, 0.382_942_112_757_261_94],
-    [0.966_048_182_615_092_9, 1.0, 0.0],
-];
-/// T⁻¹.
-pub const T_INVERSE: [[f64; 3]; 3] = [
-    [4.325_579_890_063_155, 0.339_199_251_815_809_87, 0.541_770_539_935_874_9],
-    [-4.178_718_591_551_905, -0.327_682_820_761_062_4, 0.476_623_554_500_550_45],
-    [-0.502_872_634_945_786_9, 2.571_926_949_855_605_4, -0.596_039_204_828_224_9],
-];
-/// Weights of the stages in the error estimate of order 3.
-pub const ESTIMATE: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_748_9, -0.333_333_333_333_333_3];
+/// Three stages, order 5.
+pub static ORDER_5: Tables = Tables {
+    nodes: &[
+        (0.155_051_025_721_682_2, 0.376_403_062_700_467_26),
+        (0.644_948_974_278_317_8, 0.512_485_826_188_421_6),
+        (1.0, 0.111_111_111_111_111_1),
+    ],
+    real: 3.637_834_252_744_496,
+    pairs: &[Complex::new(2.681_082_873_627_752, 3.050_430_199_247_410_5)],
+};
+/// Five stages, order 9.
+pub static ORDER_9: Tables = Tables {
+    nodes: &[
+        (0.057_104_196_114_517_68, 0.143_713_560_791_225_95),
+        (0.276_843_013_638_123_8, 0.281_356_015_149_462_06),
+        (0.583_590_432_368_916_8, 0.311_826_522_975_741_25),
+        (0.860_240_135_656_219_4, 0.223_103_901_083_570_74),
+        (1.0, 0.04),
+    ],
+    real: 6.286_704_751_729_276_6,
+    pairs: &[
+        Complex::new(5.700_953_298_671_789, 3.210_265_600_308_55),
+        Complex::new(3.655_694_325_463_572_3, 6.543_736_899_360_077),
+    ],
+};
+/// Seven stages, order 13.
+pub static ORDER_13: Tables = Tables {
+    nodes: &[
+        (0.029_316_427_159_784_893, 0.074_494_235_556_010_32),
+        (0.148_078_599_668_484_3, 0.159_102_115_733_650_74),
+        (0.336_984_690_281_154_3, 0.212_351_889_502_977_8),
+        (0.558_671_518_771_550_1, 0.223_554_914_507_283_23),
+        (0.769_233_862_030_054_5, 0.190_474_936_822_115_58),
+        (0.926_945_671_319_741_1, 0.119_613_744_612_656_2),
+        (1.0, 0.020_408_163_265_306_12),
+    ],
+    real: 8.936_832_788_405_216,
+    pairs: &[
+        Complex::new(8.511_834_825_102_946, 3.281_013_624_325_059),
+        Complex::new(7.141_055_219_187_64, 6.623_045_922_639_276),
+        Complex::new(4.378_693_561_506_806, 10.169_693_283_795_012),
+    ],
+};
 
-/// Weights of the stages, less the start of the step, in the collocation polynomial at the part s of a step.
-pub fn collocation(s: f64) -> [f64; 3] {
-    [0, 1, 2].map(|stage| {
-        let mut weight = s / C[stage];
-        for (other, node) in C.iter().enumerate() {
-            if other != stage {
-                weight *= (s - node) / (C[stage] - node);
+/// A method with what follows from its tables.
+#[derive(Clone, Debug)]
+pub struct Method {
+    /// The tables.
+    pub tables: &'static Tables,
+    /// T, which turns A⁻¹ into its real block form T⁻¹ A⁻¹ T: a column for the real eigenvalue, two for each pair.
+    pub t: DMatrix<f64>,
+    /// T⁻¹.
+    pub t_inverse: DMatrix<f64>,
+    /// Weights of the stages, less the start, in −p'(0), p being the collocation polynomial over the parts of the step: h ẋ at the start and −p'(0) add up to the error estimate.
+    pub estimate: Vec<f64>,
+}
+
+impl Method {
+    /// From its tables.
+    pub fn new(tables: &'static Tables) -> Self {
+        let s = tables.nodes.len();
+        let mut t = DMatrix::zeros(s, s);
+        let vector = |eigenvalue: Complex<f64>| eigenvector(tables, eigenvalue);
+        for (row, x) in vector(Complex::new(tables.real, 0.0)).into_iter().enumerate() {
+            t[(row, 0)] = x.re;
+        }
+        for (pair, eigenvalue) in tables.pairs.iter().enumerate() {
+            for (row, x) in vector(*eigenvalue).into_iter().enumerate() {
+                (t[(row, 1 + 2 * pair)], t[(row, 2 + 2 * pair)]) = (x.re, -x.im);
             }
         }
-        weight
-    })
+        let t_inverse = t.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(s, s));
+        let estimate = (0..s)
+            .map(|i| {
+                let others = (0..s).filter(|&j| j != i).map(|j| {
+                    let (own, other) = (tables.nodes[i].0, tables.nodes[j].0);
+                    -other / (own - other)
+                });
+                -others.product::<f64>() / tables.nodes[i].0
+            })
+            .collect();
+        Self { tables, t, t_inverse, estimate }
+    }
+
+    /// Number of stages.
+    pub fn stages(&self) -> usize {
+        self.tables.nodes.len()
+    }
+
+    /// Writes the weights of the stages in the polynomial through them at the part x of a step.
+    pub fn through(&self, x: f64, weights: &mut [f64]) {
+        let nodes = self.tables.nodes;
+        for (stage, out) in weights.iter_mut().enumerate() {
+            let own = nodes[stage].0;
+            let others = nodes.iter().enumerate().filter(|&(other, _)| other != stage);
+            *out = others.map(|(_, (node, _))| (x - node) / (own - node)).product();
+        }
+    }
+
+    /// Writes the weights of the stages, less the start of the step, in the collocation polynomial at the part x of a step.
+    pub fn collocation(&self, x: f64, weights: &mut [f64]) {
+        self.through(x, weights);
+        for (weight, (node, _)) in weights.iter_mut().zip(self.tables.nodes) {
+            *weight *= x / node;
+        }
+    }
+}
+
+/// An eigenvector of A⁻¹, of length one. For a collocation method A v = λ v says that ∫₀ˣ p = λ p + κ M(x) with the
+/// polynomial p through v and M = ∏ (x − c): ∫₀ˣ p = Σ λʲ M⁽ʲ⁾ and p = Σ λʲ M⁽ʲ⁺¹⁾.
+fn eigenvector(tables: &Tables, eigenvalue: Complex<f64>) -> Vec<Complex<f64>> {
+    let inverse = Complex::new(1.0, 0.0) / eigenvalue;
+    // Coefficients of M, lowest first.
+    let mut polynomial = vec![1.0];
+    for (node, _) in tables.nodes {
+        let mut next = vec![0.0; polynomial.len() + 1];
+        for (power, a) in polynomial.iter().enumerate() {
+            next[power + 1] += a;
+            next[power] -= node * a;
+        }
+        polynomial = next;
+    }
+    let derivative =
+        |p: &[f64]| p.iter().enumerate().skip(1).map(|(k, a)| k as f64 * a).collect::<Vec<f64>>();
+    let value = |p: &[f64], x: f64| p.iter().rev().fold(0.0, |sum, a| sum * x + a);
+    let mut vector = vec![Complex::new(0.0, 0.0); tables.nodes.len()];
+    let (mut power, mut rest) = (Complex::new(1.0, 0.0), derivative(&polynomial));
+    while !rest.is_empty() {
+        for (x, (node, _)) in vector.iter_mut().zip(tables.nodes) {
+            *x += power * value(&rest, *node);
+        }
+        power *= inverse;
+        rest = derivative(&rest);
+    }
+    let size = vector.iter().map(Complex::norm_sqr).sum::<f64>().sqrt();
+    vector.into_iter().map(|x| x / size).collect()
 }

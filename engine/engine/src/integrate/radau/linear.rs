@@ -1,6 +1,6 @@
 //! The linear systems of Newton's method: for second-order equations they have the size of η alone.
 
-use super::coefficients::{PAIR, REAL};
+use super::coefficients::Tables;
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
 type RealLu = LU<f64, Dyn, Dyn>;
@@ -26,53 +26,70 @@ impl RateJacobian {
     }
 }
 
-/// Factors of μ² I − μ C − K for the real and the complex μ of one step size.
+/// Factors of μ² I − μ C − K for the real μ and one μ of each complex pair, for one step size.
 #[derive(Clone, Debug)]
 pub struct Factors {
     /// The step size, s.
     pub h: f64,
     real: RealLu,
-    pair: ComplexLu,
+    pairs: Vec<ComplexLu>,
 }
 
 impl Factors {
     /// For a step of size h. `None` if a matrix is singular.
-    pub fn new(RateJacobian { stiffness, damping, .. }: &RateJacobian, h: f64) -> Option<Self> {
+    pub fn new(
+        RateJacobian { stiffness, damping, .. }: &RateJacobian,
+        tables: &Tables,
+        h: f64,
+    ) -> Option<Self> {
         let f = stiffness.nrows();
-        let mu = REAL / h;
-        let real = DMatrix::from_diagonal_element(f, f, mu * mu) - damping * mu - stiffness;
-        let mu = PAIR / h;
-        let pair = DMatrix::from_fn(f, f, |i, j| {
-            let unit = if i == j { mu * mu } else { Complex::new(0.0, 0.0) };
-            unit - mu * damping[(i, j)] - stiffness[(i, j)]
+        let mu = tables.real / h;
+        let real = (DMatrix::from_diagonal_element(f, f, mu * mu) - damping * mu - stiffness).lu();
+        let pairs = tables.pairs.iter().map(|pair| {
+            let mu = pair / h;
+            let matrix = DMatrix::from_fn(f, f, |i, j| {
+                let unit = if i == j { mu * mu } else { Complex::new(0.0, 0.0) };
+                unit - mu * damping[(i, j)] - stiffness[(i, j)]
+            });
+            matrix.lu()
         });
-        let (real, pair) = (real.lu(), pair.lu());
-        (real.is_invertible() && pair.is_invertible()).then_some(Self { h, real, pair })
+        let pairs: Vec<ComplexLu> = pairs.collect();
+        let regular = real.is_invertible() && pairs.iter().all(ComplexLu::is_invertible);
+        regular.then_some(Self { h, real, pairs })
     }
 
-    /// (μ I − J)⁻¹ r with the real μ, as its two halves. From those of (μ I − J)(a, b) = r:
+    /// (μ I − J)⁻¹ r with the real μ, in place. From the halves of (μ I − J)(a, b) = r:
     /// b = μ a − r_a, (μ² − μ C − K) a = r_b + (μ − C) r_a.
-    pub fn solve_real(&self, jacobian: &RateJacobian, r: &DVector<f64>) -> Option<[DVector<f64>; 2]> {
+    pub fn solve_real(&self, jacobian: &RateJacobian, tables: &Tables, r: &mut DVector<f64>) {
         let f = r.len() / 2;
-        let mu = REAL / self.h;
+        let mu = tables.real / self.h;
         let top = r.rows(0, f).into_owned();
-        let a = self.real.solve(&(r.rows(f, f) + &top * mu - &jacobian.damping * &top))?;
-        let b = &a * mu - top;
-        Some([a, b])
+        let mut a = r.rows(f, f) + &top * mu;
+        a.gemv(-1.0, &jacobian.damping, &top, 1.0);
+        self.real.solve_mut(&mut a);
+        r.rows_mut(f, f).copy_from(&(&a * mu - top));
+        r.rows_mut(0, f).copy_from(&a);
     }
 
-    /// The same with the complex μ.
+    /// The same with the complex μ of a pair.
     pub fn solve_pair(
         &self,
         jacobian: &RateJacobian,
-        r: &DVector<Complex<f64>>,
-    ) -> Option<[DVector<Complex<f64>>; 2]> {
+        tables: &Tables,
+        pair: usize,
+        r: &mut DVector<Complex<f64>>,
+    ) {
         let f = r.len() / 2;
-        let mu = PAIR / self.h;
+        let mu = tables.pairs[pair] / self.h;
         let top = r.rows(0, f).into_owned();
-        let damped = jacobian.damping.map(|x| Complex::new(x, 0.0)) * &top;
-        let a = self.pair.solve(&(r.rows(f, f) + &top * mu - damped))?;
-        let b = &a * mu - top;
-        Some([a, b])
+        let mut a = r.rows(f, f) + &top * mu;
+        for i in 0..f {
+            for j in 0..f {
+                a[i] -= top[j] * jacobian.damping[(i, j)];
+            }
+        }
+        self.pairs[pair].solve_mut(&mut a);
+        r.rows_mut(f, f).copy_from(&(&a * mu - top));
+        r.rows_mut(0, f).copy_from(&a);
     }
 }

@@ -1,0 +1,95 @@
+//! Stiff and driven mechanisms by the implicit method, on problems whose references come from outside.
+
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
+use crate::common::problem;
+use triad_engine::catalogue;
+use triad_engine::run::{Frame, Simulation};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene};
+
+/// A problem by an integrator, cut short.
+fn by(name: &str, integrator: IntegratorKind, tolerance: f64, duration: f64) -> Scene {
+    let mut scene = problem(name);
+    let settings = &mut scene.simulation;
+    (settings.integrator, settings.tolerance, settings.duration) = (integrator, tolerance, duration);
+    scene
+}
+
+/// Largest distance of a centre of mass.
+fn apart(a: &Frame, b: &Frame) -> f64 {
+    let pairs = a.bodies.iter().zip(&b.bodies);
+    pairs.flat_map(|(a, b)| (0..3).map(|k| (a.position[k] - b.position[k]).abs())).fold(0.0, f64::max)
+}
+
+fn end(scene: &Scene) -> (Frame, Simulation) {
+    let mut run = Simulation::new(scene).unwrap();
+    run.advance_to(run.duration()).unwrap_or_else(|error| panic!("{}: {error}", scene.name));
+    (run.frame(), run)
+}
+
+#[test]
+fn the_stiff_method_starts_from_driven_states_at_every_tolerance() {
+    for (name, duration) in [
+        ("driven-damper/scene", 0.1),
+        ("driven-damper/radau", 0.3),
+        ("car-axis/scene", 0.03),
+        ("car-axis/points", 0.03),
+        ("car-axis/box", 0.03),
+    ] {
+        let (exact, _) = end(&by(name, IntegratorKind::Taylor, 1e-12, duration));
+        for exponent in 3..=10 {
+            let tolerance = 10f64.powi(-exponent);
+            let (frame, run) = end(&by(name, IntegratorKind::Radau, tolerance, duration));
+            let (error, steps) = (apart(&frame, &exact), run.summary().steps);
+            println!("{name} at {tolerance:.0e}: {error:.1e}, {steps} steps");
+            assert!(error < 10.0 * tolerance, "{name} at {tolerance:.0e}: {error:.1e}");
+        }
+    }
+}
+
+#[test]
+fn a_mechanism_that_drivers_move_completely_runs_in_independent_coordinates() {
+    for (name, duration) in [("squeezer/driven", 0.02), ("four-bars/crank-rocker", 1.5)] {
+        let (exact, series) = end(&by(name, IntegratorKind::Taylor, 1e-12, duration));
+        let scene = by(name, IntegratorKind::Radau, 1e-6, duration);
+        let mut parted = by(name, IntegratorKind::Dop853, 1e-6, duration);
+        parted.simulation.constraint_method = ConstraintMethod::Partitioning;
+        for scene in [scene, parted] {
+            let (frame, run) = end(&scene);
+            let (error, summary) = (apart(&frame, &exact), run.summary());
+            let wanted = series.summary();
+            println!("{name}: {error:.1e}, {} steps, {} rejected", summary.steps, summary.rejected);
+            assert!(error < 1e-9, "{name}: {error:.1e}");
+            assert!(summary.position_violation < 1e-12 && summary.doubts.is_empty(), "{summary:?}");
+            assert!((summary.work - wanted.work).abs() < 1e-6 * wanted.work.abs().max(1.0), "{summary:?}");
+            // Between steps it is as exact as at their ends.
+            let mut looked = Simulation::new(&scene).unwrap();
+            looked.advance_to(0.37 * duration).unwrap();
+            let mut series = Simulation::new(&by(name, IntegratorKind::Taylor, 1e-12, duration)).unwrap();
+            series.advance_to(0.37 * duration).unwrap();
+            assert!(apart(&looked.frame(), &series.frame()) < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn the_work_of_a_stiff_damper_is_no_doubt() {
+    for tolerance in [1e-4, 1e-5, 1e-6] {
+        let mut scene = by("driven-damper/scene", IntegratorKind::Radau, tolerance, 3.0);
+        let text = scene.to_json().replace("1000000.0", "100000.0");
+        scene = Scene::from_json(&text).unwrap();
+        let summary = end(&scene).1.summary();
+        println!("{tolerance:.0e}: drift {:.1e} J of {:.2e} J", summary.energy_drift, summary.work);
+        assert!(summary.doubts.is_empty(), "{:?}", summary.doubts);
+        assert!(summary.energy_drift.abs() < 1e-2, "{summary:?}");
+    }
+}
+
+#[test]
+fn a_run_that_stops_at_a_singular_position_by_its_tolerance_says_so() {
+    let mut scene = catalogue::scene("n-four-bar:40").unwrap();
+    scene.simulation.tolerance = 1e-12;
+    let mut run = Simulation::new(&scene).unwrap();
+    let error = run.advance_to(run.duration()).unwrap_err();
+    assert!(error.hint().contains("tenfold"), "{}", error.hint());
+}

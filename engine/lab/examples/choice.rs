@@ -1,0 +1,186 @@
+//! Whether the automatic choice of an integrator is the best one: `cargo run --release -p triad-lab --example choice -- SCENE…`,
+//! each a built-in name or a file; `all` takes the catalogue, the lessons and the problems with references.
+//!
+//! Each integrator runs each scene at tolerances from 1e-3 to 1e-10. Times are processor time of whole runs, errors the
+//! largest distance of a centre of mass or of the tip of a director from a tight run at twenty times. Beside the time of the automatic choice
+//! stands that of the fastest run of any integrator, at any tolerance, whose error is no larger than the one of the
+//! automatic choice or than the tolerance.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use triad_engine::catalogue;
+use triad_engine::run::Simulation;
+use triad_engine::scene::{IntegratorKind, Scene};
+
+/// Integrators among which there is a choice.
+const KINDS: [IntegratorKind; 4] =
+    [IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Dopri5, IntegratorKind::Radau];
+/// Negative powers of ten of the tolerances.
+const TOLERANCES: std::ops::RangeInclusive<i32> = 3..=10;
+/// Tolerances of the tight run: the first with which there is one.
+const TIGHT: [f64; 3] = [1e-13, 1e-12, 1e-11];
+/// Times at which runs are compared.
+const SAMPLES: usize = 20;
+/// Runs are repeated until they have taken this long together, s.
+const MEASURED: f64 = 0.02;
+/// A run that takes longer than this is given up, s.
+const TOO_LONG: f64 = 0.5;
+/// The same for the tight run.
+const TOO_LONG_TIGHT: f64 = 20.0;
+/// Steps between two looks at the clock.
+const PORTION: u64 = 100;
+/// Ratio of the automatic choice's time to the best one above which it is marked.
+const GOOD: f64 = 1.3;
+
+/// One integrator at one tolerance.
+struct Run {
+    kind: IntegratorKind,
+    tolerance: f64,
+    seconds: f64,
+    error: f64,
+    steps: String,
+}
+
+fn main() {
+    let names: Vec<String> = std::env::args().skip(1).collect();
+    let names = if names == ["all"] { everything() } else { names };
+    let (mut worst, mut missed) = (0.0f64, 0);
+    for name in names {
+        let Some(scene) = read(&name) else {
+            println!("{name}: no scene");
+            continue;
+        };
+        let ratios = sweep(&name, &scene);
+        worst = ratios.iter().copied().fold(worst, f64::max);
+        missed += ratios.iter().filter(|ratio| **ratio > GOOD).count();
+    }
+    println!("worst ratio {worst:.2}; {missed} above {GOOD}");
+}
+
+/// Names of all scenes there are.
+fn everything() -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut names: Vec<String> =
+        catalogue::ENTRIES.iter().map(|scene| scene.name.replace(":N", ":20")).collect();
+    for folder in ["tests/data/problems", "lessons/course"] {
+        let mut files = Vec::new();
+        collect(&root.join(folder), &mut files);
+        files.sort();
+        names.extend(files.into_iter().map(|file| file.display().to_string()));
+    }
+    names
+}
+
+/// JSON files below a folder.
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|extension| extension == "json") {
+            files.push(path);
+        }
+    }
+}
+
+fn read(name: &str) -> Option<Scene> {
+    match std::fs::read_to_string(name) {
+        Ok(text) => Scene::from_json(&text).ok(),
+        Err(_) => catalogue::scene(name).ok(),
+    }
+}
+
+/// Prints the table of a scene. Returns the ratios of the automatic choice's time to the best one.
+fn sweep(name: &str, scene: &Scene) -> Vec<f64> {
+    let tight = |tolerance: &f64| places(scene, IntegratorKind::Taylor, *tolerance, TOO_LONG_TIGHT);
+    let Some(exact) = TIGHT.iter().find_map(tight) else {
+        println!("{name}: no reference");
+        return Vec::new();
+    };
+    let mut runs = Vec::new();
+    for exponent in TOLERANCES {
+        let tolerance = 10f64.powi(-exponent);
+        runs.extend(KINDS.iter().filter_map(|kind| measure(scene, *kind, tolerance, &exact)));
+    }
+    println!("{name}");
+    let mut ratios = Vec::new();
+    for exponent in TOLERANCES {
+        let tolerance = 10f64.powi(-exponent);
+        print!("  {tolerance:.0e}");
+        for run in runs.iter().filter(|run| run.tolerance == tolerance) {
+            print!(" | {} {:.2} ms {:.0e} {}", run.kind, 1e3 * run.seconds, run.error, run.steps);
+        }
+        let chosen = chosen(scene, tolerance);
+        let own = runs.iter().find(|run| Some(run.kind) == chosen && run.tolerance == tolerance);
+        let ratio = own.map_or(f64::INFINITY, |own| {
+            let enough = own.error.max(tolerance);
+            let others = runs.iter().filter(|run| run.error <= enough).map(|run| run.seconds);
+            own.seconds / others.fold(f64::INFINITY, f64::min)
+        });
+        let chosen = chosen.map_or_else(String::new, |kind| kind.to_string());
+        println!(" | auto {chosen} {ratio:.2}{}", if ratio > GOOD { " <<" } else { "" });
+        ratios.push(ratio);
+    }
+    ratios
+}
+
+fn with(scene: &Scene, kind: IntegratorKind, tolerance: f64) -> Scene {
+    let mut scene = scene.clone();
+    (scene.simulation.integrator, scene.simulation.tolerance) = (kind, tolerance);
+    scene
+}
+
+fn chosen(scene: &Scene, tolerance: f64) -> Option<IntegratorKind> {
+    let run = Simulation::new(&with(scene, IntegratorKind::Auto, tolerance)).ok()?;
+    Some(run.summary().integrator)
+}
+
+/// Places of all bodies at the times of comparison.
+fn places(scene: &Scene, kind: IntegratorKind, tolerance: f64, most: f64) -> Option<Vec<f64>> {
+    let mut run = Simulation::new(&with(scene, kind, tolerance)).ok()?;
+    let began = processor_time();
+    let mut places = Vec::new();
+    for sample in 1..=SAMPLES {
+        while !run.advance_towards(run.duration() * sample as f64 / SAMPLES as f64, PORTION).ok()? {
+            if processor_time() - began > most {
+                return None;
+            }
+        }
+        for body in &run.frame().bodies {
+            places.extend(body.position);
+            for direction in [body.u, body.v, body.w] {
+                places.extend((0..3).map(|k| body.position[k] + direction[k]));
+            }
+        }
+    }
+    Some(places)
+}
+
+fn measure(scene: &Scene, kind: IntegratorKind, tolerance: f64, exact: &[f64]) -> Option<Run> {
+    let found = places(scene, kind, tolerance, TOO_LONG)?;
+    let apart = found.chunks_exact(3).zip(exact.chunks_exact(3));
+    let error =
+        apart.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max);
+    let start = Simulation::new(&with(scene, kind, tolerance)).ok()?;
+    let (mut seconds, mut count, mut steps) = (0.0, 0, String::new());
+    while seconds < MEASURED {
+        let mut run = start.clone();
+        let began = processor_time();
+        run.advance_to(run.duration()).ok()?;
+        seconds += processor_time() - began;
+        count += 1;
+        if steps.is_empty() {
+            let summary = run.summary();
+            steps = format!("{}+{}/{}", summary.steps, summary.rejected, summary.evaluations);
+        }
+    }
+    Some(Run { kind, tolerance, seconds: seconds / f64::from(count), error, steps })
+}
+
+/// Processor time of this thread where the system tells it, else time, s.
+fn processor_time() -> f64 {
+    thread_local!(static START: Instant = Instant::now());
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = text.split(' ').next().and_then(|text| text.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| START.with(|start| start.elapsed().as_secs_f64()), |ns| 1e-9 * ns)
+}
