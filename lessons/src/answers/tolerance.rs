@@ -4,7 +4,6 @@
 //! absolute value of a number, the length of a vector, or the root of the sum of squares of a matrix. A
 //! component that should be zero is thereby judged on the scale of the whole vector.
 
-use super::number::ParsedNumber;
 use crate::text::plain;
 
 /// How far an answer may be from the reference. All lengths are in the unit the question names.
@@ -59,19 +58,6 @@ impl Tolerance {
         // Half a unit in the last place of the sums, so that an answer exactly on the edge is inside.
         let allowed = self.allowed(norm(reference));
         distance(answer, reference) <= allowed * (1.0 + 1e-12)
-    }
-
-    /// Whether an answer was written with so few digits that rounding alone could make it wrong.
-    ///
-    /// Judged on the answer's own size, so that the warning says nothing about the reference. `scale` converts
-    /// the written unit to the question's.
-    pub fn insufficient_precision(&self, written: &[ParsedNumber], scale: f64) -> bool {
-        if self.is_exact() {
-            return false;
-        }
-        let rounding: Vec<f64> = written.iter().map(|w| w.half_ulp_decimal * scale).collect();
-        let values: Vec<f64> = written.iter().map(|w| w.value * scale).collect();
-        norm(&rounding) > self.allowed(norm(&values)) * (1.0 + 1e-12)
     }
 
     /// Significant digits that are enough for every value, if the rule has a relative part.
@@ -188,19 +174,9 @@ mod tests {
                 let target = libm::pow(10f64, f64::from(k) * 0.0171 - 3.0);
                 let text = format!("{target:.*e}", digits - 1);
                 let (written, _) = read(&text).unwrap();
-                assert!(!rule.insufficient_precision(&[written], 1.0), "{relative} {text}");
                 assert!(rule.accepts(&[written.value], &[target]), "{relative} {text} {target}");
             }
         }
-    }
-
-    #[test]
-    fn insufficient_precision_is_found_without_the_reference() {
-        let (coarse, _) = read("29").unwrap();
-        let (fine, _) = read("29.4").unwrap();
-        assert!(RULE.insufficient_precision(&[coarse], 1.0));
-        assert!(!RULE.insufficient_precision(&[fine], 1.0));
-        assert!(!Tolerance::EXACT.insufficient_precision(&[coarse], 1.0));
     }
 
     #[test]

@@ -1,19 +1,22 @@
 //! Units: reading what a student types, knowing its dimension, converting to SI.
 //!
 //! A [`Unit`] is a factor to SI base units and a [`Dimension`], seven integer exponents. Plane angle has no
-//! dimension of its own: `rad` is 1 and `deg` is π/180, so `rad/s` and `1/s` agree.
+//! dimension of its own: `rad` is 1 and `deg` is π/180, so `rad/s` and `1/s` agree. Hertz counts turns and is not taken for
+//! an angular speed: see [`Unit::counts_turns`].
+
+mod meaning;
+mod parser;
+mod table;
 
 use thiserror::Error;
+use triad_engine::scene::expression::notation;
 
 pub use super::dimension::Dimension;
-use super::dimension::MAX_EXPONENT;
-use super::unit_table;
-use triad_engine::scene::expression::{Cursor, plain_sign};
+use meaning::Meaning;
+use parser::Readings;
 
 /// Longest unit text that is read, in characters.
-const MAX_LENGTH: usize = 64;
-/// Digits of an exponent that are read.
-const MAX_EXPONENT_DIGITS: usize = 3;
+const MAX_LENGTH: usize = 80;
 
 /// A unit of measurement: 1 of it is `factor` in SI base units.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +25,7 @@ pub struct Unit {
     pub factor: f64,
     /// Exponents of the base units.
     pub dimension: Dimension,
+    counts_turns: bool,
     text: String,
 }
 
@@ -29,12 +33,10 @@ pub struct Unit {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum UnitError {
     /// A symbol that is no unit.
-    #[error("\u{201c}{symbol}\u{201d} is not a unit I know{}", suggestion.as_ref().map(|s| format!("; did you mean {s}?")).unwrap_or_default())]
+    #[error("\u{201c}{symbol}\u{201d} is not a unit I know; write it like N m, kg m/s^2 or rad/s")]
     Unknown {
         /// The symbol as written.
         symbol: String,
-        /// A unit that was probably meant.
-        suggestion: Option<String>,
     },
     /// A product after a slash can be read in two ways.
     #[error("\u{201c}{text}\u{201d} can be read in two ways; use brackets, for example kg/(m s)")]
@@ -68,192 +70,61 @@ impl UnitError {
 impl Unit {
     /// The unit of a pure number.
     pub fn one() -> Self {
-        Self { factor: 1.0, dimension: Dimension::default(), text: String::new() }
+        Self { factor: 1.0, dimension: Dimension::default(), counts_turns: false, text: String::new() }
     }
 
-    /// Reads a unit such as `N m`, `kg·m²/s²`, `mm/s^2`, `deg`, `rpm`. Empty text and `1` are the pure number.
+    /// Reads a unit such as `N m`, `kg·m²/s²`, `mm/s^2`, `deg`, `rpm`, `newton metres`, `ft lbf`. Empty text and `1` are the
+    /// pure number.
     ///
-    /// Errors if a symbol is unknown or the text is too long.
+    /// Errors if a symbol is unknown, the text is too long, or can be read in two ways.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
-        let normal = normalise(text);
-        if normal.chars().count() > MAX_LENGTH {
-            let text: String = normal.chars().take(20).collect();
+        Self::read(text, None)
+    }
+
+    /// As [`Unit::parse`], where a unit of this dimension is expected: what can be read in several ways (`Nms`, `lb`,
+    /// `kg/m s`) is read in the one that has it.
+    ///
+    /// Errors as [`Unit::parse`].
+    pub fn parse_as(text: &str, wanted: Dimension) -> Result<Self, UnitError> {
+        Self::read(text, Some(wanted))
+    }
+
+    fn read(text: &str, wanted: Option<Dimension>) -> Result<Self, UnitError> {
+        let plain = notation::plain(text);
+        let plain = notation::undecorated(&plain).trim_end_matches('.');
+        if plain.chars().count() > MAX_LENGTH {
+            let text: String = plain.chars().take(20).collect();
             return Err(UnitError::Syntax { text: format!("{text}…"), problem: "it is too long" });
         }
-        let tokens = tokenize(&normal)?;
-        let mut parser = Parser { text: &normal, tokens, at: 0 };
-        let (factor, dimension) =
-            if parser.tokens.is_empty() { (1.0, Dimension::default()) } else { parser.product(0)? };
-        if parser.at < parser.tokens.len() {
-            return Err(parser.syntax("a bracket is closed that was never opened"));
+        let readings = parser::readings(plain)?;
+        let Readings { meanings, ambiguous } = readings;
+        let fitting = meanings.iter().find(|m| wanted.is_some_and(|wanted| m.dimension == wanted));
+        let chosen = match (fitting, ambiguous) {
+            (Some(fitting), _) => *fitting,
+            (None, true) => return Err(UnitError::Ambiguous { text: plain.to_owned() }),
+            (None, false) => *meanings.first().unwrap_or(&Meaning::ONE),
+        };
+        if !(chosen.factor.is_finite() && chosen.factor > 0.0) {
+            return Err(UnitError::Syntax { text: plain.to_owned(), problem: "its size is out of range" });
         }
-        if !(factor.is_finite() && factor > 0.0) {
-            return Err(parser.syntax("its size is out of range"));
-        }
-        Ok(Self { factor, dimension, text: normal })
+        let Meaning { factor, dimension, counts_turns } = chosen;
+        Ok(Self { factor, dimension, counts_turns, text: plain.to_owned() })
     }
 
-    /// The unit as it was written, with plain ASCII operators.
+    /// The unit as it was written, in plain notation.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// Whether it is made of hertz, which count turns: 1 Hz is 2π rad/s, though both are 1/s.
+    pub fn counts_turns(&self) -> bool {
+        self.counts_turns
     }
 }
 
 /// True if a student who was asked for a moment in N m wrote millinewton instead.
 pub fn is_millinewton_for_newton_metre(written: &Unit, wanted: &Unit) -> bool {
     written.text.trim() == "mN" && wanted.dimension == Dimension([2, 1, -2, 0, 0, 0, 0])
-}
-
-#[derive(Debug, Clone, PartialEq)]
-enum Token {
-    Symbol(String),
-    One,
-    Power(i32),
-    Times,
-    Slash,
-    Open,
-    Close,
-}
-
-/// Replaces typographic signs by plain ones: those of every answer, and also ², ⁻ and µ.
-fn normalise(text: &str) -> String {
-    let mut out = String::new();
-    let mut in_superscript = false;
-    for c in text.trim().chars() {
-        let superscript = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c).map(|d| char::from(b"0123456789"[d]));
-        let mark = superscript.or(if c == '⁻' { Some('-') } else { None });
-        if let Some(mark) = mark {
-            if !in_superscript {
-                out.push('^');
-            }
-            out.push(mark);
-        } else {
-            out.push(match c {
-                '\u{b5}' | '\u{3bc}' => 'u',
-                other => plain_sign(other),
-            });
-        }
-        in_superscript = mark.is_some();
-    }
-    out
-}
-
-fn tokenize(text: &str) -> Result<Vec<Token>, UnitError> {
-    let syntax = |problem| UnitError::Syntax { text: text.to_owned(), problem };
-    let power = |cursor: &mut Cursor| {
-        exponent(cursor).map(Token::Power).ok_or_else(|| syntax("an exponent is a whole number"))
-    };
-    let in_symbol = |c: char| c.is_alphabetic() || c == '°';
-    let mut cursor = Cursor::new(text);
-    let mut tokens = Vec::new();
-    while let Some(c) = cursor.peek() {
-        if in_symbol(c) {
-            tokens.push(Token::Symbol(cursor.take_while(usize::MAX, in_symbol)));
-            // kg m2, s-1: a number glued to a symbol is its exponent.
-            if cursor.peek().is_some_and(|c| c.is_ascii_digit() || c == '-') {
-                tokens.push(power(&mut cursor)?);
-            }
-            continue;
-        }
-        cursor.next();
-        match c {
-            ' ' | '\t' => {}
-            '*' if cursor.take(&['*']).is_some() => tokens.push(power(&mut cursor)?),
-            '^' => tokens.push(power(&mut cursor)?),
-            '*' => tokens.push(Token::Times),
-            '/' => tokens.push(Token::Slash),
-            '(' => tokens.push(Token::Open),
-            ')' => tokens.push(Token::Close),
-            '1' if !cursor.peek().is_some_and(|c| c.is_ascii_digit()) => tokens.push(Token::One),
-            c if c.is_ascii_digit() => return Err(syntax("a number belongs into the field of the value")),
-            _ => return Err(syntax("it has a sign that does not belong there")),
-        }
-    }
-    Ok(tokens)
-}
-
-/// A whole number after `^`, perhaps in brackets.
-fn exponent(cursor: &mut Cursor) -> Option<i32> {
-    let open = cursor.take(&['(']).is_some();
-    let mut text: String = cursor.take(&['-', '+']).into_iter().filter(|c| *c == '-').collect();
-    text += &cursor.take_while(MAX_EXPONENT_DIGITS, |c| c.is_ascii_digit());
-    if open {
-        cursor.take(&[')'])?;
-    }
-    text.parse().ok().filter(|e: &i32| e.abs() <= MAX_EXPONENT)
-}
-
-struct Parser<'a> {
-    text: &'a str,
-    tokens: Vec<Token>,
-    at: usize,
-}
-
-impl Parser<'_> {
-    fn syntax(&self, problem: &'static str) -> UnitError {
-        UnitError::Syntax { text: self.text.to_owned(), problem }
-    }
-
-    fn product(&mut self, depth: usize) -> Result<(f64, Dimension), UnitError> {
-        if depth > 8 {
-            return Err(self.syntax("brackets are nested too deeply"));
-        }
-        let (mut factor, mut dimension) = self.power(depth)?;
-        let mut divided = false;
-        while let Some(token) = self.tokens.get(self.at) {
-            let sign = match token {
-                Token::Close => break,
-                Token::Slash => {
-                    self.at += 1;
-                    divided = true;
-                    -1
-                }
-                Token::Times => {
-                    self.at += 1;
-                    1
-                }
-                _ => 1,
-            };
-            if divided && sign == 1 {
-                return Err(UnitError::Ambiguous { text: self.text.to_owned() });
-            }
-            let (f, d) = self.power(depth)?;
-            factor *= libm::pow(f, f64::from(sign));
-            dimension =
-                dimension.combine(d, sign).ok_or_else(|| self.syntax("its exponents are out of range"))?;
-        }
-        Ok((factor, dimension))
-    }
-
-    fn power(&mut self, depth: usize) -> Result<(f64, Dimension), UnitError> {
-        let base = match self.tokens.get(self.at).cloned() {
-            Some(Token::Symbol(symbol)) => {
-                self.at += 1;
-                unit_table::lookup(&symbol)
-                    .map_err(|suggestion| UnitError::Unknown { symbol: symbol.clone(), suggestion })?
-            }
-            Some(Token::One) => {
-                self.at += 1;
-                (1.0, Dimension::default())
-            }
-            Some(Token::Open) => {
-                self.at += 1;
-                let inner = self.product(depth + 1)?;
-                if self.tokens.get(self.at) != Some(&Token::Close) {
-                    return Err(self.syntax("a bracket is not closed"));
-                }
-                self.at += 1;
-                inner
-            }
-            _ => return Err(self.syntax("a unit is missing next to an operator")),
-        };
-        let Some(Token::Power(power)) = self.tokens.get(self.at).cloned() else { return Ok(base) };
-        self.at += 1;
-        let dimension = Dimension::default()
-            .combine(base.1, power)
-            .ok_or_else(|| self.syntax("its exponents are out of range"))?;
-        Ok((libm::pow(base.0, f64::from(power)), dimension))
-    }
 }
 
 #[cfg(test)]
@@ -264,24 +135,120 @@ mod tests {
         Unit::parse(text).unwrap_or_else(|e| panic!("{text}: {e}"))
     }
 
+    const FORCE: Dimension = Dimension([1, 1, -2, 0, 0, 0, 0]);
+    const MOMENT: Dimension = Dimension([2, 1, -2, 0, 0, 0, 0]);
+
     #[test]
-    fn one_force_written_in_many_ways() {
-        for text in ["N", "kg m/s^2", "kg*m/s²", "kg·m·s⁻²", "kg m s-2", "kg m/s/s", "J/m"] {
+    fn common_spellings_of_newton() {
+        for text in [
+            "N",
+            "kg m/s^2",
+            "kg*m/s**2",
+            "kg·m/s²",
+            "kg m s^-2",
+            "kg m s⁻²",
+            "kg m/(s s)",
+            "newton",
+            "Newtons",
+            "[N]",
+            "kgm/s2",
+            "kg.m/s^2",
+            "kg-m/s^2",
+            "kg m per second squared",
+            "J/m",
+            r"\mathrm{N}",
+            "N.",
+            "(N)",
+            "W s/m",
+            "n",
+            "kilogram metres per square second",
+            "kg m/s/s",
+            "KG M/S^2",
+        ] {
             let unit = unit(text);
-            assert_eq!(unit.dimension, Dimension([1, 1, -2, 0, 0, 0, 0]), "{text}");
-            assert!((unit.factor - 1.0).abs() < 1e-15, "{text}");
+            assert_eq!(unit.dimension, FORCE, "{text}");
+            assert!((unit.factor - 1.0).abs() < 1e-15, "{text} {}", unit.factor);
+        }
+    }
+
+    #[test]
+    fn symbols_that_stand_together() {
+        for (text, factor) in [
+            ("Nm", 1.0),
+            ("N-m", 1.0),
+            ("Nmm", 1e-3),
+            ("Ncm", 1e-2),
+            ("kNm", 1e3),
+            ("newtonmeter", 1.0),
+            ("kNmm", 1.0),
+            ("newton-metres", 1.0),
+            ("N·m", 1.0),
+            ("kgm^2/s^2", 1.0),
+            ("kgm2s-2", 1.0),
+            ("Ws", 1.0),
+            ("mNm", 1e-3),
+            ("NM", 1.0),
+            ("ft lb", 1.355_817_948_331_400_4),
+            ("ft·lbf", 1.355_817_948_331_400_4),
+            ("lbf-in", 0.112_984_829_027_616_7),
+            ("kgf m", 9.80665),
+            ("dyn cm", 1e-7),
+            ("foot-pounds", 1.355_817_948_331_400_4),
+        ] {
+            let unit = Unit::parse_as(text, MOMENT).unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert_eq!(unit.dimension, MOMENT, "{text}");
+            assert!((unit.factor / factor - 1.0).abs() < 1e-14, "{text} {}", unit.factor);
+        }
+        let momentum = Dimension([2, 1, -1, 0, 0, 0, 0]);
+        for text in
+            ["Nms", "N m s", "kgm^2/s", "Js", "kg m^2 per second", "kg square metre per second", "kg/s m^2"]
+        {
+            assert_eq!(Unit::parse_as(text, momentum).map(|u| u.factor), Ok(1.0), "{text}");
         }
     }
 
     #[test]
     fn prefixes_and_angles_convert() {
-        assert!((unit("kN").factor - 1e3).abs() < 1e-12);
-        assert!((unit("mm/s^2").factor - 1e-3).abs() < 1e-18);
-        assert!((unit("deg").factor - 0.017_453_292_519_943_295).abs() < 1e-18);
-        assert!((unit("rpm").factor - 0.104_719_755_119_659_77).abs() < 1e-17);
-        assert!((unit("µm").factor - 1e-6).abs() < 1e-20 && (unit("μm").factor - 1e-6).abs() < 1e-20);
-        assert!((unit("g cm^2").factor - 1e-7).abs() < 1e-21);
+        for (text, factor) in [
+            ("kN", 1e3),
+            ("mm/s^2", 1e-3),
+            ("deg", 0.017_453_292_519_943_295),
+            ("rpm", 0.104_719_755_119_659_77),
+            ("µm", 1e-6),
+            ("μm", 1e-6),
+            ("g cm^2", 1e-7),
+            ("rev/s", std::f64::consts::TAU),
+            ("rps", std::f64::consts::TAU),
+            ("rev/min", std::f64::consts::TAU / 60.0),
+            ("°/s", 0.017_453_292_519_943_295),
+            ("%", 0.01),
+            ("kilonewtons", 1e3),
+            ("centimeters", 1e-2),
+            ("ft", 0.3048),
+            ("inches", 0.0254),
+            ("lbf", 4.448_221_615_260_5),
+            ("km/h", 1.0 / 3.6),
+            ("mph", 0.447_04),
+            ("hp", 745.699_871_582_270_2),
+            ("cal", 4.184),
+            ("msec", 1e-3),
+            ("milliseconds", 1e-3),
+            ("kilogrammes", 1.0),
+            ("slug", 14.593_902_937_206_4),
+            ("lb", 0.453_592_37),
+            ("degrees", 0.017_453_292_519_943_295),
+        ] {
+            assert!((unit(text).factor / factor - 1.0).abs() < 1e-13, "{text} {}", unit(text).factor);
+        }
         assert_eq!(unit("rad/s").dimension, unit("1/s").dimension);
+    }
+
+    #[test]
+    fn hertz_counts_turns() {
+        assert!(unit("Hz").counts_turns() && unit("kHz").counts_turns() && unit("hertz").counts_turns());
+        assert!(
+            !unit("rad/s").counts_turns() && !unit("rev/s").counts_turns() && !unit("Hz s").counts_turns()
+        );
     }
 
     #[test]
@@ -293,14 +260,30 @@ mod tests {
     }
 
     #[test]
+    fn a_product_behind_a_slash_needs_brackets_or_a_dimension() {
+        for text in ["kg/m s", "kg/m*s"] {
+            assert!(matches!(Unit::parse(text), Err(UnitError::Ambiguous { .. })), "{text}");
+            let below = Dimension([-1, 1, -1, 0, 0, 0, 0]);
+            assert_eq!(Unit::parse_as(text, below).map(|u| u.dimension), Ok(below));
+            assert!(matches!(Unit::parse_as(text, FORCE), Err(UnitError::Ambiguous { .. })), "{text}");
+        }
+    }
+
+    #[test]
     fn errors_of_units_say_what_to_write() {
-        let hint = |t: &str| Unit::parse(t).unwrap_err().to_string();
-        assert!(hint("n").contains("did you mean N?"), "{}", hint("n"));
-        assert!(hint("Kg").contains("kg"));
-        assert!(hint("seconds").contains("did you mean s?"));
-        assert!(hint("kg/m s").contains("two ways"));
-        assert!(hint("kg/m*s").contains("two ways"));
-        for bad in ["m^x", "m^99", "(m", "m)", "/s", "m//s", "12 N", "m^", "$", "((((((((((m))))))))))"] {
+        for bad in [
+            "m^x",
+            "m^99",
+            "(m",
+            "m)",
+            "m//s",
+            "12 N",
+            "m^",
+            "$#",
+            "m((((((((((m))))))))))",
+            "per",
+            "squared",
+        ] {
             assert!(Unit::parse(bad).is_err(), "{bad}");
         }
         assert!(Unit::parse(&"m ".repeat(400)).is_err());
@@ -308,9 +291,6 @@ mod tests {
 
     #[test]
     fn unknown_names_the_symbol() {
-        assert_eq!(
-            Unit::parse("blob"),
-            Err(UnitError::Unknown { symbol: "blob".to_owned(), suggestion: None })
-        );
+        assert_eq!(Unit::parse("blob"), Err(UnitError::Unknown { symbol: "blob".to_owned() }));
     }
 }

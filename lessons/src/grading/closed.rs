@@ -1,24 +1,38 @@
 //! Questions with options: each option has feedback of its own.
 
-use crate::answers::Answer;
+use triad_engine::scene::expression::notation;
+
+use crate::answers::{Answer, TypedValue};
 use crate::exercise::ChoiceOption;
 use crate::text::shorten;
 use crate::verdict::feedback::{Feedback, Judgement};
 use crate::verdict::invalid::InvalidClosed;
 
 /// Judges a choice.
-pub(super) fn choice(
+pub(crate) fn choice(
     options: &[ChoiceOption],
     right: &str,
     answer: &Answer,
 ) -> Result<Judgement, InvalidClosed> {
-    let id = answer.choice.as_deref().map(str::trim).ok_or(InvalidClosed::NoOption)?;
-    let option = options.iter().find(|o| o.id == id).ok_or_else(|| {
+    let text = match (&answer.choice, &answer.value) {
+        (Some(text), _) | (None, Some(TypedValue::Text(text))) => text,
+        _ => return Err(InvalidClosed::NoOption),
+    };
+    let id = id(text);
+    let option = options.iter().find(|o| o.id.to_lowercase() == id).ok_or_else(|| {
         let known = options.iter().map(|o| o.id.as_str()).collect::<Vec<_>>().join(", ");
-        InvalidClosed::UnknownOption { id: shorten(id), known }
+        InvalidClosed::UnknownOption { id: shorten(text), known }
     })?;
     if option.id == right {
         return Ok(Judgement::right(Feedback::Right { note: option.reason.clone() }));
     }
     Ok(Judgement::wrong(0.0, Some(&option.id), Feedback::Option { reason: option.reason.clone() }))
+}
+
+/// The id in `B)`, `(b)` or `option b`, in small letters.
+fn id(text: &str) -> String {
+    let plain = notation::plain(text).to_lowercase();
+    let plain = notation::undecorated(&plain);
+    let named = plain.strip_prefix("option").or_else(|| plain.strip_prefix("answer")).unwrap_or(plain);
+    named.trim().trim_end_matches([')', '.', ':']).trim().to_owned()
 }

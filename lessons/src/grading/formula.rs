@@ -11,9 +11,11 @@ use triad_engine::scene::expression::Expression;
 const POINTS: usize = 24;
 /// Relative difference below which two values agree.
 const AGREEMENT: f64 = 1e-9;
+/// The same where a number with decimals is part of the answer: 9.87 may stand for π².
+const ROUNDED_AGREEMENT: f64 = 1e-4;
 
 /// Judges a formula; `seed` makes the points of each question its own.
-pub(super) fn judge(
+pub(crate) fn judge(
     question: &Formula,
     seed: &str,
     note: &str,
@@ -43,8 +45,10 @@ pub(super) fn judge(
     }
 }
 
-/// Whether `a` equals `factor` times `b` at all points where `b` is defined.
+/// Whether `a` equals `factor` times `b` at all points where `b` is defined; less closely where `a` has decimals, which may
+/// be rounded.
 pub(crate) fn same(a: &Expression, b: &Expression, ranges: &[[f64; 2]], seed: &str, factor: f64) -> bool {
+    let agreement = if a.has_decimals() { ROUNDED_AGREEMENT } else { AGREEMENT };
     let mut random = SeededRandom::new(seed);
     let mut defined = 0;
     for _ in 0..POINTS {
@@ -55,7 +59,7 @@ pub(crate) fn same(a: &Expression, b: &Expression, ranges: &[[f64; 2]], seed: &s
         }
         defined += 1;
         // `!(<=)` also refuses an `x` that is not a number.
-        let agrees = (x - y).abs() <= AGREEMENT * (x.abs() + y.abs()) + 1e-300;
+        let agrees = (x - y).abs() <= agreement * (x.abs() + y.abs()) + 1e-300;
         if !agrees {
             return false;
         }

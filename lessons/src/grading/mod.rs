@@ -1,16 +1,19 @@
 //! Grading: a submission against a lesson, always with the same result. What is said is data; the verdict's HTML is made
 //! of it in one place.
 
-mod closed;
+pub(crate) mod closed;
 mod follow;
 pub(crate) mod formula;
 mod model;
 mod picture;
 mod program;
-mod quantity;
+pub(crate) mod quantity;
+mod reading;
 mod trajectory;
 mod tuning;
 
+use schemars::JsonSchema;
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::answers::{Answer, Submission};
@@ -20,6 +23,20 @@ use crate::tasks::instances;
 use crate::text::shorten;
 use crate::verdict::feedback::Judgement;
 use crate::verdict::{Mark, Provenance, QuestionVerdict, Verdict, html};
+
+/// How a typed answer is understood.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Understood {
+    /// The answer as it is read: `29.4 N`, `(1, 2, 3) kg m/s`, `m·g·cos(alpha)`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
+    /// What to change so that it can be read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub problem: Option<String>,
+    /// The entries of a vector or a matrix that stood in one text, row by row.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cells: Vec<String>,
+}
 
 /// Why a submission cannot be graded as a whole.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -49,7 +66,13 @@ impl GradeError {
 ///
 /// Errors if it answers a question that does not exist.
 pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeError> {
-    let judgements = judge(lesson, submission)?;
+    let mut judgements = judge(lesson, submission)?;
+    if judgements.iter().any(|judgement| judgement.mark == Mark::Invalid) {
+        // Nobody tries answers one by one beside a field that cannot be read.
+        for judgement in judgements.iter_mut().filter(|j| matches!(j.mark, Mark::Right | Mark::Wrong)) {
+            *judgement = Judgement::waiting();
+        }
+    }
     let questions: Vec<QuestionVerdict> =
         lesson.exercise.questions.iter().zip(judgements).map(|(q, j)| sent(q, j)).collect();
     let earned: f64 = questions.iter().map(|q| q.earned).sum();
@@ -96,6 +119,14 @@ pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judg
         judgements.push(judgement);
     }
     Ok(judgements)
+}
+
+/// How a typed answer is understood, before anything is compared; `None` for a question whose answer is not typed.
+pub fn understand(question: &Question, answer: &Answer) -> Option<Understood> {
+    reading::understood(question, answer).map(|read| match read {
+        Ok(text) => Understood { text: Some(text), problem: None, cells: reading::cells(question, answer) },
+        Err(why) => Understood { text: None, problem: Some(why.to_string()), cells: Vec::new() },
+    })
 }
 
 fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer) -> Judgement {

@@ -121,6 +121,9 @@ pub struct QuestionView {
     /// Rows and columns to fill in.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<[usize; 2]>,
+    /// Names of a vector's components in the frame that is asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub components: Vec<String>,
     /// Symbols that a formula may use.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub symbols: Vec<String>,
@@ -187,6 +190,14 @@ impl StepView {
     }
 }
 
+/// The names in the brackets of a frame such as `the body frame (u, v, w)`, if a vector has as many components.
+fn components(frame: &str, [rows, columns]: [usize; 2]) -> Vec<String> {
+    let inside = frame.rsplit_once('(').and_then(|(_, rest)| rest.split_once(')'));
+    let names =
+        inside.map(|(names, _)| names.split(',').map(|name| name.trim().to_owned()).collect::<Vec<_>>());
+    names.filter(|names| names.len() == rows && columns == 1).unwrap_or_default()
+}
+
 impl QuestionView {
     fn new(question: &Question) -> Self {
         let mut view = Self {
@@ -196,6 +207,7 @@ impl QuestionView {
             unit: None,
             asks_unit: false,
             size: None,
+            components: Vec::new(),
             symbols: Vec::new(),
             rule: rule(question),
             points: question.points,
@@ -211,6 +223,7 @@ impl QuestionView {
                 view.asks_unit = q.asks_unit;
                 view.unit = (!q.asks_unit).then(|| q.unit.text().to_owned());
                 view.size = (q.shape != ValueShape::Number).then_some(q.size);
+                view.components = components(q.frame.as_deref().unwrap_or_default(), q.size);
                 view.follows = q.follows.iter().flat_map(|f| f.from.values().cloned()).collect();
             }
             QuestionBody::Choice { options, .. } => {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::answers::{Answer, TypedValue};
 use crate::files::Files;
-use crate::{Course, Mark, QuestionVerdict, Submission, grade};
+use crate::{Course, Mark, QuestionVerdict, Submission, grade, understand};
 
 const EXERCISE: &str = r#"
 pass_mark = 1.0
@@ -107,20 +107,61 @@ fn a_matrix_is_judged_as_a_whole_and_its_form_is_checked() {
 }
 
 #[test]
-fn a_unit_that_is_asked_for_counts_a_quarter() {
+fn a_unit_that_is_asked_for_counts_half() {
     let earned = |value: &str, unit| {
         let verdict = judged("moment", text(value), unit);
         (verdict.verdict, verdict.earned)
     };
     assert_eq!(earned("12.0", Some("N m")), (Mark::Right, 4.0));
     assert_eq!(earned("12.0", Some("J")), (Mark::Right, 4.0));
-    assert_eq!(earned("12.0", Some("N")), (Mark::Wrong, 3.0));
+    assert_eq!(earned("12.0", Some("N")), (Mark::Wrong, 2.0));
     assert_eq!(earned("13.0", Some("N m")), (Mark::Wrong, 1.0));
     assert_eq!(earned("13.0", Some("kg")), (Mark::Wrong, 0.0));
     assert_eq!(earned("12.0", None), (Mark::Invalid, 0.0));
     assert_eq!(earned("12.0", Some("mN")), (Mark::Invalid, 0.0));
     let view = serde_json::to_string(&course().lesson("kinds").unwrap().public_view()).unwrap();
     assert!(!view.contains("N m"), "the unit that is asked for must not be shown");
+}
+
+/// While one field cannot be read nothing is said of the others, or they could be tried one by one without an attempt.
+#[test]
+fn nothing_is_judged_beside_an_answer_that_cannot_be_read() {
+    let answers = |moment: &str, energy: &str| {
+        let energy = Answer { value: Some(text(energy)), ..Answer::default() };
+        let moment = Answer { value: Some(text(moment)), unit: Some("N m".to_owned()), ..Answer::default() };
+        let answers = BTreeMap::from([("energy".to_owned(), energy), ("moment".to_owned(), moment)]);
+        grade(course().lesson("kinds").unwrap(), &Submission { answers, ..Submission::default() }).unwrap()
+    };
+    for moment in ["12.0", "13.0"] {
+        let verdict = answers(moment, "m*(v");
+        let marks: Vec<Mark> = verdict.questions.iter().map(|q| q.verdict).collect();
+        assert_eq!(marks, [Mark::Blank, Mark::Waiting, Mark::Invalid]);
+        assert!(!verdict.gradable && !verdict.passed && verdict.earned == 0.0);
+        assert_eq!(verdict.questions[1].misconception, None);
+    }
+    assert_eq!(answers("12.0", "m*v^2/2").earned, 5.0);
+}
+
+/// A unit belongs to the number it stands behind; hertz counts turns; a count has no unit.
+#[test]
+fn units_are_taken_at_their_word() {
+    let lesson = course();
+    let lesson = lesson.lesson("kinds").unwrap();
+    let read = |id: &str, value: TypedValue| {
+        let answer = Answer { value: Some(value), ..Answer::default() };
+        understand(lesson.question(id).unwrap(), &answer).unwrap()
+    };
+    let rows = |last: &str| {
+        let row = |a: &str, b: &str| TypedValue::List(vec![text(a), text(b)]);
+        TypedValue::List(vec![row("1", "2"), row("0", "1"), row("0", last)])
+    };
+    assert_eq!(read("c", rows("0 m")).text.as_deref(), Some("[1 2; 0 1; 0 0] m"));
+    assert!(read("c", rows("87 cm")).problem.unwrap().contains("component 6 has a unit"));
+    assert_eq!(read("moment", text("3*4 N m")).text.as_deref(), Some("12 N m"));
+    assert_eq!(read("moment", text("1200 Ncm")).text.as_deref(), Some("1200 Ncm = 12 N m"));
+    assert_eq!(read("energy", text("½mv²")).text.as_deref(), Some("1/2·m·v^2"));
+    let pasted = read("c", text("[[1, 2], [0, 1], [0, 0]] cm"));
+    assert_eq!(pasted.cells, ["1 cm", "2 cm", "0 cm", "1 cm", "0 cm", "0 cm"]);
 }
 
 #[test]

@@ -28,12 +28,12 @@ fn quoted(text: &str) -> String {
 #[test]
 fn answers_that_cannot_be_read() {
     let mut numbers = Refusals::new(variants!(NumberError: Empty, NotANumber, AmbiguousComma, NotFinite));
-    for text in [" ", "lots", "1,500", "NaN", "1e999"] {
+    for text in [" ", "lots", "1,500", "2.4x10-3", "NaN", "1e999"] {
         let error = number::read(text).unwrap_err();
         numbers.meet(&quoted(text), &error, error.code(), None, "");
     }
     let mut units = Refusals::new(variants!(UnitError: Unknown, Ambiguous, Syntax));
-    for text in ["n", "furlong", "kg/m s", "m^", "m//s"] {
+    for text in ["furlong", "kg/m s", "m^", "m//s"] {
         let error = Unit::parse(text).unwrap_err();
         units.meet(&quoted(text), &error, error.code(), None, "");
     }

@@ -37,6 +37,17 @@ impl Judgement {
         Self { mark: Mark::Blank, share: 0.0, misconception: None, feedback: Feedback::Blank, figure: None }
     }
 
+    /// What is not judged as long as another answer cannot be.
+    pub(crate) fn waiting() -> Self {
+        Self {
+            mark: Mark::Waiting,
+            share: 0.0,
+            misconception: None,
+            feedback: Feedback::Waiting,
+            figure: None,
+        }
+    }
+
     /// What cannot be judged.
     pub(crate) fn invalid(why: InvalidAnswer) -> Self {
         let feedback = Feedback::Invalid(why);
@@ -48,6 +59,7 @@ impl Judgement {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Feedback {
     Blank,
+    Waiting,
     Invalid(InvalidAnswer),
     /// The right number, option, formula or program, and why it is so.
     Right {

@@ -20,6 +20,7 @@ const MAX_NAMES: usize = 4;
 pub(crate) fn message(feedback: &Feedback) -> String {
     match feedback {
         Feedback::Blank => paragraph("Not answered."),
+        Feedback::Waiting => paragraph("This answer can be read. It is judged when all of them can."),
         Feedback::Invalid(why) => format!("<p>{} No attempt is used.</p>", escape(&why.to_string())),
         Feedback::Right { note } => paragraph("Right.") + &render_short(note),
         Feedback::Option { reason } => paragraph("Not right.") + &render_short(reason),

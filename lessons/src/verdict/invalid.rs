@@ -37,9 +37,9 @@ pub(crate) enum InvalidQuantity {
     NoValue,
     #[error("This question asks for one number, not a list.")]
     List,
-    #[error("Give {rows} components as a list.")]
+    #[error("Give {rows} components, such as {}.", example(*rows))]
     Components { rows: usize },
-    #[error("Give {rows} rows of {columns} entries as lists.")]
+    #[error("Give {rows} rows of {columns} entries, such as [1 0; 0 1] for two rows of two.")]
     Rows { rows: usize, columns: usize },
     #[error("Each row of the matrix has {columns} entries.")]
     RowLength { columns: usize },
@@ -53,8 +53,16 @@ pub(crate) enum InvalidQuantity {
     Number(#[from] NumberError),
     #[error("{}", sentence(&.0.to_string()))]
     Unit(#[from] UnitError),
-    #[error("The components have different units; give them all in one.")]
-    DifferentUnits,
+    #[error(
+        "Only component {entry} has a unit, {unit}; write one behind each, or behind the brackets as in (1, 2, 3) {unit}."
+    )]
+    UnitOfOne { entry: usize, unit: String },
+    #[error("{given} is another kind of quantity; this field is in {wanted}.")]
+    OtherUnit { given: String, wanted: String },
+    #[error("This asks for a count, which has no unit; leave out {unit}.")]
+    Count { unit: String },
+    #[error("Hz counts turns per second; this field is in {wanted}. One turn is 2\u{3c0} rad.")]
+    Hertz { wanted: String },
     #[error("There are two units, {behind} and {field}; keep one.")]
     TwoUnits { behind: String, field: String },
     #[error("A unit is missing; finding it is part of the question.")]
@@ -66,6 +74,11 @@ pub(crate) enum InvalidQuantity {
         .digits.map_or_else(|| "more decimals".to_owned(), |n| format!("at least {n} significant digits"))
     )]
     InsufficientPrecision { digits: Option<u32> },
+}
+
+/// A list of so many numbers.
+fn example(count: usize) -> String {
+    format!("({})", (1..=count).map(|k| k.to_string()).collect::<Vec<_>>().join(", "))
 }
 
 /// Options and formulas.

@@ -36,7 +36,7 @@ pub struct QuestionVerdict {
     pub earned: f64,
     /// Points that can be earned.
     pub possible: f64,
-    /// Right, wrong, blank or invalid.
+    /// Right, wrong, blank, invalid, or waiting for an answer that is invalid.
     pub verdict: Mark,
     /// Feedback for the student, as safe HTML.
     pub message_html: String,
@@ -64,6 +64,8 @@ pub enum Mark {
     Blank,
     /// Could not be judged (unreadable, wrong form, too few digits); no attempt is used.
     Invalid,
+    /// Not judged, since another answer of the submission could not be: a verdict is given on the whole or not at all.
+    Waiting,
 }
 
 /// What graded a submission, so that a grade can be traced and repeated.

@@ -110,6 +110,24 @@ async fn text_where_a_number_belongs_uses_no_attempt_and_is_not_kept() {
 }
 
 #[tokio::test]
+async fn what_is_typed_is_read_back_without_being_judged() {
+    let server = server();
+    let read = async |question: &str, body: Value| {
+        post(&server, &format!("/api/v1/lessons/simple-pendulum/questions/{question}/reading"), body).await
+    };
+    let tension = read("tension-bottom", json!({"value": "3*9.81 newton"})).await.json();
+    assert_eq!(tension, json!({"text": "29.43 newton"}));
+    let wrong = read("tension-bottom", json!({"value": "1", "unit": "kN"})).await.json();
+    assert_eq!(wrong, json!({"text": "1 kN = 1000 N"}), "right or wrong, it looks the same");
+    let problem = read("tension-bottom", json!({"value": "lots"})).await.json();
+    assert!(problem["problem"].as_str().expect("words").contains("not a number"), "{problem}");
+    let pasted = read("force-on-ground", json!({"value": "array([1., 2., 3.]) N"})).await.json();
+    assert_eq!(pasted, json!({"text": "(1, 2, 3) N", "cells": ["1. N", "2. N", "3. N"]}));
+    read("sign-of-lambda", json!({"value": "a"})).await.problem(404, "not-typed");
+    read("nothing", json!({"value": "1"})).await.problem(404, "unknown-question");
+}
+
+#[tokio::test]
 async fn a_submission_must_say_whose_it_is_and_what_it_answers() {
     let server = server();
     let path = "/api/v1/lessons/simple-pendulum/submissions";

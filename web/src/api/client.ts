@@ -24,6 +24,7 @@ import type {
   SessionScene,
   SessionState,
   SymmetricMatrix,
+  Understood,
 } from "./types";
 
 const BASE = "/api/v1";
@@ -126,6 +127,13 @@ export const api = {
     call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
   hint: (slug: string, question: string, k: number, seed?: string) =>
     call<Hint>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}${whose(seed)}`),
+  reading: (
+    slug: string,
+    question: string,
+    answer: { value: NonNullable<Answer["value"]>; unit?: string },
+    signal?: AbortSignal,
+  ) =>
+    call<Understood>("POST", `/lessons/${id(slug)}/questions/${id(question)}/reading`, answer, signal),
   statesUrl: (slug: string, question: string, seed?: string): string =>
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
   starterUrl: (slug: string, question: string, language: string): string =>

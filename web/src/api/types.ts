@@ -44,3 +44,4 @@ export type OpenedLecture = Schemas["OpenedLecture"];
 export type PresenterState = Schemas["PresenterState"];
 export type ImportedRobot = Schemas["ImportedRobot"];
 export type Hint = Schemas["Hint"];
+export type Understood = Schemas["Understood"];

@@ -33,6 +33,6 @@ export function textInput(
     "aria-label": label,
     "aria-describedby": described,
     value,
-    maxlength: "64",
+    maxlength: "200",
   });
 }

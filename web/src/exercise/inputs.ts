@@ -1,5 +1,6 @@
 // The fields of one question, by kind: what is typed, pasted, chosen or uploaded becomes an answer.
 
+import { api } from "../api/client";
 import type { Answer, Question } from "../api/types";
 import { authored, h } from "../core/dom";
 import { type Inputs, type QuestionContext, textInput } from "./field";
@@ -63,7 +64,7 @@ function single(question: Question, place: QuestionContext, draft: string[] | un
 function grid(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   const [rows, columns] = question.size ?? [3, 1];
   const matrix = question.kind === "matrix";
-  const axes = rows === 3 ? ["x", "y", "z"] : Array.from({ length: rows }, (_, k) => String(k + 1));
+  const axes = question.components ?? Array.from({ length: rows }, (_, k) => String(k + 1));
   const cells = Array.from({ length: rows * columns }, (_, k) => {
     const row = Math.floor(k / columns);
     const label = matrix ? `row ${row + 1}, column ${(k % columns) + 1}` : `${axes[row]} component`;
@@ -72,15 +73,10 @@ function grid(question: Question, place: QuestionContext, draft: string[] | unde
   });
   for (const [at, cell] of cells.entries())
     cell.addEventListener("paste", (event) => {
-      const pieces = (event.clipboardData?.getData("text") ?? "")
-        .trim()
-        .split(/[\s;[\]]+|,(?=\s)/)
-        .filter(Boolean);
-      if (pieces.length < 2) return;
+      const text = event.clipboardData?.getData("text") ?? "";
+      if (!/\d\D+\d|[ijk]/.test(text.trim())) return;
       event.preventDefault();
-      for (const [k, filled] of cells.slice(at, at + pieces.length).entries())
-        filled.value = (pieces[k] ?? "").replace(/,$/, "");
-      cell.dispatchEvent(new Event("input", { bubbles: true }));
+      void spread(question, place.slug, text, cells, at);
     });
   const unit = unitInput(question, place, draft?.[cells.length]);
   const after = unit ?? givenUnit(question);
@@ -117,6 +113,25 @@ function grid(question: Question, place: QuestionContext, draft: string[] | unde
     answer: () => withUnit({ value: matrix ? lines() : cells.map((cell) => cell.value.trim()) }, unit),
     draft: () => [...cells.map((cell) => cell.value), ...(unit ? [unit.value] : [])],
   };
+}
+
+/** Puts the entries of a pasted vector or matrix into its cells; what is none goes into the one cell. */
+async function spread(
+  question: Question,
+  slug: string,
+  text: string,
+  cells: HTMLInputElement[],
+  at: number,
+): Promise<void> {
+  const read = await api.reading(slug, question.id, { value: text }).catch(() => undefined);
+  const entries = read?.cells ?? [];
+  if (entries.length === cells.length)
+    for (const [k, cell] of cells.entries()) cell.value = entries[k] ?? "";
+  else {
+    const cell = cells[at];
+    cell?.setRangeText(text.trim(), cell.selectionStart ?? 0, cell.selectionEnd ?? 0, "end");
+  }
+  cells[at]?.dispatchEvent(new Event("input", { bubbles: true }));
 }
 
 function withUnit<T extends { value: string | string[] | string[][] }>(

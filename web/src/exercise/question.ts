@@ -7,6 +7,7 @@ import { setMaths } from "../core/maths";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { inputsOf } from "./inputs";
+import { readingLine } from "./reading";
 import { verdictLine } from "./verdict";
 
 export interface QuestionField {
@@ -53,6 +54,7 @@ export function questionField(
       h("span", { class: "question-points" }, plural(question.points, "point")),
     ),
     inputs.root,
+    readingLine(lesson.slug, question, inputs),
     h("p", { class: "rule", id: ruleId }, question.rule),
     question.hints_available > 0 ? opened.root : null,
     verdict,
@@ -65,7 +67,7 @@ export function questionField(
     draft: inputs.draft,
     hints: opened.shown,
     show: (result) => {
-      root.classList.remove("is-right", "is-wrong", "is-blank", "is-invalid");
+      root.classList.remove("is-right", "is-wrong", "is-blank", "is-invalid", "is-waiting");
       for (const input of root.querySelectorAll("input, textarea, select"))
         input.removeAttribute("aria-invalid");
       if (!result) {

@@ -10,6 +10,7 @@ const WORDS: Record<Mark, { word: string; mark: IconName }> = {
   wrong: { word: "Not yet", mark: "cross" },
   blank: { word: "No answer", mark: "dash" },
   invalid: { word: "Sent back", mark: "warn" },
+  waiting: { word: "Waiting", mark: "dash" },
 };
 
 const SAID = new Set(["Right.", "Not right.", "Not answered."]);

@@ -1,20 +1,4 @@
-//! Reads typed text from left to right, with the typographic characters of word processors made plain.
-
-/// The plain ASCII character that a typographic one stands for: minus and dash, times and dot, fraction slashes, spaces.
-pub fn plain_sign(c: char) -> char {
-    match c {
-        '\u{2212}' | '\u{2013}' => '-',
-        '·' | '⋅' | '×' | '∙' => '*',
-        '\u{2215}' | '\u{2044}' => '/',
-        '\u{a0}' | '\u{202f}' | '\u{2009}' => ' ',
-        other => other,
-    }
-}
-
-/// Trimmed text with plain signs, character for character.
-pub fn normalise(text: &str) -> String {
-    text.trim().chars().map(plain_sign).collect()
-}
+//! Reads typed text from left to right.
 
 /// Characters of a text and a place among them.
 pub struct Cursor {

@@ -1,6 +1,6 @@
 //! The parts of a formula, and what they amount to.
 
-use crate::text::{UnknownWord, words};
+use crate::text::words;
 
 /// Functions that a formula may call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +67,11 @@ pub enum Node {
 }
 
 impl Node {
+    /// Two parts with an operator between them.
+    pub(super) fn binary(operator: char, a: Self, b: Self) -> Self {
+        Self::Binary(operator, Box::new(a), Box::new(b))
+    }
+
     /// Whether the symbol with this index occurs in it.
     pub fn uses(&self, symbol: usize) -> bool {
         match self {
@@ -114,11 +119,6 @@ impl Function {
             Self::Abs => a.abs(),
             Self::EllipticK => elliptic_k(a),
         }
-    }
-
-    /// The function of a name in a formula.
-    pub(super) fn named(name: &str) -> Result<Self, UnknownWord> {
-        if name == "ln" { Ok(Self::Log) } else { name.parse() }
     }
 }
 

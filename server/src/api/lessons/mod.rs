@@ -14,15 +14,15 @@ use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_lessons::CourseError;
-use triad_lessons::InstancesView;
 use triad_lessons::lesson::{Lesson, LessonSummary, LessonView};
 use triad_lessons::tasks::starter::{Language, UnknownLanguage};
+use triad_lessons::{InstancesView, Understood};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{PathParameters, QueryParameters};
+use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::app::App;
 use crate::blocking;
 use crate::problem::{Problem, suggest};
@@ -32,10 +32,13 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonView>();
     schemas.answer::<Hint>();
     schemas.answer::<InstancesView>();
+    schemas.request::<TypedAnswer>();
+    schemas.answer::<Understood>();
     OpenApiRouter::new()
         .routes(routes!(list))
         .routes(routes!(show))
         .routes(routes!(hint))
+        .routes(routes!(reading))
         .routes(routes!(states))
         .routes(routes!(starter))
 }
@@ -139,6 +142,44 @@ async fn hint(
         )
     })?;
     Ok(Answer(Hint { html }))
+}
+
+/// An answer to read.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TypedAnswer {
+    /// A number, a list of numbers, or a formula, as typed.
+    #[schemars(with = "triad_lessons::answers::TypedValue")]
+    value: triad_lessons::answers::TypedValue,
+    /// The unit of the value, as typed.
+    #[serde(default)]
+    unit: Option<String>,
+}
+
+/// How an answer is understood: the same reader as the grader's, which compares nothing here and keeps nothing.
+#[utoipa::path(post, path = "/lessons/{slug}/questions/{id}/reading", operation_id = "read_answer", tag = "lessons",
+    params(("slug" = String, Path), ("id" = String, Path)),
+    request_body(content = ref(of::<TypedAnswer>()), example = json!({"value": "3*9.81 newton"})), responses(
+    (status = 200, description = "The answer as it is read, or what to change", body = ref(of::<Understood>())),
+    (status = 404, description = "No such lesson, or no such question with a typed answer", body = ref(PROBLEM))))]
+async fn reading(
+    State(app): State<App>,
+    PathParameters((slug, id)): PathParameters<(String, String)>,
+    Json(body): Json<TypedAnswer>,
+) -> Result<Answer<Understood>, Problem> {
+    let lesson = find(&app, &slug)?;
+    let question = lesson.question(&id).ok_or_else(|| unknown_question(lesson, &id))?;
+    let typed = triad_lessons::Answer { value: Some(body.value), unit: body.unit, ..Default::default() };
+    let understood = triad_lessons::understand(question, &typed).ok_or_else(|| {
+        let detail = format!("the answer to question {id} is not typed");
+        Problem::new(
+            StatusCode::NOT_FOUND,
+            "not-typed",
+            detail,
+            "ask about a number, a vector, a matrix or a formula",
+        )
+    })?;
+    Ok(Answer(understood))
 }
 
 /// The states at which a student's own program evaluates the equations.

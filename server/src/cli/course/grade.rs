@@ -38,6 +38,7 @@ fn print(verdict: &Verdict) {
             Mark::Wrong => "wrong",
             Mark::Blank => "blank",
             Mark::Invalid => "invalid",
+            Mark::Waiting => "waiting",
         };
         print_line(&format!("{mark:<8}{} of {}  {}", question.earned, question.possible, question.id));
         print_line(&format!("        {}", words(&question.message_html)));
