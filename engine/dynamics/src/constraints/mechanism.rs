@@ -165,7 +165,7 @@ impl Mechanism {
         t: f64,
         given: &[f64],
         y: &mut [f64],
-    ) -> Result<Vec<String>, ConstraintError> {
+    ) -> Result<Option<String>, ConstraintError> {
         let (n, length) = (self.system.coordinates, self.system.length);
         self.state.set_velocities(&self.system, &y[n..]);
         let rate = self.state.velocity_violation(&self.system);
@@ -175,13 +175,14 @@ impl Mechanism {
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
         if rate <= 1e-9 * length {
-            return Ok(Vec::new());
+            return Ok(None);
         }
         let changed = largest_difference(&given[n..], &y[n..]);
         let moved = format!(
             "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
         );
-        Ok([Some(moved), changed::velocity_lost(&self.system, given, y)].into_iter().flatten().collect())
+        let lost = changed::velocity_lost(&self.system, given, y);
+        Ok(Some(lost.map_or(moved.clone(), |lost| format!("{moved}; {lost}"))))
     }
 
     /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
