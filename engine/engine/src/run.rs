@@ -7,6 +7,7 @@ mod frame;
 mod state_view;
 
 mod cause;
+mod errors;
 mod events;
 mod explain;
 mod outputs;
@@ -16,6 +17,7 @@ mod snapshot;
 mod start;
 mod summary;
 
+pub use errors::{ErrorEstimate, ReactionErrors};
 pub use events::EventOccurrence;
 pub use explain::SkippedItem;
 pub use frame::{Frame, MarkerFrame};

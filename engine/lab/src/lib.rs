@@ -4,6 +4,8 @@ pub mod verify;
 
 pub mod stress;
 
+pub mod estimates;
+
 pub mod paper;
 
 pub mod bench;

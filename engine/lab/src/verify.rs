@@ -38,6 +38,24 @@ pub struct Verification {
     pub bodies: Vec<BodyError>,
 }
 
+/// Part of the length of the mechanism that two solutions may be apart before the result is doubted: as for the estimate that a
+/// run makes itself.
+const DOUBTFUL: f64 = 0.01;
+
+impl Verification {
+    /// What the second solution speaks against in a run of the scene.
+    pub fn doubt(&self, run: &Simulation) -> Option<String> {
+        let length = run.system().length;
+        (self.position > DOUBTFUL * length).then(|| {
+            format!(
+                "a second solution, by {} at {:.0e}, is {:.1e} m away, more than a hundredth of the mechanism's length of \
+                 {length:.3} m; tighten the tolerance, or look at a shorter time",
+                self.integrator, self.tolerance, self.position
+            )
+        })
+    }
+}
+
 /// A second solution that runs beside a first one.
 #[derive(Clone, Debug)]
 pub struct Verifier {
@@ -59,6 +77,7 @@ impl Verifier {
         settings.tolerance = (settings.tolerance * TIGHTER).max(TIGHTEST);
         settings.constraint_method = ConstraintMethod::Projection;
         settings.step = None;
+        settings.error_estimate = false;
         settings.integrator = match by_first {
             IntegratorKind::Taylor => IntegratorKind::Dop853,
             IntegratorKind::Radau => IntegratorKind::Radau,

@@ -23,6 +23,9 @@ pub struct Settings {
     /// What is left out because nothing depends on it.
     #[serde(skip_serializing_if = "Skip::is_everything")]
     pub skip: Skip,
+    /// Whether the run carries an estimate of the errors of its numbers along.
+    #[serde(skip_serializing_if = "is_true")]
+    pub error_estimate: bool,
     /// Size of the steps, s: fixed, instead of chosen by the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
@@ -40,10 +43,16 @@ impl Default for Settings {
             tolerance: 1e-9,
             constraint_method: ConstraintMethod::default(),
             skip: Skip::default(),
+            error_estimate: true,
             step: None,
             outputs: Output::usual(),
         }
     }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_true(value: &bool) -> bool {
+    *value
 }
 
 /// Integrators by name.

@@ -26,6 +26,8 @@ mod expand;
 
 mod projection;
 
+mod transport;
+
 mod step;
 
 mod probe;
@@ -96,6 +98,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     pub counters: Counters,
     /// A copy that evaluates S at other times, and leaves the factor as it is.
     probe: Option<Box<Self>>,
+    /// The error that is carried along.
+    transport: Option<Box<transport::Transport<L, B>>>,
 }
 
 impl<const L: usize> Series<L> {
@@ -161,6 +165,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),
             probe: None,
+            transport: None,
         }
     }
 

@@ -95,6 +95,16 @@ pub trait Stepper: Debug + Send + Sync {
         self.interpolate(mechanism, t, y);
     }
 
+    /// Writes the error of y(t) within the last step, if the method carries it along and knows it.
+    fn error(&self, _: &System, _: f64, _: &mut [f64]) -> bool {
+        false
+    }
+
+    /// When the error that the method carries along became too large to be known, s.
+    fn error_lost(&self) -> Option<f64> {
+        None
+    }
+
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J, where the
     /// method knows it.
     fn work_to(&self, _: f64) -> Option<f64> {

@@ -130,6 +130,15 @@ impl Stepper for Taylor {
         }
     }
 
+    fn error(&self, system: &System, t: f64, y: &mut [f64]) -> bool {
+        y.fill(0.0);
+        self.islands.iter().all(|island| island.error(system, t, y))
+    }
+
+    fn error_lost(&self) -> Option<f64> {
+        self.islands.iter().filter_map(IslandStepper::error_lost).min_by(f64::total_cmp)
+    }
+
     fn work_to(&self, t: f64) -> Option<f64> {
         let start = self.last.t_old;
         Some(self.islands.iter().map(|island| island.work_to(t) - island.work_to(start)).sum())

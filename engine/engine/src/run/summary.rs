@@ -1,6 +1,6 @@
 //! What a run has cost and how far it can be trusted.
 
-use super::{Simulation, SingularConfiguration};
+use super::{ErrorEstimate, Simulation, SingularConfiguration};
 use crate::integrate::PenaltyParameters;
 use crate::scene::{ConstraintMethod, IntegratorKind};
 use serde::Serialize;
@@ -9,6 +9,8 @@ use triad_dynamics::system::System;
 
 /// The part of the energy at the start that counts as kinetic where nothing moves.
 const STANDING: f64 = 1e-3;
+/// Part of the length of the mechanism by which positions may be off before a result is doubted: a hundredth shows in a plot.
+const DOUBTFUL: f64 = 0.01;
 
 /// What a run has cost and how far it can be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -46,6 +48,10 @@ pub struct Summary {
     /// Singular configurations passed, where the mobility jumps for a moment.
     #[serde(rename = "passages")]
     pub singularities: Vec<SingularConfiguration>,
+    /// Estimated errors of the current state, where they are known.
+    pub error: Option<ErrorEstimate>,
+    /// From when on they are not known, s: they have grown beyond what can be called small.
+    pub error_unknown_from: Option<f64>,
     /// What speaks against the result, in words, with what to use instead.
     pub doubts: Vec<String>,
     /// Whether the end of the run is reached.
@@ -82,7 +88,9 @@ impl Simulation {
         let (counters, projections) = self.integrator.work(&self.mechanism);
         let steps = self.integrator.last().steps;
         let singularities = self.singularities.configurations(system);
-        let doubts = self.doubts(&singularities, energy_drift);
+        let error = self.error_estimate();
+        let mut doubts = self.doubts(&singularities, energy_drift);
+        doubts.extend(self.doubts_of_error(error));
         Summary {
             time: self.time(),
             energy,
@@ -100,9 +108,33 @@ impl Simulation {
             integrator: self.kind,
             reason: self.reason.clone(),
             singularities,
+            error,
+            error_unknown_from: self.error_unknown_from(),
             doubts,
             finished: self.finished(),
         }
+    }
+
+    /// What the estimated error speaks against.
+    fn doubts_of_error(&self, error: Option<ErrorEstimate>) -> Option<String> {
+        let instead = match self.model().settings.step {
+            None => "tighten the tolerance, or look at a shorter time",
+            Some(_) => "use shorter steps, or leave their size to the tolerance",
+        };
+        if let Some(time) = self.error_unknown_from().filter(|&time| time <= self.time()) {
+            return Some(format!(
+                "from t = {time:.6} s on nothing is known of the error: it has grown beyond a twentieth of the mechanism's \
+                 length; {instead}"
+            ));
+        }
+        let off = error?.position;
+        let length = self.system().length;
+        (off > DOUBTFUL * length).then(|| {
+            format!(
+                "positions are off by about {off:.1e} m, more than a hundredth of the mechanism's length of {length:.3} m; \
+                 {instead}"
+            )
+        })
     }
 
     /// What speaks against the current state.

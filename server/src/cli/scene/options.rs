@@ -37,6 +37,9 @@ pub(in crate::cli) struct Run {
     /// Steps of one size, in seconds, instead of steps by the tolerance.
     #[arg(long, value_name = "S")]
     pub(super) step: Option<f64>,
+    /// Carry no estimate of the error along: the run takes up to a third less time.
+    #[arg(long)]
+    pub(super) no_estimate: bool,
     /// Estimate the error by a second solution, by another method or at a tighter tolerance.
     #[arg(long)]
     pub(super) verify: bool,

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 use triad_engine::VERSION;
-use triad_engine::run::{Simulation, SkippedItem, Summary};
+use triad_engine::run::{ReactionErrors, Simulation, SkippedItem, Summary};
 use triad_engine::scene::{IntegratorKind, Scene};
 use triad_lab::verify::Verification;
 
@@ -29,7 +29,9 @@ pub(super) fn report(
     &Found { stopped, verified, clock }: &Found,
     json: bool,
 ) {
-    let summary = simulation.summary();
+    let mut summary = simulation.summary();
+    summary.doubts.extend(verified.and_then(|verified| verified.doubt(simulation)));
+    let reactions = simulation.reaction_errors();
     let mut notes = simulation.notes().to_vec();
     notes.extend(options.source.notes(scene, summary.integrator == IntegratorKind::Taylor));
     let left_out = options.explain.then(|| simulation.left_out());
@@ -38,6 +40,7 @@ pub(super) fn report(
             "scene": scene.name,
             "settings": scene.simulation,
             "summary": summary,
+            "reaction_errors": reactions,
             "events": simulation.events(),
             "notes": notes,
             "left_out": left_out,
@@ -51,7 +54,9 @@ pub(super) fn report(
     // A table on standard output must stay a table.
     let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
     let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
-    for line in lines(scene, &summary, verified, &notes) {
+    say(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
+    say(&accuracy(scene, &summary, reactions));
+    for line in lines(&summary, verified, &notes) {
         say(&line);
     }
     say(&clock.line());
@@ -78,9 +83,33 @@ fn explanation(left: &SkippedItem) -> String {
     format!("  left out: {:<10} {switch}  {}", left.word, left.what)
 }
 
-fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<String> {
+/// What the numbers at the end are worth.
+fn accuracy(scene: &Scene, s: &Summary, reactions: Option<ReactionErrors>) -> String {
+    let Some(error) = s.error else {
+        let why = match s.error_unknown_from {
+            Some(time) => format!("from t = {time:.6} s on unknown"),
+            None if scene.simulation.error_estimate => {
+                format!(
+                    "{} carries no estimate along; --verify compares with a second solution",
+                    s.integrator
+                )
+            }
+            None => "switched off".to_owned(),
+        };
+        return format!("  error                  {why}");
+    };
+    let mut line = format!(
+        "  error                  positions right to about {:.0e} m at the end, velocities to {:.0e} m/s",
+        error.position, error.velocity
+    );
+    if let Some(reactions) = reactions.filter(|reactions| reactions.largest_force > 0.0) {
+        line += &format!(", reactions to {:.0e} of the largest", reactions.relative());
+    }
+    line
+}
+
+fn lines(s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<String> {
     let mut lines = vec![
-        format!("{}: {} s of {} s", scene.name, s.time, scene.simulation.duration),
         format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
         format!(
             "  constraint violation   {:.2e} position, {:.2e} velocity",
@@ -109,7 +138,7 @@ fn lines(scene: &Scene, s: &Summary, verified: Option<&Verification>, notes: &[S
     if let Some(v) = verified {
         let (by, tolerance) = (v.integrator, v.tolerance);
         lines.push(format!(
-            "  error estimate         {:.2e} m, {:.2e} rad ({by} at {tolerance:.0e}, {} times compared)",
+            "  verified               within {:.2e} m, {:.2e} rad ({by} at {tolerance:.0e}, {} times compared)",
             v.position, v.turn, v.compared
         ));
         let bodies =

@@ -79,6 +79,7 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     if !options.outputs.is_empty() {
         simulation.outputs.clone_from(&options.outputs);
     }
+    simulation.error_estimate &= !options.no_estimate;
     let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
     if writes && outputs > MAX_OUTPUTS {

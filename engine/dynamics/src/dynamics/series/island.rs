@@ -87,6 +87,21 @@ impl IslandSeries {
         with!(&mut self.0, s => s.enable_probes());
     }
 
+    /// From now on carries the error along.
+    pub fn carry_errors(&mut self) {
+        with!(&mut self.0, s => s.carry_errors());
+    }
+
+    /// When the error became too large to be carried, s.
+    pub fn error_lost(&self) -> Option<f64> {
+        with!(&self.0, s => s.error_lost())
+    }
+
+    /// Writes the error of the coordinates of its bodies a time τ after the start of the last step, if it is known.
+    pub fn error(&self, system: &System, tau: f64, y: &mut [f64]) -> bool {
+        with!(&self.0, s => s.error(system, tau, y))
+    }
+
     /// Builds and factors S at the point of expansion.
     pub fn linearize(&mut self) {
         with!(&mut self.0, s => s.linearize());

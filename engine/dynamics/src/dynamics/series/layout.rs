@@ -39,6 +39,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
+    /// Writes an error of (q, q̇) of the bodies of bundle b.
+    pub(super) fn store_error(&self, system: &System, b: usize, state: &[B::Natural; 2], y: &mut [f64]) {
+        let bundle = &self.bundles[b];
+        let (q, q_dot) = y.split_at_mut(system.coordinates);
+        for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {
+            body.layout.store(&bundle.write(lane, &state[0], true), q);
+            body.layout.store(&bundle.write(lane, &state[1], true), q_dot);
+        }
+    }
+
     /// Writes the accelerations q̈ of order 0.
     pub fn store_accelerations(&self, system: &System, out: &mut [f64]) {
         for bundle in &self.bundles {

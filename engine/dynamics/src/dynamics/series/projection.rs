@@ -9,6 +9,9 @@ use crate::system::index::SolverRow;
 impl<const L: usize, B: Bodies<L>> Projectable for Series<L, B> {
     fn linearize(&mut self) {
         self.call(Part::Linearize);
+        if let Some(transport) = &mut self.transport {
+            transport.note_factored(&self.state);
+        }
     }
 
     fn correct_positions(&mut self) -> f64 {
@@ -78,6 +81,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
         }
         moved
+    }
+
+    /// Takes over the values of features at the state, as a correction leaves them.
+    #[inline(always)]
+    pub(super) fn settle(&mut self) {
+        self.place_values();
+        self.rows.store_factors(0, &self.values);
+        self.angles.place(&self.values);
     }
 
     /// The rows that depend on others everywhere — eq. (8.1); the state is left elsewhere. Where some are expected, S is

@@ -91,6 +91,8 @@ pub(super) enum Part {
     Linearize,
     /// Corrects the positions (0) or the velocities (1).
     Correct(usize),
+    /// Takes over the values of features at the state.
+    Settle,
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Call<'_, L, B> {
@@ -102,20 +104,21 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Call<'_, L, B> {
             Part::Assemble => self.0.assemble_here(simd),
             Part::Linearize => self.0.linearize_here(simd),
             Part::Correct(which) => return self.0.correct_here(which),
+            Part::Settle => self.0.settle(),
         }
         0.0
     }
 }
 
 /// Order 0 of the series, likewise.
-struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
+struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, usize);
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.0.expand(2, |_, _| false);
+        self.0.expand(self.1, |_, _| false);
     }
 }
 
@@ -123,7 +126,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Accelerations and multipliers at the state: builds and factors S, then order 0.
     pub fn evaluate(&mut self) {
         self.linearize();
-        Arch::new().dispatch(Evaluate(self));
+        self.expand_to(2);
+    }
+
+    /// Expands the motion about the state, at which S must be factored, up to Q_order.
+    pub(super) fn expand_to(&mut self, order: usize) {
+        Arch::new().dispatch(Evaluate(self, order));
     }
 
     /// Parts are called, not inlined: a step would otherwise contain several copies of each.
@@ -191,6 +199,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     // The projection says nothing about rows that are left out of it.
                     let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
+                    self.carry_over(start, h, order, plan.length, time == end && end < plan.end);
                     let far = moved.is_nan() || moved > MAX_VIOLATION * plan.tolerance;
                     return SeriesStep {
                         h,

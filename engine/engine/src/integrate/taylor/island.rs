@@ -89,6 +89,9 @@ impl IslandStepper {
         if loops {
             series.enable_probes();
         }
+        if whole.model.settings.error_estimate {
+            series.carry_errors();
+        }
         series.linearize();
         let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies) = (system.length, system.bodies.len());
@@ -113,6 +116,17 @@ impl IslandStepper {
     /// End of the last step.
     pub fn time(&self) -> f64 {
         self.t
+    }
+
+    /// When its error became too large to be carried, s.
+    pub fn error_lost(&self) -> Option<f64> {
+        self.series.error_lost()
+    }
+
+    /// Writes the error of its own coordinates at time t within its last step, if it is known.
+    pub fn error(&self, whole: &System, t: f64, y: &mut [f64]) -> bool {
+        let system = self.own.as_deref().unwrap_or(whole);
+        self.series.error(system, (t - self.t_old).clamp(0.0, self.h_old), y)
     }
 
     /// Bodies.

@@ -1,0 +1,131 @@
+//! What the numbers of a run are worth: estimates of their errors — THEORY section 11.
+
+use super::state_view::CachedState;
+use super::{Simulation, StateView};
+use crate::reactions::JointMultipliers;
+use serde::Serialize;
+use std::borrow::Cow;
+use triad_dynamics::state::BodyFrame;
+
+/// Estimated errors of the numbers of one state, each the largest over all bodies: what the run has collected since its start,
+/// not what one step adds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ErrorEstimate {
+    /// Of centres of mass, m.
+    pub position: f64,
+    /// Of directors: an angle for small ones, rad.
+    pub turn: f64,
+    /// Of velocities of centres of mass, m/s.
+    pub velocity: f64,
+    /// Of angular velocities, rad/s.
+    pub angular_velocity: f64,
+    /// Of the kinetic plus potential energy, J.
+    pub energy: f64,
+}
+
+/// Estimated errors of the reactions of one state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ReactionErrors {
+    /// Largest error of a force of a joint or driver, N.
+    pub force: f64,
+    /// Largest of these forces, N.
+    pub largest_force: f64,
+    /// Largest error of a moment, N m.
+    pub moment: f64,
+    /// Largest of these moments, N m.
+    pub largest_moment: f64,
+}
+
+impl ReactionErrors {
+    /// The larger of both errors, as a part of the largest force and moment; zero where there are none.
+    pub fn relative(&self) -> f64 {
+        let part = |error: f64, largest: f64| if largest > 0.0 { error / largest } else { 0.0 };
+        part(self.force, self.largest_force).max(part(self.moment, self.largest_moment))
+    }
+}
+
+impl Simulation {
+    /// Estimated errors of the current state. `None` where the integrator carries none along, where the scene's
+    /// `error_estimate` is switched off, and from [`Simulation::error_unknown_from`] on.
+    ///
+    /// The error is that of the method and of its rounding; that of the model is not in it.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let mut run = Simulation::new(&catalogue::scene("simple-pendulum")?)?;
+    /// run.advance_to(10.0)?;
+    /// let error = run.error_estimate().expect("the series carry it along");
+    /// assert!((1e-11..1e-8).contains(&error.position));
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn error_estimate(&self) -> Option<ErrorEstimate> {
+        let now = self.error_at(self.time())?;
+        let mut found = self.compare(&now);
+        // An error that passes zero at this moment would say nothing of those before and after.
+        let last = self.integrator.last();
+        let before = self.compare(&self.error_at(last.t - last.h)?);
+        found.position = found.position.max(before.position);
+        found.turn = found.turn.max(before.turn);
+        found.velocity = found.velocity.max(before.velocity);
+        found.angular_velocity = found.angular_velocity.max(before.angular_velocity);
+        Some(found)
+    }
+
+    /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
+    /// a second time, without the error of the state.
+    pub fn reaction_errors(&self) -> Option<ReactionErrors> {
+        let better = self.without(&self.error_at(self.time())?);
+        let (here, there) = (self.multipliers(), StateView::new(self, Cow::Owned(better)).multipliers());
+        let mut found = ReactionErrors::default();
+        for (a, b) in here.iter().zip(&there) {
+            let JointMultipliers { force, moment, .. } = a;
+            found.force = found.force.max(apart(*force, b.force));
+            found.largest_force = found.largest_force.max(apart(*force, [0.0; 3]));
+            found.moment = found.moment.max(apart(*moment, b.moment));
+            found.largest_moment = found.largest_moment.max(apart(*moment, [0.0; 3]));
+        }
+        Some(found)
+    }
+
+    /// From when on the error is not known, s: it has grown so far that it is no longer small against the mechanism.
+    pub fn error_unknown_from(&self) -> Option<f64> {
+        self.integrator.error_lost()
+    }
+
+    /// Error of (q, q̇) at a time within the last step.
+    fn error_at(&self, t: f64) -> Option<Vec<f64>> {
+        let mut error = vec![0.0; self.current.y().len()];
+        self.integrator.error(self.system(), t, &mut error).then_some(error)
+    }
+
+    /// The current state without an error.
+    fn without(&self, error: &[f64]) -> CachedState {
+        let y: Vec<f64> = self.current.y().iter().zip(error).map(|(y, e)| y - e).collect();
+        let angles: Vec<f64> = self.current.state().angles().iter().map(|angle| angle.value).collect();
+        self.current.at(self.system(), self.time(), &y, &angles)
+    }
+
+    /// The current state compared with that without an error.
+    fn compare(&self, error: &[f64]) -> ErrorEstimate {
+        let better = self.without(error);
+        let (here, there, system) = (self.current.state(), better.state(), self.system());
+        let energy = (here.energy(system) - there.energy(system)).abs();
+        let mut found = ErrorEstimate { energy, ..ErrorEstimate::default() };
+        for (a, b) in here.bodies().iter().zip(there.bodies()) {
+            let (a, b) = (BodyFrame::from(a), BodyFrame::from(b));
+            let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));
+            found.position = found.position.max(apart(a.position, b.position));
+            found.turn = found.turn.max(turn);
+            found.velocity = found.velocity.max(apart(a.velocity, b.velocity));
+            found.angular_velocity =
+                found.angular_velocity.max(apart(a.angular_velocity, b.angular_velocity));
+        }
+        found
+    }
+}
+
+/// Distance of two points.
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,101 @@
+//! How good the error estimates of runs are: each compared with the error that a much tighter run finds.
+
+use crate::stress::random;
+use triad_engine::EngineError;
+use triad_engine::catalogue;
+use triad_engine::run::{Frame, Simulation};
+use triad_scene::Scene;
+
+/// Tolerance of the run that errors are measured with, over that of the run that is judged.
+const TIGHTER: f64 = 1e-4;
+/// The least tolerance of that run.
+const TIGHTEST: f64 = 1e-13;
+/// Part of the length of a mechanism below which an error cannot be measured that way: both runs round.
+const MEASURABLE: f64 = 3e-12;
+/// Part of that length above which a run promises nothing: it says that it doubts the result.
+const PROMISED: f64 = 0.01;
+/// An estimate within this factor of the error is good.
+const GOOD: f64 = 3.0;
+/// One below this part of it is bad.
+const BAD: f64 = 0.1;
+/// Moments at which a run is judged.
+const MOMENTS: u32 = 20;
+
+/// An estimate, and the error that it estimates.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// The scene.
+    pub scene: String,
+    /// Its tolerance.
+    pub tolerance: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Length of the mechanism, m.
+    pub length: f64,
+    /// The estimate of the largest error of a centre of mass, m.
+    pub estimate: f64,
+    /// That error, m.
+    pub error: f64,
+}
+
+impl Judged {
+    /// Whether the estimate is within a factor of three of the error.
+    pub fn is_good(&self) -> bool {
+        (1.0 / GOOD..=GOOD).contains(&(self.estimate / self.error))
+    }
+
+    /// Whether it is below a tenth of the error while it promises less than a hundredth of the length.
+    pub fn is_bad(&self) -> bool {
+        self.estimate < BAD * self.error && self.estimate < PROMISED * self.length
+    }
+}
+
+/// Judges the estimates of a scene's run, where it makes them and its errors can be measured.
+///
+/// # Errors
+///
+/// [`EngineError`]: the scene cannot start. A run that cannot go on is judged up to there.
+pub fn judge(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
+    let mut tight = scene.clone();
+    tight.simulation.tolerance = (scene.simulation.tolerance * TIGHTER).max(TIGHTEST);
+    tight.simulation.error_estimate = false;
+    let (mut run, mut truth) = (Simulation::new(scene)?, Simulation::new(&tight)?);
+    let length = run.system().length;
+    let mut judged = Vec::new();
+    for k in 1..=MOMENTS {
+        let time = run.duration() * f64::from(k) / f64::from(MOMENTS);
+        if run.advance_to(time).is_err() || truth.advance_to(time).is_err() {
+            break;
+        }
+        let Some(estimate) = run.error_estimate() else { break };
+        let error = apart(&run.frame(), &truth.frame());
+        if error > MEASURABLE * length && estimate.position < PROMISED * length {
+            let (scene, tolerance) = (scene.name.clone(), scene.simulation.tolerance);
+            judged.push(Judged { scene, tolerance, time, length, estimate: estimate.position, error });
+        }
+    }
+    Ok(judged)
+}
+
+/// Largest distance of a centre of mass.
+fn apart(a: &Frame, b: &Frame) -> f64 {
+    let pairs = a.bodies.iter().zip(&b.bodies);
+    let squares = pairs.map(|(a, b)| (0..3).map(|k| (a.position[k] - b.position[k]).powi(2)).sum::<f64>());
+    squares.fold(0.0, f64::max).sqrt()
+}
+
+/// The scenes that estimates are judged on: the catalogue, and the random mechanisms of the first seeds.
+pub fn scenes(seeds: u64) -> Vec<Scene> {
+    let names = [
+        "simple-pendulum",
+        "free-body",
+        "heavy-top",
+        "spatial-double-pendulum",
+        "n-four-bar:2",
+        "bricard",
+        "spatial-slider-crank",
+        "spatial-chain:5",
+    ];
+    let built_in = names.iter().filter_map(|name| catalogue::scene(name).ok());
+    built_in.chain((0..seeds).map(random::scene)).collect()
+}

@@ -1,0 +1,55 @@
+//! Error estimates hold what docs/ACCURACY.md promises, on a sample.
+
+use triad_engine::catalogue;
+use triad_engine::run::Simulation;
+use triad_lab::estimates::{Judged, judge, scenes};
+
+#[test]
+fn estimates_are_within_a_factor_of_three_of_the_error() {
+    let mut judged: Vec<Judged> = Vec::new();
+    for scene in &scenes(20) {
+        for tolerance in [1e-6, 1e-9] {
+            // A driver may ask for more than drawn loops allow.
+            judged.extend(judge(&scene.clone().tolerance(tolerance)).unwrap_or_default());
+        }
+    }
+    let good = judged.iter().filter(|one| one.is_good()).count();
+    assert!(judged.len() > 300 && 100 * good >= 95 * judged.len(), "{good} of {}", judged.len());
+    let bad: Vec<&Judged> = judged.iter().filter(|one| one.is_bad()).collect();
+    assert!(bad.is_empty(), "{bad:?}");
+}
+
+/// Two thousand seconds at a loose tolerance: the phase is lost long before the end, and the run says so.
+#[test]
+fn a_long_run_is_not_silent() {
+    let scene = catalogue::scene("simple-pendulum").unwrap().duration(2000.0).tolerance(1e-4);
+    let mut run = Simulation::new(&scene).unwrap();
+    run.advance_to(2000.0).unwrap();
+    let summary = run.summary();
+    assert_eq!(summary.doubts.len(), 1, "{:?}", summary.doubts);
+    assert!(summary.error.is_none_or(|error| error.position > 0.01));
+}
+
+/// The estimate changes nothing of the motion.
+#[test]
+fn a_run_without_it_has_the_same_bits() {
+    for name in ["n-four-bar:2", "bricard", "spatial-chain:5"] {
+        let scene = catalogue::scene(name).unwrap();
+        let mut without = scene.clone();
+        without.simulation.error_estimate = false;
+        let [mut a, mut b] = [&scene, &without].map(|scene| Simulation::new(scene).unwrap());
+        for k in 1..=10 {
+            a.advance_to(0.2 * f64::from(k)).unwrap();
+            b.advance_to(0.2 * f64::from(k)).unwrap();
+            let bits = |run: &Simulation| {
+                let all = run.q().iter().chain(run.q_dot());
+                all.map(|x| x.to_bits()).collect::<Vec<u64>>()
+            };
+            assert_eq!(bits(&a), bits(&b), "{name}");
+        }
+        let (mut a, b) = (a.summary(), b.summary());
+        assert!(a.error.is_some() && b.error.is_none());
+        a.error = None;
+        assert_eq!(a, b, "{name}");
+    }
+}
