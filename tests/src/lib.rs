@@ -5,13 +5,13 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::missing_panics_doc)]
 
 pub mod accuracy;
-pub mod options;
 pub mod probe;
 pub mod program;
 pub mod random;
 pub mod reference;
 pub mod reviewed;
 
+pub mod options;
 pub mod refusals;
 
 pub mod lecture;

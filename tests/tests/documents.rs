@@ -248,9 +248,10 @@ fn types_that_the_glossary_names_exist() {
         let stands = |kind: &str| {
             all.match_indices(&format!("{kind} {name}")).any(|(at, m)| ends(&all[at + m.len()..]))
         };
-        // A field, or what a macro declares: alone on its line.
-        let alone =
-            all.lines().any(|line| line.trim_end().strip_suffix(';').is_some_and(|line| line.trim() == name));
+        // A variant, or what a macro declares: alone on its line.
+        let alone = all.lines().map(str::trim).any(|line| {
+            line.strip_suffix(';').or_else(|| line.strip_suffix(" {")).is_some_and(|line| line == name)
+        });
         kinds.iter().any(|kind| stands(kind)) || alone || all.contains(&format!("pub {name}:"))
     };
     let glossary = fs::read_to_string(root().join("docs/GLOSSARY.md")).unwrap();

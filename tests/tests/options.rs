@@ -61,6 +61,7 @@ fn calls(scene: &Scene, folder: &Path, index: usize) -> Vec<Vec<String>> {
         }
     }
     add("modes", &["--at-start"]);
+    add("modes", &["--steady"]);
     add("assemble", &["--keep", body]);
     for (on, about, frame) in [("i", "center-of-mass", "joint"), ("i", "origin", "body")] {
         for command in ["reactions", "kinematics"] {
@@ -202,6 +203,7 @@ fn others(folder: &Path) -> Vec<Vec<String>> {
         &["sweep", "simple-pendulum", "--vary", "/bodies/7/mass=1:2:2"],
         &["scenes", "free-fall"],
         &["scenes", "--list"],
+        &["scenes", "--guide"],
         &["scenes", "free-fell"],
         &["schema", "scene"],
         &["import", &data("arm.urdf"), "--out", &file("arm.json")],

@@ -85,7 +85,7 @@ impl Watch for Unwatched {}
 /// let gravity = Variation::new(&scene, "/gravity/1", Values::Grid { from: -9.81, to: -1.62, count: 3 })?;
 /// let found = sweep(&SweepPlan { varied: vec![gravity], ..SweepPlan::new(scene) }, 2, &Unwatched)?;
 /// let angles: Vec<f64> = found.runs.iter().map(|run| run.result.as_ref().unwrap().outputs[0]).collect();
-/// assert!(angles[0] < angles[1] && angles[1] < angles[2], "{angles:?}");
+/// assert!(angles[0] > angles[1] && angles[1] > angles[2], "{angles:?}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn sweep(plan: &SweepPlan, threads: usize, watch: &impl Watch) -> Result<Sweep, SweepError> {

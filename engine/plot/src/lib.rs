@@ -56,8 +56,8 @@ impl Axis {
     /// use triad_plot::Axis;
     ///
     /// let axis = Axis::linear([0.0, 9.0, 3.0].into_iter());
-    /// assert_eq!(axis.decades, (0.0, 10.0));
-    /// assert_eq!(axis.ticks[1], (2.0, "2".to_owned()));
+    /// assert_eq!(axis.decades, (0.0, 9.0));
+    /// assert_eq!(axis.ticks[1], (1.0, "1".to_owned()));
     /// ```
     pub fn linear(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values

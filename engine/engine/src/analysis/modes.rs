@@ -83,6 +83,7 @@ pub struct Modes {
     /// The bodies that turn in those, and their axes.
     pub without_inertia: Vec<TurnsWithoutInertia>,
     /// The steady motion, if the modes are about one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadyMotion>,
     /// The bodies at that position.
     pub bodies: Vec<BodyFrame>,

@@ -52,7 +52,7 @@ enum Group {
 /// run.advance_to(0.5)?;
 /// let mut row = Vec::new();
 /// outputs.write(&run, &mut row);
-/// assert!(row[0] < -1.0 && row.len() == 3);
+/// assert!(row[0] > 1.0 && row.len() == 3);
 /// # Ok::<(), EngineError>(())
 /// ```
 #[derive(Clone, Debug)]
