@@ -61,14 +61,7 @@ impl Simulation {
     /// ```
     pub fn error_estimate(&self) -> Option<ErrorEstimate> {
         let now = self.error_at(self.time())?;
-        let mut found = self.compare(&now);
-        // An error that passes zero at this moment would say nothing of those before and after.
-        let last = self.integrator.last();
-        let before = self.compare(&self.error_at(last.t - last.h)?);
-        found.position = found.position.max(before.position);
-        found.turn = found.turn.max(before.turn);
-        found.velocity = found.velocity.max(before.velocity);
-        found.angular_velocity = found.angular_velocity.max(before.angular_velocity);
+        let found = self.compare(&now);
         Some(found)
     }
 

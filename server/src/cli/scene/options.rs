@@ -37,7 +37,7 @@ pub(in crate::cli) struct Run {
     /// Steps of one size, in seconds, instead of steps by the tolerance.
     #[arg(long, value_name = "S")]
     pub(super) step: Option<f64>,
-    /// Carry no estimate of the error along: the run takes up to a third less time.
+    /// Carry no estimate of the error along: docs/ACCURACY.md says what it costs.
     #[arg(long)]
     pub(super) no_estimate: bool,
     /// Estimate the error by a second solution, by another method or at a tighter tolerance.
