@@ -132,8 +132,7 @@ export const api = {
     question: string,
     answer: { value: NonNullable<Answer["value"]>; unit?: string },
     signal?: AbortSignal,
-  ) =>
-    call<Understood>("POST", `/lessons/${id(slug)}/questions/${id(question)}/reading`, answer, signal),
+  ) => call<Understood>("POST", `/lessons/${id(slug)}/questions/${id(question)}/reading`, answer, signal),
   statesUrl: (slug: string, question: string, seed?: string): string =>
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
   starterUrl: (slug: string, question: string, language: string): string =>

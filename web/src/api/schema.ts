@@ -185,6 +185,16 @@ export interface components {
                 number
             ];
         };
+        /** @description The spin of one body. */
+        BodySpin: {
+            /** @description The body. */
+            body: string;
+            /**
+             * Format: double
+             * @description Angular velocity in the frame, rad/s.
+             */
+            rate: number;
+        };
         /** @description A body at the session's time. */
         BodyState: {
             /** @description Acceleration of the centre of mass in the world, m/s². */
@@ -1330,7 +1340,7 @@ export interface components {
         /** @description The frame in which a force or a moment is given. */
         LoadFrame: "world" | "body";
         /** @description How one answer was judged. */
-        Mark: "right" | "wrong" | "blank" | "invalid";
+        Mark: "right" | "wrong" | "blank" | "invalid" | "waiting";
         /** @description A point of a body that has a name: tables, pictures and events know where it is. It has no influence on the motion. */
         Marker: {
             /** @description The body, or `ground`. */
@@ -1365,30 +1375,36 @@ export interface components {
             growth: number;
             /** @description What it does, in a word: `oscillates`, `decays`, `grows` or `drifts`. */
             kind: string;
-            /** @description The motion of each body, the largest displacement (or rotation times the mechanism's length) being one. */
+            /**
+             * @description The motion of each body. The component of displacement (m, or rad times the mechanism's length) with the largest amplitude, the
+             *     first of equal ones, is one now and zero a quarter of a period from now: this fixes size, sign and phase.
+             */
             shape: components["schemas"]["ModeShape"][];
         };
         /** @description The part of a mode that one body takes. */
         ModeShape: {
-            /** @description Rotation, rad. */
+            /** @description Rotation vector at that time, rad. */
             rotation: [
                 number,
                 number,
                 number
             ];
-            /** @description Rotation a quarter of a period later, rad. */
+            /** @description Rotation vector then, rad. */
             rotation_later: [
                 number,
                 number,
                 number
             ];
-            /** @description Displacement of the centre of mass, m; of a mode with damping, its part in phase. */
+            /**
+             * @description Displacement of the centre of mass at the time at which the largest of all is at its peak, m, in the world's axes or, about a
+             *     steady motion, along those of its frame.
+             */
             translation: [
                 number,
                 number,
                 number
             ];
-            /** @description Displacement a quarter of a period later, zero without damping, m. */
+            /** @description Displacement a quarter of a period later but for growth and decay, zero where all bodies move in phase, m. */
             translation_later: [
                 number,
                 number,
@@ -1404,13 +1420,22 @@ export interface components {
              * @description Degrees of freedom.
              */
             freedoms: number;
-            /** @description The modes, slowest first. */
+            /**
+             * Format: uint
+             * @description Degrees of freedom that have no inertia, and neither stiffness nor damping: they have no mode.
+             */
+            left_out: number;
+            /** @description The modes, slowest first; those without a frequency by their growth. */
             modes: components["schemas"]["Mode"][];
             /** @description What has to be known of the result. */
             notes: string[];
+            /** @description The steady motion, if the modes are about one. */
+            steady?: components["schemas"]["SteadyMotion"] | null;
+            /** @description The bodies that turn in those, and their axes. */
+            without_inertia: components["schemas"]["TurnsWithoutInertia"][];
         };
         /** @description The position about which the motion is linearized. */
-        ModesAbout: "equilibrium" | "start";
+        ModesAbout: "equilibrium" | "start" | "steady";
         /** @description The point about which moments are taken. */
         MomentPoint: "joint" | "center";
         /** @description A number as a function of time t: one of the kinds of motion, or a plain number, which is constant. */
@@ -1627,6 +1652,8 @@ export interface components {
                 number
             ] | null;
         };
+        /** @description A group of columns: bodies, frames, accelerations, reactions, drivers, joints, loads, markers, energy, balance, violations; of one element alone with its name behind a colon, like reactions:pin. */
+        Output: string;
         /** @description Settings that replace those of the scene. */
         Overrides: {
             /**
@@ -1891,6 +1918,8 @@ export interface components {
             asks_unit: boolean;
             /** @description Columns of the table besides `t` (trajectory). */
             columns?: components["schemas"]["TableColumn"][];
+            /** @description Names of a vector's components in the frame that is asked for. */
+            components?: string[];
             /** @description Earlier questions whose answer is carried through, right or wrong. */
             follows?: string[];
             /**
@@ -1949,7 +1978,7 @@ export interface components {
             reference_html?: string | null;
             /** @description The misconception that was recognised; for statistics and for the checks of authors. */
             slip?: string | null;
-            /** @description Right, wrong, blank or invalid. */
+            /** @description Right, wrong, blank, invalid, or waiting for an answer that is invalid. */
             verdict: components["schemas"]["Mark"];
         };
         /** @description The reaction of a joint or driver: what body `by` does to body `on` through it — eq. (9.1). */
@@ -2380,6 +2409,8 @@ export interface components {
              * @default 10
              */
             duration?: number;
+            /** @description Whether the run carries an estimate of the errors of its numbers along. */
+            error_estimate?: boolean;
             /**
              * Format: double
              * @description Interval of output, s.
@@ -2391,6 +2422,8 @@ export interface components {
              * @default auto
              */
             integrator?: components["schemas"]["IntegratorKind"];
+            /** @description What a table of the run holds besides the time. */
+            outputs?: components["schemas"]["Output"][];
             /** @description What is left out because nothing depends on it. */
             skip?: components["schemas"]["Skip"];
             /**
@@ -2568,6 +2601,23 @@ export interface components {
             /** @constant */
             kind: "augmented-lagrangian";
         };
+        /** @description A motion in which all bodies keep their places in a frame that turns and slides uniformly. */
+        SteadyMotion: {
+            /** @description Velocity of the frame at the world's origin, m/s. */
+            sliding: [
+                number,
+                number,
+                number
+            ];
+            /** @description Bodies that spin in it about an axis around which they are alike, and how fast, rad/s. */
+            spins: components["schemas"]["BodySpin"][];
+            /** @description Angular velocity of the frame, rad/s. */
+            turning: [
+                number,
+                number,
+                number
+            ];
+        };
         /** @description The four steps of a lesson. */
         StepKind: "predict" | "run" | "check" | "explain";
         /** @description How far to step: `steps` of the integrator or simulated `seconds`; one step if neither is given. */
@@ -2659,8 +2709,38 @@ export interface components {
             /** @description Integrators. */
             integrators: components["schemas"]["IntegratorKind"][];
         };
+        /** @description A body that can turn without inertia. */
+        TurnsWithoutInertia: {
+            /** @description Axes about which it can turn without moving anything that has inertia, unit vectors in the world's axes. */
+            axes: [
+                number,
+                number,
+                number
+            ][];
+            /** @description The body. */
+            body: string;
+        };
+        /** @description An answer to read. */
+        TypedAnswer: {
+            /**
+             * @description The unit of the value, as typed.
+             * @default null
+             */
+            unit?: string | null;
+            /** @description A number, a list of numbers, or a formula, as typed. */
+            value: components["schemas"]["TypedValue"];
+        };
         /** @description A value as typed: text keeps the digits that were written, a JSON number is taken as its shortest text. */
         TypedValue: string | number | unknown[];
+        /** @description How a typed answer is understood. */
+        Understood: {
+            /** @description The entries of a vector or a matrix that stood in one text, row by row. */
+            cells?: string[];
+            /** @description What to change so that it can be read. */
+            problem?: string | null;
+            /** @description The answer as it is read: `29.4 N`, `(1, 2, 3) kg m/s`, `m·g·cos(alpha)`. */
+            text?: string | null;
+        };
         /** @description A robot to be imported. */
         UrdfImport: {
             /** @description The text of the URDF. */

@@ -125,8 +125,7 @@ async function spread(
 ): Promise<void> {
   const read = await api.reading(slug, question.id, { value: text }).catch(() => undefined);
   const entries = read?.cells ?? [];
-  if (entries.length === cells.length)
-    for (const [k, cell] of cells.entries()) cell.value = entries[k] ?? "";
+  if (entries.length === cells.length) for (const [k, cell] of cells.entries()) cell.value = entries[k] ?? "";
   else {
     const cell = cells[at];
     cell?.setRangeText(text.trim(), cell.selectionStart ?? 0, cell.selectionEnd ?? 0, "end");
