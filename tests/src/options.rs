@@ -102,7 +102,7 @@ fn nothings(value: &Value, at: &str, faults: &mut Vec<String>) {
                 .for_each(|(k, inner)| nothings(inner, &format!("{at}/{k}"), faults));
         }
         Value::Object(map) => {
-            map.iter().for_each(|(key, inner)| nothings(inner, &format!("{at}/{key}"), faults))
+            map.iter().for_each(|(key, inner)| nothings(inner, &format!("{at}/{key}"), faults));
         }
         Value::String(text)
             if ["NaN", "inf"].iter().any(|none| text.split_whitespace().any(|word| word == *none)) =>

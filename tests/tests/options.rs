@@ -166,6 +166,7 @@ fn every_option_of_the_help_has_a_case() {
 }
 
 /// Calls that are not about one scene each.
+#[allow(clippy::too_many_lines, reason = "a list")]
 fn others(folder: &Path) -> Vec<Vec<String>> {
     let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let data = |name: &str| root().join("tests/data").join(name).to_string_lossy().into_owned();

@@ -235,6 +235,7 @@ fn constraints_that_cannot_be_satisfied() {
 }
 
 #[test]
+#[allow(clippy::too_many_lines, reason = "a list")]
 fn runs_that_cannot_go_on() {
     let mut met = Refusals::new(variants!(
         EngineError: Scene, Catalogue, Model, Uniqueness, Constraint, CustomLoad, StepTooSmall, Diverged, NoConvergence, Stalled,

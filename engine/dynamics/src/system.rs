@@ -263,6 +263,7 @@ impl System {
 
     /// The same joints with bodies of mass one, and the arm of their joints as radius of gyration about every axis: a measure of
     /// lengths in which rank is decided — eq. (8.2).
+    #[must_use]
     pub fn in_lengths(&self) -> Self {
         let mut system = self.clone();
         for (body, arm) in system.bodies.iter_mut().zip(self.arms()) {

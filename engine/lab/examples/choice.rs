@@ -99,13 +99,13 @@ fn sweep(name: &str, scene: &Scene) -> Vec<f64> {
     };
     let mut runs = Vec::new();
     for exponent in TOLERANCES {
-        let tolerance = 10f64.powi(-exponent);
+        let tolerance = libm::pow(10.0, -f64::from(exponent));
         runs.extend(KINDS.iter().filter_map(|kind| measure(scene, *kind, tolerance, &exact)));
     }
     println!("{name}");
     let mut ratios = Vec::new();
     for exponent in TOLERANCES {
-        let tolerance = 10f64.powi(-exponent);
+        let tolerance = libm::pow(10.0, -f64::from(exponent));
         print!("  {tolerance:.0e}");
         for run in runs.iter().filter(|run| run.tolerance == tolerance) {
             print!(" | {} {:.2} ms {:.0e} {}", run.kind, 1e3 * run.seconds, run.error, run.steps);
@@ -159,8 +159,9 @@ fn places(scene: &Scene, kind: IntegratorKind, tolerance: f64, most: f64) -> Opt
 fn measure(scene: &Scene, kind: IntegratorKind, tolerance: f64, exact: &[f64]) -> Option<Run> {
     let found = places(scene, kind, tolerance, TOO_LONG)?;
     let apart = found.chunks_exact(3).zip(exact.chunks_exact(3));
-    let error =
-        apart.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max);
+    let error = apart
+        .map(|(a, b)| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt())
+        .fold(0.0, f64::max);
     let start = Simulation::new(&with(scene, kind, tolerance)).ok()?;
     let (mut seconds, mut count, mut steps) = (0.0, 0, String::new());
     while seconds < MEASURED {

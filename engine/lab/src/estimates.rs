@@ -80,7 +80,9 @@ pub fn judge(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
 /// Largest distance of a centre of mass.
 fn apart(a: &Frame, b: &Frame) -> f64 {
     let pairs = a.bodies.iter().zip(&b.bodies);
-    let squares = pairs.map(|(a, b)| (0..3).map(|k| (a.position[k] - b.position[k]).powi(2)).sum::<f64>());
+    let squares = pairs.map(|(a, b)| {
+        (0..3).map(|k| (a.position[k] - b.position[k]) * (a.position[k] - b.position[k])).sum::<f64>()
+    });
     squares.fold(0.0, f64::max).sqrt()
 }
 

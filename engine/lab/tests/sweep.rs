@@ -73,7 +73,7 @@ fn drawn_numbers_have_their_distribution_and_their_seed() {
     let moments = |place: usize| {
         let values: Vec<f64> = (0..plan.samples).map(|index| plan.values(index)[place]).collect();
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let square = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / values.len() as f64;
+        let square = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / values.len() as f64;
         (mean, square.sqrt())
     };
     // Four times the standard errors.
@@ -90,8 +90,11 @@ fn drawn_numbers_have_their_distribution_and_their_seed() {
 fn a_run_that_cannot_be_is_listed_and_ends_nothing_else() {
     let masses = Values::Grid { from: -1.0, to: 1.0, count: 5 };
     let found = sweep(&plan(&[("/bodies/0/mass", masses)], 1), 2, &Unwatched).unwrap();
-    let codes: Vec<&str> =
-        found.runs.iter().map(|run| run.result.as_ref().map_or_else(|error| error.code(), |_| "")).collect();
+    let codes: Vec<&str> = found
+        .runs
+        .iter()
+        .map(|run| run.result.as_ref().map_or_else(triad_engine::EngineError::code, |_| ""))
+        .collect();
     assert_eq!(codes, ["mass-not-positive", "mass-not-positive", "mass-not-positive", "", ""]);
 }
 

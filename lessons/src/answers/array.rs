@@ -73,24 +73,24 @@ fn unnamed(plain: &str) -> String {
             text = text[at + 1..].trim();
         }
     }
-    let mut text = text.trim_end_matches(['.', ';']).to_owned();
+    let mut text = text.trim_end_matches(['.', ';']);
     for transposed in ["^T", "^(T)", "^t", "'", ".T", ".transpose()", "^ top", "^(top)"] {
         if let Some(before) =
             text.strip_suffix(transposed).filter(|before| before.trim_end().ends_with([']', ')', '>']))
         {
-            text = before.trim().to_owned();
+            text = before.trim();
         }
     }
     for name in NAMES {
         if let Some(rest) =
             text.strip_prefix(name).filter(|rest| rest.trim_start().starts_with(['(', '[', '{']))
         {
-            text = rest.trim().to_owned();
+            text = rest.trim();
         }
     }
     match text.find("dtype") {
         Some(at) => text[..at].trim_end().trim_end_matches(',').to_owned() + ")",
-        None => text,
+        None => text.to_owned(),
     }
 }
 
@@ -107,7 +107,7 @@ fn around(plain: &str) -> (String, String) {
         let is_unit =
             behind.starts_with(|c: char| c.is_alphabetic() || "°%".contains(c)) || behind.starts_with("1/");
         if is_unit {
-            unit = behind.to_owned();
+            behind.clone_into(&mut unit);
             text = &text[..=end];
             // `(1, 2, 3) (N m)` and `(1, 2, 3) kg/(m s)` end with a bracket of the unit, which is found below.
         } else if behind.is_empty()
@@ -162,7 +162,8 @@ fn matrix(inner: &str, rows: usize, columns: usize) -> Option<Vec<String>> {
 
 /// Exactly so many entries, separated by the first sign that gives them.
 fn flat(text: &str, wanted: usize) -> Option<Vec<String>> {
-    let separators: [&dyn Fn(&str) -> Vec<String>; 5] = [
+    type Separate<'a> = &'a dyn Fn(&str) -> Vec<String>;
+    let separators: [Separate; 5] = [
         &|text| pieces(text.split([';', '&', '|', '\n'])),
         &|text| pieces(text.split(", ")),
         &|text| pieces(text.split([',', '\n'])),

@@ -168,7 +168,7 @@ fn digits(cursor: &mut Cursor) -> String {
         if !group {
             return digits;
         }
-        cursor.next();
+        cursor.take_next();
     }
 }
 

@@ -14,9 +14,8 @@ pub(crate) fn choice(
     right: &str,
     answer: &Answer,
 ) -> Result<Judgement, InvalidClosed> {
-    let text = match (&answer.choice, &answer.value) {
-        (Some(text), _) | (None, Some(TypedValue::Text(text))) => text,
-        _ => return Err(InvalidClosed::NoOption),
+    let ((Some(text), _) | (None, Some(TypedValue::Text(text)))) = (&answer.choice, &answer.value) else {
+        return Err(InvalidClosed::NoOption);
     };
     let id = id(text);
     let option = options.iter().find(|o| o.id.to_lowercase() == id).ok_or_else(|| {

@@ -50,9 +50,12 @@ pub(super) fn read(question: &QuantityQuestion, answer: &Answer) -> Result<Readi
         let text = if own.is_empty() { behind_all } else { own };
         entries.push(Entry { number: *number, unit: unit(question, text)? });
     }
-    let factor = |entry: &Entry| match entry.unit.dimension == question.unit.dimension {
-        true => entry.unit.factor / question.unit.factor,
-        false => 1.0,
+    let factor = |entry: &Entry| {
+        if entry.unit.dimension == question.unit.dimension {
+            entry.unit.factor / question.unit.factor
+        } else {
+            1.0
+        }
     };
     Ok(Reading {
         values: entries.iter().map(|e| e.number.value * factor(e)).collect(),
@@ -227,10 +230,7 @@ pub(crate) fn understood(question: &Question, answer: &Answer) -> Option<Result<
 /// The entries of a vector or a matrix that stands in one text, each with the unit that is behind all of them.
 pub(super) fn cells(question: &Question, answer: &Answer) -> Vec<String> {
     let QuestionBody::Quantity(body) = &question.body else { return Vec::new() };
-    let text = match &answer.value {
-        Some(TypedValue::Text(text)) => text,
-        _ => return Vec::new(),
-    };
+    let Some(TypedValue::Text(text)) = &answer.value else { return Vec::new() };
     let [rows, columns] = body.size;
     let Some(cells) = array::cells(text, rows, columns).filter(|_| body.shape != ValueShape::Number) else {
         return Vec::new();

@@ -100,7 +100,9 @@ fn judge_all() -> BTreeMap<String, Count> {
     let mut add = |kind: &str, ways: &Ways, judge: &dyn Fn(&str) -> Result<Judgement, String>| {
         for (cause, texts) in ways {
             let count = counts.entry(format!("{kind}, {cause}")).or_default();
-            texts.iter().for_each(|text| count.add(text, judge(text)));
+            for text in texts {
+                count.add(text, judge(text));
+            }
         }
     };
     let quantity = |question: QuantityQuestion| {

@@ -1,5 +1,7 @@
 //! Degrees of freedom and redundant rows, which every command must count alike, whatever the bodies weigh.
 
+#![allow(clippy::unwrap_used, reason = "tests may panic, and write numbers as they were computed elsewhere")]
+
 use triad_engine::analysis::check::check;
 use triad_engine::analysis::{ModesAbout, modes};
 use triad_engine::reactions::report::Convention;
@@ -12,18 +14,18 @@ fn four_bar(crank: f64, axial: f64, coordinates: Coordinates) -> Scene {
 }
 
 fn with_coupler(coupler: f64, crank: f64, axial: f64, coordinates: Coordinates) -> Scene {
-    let (a, d) = ([crank.cos(), crank.sin()], [2.0, 0.0]);
+    let (a, d) = ([libm::cos(crank), libm::sin(crank)], [2.0, 0.0]);
     // B is the length of the coupler away from A, and 1 m from D.
     let between = [d[0] - a[0], d[1] - a[1]];
-    let distance = f64::hypot(between[0], between[1]);
-    let along = (coupler.powi(2) - 1.0 + distance * distance) / (2.0 * distance);
-    let across = (coupler.powi(2) - along * along).max(0.0).sqrt();
+    let distance = libm::hypot(between[0], between[1]);
+    let along = (coupler * coupler - 1.0 + distance * distance) / (2.0 * distance);
+    let across = (coupler * coupler - along * along).max(0.0).sqrt();
     let unit = between.map(|x| x / distance);
     let b = [a[0] + along * unit[0] - across * unit[1], a[1] + along * unit[1] + across * unit[0]];
     let link = |name: &str, from: [f64; 2], to: [f64; 2]| {
-        let length = f64::hypot(to[0] - from[0], to[1] - from[1]);
+        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         let [x, y] = [0, 1].map(|k| (to[k] - from[k]) / length);
-        let (half, moment) = (length / 2.0, length.powi(3) / 12.0);
+        let (half, moment) = (length / 2.0, length * length * length / 12.0);
         format!(
             r#"{{"name": "{name}", "mass": {length}, "inertia": {{"principal": [{axial}, {moment}, {moment}]}},
               "position": [{}, {}, 0], "orientation": {{"u": [{x}, {y}, 0], "v": [{}, {x}, 0]}}, "center_of_mass": [{half}, 0, 0]}}"#,

@@ -28,7 +28,7 @@ impl Cursor {
     }
 
     /// Takes the next character.
-    pub fn next(&mut self) -> Option<char> {
+    pub fn take_next(&mut self) -> Option<char> {
         let c = self.peek()?;
         self.at += 1;
         Some(c)
@@ -59,7 +59,7 @@ impl Cursor {
             && self.peek_at(1 + signed).is_some_and(|c| c.is_ascii_digit());
         if exponent {
             for _ in 0..=signed {
-                text.extend(self.next());
+                text.extend(self.take_next());
             }
             text += &self.take_while(usize::MAX, |c| c.is_ascii_digit());
         }

@@ -245,14 +245,13 @@ impl<'a> Parser<'a> {
         if let Some(function) = Named::of(name) {
             return Some(vec![Piece::Function(function)]);
         }
-        let ends = name.char_indices().map(|(k, c)| k + c.len_utf8()).rev();
-        ends.filter_map(|end| {
+        let mut ends = name.char_indices().map(|(k, c)| k + c.len_utf8()).rev();
+        ends.find_map(|end| {
             let node = self.known(&name[..end], depth)?;
             let mut rest = self.pieces(name[end..].trim_start_matches('_'), depth)?;
             rest.insert(0, Piece::Value(node));
             Some(rest)
         })
-        .next()
     }
 
     /// A product of names that stood together; a power or a bracket behind them belongs to the last.

@@ -18,10 +18,13 @@ pub(super) struct Placed {
     pub end: usize,
 }
 
+/// Tokens, the first strange character, and whether a number has decimals.
+type Tokens = (Vec<Placed>, Option<(usize, char)>, bool);
+
 /// The tokens up to the first character that belongs into no formula, and that character's place if there is one.
 ///
 /// Errors at a number such as `1.2.3`.
-pub(super) fn tokens(plain: &str) -> Result<(Vec<Placed>, Option<(usize, char)>, bool), ExpressionError> {
+pub(super) fn tokens(plain: &str) -> Result<Tokens, ExpressionError> {
     // A comma separates the arguments of a function of two, else it is a decimal sign.
     let lower = plain.to_lowercase();
     let separates = ["pow", "atan2", "arctan2"].iter().any(|name| lower.contains(name));
@@ -30,7 +33,7 @@ pub(super) fn tokens(plain: &str) -> Result<(Vec<Placed>, Option<(usize, char)>,
     while let Some(c) = cursor.peek() {
         let start = cursor.position();
         let token = if c.is_whitespace() {
-            cursor.next();
+            cursor.take_next();
             continue;
         } else if c.is_ascii_digit() || c == '.' {
             let (value, with_decimals) = number(&mut cursor, separates)?;
@@ -46,7 +49,7 @@ pub(super) fn tokens(plain: &str) -> Result<(Vec<Placed>, Option<(usize, char)>,
                 ',' if separates => c,
                 _ => return Ok((found, Some((start, c)), decimals)),
             };
-            cursor.next();
+            cursor.take_next();
             let power = c == '*' && cursor.take(&['*']).is_some();
             Token::Sign(if power { '^' } else { sign })
         };
@@ -61,7 +64,7 @@ fn number(cursor: &mut Cursor, separates: bool) -> Result<(f64, bool), Expressio
     let mut text = cursor.take_number();
     let comma = cursor.peek() == Some(',') && cursor.peek_at(1).is_some_and(|c| c.is_ascii_digit());
     if comma && !separates && !text.contains('.') {
-        cursor.next();
+        cursor.take_next();
         text = format!("{text}.{}", cursor.take_number());
     }
     let value = text.parse().map_err(|_| ExpressionError::Syntax {

@@ -67,7 +67,7 @@ fn tokenize(text: &str) -> Result<Vec<Token>, UnitError> {
             }
             continue;
         }
-        cursor.next();
+        cursor.take_next();
         match c {
             ' ' => {}
             '*' if cursor.take(&['*']).is_some() => tokens.push(power(&mut cursor)?),

@@ -103,7 +103,7 @@ fn accuracy(scene: &Scene, s: &Summary, reactions: Option<ReactionErrors>) -> St
         error.position, error.velocity
     );
     if let Some(reactions) = reactions.filter(|reactions| reactions.largest_force > 0.0) {
-        line += &format!(", reactions to {:.0e} of the largest", reactions.relative());
+        line.extend([", reactions to ", &format!("{:.0e}", reactions.relative()), " of the largest"]);
     }
     line
 }

@@ -184,7 +184,8 @@ impl Stages {
         factors.solve_real(jacobian, tables, &mut self.real);
         for i in 0..n {
             self.w[0][i] += self.real[i];
-            sum += (self.real[i] / weight(i)).powi(2);
+            let part = self.real[i] / weight(i);
+            sum += part * part;
         }
         for (pair, eigenvalue) in tables.pairs.iter().enumerate() {
             let (k, mu) = (1 + 2 * pair, eigenvalue / h);
@@ -196,7 +197,7 @@ impl Stages {
             for i in 0..n {
                 self.w[k][i] += self.pair[i].re;
                 self.w[k + 1][i] += self.pair[i].im;
-                sum += self.pair[i].norm_sqr() / weight(i).powi(2);
+                sum += self.pair[i].norm_sqr() / (weight(i) * weight(i));
             }
         }
         let t = &self.method.t;

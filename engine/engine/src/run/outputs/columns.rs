@@ -62,15 +62,17 @@ impl Outputs {
                 self.vectors(name, &[("p", "m"), ("v_p", "m/s")], "p: position of a marker; v_p: its velocity.");
             }
             Group::Energy => self.column("energy".to_owned(), "J"),
-            Group::Balance => {
-                for name in ["kinetic_energy", "potential_energy", "work", "energy_drift"] {
-                    self.column(name.to_owned(), "J");
-                }
-            }
+            Group::Balance => self.balance(),
             Group::Violations => {
                 self.column("position_violation".to_owned(), "m");
                 self.column("velocity_violation".to_owned(), "m/s");
             }
+        }
+    }
+
+    fn balance(&mut self) {
+        for name in ["kinetic_energy", "potential_energy", "work", "energy_drift"] {
+            self.column(name.to_owned(), "J");
         }
     }
 
@@ -130,7 +132,7 @@ impl Outputs {
         match load.kind {
             LoadKind::Force { .. } => self.vectors(name, &[("f", "N")], "f of a load: force in the world."),
             LoadKind::Moment { .. } => {
-                self.vectors(name, &[("m", "N m")], "m of a load: moment in the world.")
+                self.vectors(name, &[("m", "N m")], "m of a load: moment in the world.");
             }
             LoadKind::Spring { .. } => {
                 self.scalars(name, "length", ["m", "m/s"], ("force", "N"));

@@ -87,9 +87,9 @@ impl Reader {
                     // A subscript is part of the name; a typeface or a unit needs no brackets.
                     let bare = out.ends_with(['_', ' ']) || out.is_empty();
                     if bare && !inner.contains(['+', '-']) {
-                        out += &inner
+                        out += &inner;
                     } else {
-                        out += &format!("({inner})")
+                        out.extend(["(", &inner, ")"]);
                     }
                 }
                 '~' => out.push(' '),

@@ -41,7 +41,7 @@ pub(super) fn plain(text: &str) -> String {
             word(&mut out, &name, chars.get(k).copied());
         } else if let Some((_, fraction)) = FRACTIONS.iter().find(|(sign, _)| *sign == c) {
             let whole = out.ends_with(|c: char| c.is_ascii_digit());
-            out += &format!("{}({fraction})", if whole { "+" } else { "" });
+            out.extend([if whole { "+" } else { "" }, "(", fraction, ")"]);
         } else if c == '√' || c == '∛' {
             k += root(&mut out, if c == '√' { "sqrt" } else { "cbrt" }, &chars[k..]);
         } else {
@@ -76,7 +76,7 @@ fn root(out: &mut String, name: &str, after: &[char]) -> usize {
     let number = after[spaces..].iter().take_while(|c| c.is_ascii_digit() || **c == '.').count();
     let taken = if number > 0 { number } else { usize::from(after.len() > spaces) };
     let inner: String = after[spaces..spaces + taken].iter().collect();
-    *out += &format!("({})", plain(&inner));
+    out.extend(["(", &plain(&inner), ")"]);
     spaces + taken
 }
 
