@@ -55,6 +55,8 @@ struct Kept<const L: usize, B: Bodies<L>> {
     changed: Vec<[B::Natural; 2]>,
     first: Vec<([B::Natural; 3], B::Directors)>,
     multipliers: Vec<f64>,
+    /// Directions across common vectors, in which their multipliers are expanded.
+    across: Vec<[[f64; 3]; 2]>,
 }
 
 /// x + s y.
@@ -147,6 +149,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             changed: nothing.clone(),
             first: vec![([B::zero(); 3], B::no_directors()); count],
             multipliers: vec![0.0; series.correction.len()],
+            across: series.rows.commons.iter().map(|common| common.expanded).collect(),
         };
         let twin = Series { probe: None, ..series.clone() };
         Self {
@@ -294,6 +297,9 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         }
         let rows = self.kept.multipliers.len();
         self.kept.multipliers.copy_from_slice(&series.lambda[..rows]);
+        for (kept, common) in self.kept.across.iter_mut().zip(&series.rows.commons) {
+            *kept = common.expanded;
+        }
     }
 
     fn restore(&self, series: &mut Series<L, B>) {
@@ -303,6 +309,9 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             series.p[at] = *p;
         }
         series.lambda[..self.kept.multipliers.len()].copy_from_slice(&self.kept.multipliers);
+        for (common, kept) in series.rows.commons.iter_mut().zip(&self.kept.across) {
+            common.expanded = *kept;
+        }
     }
 
     /// Makes the error at the end of the step one that the constraints allow: x − e is moved onto them.
