@@ -60,6 +60,7 @@ fn calls(scene: &Scene, folder: &Path, index: usize) -> Vec<Vec<String>> {
             add("run", &["--coordinates", &coordinates, "--integrator", integrator]);
         }
     }
+    add("run", &["--no-estimate"]);
     add("modes", &["--at-start"]);
     add("modes", &["--steady"]);
     add("assemble", &["--keep", body]);
