@@ -49,8 +49,10 @@ pub struct Summary {
     #[serde(rename = "passages")]
     pub singularities: Vec<SingularConfiguration>,
     /// Estimated errors of the current state, where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorEstimate>,
     /// From when on they are not known, s: they have grown beyond what can be called small.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub error_unknown_from: Option<f64>,
     /// What speaks against the result, in words, with what to use instead.
     pub doubts: Vec<String>,
