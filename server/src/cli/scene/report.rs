@@ -36,11 +36,10 @@ pub(super) fn report(
     notes.extend(options.source.notes(scene, summary.integrator == IntegratorKind::Taylor));
     let left_out = options.explain.then(|| simulation.left_out());
     if json {
-        print_json(&json!({
+        let mut document = json!({
             "scene": scene.name,
             "settings": scene.simulation,
             "summary": summary,
-            "reaction_errors": reactions,
             "events": simulation.events(),
             "notes": notes,
             "left_out": left_out,
@@ -48,7 +47,11 @@ pub(super) fn report(
             "seconds": clock,
             "repeat": { "engine": VERSION, "fingerprint": scene.fingerprint() },
             "stopped": stopped.map(Problem::document),
-        }));
+        });
+        if let Some(reactions) = reactions {
+            document["reaction_errors"] = json!(reactions);
+        }
+        print_json(&document);
         return;
     }
     // A table on standard output must stay a table.
