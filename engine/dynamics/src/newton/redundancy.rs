@@ -33,7 +33,7 @@ pub fn find_dependent_rows(on: &mut impl Movable, length: f64) -> Vec<SolverRow>
     on.dependent_rows(DEPENDENT)
 }
 
-/// Moves a consistent state by the part [`AWAY`] of the mechanism's length along an admissible velocity without symmetry,
+/// Moves a consistent state by the part `AWAY` of the mechanism's length along an admissible velocity without symmetry,
 /// Φ_q q̇ = 0, and back onto Φ = 0; it stays where it is if nothing can move, or if Newton's method does not find back.
 pub fn move_away(on: &mut impl Movable, length: f64) {
     let mut start = Vec::new();
