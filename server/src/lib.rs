@@ -28,6 +28,8 @@ pub mod reports;
 
 pub mod api;
 
+mod listen;
+
 pub mod cli;
 
 use problem::Problem;

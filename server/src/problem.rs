@@ -161,11 +161,16 @@ impl IntoResponse for Problem {
 pub fn near_matches<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut scored: Vec<(f64, &str)> = known
         .into_iter()
-        .map(|name| (strsim::jaro_winkler(&wanted.to_lowercase(), &name.to_lowercase()), name))
+        .map(|name| (strsim::jaro_winkler(&start(wanted), &start(name)), name))
         .filter(|(score, _)| *score > 0.72)
         .collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
     scored.into_iter().take(3).map(|(_, name)| name).collect()
+}
+
+/// What of a name is compared with others: comparing takes the product of both lengths.
+fn start(name: &str) -> String {
+    name.chars().take(64).flat_map(char::to_lowercase).collect()
 }
 
 /// “did you mean …?” if anything is near, else a list of everything that is known.

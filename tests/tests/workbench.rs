@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use serde_json::{Value, json};
+use std::io::Write;
+use std::net::TcpStream;
 use std::time::Instant;
 use triad_tests::program::{HANG, Server, run, run_json};
 use triad_tests::reference::distance;
@@ -227,4 +229,20 @@ fn help_teaches_with_examples() {
         assert!(output.status.success());
         assert!(String::from_utf8_lossy(&output.stdout).contains(example), "{arguments:?}");
     }
+}
+
+#[test]
+fn connections_that_say_nothing_cost_little_and_do_not_keep_the_server_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    server.get("/api/v1/health").json();
+    let before = server.memory();
+    let mut silent: Vec<TcpStream> = (0..400).map(|_| TcpStream::connect(&server.address).unwrap()).collect();
+    server.get("/api/v1/health").json();
+    let cost = (server.memory() - before) / 400.0;
+    // 1.5 MB was the cost of a router of its own for each.
+    assert!(cost < 0.1, "{cost} MB a connection");
+    silent[0].write_all(b"GET / HTTP/1.1\r\nHost: x\r\n").unwrap();
+    silent[1].write_all(b"POST /api/v1/sessions HTTP/1.1\r\nHost: x\r\ncontent-length: 9\r\n\r\n{").unwrap();
+    server.stop(); // or fails, if it does not end
 }

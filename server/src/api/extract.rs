@@ -1,13 +1,19 @@
 //! Reading requests, with errors that name the place.
 
+use std::time::Duration;
+
 use axum::extract::rejection::{BytesRejection, PathRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::request::Parts;
 use axum::http::{StatusCode, header};
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
+use tokio::time::timeout;
 
 use crate::problem::Problem;
+
+/// How long a body may take to arrive: eight megabytes over a slow line.
+const BODY_TIME: Duration = Duration::from_mins(1);
 
 /// A request body in JSON. A missing body is read as `{}` where everything in it is optional.
 #[derive(Debug)]
@@ -23,9 +29,8 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Json<T> {
             essence == "application/json" || essence.ends_with("+json")
         });
         let stated = media.unwrap_or("nothing").to_owned();
-        let bytes = axum::body::Bytes::from_request(request, state)
-            .await
-            .map_err(|rejection| unreadable_body(&rejection))?;
+        let body = timeout(BODY_TIME, axum::body::Bytes::from_request(request, state));
+        let bytes = body.await.map_err(|_| late_body())?.map_err(|rejection| unreadable_body(&rejection))?;
         if !is_json || (stated == "nothing" && !bytes.is_empty()) {
             return Err(Problem::new(
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -86,6 +91,15 @@ fn invalid(pointer: &str, error: &serde_json::Error) -> Problem {
     };
     Problem::new(status, code, format!("the body could not be read: {error}"), hint)
         .at(pointer, error.to_string())
+}
+
+fn late_body() -> Problem {
+    Problem::new(
+        StatusCode::REQUEST_TIMEOUT,
+        "late-body",
+        format!("the body did not arrive within {} s", BODY_TIME.as_secs()),
+        "send the request again, over a better line",
+    )
 }
 
 fn unreadable_body(rejection: &BytesRejection) -> Problem {

@@ -12,6 +12,7 @@ mod sessions;
 use std::time::Duration;
 
 use axum::Router;
+use axum::body::Bytes;
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
@@ -85,9 +86,13 @@ pub fn openapi() -> Value {
 /// The whole server: page, interface and streams on one port.
 pub fn router(app: App) -> Router {
     let (routes, document) = described();
+    let document = Bytes::from(document.to_string());
     let limit = app.limits.request_bytes;
     routes
-        .route("/api/openapi.json", get(move || async move { axum::Json(document) }))
+        .route(
+            "/api/openapi.json",
+            get(move || async move { ([(header::CONTENT_TYPE, "application/json")], document) }),
+        )
         .route("/api/{*rest}", axum::routing::any(unknown_address))
         .route("/bench", get(reports::bench))
         .route("/stress", get(reports::stress))

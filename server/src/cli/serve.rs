@@ -70,8 +70,10 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
     let app = App::new(course, store, limits).with_reports(&options.reports);
     let runtime =
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
-    runtime.block_on(listen(options, app))?;
-    Ok(Outcome::Done)
+    let served = runtime.block_on(listen(options, app));
+    // What still computes for callers that are gone is not waited for.
+    runtime.shutdown_background();
+    served.map(|()| Outcome::Done)
 }
 
 async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
@@ -92,13 +94,13 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     print_line(&format!("Submissions are kept in {}", options.database.display()));
     tokio::spawn(crate::api::keep_house(app.clone()));
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
-    let stop = async move {
-        stopped().await;
-        // Open streams end with their sessions; otherwise they would keep the server up.
+    // Open streams end with their sessions; otherwise they would keep the server up.
+    let ending = move || {
         lectures.clear();
         sessions.clear();
     };
-    axum::serve(listener, crate::app(app)).with_graceful_shutdown(stop).await.map_err(Problem::internal)
+    crate::listen::serve(listener, crate::app(app), stopped, ending).await;
+    Ok(())
 }
 
 /// Waits for Ctrl-C, or for the system's request to end.

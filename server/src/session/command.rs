@@ -1,7 +1,7 @@
 //! The commands of a session's thread.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use tokio::sync::oneshot;
 use triad_engine::run::StateView;
@@ -42,14 +42,44 @@ pub(super) enum Command {
 /// Where an answer goes; the caller may have left.
 pub(super) type ReplySender<T> = oneshot::Sender<Result<T, Problem>>;
 
+/// Where an answer comes from.
+pub(super) type Reply<T> = oneshot::Receiver<Result<T, Problem>>;
+
 /// Reads from the state of the time that was asked for, or learns why it cannot.
 pub(super) type Query = Box<dyn FnOnce(Result<StateView<'_>, Problem>) + Send>;
 
-/// Flags that reach a worker while it is busy.
+/// What reaches a worker while it is busy.
 #[derive(Debug, Default)]
 pub(super) struct Signals {
-    /// The next command is urgent: what is under way ends.
-    pub interrupt: AtomicBool,
+    /// Commands that wait and are urgent: what is under way ends, and what waits before them is not begun.
+    urgent: AtomicUsize,
     /// The session is closed.
-    pub closed: AtomicBool,
+    closed: AtomicBool,
+}
+
+impl Signals {
+    /// An urgent command is on its way.
+    pub(super) fn hurry(&self) {
+        self.urgent.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// An urgent command is begun, or could not be sent.
+    pub(super) fn obeyed(&self) {
+        self.urgent.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    /// Ends the session.
+    pub(super) fn close(&self) {
+        self.closed.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the session has ended.
+    pub(super) fn closed(&self) -> bool {
+        self.closed.load(Ordering::Relaxed)
+    }
+
+    /// Whether what is under way is to end.
+    pub(super) fn interrupted(&self) -> bool {
+        self.closed() || self.urgent.load(Ordering::Relaxed) > 0
+    }
 }

@@ -13,7 +13,6 @@ pub(crate) use recording::{describe, sample};
 pub use registry::{Registry, bounded};
 pub use state::{Drawing, Links, SceneSource, SessionBody, SessionState};
 
-use std::sync::atomic::Ordering;
 use std::sync::mpsc;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -29,7 +28,7 @@ use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::stream::{Arrows, Camera, Hub, Watcher};
 use change::as_it_runs;
-use command::{Command, ReplySender, Signals};
+use command::{Command, Reply, ReplySender, Signals};
 use history::History;
 use recording::Recording;
 use worker::Worker;
@@ -66,9 +65,10 @@ impl Session {
             (scene, simulation)
         };
         let id = uuid::Uuid::new_v4().simple().to_string();
-        let hub = Arc::new(Hub::default());
+        // Samples take half of the bound, their encoded form and the states a quarter each.
+        let hub = Arc::new(Hub::new(limits.recording_bytes / 4));
         let mut recording =
-            Recording::new(&id, describe(&scene, &simulation), Arc::clone(&hub), limits.recording_bytes);
+            Recording::new(&id, describe(&scene, &simulation), Arc::clone(&hub), limits.recording_bytes / 2);
         recording.record(&simulation)?;
         let mut history = History::new(limits.recording_bytes / 4);
         history.keep(&simulation);
@@ -138,16 +138,14 @@ impl Session {
     ///
     /// Errors if the session is busy or closed.
     pub async fn pause(&self) -> Result<Arc<SessionState>, Problem> {
-        self.signals.interrupt.store(true, Ordering::Relaxed);
-        self.ask(Command::Pause).await
+        self.ask_urgently(Command::Pause).await
     }
 
     /// Goes back to the start and begins another recording.
     ///
     /// Errors if the scene cannot be assembled again, or the session is busy or closed.
     pub async fn reset(&self) -> Result<Arc<SessionState>, Problem> {
-        self.signals.interrupt.store(true, Ordering::Relaxed);
-        self.ask(Command::Reset).await
+        self.ask_urgently(Command::Reset).await
     }
 
     /// Changes numbers of the scene; the run starts over or goes on.
@@ -208,6 +206,17 @@ impl Session {
     }
 
     async fn ask<T>(&self, command: impl FnOnce(ReplySender<T>) -> Command) -> Result<T, Problem> {
+        self.send(command)?.await.map_err(|_| gone())?
+    }
+
+    /// Asks for what must not wait: it ends what is under way.
+    async fn ask_urgently<T>(&self, command: impl FnOnce(ReplySender<T>) -> Command) -> Result<T, Problem> {
+        self.signals.hurry();
+        let answer = self.send(command).inspect_err(|_| self.signals.obeyed())?;
+        answer.await.map_err(|_| gone())?
+    }
+
+    fn send<T>(&self, command: impl FnOnce(ReplySender<T>) -> Command) -> Result<Reply<T>, Problem> {
         self.touch();
         let (reply, answer) = oneshot::channel();
         self.commands.try_send(command(reply)).map_err(|refused| match refused {
@@ -219,7 +228,7 @@ impl Session {
             ),
             mpsc::TrySendError::Disconnected(_) => gone(),
         })?;
-        answer.await.map_err(|_| gone())?
+        Ok(answer)
     }
 
     fn touch(&self) {
@@ -236,8 +245,7 @@ impl Session {
 
     /// Stops the thread as soon as it can leave its step.
     fn close(&self) {
-        self.signals.closed.store(true, Ordering::Relaxed);
-        self.signals.interrupt.store(true, Ordering::Relaxed);
+        self.signals.close();
         // Wakes a thread that waits; one that is busy sees the flag.
         drop(self.commands.try_send(Command::Watched));
     }

@@ -1,12 +1,11 @@
 //! A simulation and its recording, kept in step.
 //!
 //! Samples are taken at the scene's own output times and wait unencoded until somebody watches; they are kept, so that
-//! forces can be drawn in another way.
+//! forces can be drawn in another way. Where they become too many the older ones are thinned.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use axum::http::StatusCode;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
@@ -29,8 +28,11 @@ pub(crate) struct Recording {
     samples: Vec<Sample>,
     /// How many of the samples are encoded.
     samples_encoded: usize,
+    /// Bytes of the samples, and how many there may be.
     bytes: usize,
     limit: usize,
+    /// Samples taken since the start, kept or not.
+    recorded: u64,
     encoded: u64,
     /// Bytes of arrows that were drawn again.
     redrawn: usize,
@@ -57,7 +59,7 @@ const SAMPLES_FOR_SCALE: usize = 32;
 const REDRAWN_PART: usize = 16;
 
 impl Recording {
-    /// The recording of session `id`, which holds at most `limit` bytes.
+    /// The recording of session `id`, which holds about `limit` bytes of samples at most.
     pub(crate) fn new(id: &str, description: SceneDescription, hub: Arc<Hub>, limit: usize) -> Self {
         let entities = description.bodies.len() + 2 * description.joints.len() + 2;
         let ticks = u32::try_from(entities / ENTITIES_AT_FULL_RATE).unwrap_or(u32::MAX);
@@ -75,6 +77,7 @@ impl Recording {
             samples_encoded: 0,
             bytes: 0,
             limit,
+            recorded: 0,
             encoded: 0,
             redrawn: 0,
             fitted: false,
@@ -82,21 +85,35 @@ impl Recording {
     }
 
     /// Records the simulation at its present time, unless that is recorded already; returns whether it was not. Errors
-    /// if the recording is full.
+    /// if the viewer's library refuses the scale of forces.
     pub(crate) fn record(&mut self, simulation: &Simulation) -> Result<bool, Problem> {
         if self.samples.last().is_some_and(|last| simulation.time() <= last.time) {
             return Ok(false);
         }
         let sample = sample(simulation);
         self.bytes += sample.size();
-        if self.bytes + self.hub.bytes() > self.limit {
-            return Err(full(self.limit));
-        }
         self.samples.push(sample);
+        self.recorded += 1;
+        if self.bytes > self.limit {
+            self.thin();
+        }
         if !self.fitted && self.samples.len() >= SAMPLES_FOR_SCALE {
             self.fit(false)?;
         }
         Ok(true)
+    }
+
+    /// Drops every second sample of the older half.
+    fn thin(&mut self) {
+        let half = self.samples.len() / 2;
+        let goes = |index: usize| index < half && index % 2 == 1;
+        self.samples_encoded -= (0..self.samples_encoded).filter(|&index| goes(index)).count();
+        let mut index = 0;
+        self.samples.retain(|_| {
+            index += 1;
+            !goes(index - 1)
+        });
+        self.bytes = self.samples.iter().map(Sample::size).sum();
     }
 
     /// Encodes what waits, if anybody watches and it is time.
@@ -118,6 +135,10 @@ impl Recording {
                 new.redraw(self.arrows.clone(), self.description.scale, &[]).map_err(unrecorded)?;
                 if self.camera != Camera::default() {
                     new.look_from(self.camera).map_err(unrecorded)?;
+                }
+                // A block of its own: the viewer has the layout before any data.
+                if let Some(block) = new.block().map_err(unrecorded)? {
+                    self.hub.push(block);
                 }
                 empty.insert(new)
             }
@@ -170,7 +191,7 @@ impl Recording {
             .redraw(self.arrows.clone(), self.description.scale, &self.samples[..self.samples_encoded])
             .map_err(unrecorded)?;
         self.send()?;
-        self.redrawn += self.hub.bytes() - before;
+        self.redrawn += self.hub.bytes().saturating_sub(before);
         Ok(())
     }
 
@@ -204,6 +225,7 @@ impl Recording {
     pub(crate) fn restart(&mut self) {
         self.samples.clear();
         self.bytes = 0;
+        self.recorded = 0;
         self.rewrite();
     }
 
@@ -219,7 +241,7 @@ impl Recording {
 
     /// Frames recorded, and those of them encoded.
     pub(crate) fn counts(&self) -> (u64, u64) {
-        (self.samples.len() as u64, self.encoded)
+        (self.recorded, self.encoded)
     }
 
     /// How forces are drawn.
@@ -282,15 +304,6 @@ pub(crate) fn sample(simulation: &Simulation) -> Sample {
         position_violation: summary.position_violation,
         velocity_violation: summary.velocity_violation,
     }
-}
-
-fn full(limit: usize) -> Problem {
-    Problem::new(
-        StatusCode::INSUFFICIENT_STORAGE,
-        "recording-full",
-        format!("the recording of this session has reached its {} MiB", limit >> 20),
-        "reset the session, or choose a larger simulation.every so that fewer frames are recorded",
-    )
 }
 
 fn unrecorded(error: RecordError) -> Problem {

@@ -120,11 +120,17 @@ impl Drop for Place<'_> {
 
 /// Refuses a scene that is too large for this server before anything is built from it.
 pub fn bounded(scene: &Scene, limits: &Limits) -> Result<(), Problem> {
-    for (list, count, limit) in
-        [("bodies", scene.bodies.len(), limits.bodies), ("joints", scene.joints.len(), limits.connections)]
-    {
+    let connections = scene.joints.len() + scene.drivers.len() + scene.loads.len();
+    // The longest of the lists that are bounded together is the place to mend.
+    let lists =
+        [("joints", scene.joints.len()), ("drivers", scene.drivers.len()), ("loads", scene.loads.len())];
+    let longest = lists.into_iter().max_by_key(|(_, count)| *count).map_or("joints", |(list, _)| list);
+    for (list, what, count, limit) in [
+        ("bodies", "bodies", scene.bodies.len(), limits.bodies),
+        (longest, "joints, drivers and loads", connections, limits.connections),
+    ] {
         if count > limit {
-            let detail = format!("the scene has {count} {list}, this server takes {limit}");
+            let detail = format!("the scene has {count} {what}, this server takes {limit}");
             return Err(Problem::new(
                 StatusCode::UNPROCESSABLE_ENTITY,
                 "scene-too-large",

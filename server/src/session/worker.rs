@@ -1,7 +1,6 @@
 //! The thread that owns a session's simulation: it serves commands, and advances time while the session plays.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -55,7 +54,7 @@ impl Worker {
     pub(super) fn run(mut self, commands: &Receiver<Command>) {
         self.publish();
         let mut next_tick = Instant::now();
-        while !self.signals.closed.load(Ordering::Relaxed) {
+        while !self.signals.closed() {
             let received = if self.play.is_some() {
                 commands.recv_timeout(next_tick.saturating_duration_since(Instant::now()))
             } else {
@@ -73,7 +72,6 @@ impl Worker {
     }
 
     fn handle(&mut self, command: Command) {
-        self.signals.interrupt.store(false, Ordering::Relaxed);
         // A caller that has gone away no longer wants the answer: nothing is lost if it cannot be delivered.
         match command {
             Command::Steps(count, reply) => {
@@ -92,10 +90,12 @@ impl Worker {
                 drop(reply.send(self.answer(result)));
             }
             Command::Pause(reply) => {
+                self.signals.obeyed();
                 self.play = None;
                 drop(reply.send(self.answer(Ok(()))));
             }
             Command::Reset(reply) => {
+                self.signals.obeyed();
                 let result = self.reset();
                 drop(reply.send(self.answer(result)));
             }
@@ -215,6 +215,14 @@ impl Worker {
 
     /// Refuses to go on from a state that the engine could not leave.
     fn ready(&mut self) -> Result<(), Problem> {
+        if self.signals.interrupted() {
+            return Err(Problem::new(
+                StatusCode::CONFLICT,
+                "interrupted",
+                "the session was paused before this was begun",
+                "ask again if it is still wanted",
+            ));
+        }
         self.play = None;
         self.ready_to_change()
     }
@@ -234,9 +242,7 @@ impl Worker {
     fn steps(&mut self, count: u32) -> Result<(), Problem> {
         let deadline = Instant::now() + self.command_time;
         for _ in 0..count {
-            if self.simulation.time() >= self.simulation.duration()
-                || self.signals.interrupt.load(Ordering::Relaxed)
-            {
+            if self.simulation.time() >= self.simulation.duration() || self.signals.interrupted() {
                 break;
             }
             self.simulation.step()?;
@@ -255,7 +261,7 @@ impl Worker {
     fn advance(&mut self, target: f64, deadline: Instant) -> Result<(), Problem> {
         let every = self.simulation.model().settings.every;
         let target = target.min(self.simulation.duration());
-        while self.simulation.time() < target && !self.signals.interrupt.load(Ordering::Relaxed) {
+        while self.simulation.time() < target && !self.signals.interrupted() {
             // The next of the scene's output times; the slack keeps rounding from making one twice.
             let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
             if self.simulation.advance_towards(next.min(target), STEPS_PER_CHECK)? {
@@ -331,8 +337,8 @@ impl Worker {
     fn answer(&mut self, result: Result<(), Problem>) -> Result<Arc<SessionState>, Problem> {
         let encoded = self.recording.encode();
         if let Err(problem) = &result {
-            // Asking too much at once stops nothing; an engine that cannot go on, or a full recording, does.
-            if !matches!(problem.code(), "time-budget-exceeded" | "session-stopped") {
+            // Asking too much at once stops nothing; an engine that cannot go on does.
+            if !matches!(problem.code(), "time-budget-exceeded" | "session-stopped" | "interrupted") {
                 self.note(result.clone());
             }
         }
@@ -343,10 +349,7 @@ impl Worker {
 
     /// A change that is refused stops nothing: the run goes on as it was.
     fn answer_to_change(&mut self, result: Result<(), Problem>) -> Result<Arc<SessionState>, Problem> {
-        match result {
-            Err(problem) if problem.code() != "recording-full" => Err(problem),
-            other => self.answer(other),
-        }
+        result.and_then(|()| self.answer(Ok(())))
     }
 
     fn publish(&mut self) {

@@ -1,8 +1,10 @@
 //! One recording, kept once, watched by many.
 //!
 //! A watcher holds no queue: only its place in the recording. One that is slow, or stands still, costs
-//! nothing and harms nobody; it reads on from its place when it can.
+//! nothing and harms nobody; it reads on from its place when it can. What is oldest is forgotten where the recording
+//! grows beyond its bound: a run is never stopped because it is watched.
 
+use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -16,28 +18,48 @@ pub struct Hub {
     /// Changes whenever the recording does.
     changed: watch::Sender<()>,
     watchers: AtomicUsize,
+    limit: usize,
 }
 
 #[derive(Debug, Default)]
 struct RecordedBlocks {
     /// Counts the recordings: a reset starts another.
     epoch: u64,
-    blocks: Vec<Bytes>,
+    /// The first block: layout and shapes, without which the others show nothing.
+    head: Option<Bytes>,
+    /// The blocks after it that are kept.
+    tail: VecDeque<Bytes>,
+    /// Blocks that were forgotten between head and tail.
+    forgotten: usize,
     bytes: usize,
 }
 
-impl Default for Hub {
-    fn default() -> Self {
-        Self { recording: Mutex::default(), changed: watch::Sender::new(()), watchers: AtomicUsize::new(0) }
-    }
-}
-
 impl Hub {
-    /// Adds a block for everybody, now and later.
+    /// No recording yet; at most about `limit` bytes of it are kept.
+    pub fn new(limit: usize) -> Self {
+        Self {
+            recording: Mutex::default(),
+            changed: watch::Sender::new(()),
+            watchers: AtomicUsize::new(0),
+            limit,
+        }
+    }
+
+    /// Adds a block for everybody, now and later. The first of a recording is kept for good.
     pub fn push(&self, block: Vec<u8>) {
         let mut recording = self.lock();
         recording.bytes += block.len();
-        recording.blocks.push(block.into());
+        if recording.head.is_none() {
+            recording.head = Some(block.into());
+        } else {
+            recording.tail.push_back(block.into());
+        }
+        // The newest stays, however large.
+        while recording.bytes > self.limit && recording.tail.len() > 1 {
+            let oldest = recording.tail.pop_front().map_or(0, |block| block.len());
+            recording.bytes -= oldest;
+            recording.forgotten += 1;
+        }
         drop(recording);
         self.changed.send_replace(());
     }
@@ -100,8 +122,10 @@ impl Watcher {
             self.next = 0;
             return Some(Delivery::Restarted);
         }
-        let blocks: Vec<Bytes> = recording.blocks[self.next..].to_vec();
-        self.next = recording.blocks.len();
+        let head = recording.head.iter().filter(|_| self.next == 0);
+        let seen = self.next.saturating_sub(1 + recording.forgotten);
+        let blocks: Vec<Bytes> = head.chain(recording.tail.iter().skip(seen)).cloned().collect();
+        self.next = usize::from(recording.head.is_some()) + recording.forgotten + recording.tail.len();
         (!blocks.is_empty()).then_some(Delivery::Blocks(blocks))
     }
 
@@ -129,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_late_watcher_gets_the_whole_recording_and_a_slow_one_catches_up() {
-        let hub = Arc::new(Hub::default());
+        let hub = Arc::new(Hub::new(1000));
         let mut slow = hub.watch();
         hub.push(vec![1]);
         hub.push(vec![2]);
@@ -144,8 +168,28 @@ mod tests {
     }
 
     #[test]
+    fn the_oldest_blocks_but_the_first_are_forgotten_and_nobody_gets_one_twice() {
+        let hub = Arc::new(Hub::new(4));
+        let mut slow = hub.watch();
+        let mut quick = hub.watch();
+        let mut got = Vec::new();
+        for k in 0..10 {
+            hub.push(vec![k]);
+            if let Some(Delivery::Blocks(blocks)) = quick.poll() {
+                got.extend(blocks.iter().map(|block| block[0]));
+            }
+        }
+        assert_eq!(got, (0..10).collect::<Vec<u8>>());
+        let kept = [0, 7, 8, 9].map(|k: u8| Bytes::copy_from_slice(&[k]));
+        assert_eq!(slow.poll(), Some(Delivery::Blocks(kept.to_vec())));
+        assert_eq!((slow.poll(), hub.bytes()), (None, 4));
+        hub.push(vec![0; 100]);
+        assert_eq!(hub.bytes(), 101, "the newest stays");
+    }
+
+    #[test]
     fn a_restart_is_announced_once_and_the_old_blocks_are_gone() {
-        let hub = Arc::new(Hub::default());
+        let hub = Arc::new(Hub::new(1000));
         let mut watcher = hub.watch();
         hub.push(vec![1]);
         hub.restart();

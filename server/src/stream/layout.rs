@@ -1,12 +1,17 @@
 //! How the viewer lays a recording out: the mechanism large, its plots beside it, the panels folded away.
 
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use re_sdk_types::blueprint::archetypes::EyeControls3D;
 use re_sdk_types::blueprint::components::{LoopMode, PanelState, PlayState};
 use rerun::blueprint::{
     Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial2DView, Spatial3DView,
     TimePanel, TimeSeriesView, Vertical,
 };
-use rerun::external::re_log_types::{BlueprintActivationCommand, LogMsg, StoreKind};
+use rerun::external::re_log_types::{BlueprintActivationCommand, StoreId, StoreKind};
+use rerun::log::{Chunk, LogMsg, RowId};
+use rerun::time::{TimePoint, Timeline};
 use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
 use schemars::JsonSchema;
@@ -22,29 +27,63 @@ pub(super) fn send(
     description: &SceneDescription,
     from: Camera,
 ) -> RecordingStreamResult<()> {
-    let mechanism = ContainerLike::from(
-        Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]),
-    );
-    let camera = match &mechanism {
-        ContainerLike::View(view) => format!("{}/EyeControls3D", view.blueprint_path()),
-        _ => return Ok(()),
-    };
-    // The library writes a layout only into a recording, and cannot set the camera: the layout is written into a
-    // recording in memory, and the camera is added under the same name.
-    let (_scratch, written) =
-        RecordingStreamBuilder::new(APPLICATION).with_blueprint(blueprint(mechanism)).memory()?;
-    let is_layout = |message: &LogMsg| message.store_id().kind() == StoreKind::Blueprint;
-    let activates = |message: &LogMsg| matches!(message, LogMsg::BlueprintActivationCommand(_));
-    let mut messages: Vec<LogMsg> =
-        written.take().into_iter().filter(|message| is_layout(message) && !activates(message)).collect();
-    let Some(id) = messages.first().map(|message| message.store_id().clone()) else { return Ok(()) };
-    let (extra, written) = RecordingStreamBuilder::from_store_id(&id).send_properties(false).memory()?;
-    extra.set_time_sequence("blueprint", 0);
-    extra.log(camera, &eye(description, from))?;
-    messages.extend(written.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
+    let layout = Layout::next()?;
+    let id = StoreId::random(StoreKind::Blueprint, APPLICATION);
+    let mut messages = layout.messages.clone();
+    for message in &mut messages {
+        message.set_store_id(id.clone());
+    }
+    let now = TimePoint::from([(Timeline::new_sequence("blueprint"), 0)]);
+    let camera = Chunk::builder(layout.camera.as_str())
+        .with_archetype(RowId::new(), now, &eye(description, from))
+        .build()?
+        .to_arrow_msg()?;
+    messages.push(LogMsg::ArrowMsg(id.clone(), camera));
     let activation = BlueprintActivationCommand { blueprint_id: id, make_active: true, make_default: true };
     recording.send_blueprint(messages, activation);
     Ok(())
+}
+
+/// The layout as messages, all but the camera.
+struct Layout {
+    messages: Vec<LogMsg>,
+    /// Where the camera of the mechanism's view is written.
+    camera: String,
+}
+
+/// Two layouts that differ in the names of their views alone, made once: the library writes a layout only into a
+/// recording in memory of its own, whose threads it never ends.
+static LAYOUTS: [OnceLock<Layout>; 2] = [OnceLock::new(), OnceLock::new()];
+
+impl Layout {
+    /// The two in turn: a view of another name forgets how the last one was turned by hand.
+    fn next() -> RecordingStreamResult<&'static Self> {
+        static TURN: AtomicUsize = AtomicUsize::new(0);
+        let kept = &LAYOUTS[TURN.fetch_add(1, Ordering::Relaxed) % LAYOUTS.len()];
+        match kept.get() {
+            Some(layout) => Ok(layout),
+            None => Self::new().map(|layout| kept.get_or_init(|| layout)),
+        }
+    }
+
+    fn new() -> RecordingStreamResult<Self> {
+        let mechanism = Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]);
+        let mechanism = ContainerLike::from(mechanism);
+        let camera = match &mechanism {
+            ContainerLike::View(view) => format!("{}/EyeControls3D", view.blueprint_path()),
+            _ => String::new(),
+        };
+        let (scratch, written) =
+            RecordingStreamBuilder::new(APPLICATION).with_blueprint(blueprint(mechanism)).memory()?;
+        let is_layout = |message: &LogMsg| {
+            message.store_id().kind() == StoreKind::Blueprint
+                && !matches!(message, LogMsg::BlueprintActivationCommand(_))
+        };
+        let messages = written.take().into_iter().filter(is_layout).collect();
+        // A stream and its place in memory hold each other: without this, both stay, with their threads.
+        scratch.disconnect();
+        Ok(Self { messages, camera })
+    }
 }
 
 /// From where the mechanism is looked at.

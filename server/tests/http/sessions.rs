@@ -117,15 +117,37 @@ async fn a_bound_on_time_or_on_the_recording_is_told_and_survived() {
     problem.problem(503, "time-budget-exceeded");
     let state = get(&server, &path).await.json();
     assert!(state["error"].is_null() && state["time"].as_f64().is_some_and(|time| time > 0.0));
+}
 
-    let server = triad::app(state_with_short_recording());
+#[tokio::test]
+async fn a_recording_that_grows_too_long_is_thinned_and_the_run_goes_on() {
+    let server = triad::app(state(Limits { recording_bytes: 100_000, ..Limits::default() }));
     let path = start(&server, json!({"builtin": "simple-pendulum"})).await;
-    let problem = post(&server, &format!("{path}/step"), json!({"seconds": 5})).await;
-    problem.problem(507, "recording-full");
-    assert_eq!(get(&server, &path).await.json()["error"]["code"], "recording-full");
-    post(&server, &format!("{path}/play"), "").await.problem(409, "session-stopped");
-    let reset = post(&server, &format!("{path}/reset"), "").await;
-    assert!(reset.json()["error"].is_null());
+    let state = post(&server, &format!("{path}/step"), json!({"seconds": 5})).await.json();
+    assert!(state["error"].is_null(), "{}", state["error"]);
+    assert_eq!((&state["time"], &state["frames"]), (&json!(5.0), &json!(501)));
+    for at in ["0", "2.5", "5"] {
+        let told = get(&server, &format!("{path}/multipliers?at={at}")).await;
+        assert_eq!(told.status, 200, "{at}");
+    }
+}
+
+#[tokio::test]
+async fn a_pause_ends_what_waits_before_it() {
+    let server = server();
+    let path = start(&server, json!({"builtin": "n-four-bar:10", "overrides": {"duration": 1e5}})).await;
+    let address = format!("{path}/step");
+    let step = || post(&server, &address, json!({"seconds": 9e4}));
+    let pause = async {
+        tokio::time::sleep(Duration::from_millis(300)).await;
+        post(&server, &format!("{path}/pause"), "").await
+    };
+    let (first, second, third, pause) = tokio::join!(step(), step(), step(), pause);
+    assert_eq!((first.status.as_u16(), pause.status.as_u16()), (200, 200), "the first ends where it is");
+    second.problem(409, "interrupted");
+    third.problem(409, "interrupted");
+    assert!(pause.json()["error"].is_null());
+    assert_eq!(post(&server, &format!("{path}/step"), json!({"seconds": 0.1})).await.status, 200);
 }
 
 #[tokio::test]
@@ -155,10 +177,6 @@ async fn a_run_that_diverges_says_so_and_its_last_good_state_stays() {
     assert_eq!((&state["error"]["code"], &state["q"][0]), (&json!("diverged"), &json!(-1.0)));
     post(&server, &format!("{path}/step"), "").await.problem(409, "session-stopped");
     assert_eq!(get(&server, &format!("{path}/jacobian")).await.status, 200);
-}
-
-fn state_with_short_recording() -> triad::app::App {
-    state(Limits { recording_bytes: 10_000, ..Limits::default() })
 }
 
 #[tokio::test]

@@ -7,7 +7,10 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use triad::limits::Limits;
 
-use crate::{get, post, server, state};
+use axum::body::Body;
+use axum::http::Request;
+
+use crate::{get, post, send, server, state};
 
 /// A message of a WebSocket.
 enum Message {
@@ -153,4 +156,49 @@ async fn the_address_of_a_stream_tells_plain_requests_what_it_is() {
     let stream = created["links"]["stream"].as_str().expect("a path").to_owned();
     get(&server, &stream).await.problem(426, "not-a-websocket");
     get(&server, "/api/v1/sessions/nothing/stream").await.problem(404, "unknown-session");
+}
+
+/// Threads of the viewer's library in this process.
+#[cfg(target_os = "linux")]
+fn encoding_threads() -> usize {
+    let tasks = std::fs::read_dir("/proc/self/task").expect("threads");
+    let name = |task: std::io::Result<std::fs::DirEntry>| {
+        std::fs::read_to_string(task.expect("a thread").path().join("comm")).unwrap_or_default()
+    };
+    tasks
+        .map(name)
+        .filter(|name| name.starts_with("ChunkBatcher") || name.starts_with("RecordingStrea"))
+        .count()
+}
+
+#[cfg(target_os = "linux")]
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn watched_sessions_resets_and_cameras_leave_no_threads_behind() {
+    let app = state(Limits::default());
+    let server = triad::app(app.clone());
+    for _ in 0..10 {
+        let created = post(&server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
+        let path = created["links"]["self"].as_str().expect("a path").to_owned();
+        let session = app.sessions.get(created["id"].as_str().expect("an id")).expect("a session");
+        let mut watcher = session.watch();
+        assert!(watcher.next().await.is_some());
+        for view in ["front", "side"] {
+            let request = Request::put(format!("{path}/camera")).header("content-type", "application/json");
+            let request = request.body(Body::from(json!({"from": view}).to_string())).expect("a request");
+            let reply = send(&server, request).await;
+            assert_eq!(reply.status, 200, "{}", reply.json());
+            post(&server, &format!("{path}/reset"), "").await;
+        }
+        app.sessions.remove(created["id"].as_str().expect("an id")).expect("closes");
+    }
+    // Each of these 50 recordings left six; other tests of this process watch a few of their own meanwhile.
+    let mut left = encoding_threads();
+    for _ in 0..100 {
+        if left <= 40 {
+            return;
+        }
+        tokio::time::sleep(Duration::from_millis(100)).await;
+        left = encoding_threads();
+    }
+    panic!("{left} threads are left");
 }

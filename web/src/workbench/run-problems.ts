@@ -55,7 +55,7 @@ function ways(session: Session, problem: Problem, clear: () => void): Action[] {
         ]
       : []),
     {
-      label: problem.code === "recording-full" ? "Start over with an empty recording" : "Reset to the start",
+      label: "Reset to the start",
       run: () => {
         clear();
         void session.reset();

@@ -1,0 +1,172 @@
+//! The connections of the server: how many, how long one may say nothing, and how they end.
+
+use std::collections::HashMap;
+use std::future::Future;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use tokio::io::AsyncWriteExt;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{mpsc, watch};
+use tokio::time::{sleep, timeout};
+
+/// Connections at a time, if the system allows as many files; the default of most systems, 1024, is less than a class.
+const CONNECTIONS: usize = 4096;
+/// Files that are not connections: the gradebook, reports, the runtime's own.
+const OTHER_FILES: usize = 128;
+/// A connection on which no request arrives whole for this long is closed; browsers open another.
+const SILENCE: Duration = Duration::from_secs(30);
+/// How long requests under way may take to end when the server is stopped.
+const FAREWELL: Duration = Duration::from_secs(10);
+/// What one connection too many is told.
+const FULL: &[u8] =
+    b"HTTP/1.1 503 Service Unavailable\r\nretry-after: 5\r\ncontent-length: 0\r\nconnection: close\r\n\r\n";
+/// How long accepting pauses where the system refuses, as when there are no more files.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Serves until `stop` is over; then, after `ending`, requests under way have ten seconds. A second `stop` ends at once.
+pub async fn serve<S: Future<Output = ()>>(
+    listener: TcpListener,
+    app: Router,
+    stop: impl Fn() -> S,
+    ending: impl FnOnce(),
+) {
+    let (stopping, stopped) = watch::channel(());
+    // Each connection holds a sender: nothing more can come when the last one has ended.
+    let (alive, mut ended) = mpsc::channel::<()>(1);
+    tokio::select! {
+        () = stop() => {}
+        () = accept(&listener, &app, &stopped, &alive) => {}
+    }
+    drop((listener, alive));
+    ending();
+    stopping.send_replace(());
+    tokio::select! {
+        _ = ended.recv() => {}
+        () = sleep(FAREWELL) => {}
+        () = stop() => {}
+    }
+}
+
+/// Takes connections for ever, each served by a task of its own.
+async fn accept(
+    listener: &TcpListener,
+    app: &Router,
+    stopped: &watch::Receiver<()>,
+    alive: &mpsc::Sender<()>,
+) {
+    let places = Arc::new(Places::new());
+    loop {
+        let Ok((mut socket, from)) = listener.accept().await else {
+            sleep(PAUSE).await;
+            continue;
+        };
+        let Some(place) = Places::take(&places, from) else {
+            // It fits into the socket's buffer, so that nothing waits here.
+            drop(timeout(PAUSE, socket.write_all(FULL)).await);
+            continue;
+        };
+        let held = (place, alive.clone());
+        let (app, stopped) = (app.clone(), stopped.clone());
+        tokio::spawn(async move {
+            connection(socket, app, stopped).await;
+            drop(held);
+        });
+    }
+}
+
+/// Serves one connection to its end; what it is about to answer when the server stops is answered.
+async fn connection(socket: TcpStream, app: Router, mut stopped: watch::Receiver<()>) {
+    let mut protocol = http1::Builder::new();
+    protocol.timer(TokioTimer::new()).header_read_timeout(SILENCE);
+    let served = protocol.serve_connection(io(socket), TowerToHyperService::new(app)).with_upgrades();
+    tokio::pin!(served);
+    // How a connection ended is the business of the other side.
+    tokio::select! {
+        result = served.as_mut() => drop(result),
+        _ = stopped.changed() => {
+            served.as_mut().graceful_shutdown();
+            drop(served.await);
+        }
+    }
+}
+
+fn io(socket: TcpStream) -> TokioIo<TcpStream> {
+    // Answers are short and wanted at once; where the system refuses they come a little later.
+    drop(socket.set_nodelay(true));
+    TokioIo::new(socket)
+}
+
+/// The connections that there are. One address has at most half of them, so that nobody takes all; the machine itself
+/// is exempt, as a proxy on it speaks for everybody.
+struct Places {
+    most: usize,
+    taken: AtomicUsize,
+    from: Mutex<HashMap<IpAddr, usize>>,
+}
+
+impl Places {
+    fn new() -> Self {
+        let files = rlimit::increase_nofile_limit((CONNECTIONS + OTHER_FILES) as u64).unwrap_or(256);
+        let most = usize::try_from(files).unwrap_or(CONNECTIONS).saturating_sub(OTHER_FILES);
+        Self { most: most.clamp(64, CONNECTIONS), taken: AtomicUsize::new(0), from: Mutex::default() }
+    }
+
+    fn take(this: &Arc<Self>, from: SocketAddr) -> Option<Place> {
+        if this.taken.fetch_add(1, Ordering::Relaxed) >= this.most {
+            this.taken.fetch_sub(1, Ordering::Relaxed);
+            return None;
+        }
+        let place = Place { places: Arc::clone(this), from: from.ip() };
+        let mut each = this.from.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = each.entry(from.ip()).or_default();
+        *count += 1;
+        let allowed = from.ip().is_loopback() || *count <= this.most / 2;
+        drop(each);
+        allowed.then_some(place)
+    }
+}
+
+/// One connection's place, given back when it ends.
+struct Place {
+    places: Arc<Places>,
+    from: IpAddr,
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.places.taken.fetch_sub(1, Ordering::Relaxed);
+        let mut each = self.places.from.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(count) = each.get_mut(&self.from) {
+            *count -= 1;
+            if *count == 0 {
+                each.remove(&self.from);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_address_has_half_of_the_places_and_gives_them_back() {
+        let most = 8;
+        let places = Arc::new(Places { most, taken: AtomicUsize::new(0), from: Mutex::default() });
+        let (far, near) = (SocketAddr::from(([10, 0, 0, 1], 1)), SocketAddr::from(([127, 0, 0, 1], 1)));
+        let taken: Vec<_> = (0..20).filter_map(|_| Places::take(&places, far)).collect();
+        assert_eq!(taken.len(), most / 2);
+        let others: Vec<_> = (0..20).filter_map(|_| Places::take(&places, near)).collect();
+        assert_eq!(others.len(), most / 2);
+        drop((taken, others));
+        assert_eq!(places.taken.load(Ordering::Relaxed), 0);
+        assert!(places.from.lock().expect("whole").is_empty());
+    }
+}
