@@ -192,6 +192,7 @@ fn others(folder: &Path) -> Vec<Vec<String>> {
             "1e-6",
             "--integrator",
             "taylor",
+            "--no-estimate",
             "--outputs",
             "joints,energy",
             "--out",

@@ -31,7 +31,7 @@ pub use marker::ModelMarker;
 pub use output::wants_joint;
 pub use placement::ModelStart;
 
-use crate::scene::{ConstraintMethod, Event, Load, Marker, Scene, Settings};
+use crate::scene::{ConstraintMethod, Event, Load, Marker, Scene, Settings, WrittenScene};
 use nalgebra::Vector3;
 use reader::ModelReader;
 use std::collections::HashMap;
@@ -81,6 +81,19 @@ impl Model {
     ///
     /// [`ModelError`]: the first thing in the scene that cannot be, with its place as a JSON pointer and what to try.
     pub fn new(scene: &Scene) -> Result<Self, ModelError> {
+        Self::checked(scene, None)
+    }
+
+    /// As [`Model::new`], of a scene that has been read from what is written: its parameters are looked up there.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Model::new`].
+    pub fn of_written(scene: &Scene, written: &WrittenScene) -> Result<Self, ModelError> {
+        Self::checked(scene, Some(written))
+    }
+
+    fn checked(scene: &Scene, written: Option<&WrittenScene>) -> Result<Self, ModelError> {
         finite(&scene.gravity, "/gravity")?;
         check_settings(&scene.simulation)?;
         if scene.bodies.is_empty() {
@@ -120,7 +133,7 @@ impl Model {
         let events = read_list("events", &scene.events, Event::name, |index, written| {
             ModelEvent::new(written, &reader("events", index, &written.name), &markers)
         })?;
-        parameter::check(scene)?;
+        parameter::check(scene, written)?;
         output::check(scene)?;
         Ok(Self {
             name: scene.name.clone(),

@@ -11,6 +11,7 @@ use triad_engine::EngineError;
 use triad_engine::catalogue;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
+use triad_lab::sweep::{SweepPlan, Unwatched, Values, Variation, sweep};
 
 /// Scenes of growing size, with their numbers of bodies or windows.
 const FAMILIES: [(&str, [usize; 5]); 2] =
@@ -34,6 +35,10 @@ const RUNS: [(&str, [f64; 2]); 8] = [
     ("spatial-chain:10", [1e-7, 1e-10]),
     ("spatial-chain:100", [1e-7, 1e-10]),
 ];
+/// Scenes whose starts and sweeps are counted.
+const STARTS: [&str; 4] = ["simple-pendulum", "n-four-bar:2", "n-four-bar:33", "spatial-chain:100"];
+/// Steps that a start is compared with.
+const STEPS_OF_A_START: usize = 10;
 
 fn main() -> Result<(), EngineError> {
     let words: Vec<String> = env::args().skip(1).collect();
@@ -42,10 +47,15 @@ fn main() -> Result<(), EngineError> {
         // What the process starts itself for.
         ["run", name, tolerance, repeats] => run(name, tolerance, repeats),
         ["hold", name] => hold(name),
+        ["start", name, repeats] => start(name, repeats),
+        ["first", name, repeats] => first(name, repeats),
+        ["sweep", name, runs] => sweep_of(name, runs, true),
+        ["sweep-without-estimate", name, runs] => sweep_of(name, runs, false),
         _ => {
             growth()?;
             large()?;
             instructions();
+            starts();
             Ok(())
         }
     }
@@ -163,6 +173,65 @@ fn run(name: &str, tolerance: &str, repeats: &str) -> Result<(), EngineError> {
     for _ in 0..repeats.parse().unwrap_or(1) {
         run.reset();
         run.advance_to(scene.simulation.duration)?;
+    }
+    Ok(())
+}
+
+/// Instructions of a start, of its first steps, and of a run of a sweep.
+fn starts() {
+    println!(
+        "\n| scene | instructions, millions: read and start | first {STEPS_OF_A_START} steps | a run of a sweep | without estimate |"
+    );
+    println!("|---|---|---|---|---|");
+    for name in STARTS {
+        let count = |what: &str, fewer: f64, more: f64| {
+            let count = |repeats: f64| counted(&[what, name, &repeats.to_string()]);
+            Some((count(more)? - count(fewer)?) / (more - fewer) / 1e6)
+        };
+        let [Some(start), Some(first), Some(run), Some(bare)] = [
+            count("start", 1.0, 3.0),
+            count("first", 1.0, 3.0),
+            count("sweep", 5.0, 15.0),
+            count("sweep-without-estimate", 5.0, 15.0),
+        ] else {
+            println!("Instructions are not counted: is valgrind installed?");
+            return;
+        };
+        println!("| {name} | {start:.2} | {first:.2} | {run:.3} | {bare:.3} |");
+    }
+}
+
+/// Reads a scene as text, checks, assembles and starts it, so many times.
+fn start(name: &str, repeats: &str) -> Result<(), EngineError> {
+    let written = scene(name)?.to_json();
+    for _ in 0..repeats.parse().unwrap_or(1) {
+        Simulation::new(&Scene::from_json(&written)?)?;
+    }
+    Ok(())
+}
+
+/// Takes the first steps of a run, so many times.
+fn first(name: &str, repeats: &str) -> Result<(), EngineError> {
+    let mut run = Simulation::new(&scene(name)?)?;
+    for _ in 0..repeats.parse().unwrap_or(1) {
+        run.reset();
+        for _ in 0..STEPS_OF_A_START {
+            run.step()?;
+        }
+    }
+    Ok(())
+}
+
+/// A sweep of so many runs over the acceleration of gravity, on one thread.
+fn sweep_of(name: &str, runs: &str, estimate: bool) -> Result<(), EngineError> {
+    let mut scene = scene(name)?.tolerance(1e-6);
+    scene.simulation.error_estimate = estimate;
+    let count = runs.parse().unwrap_or(1);
+    let gravity = Variation::new(&scene, "/gravity/1", Values::Grid { from: -9.9, to: -9.7, count })?;
+    let plan = SweepPlan { varied: vec![gravity], ..SweepPlan::new(scene) };
+    match sweep(&plan, 1, &Unwatched) {
+        Ok(found) => println!("{} runs", found.runs.len()),
+        Err(error) => println!("{error}"),
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use triad_engine::EngineError;
 use triad_engine::model::Model;
 use triad_engine::run::{Column, Outputs, Simulation};
-use triad_scene::{Scene, WrittenScene};
+use triad_scene::WrittenScene;
 
 /// Steps between two looks at whether the sweep is to end.
 const PIECE: u64 = 256;
@@ -90,51 +90,62 @@ impl Watch for Unwatched {}
 /// ```
 pub fn sweep(plan: &SweepPlan, threads: usize, watch: &impl Watch) -> Result<Sweep, SweepError> {
     let count = plan.count()?;
-    let written = WrittenScene::new(&plan.scene);
-    let columns = Outputs::new(&Simulation::new(&plan.scene)?).columns().to_vec();
+    let outputs = Outputs::new(&Simulation::new(&plan.scene)?);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| SweepError::Threads { threads, reason: error.to_string() })?;
+    let shared = SharedParts { plan, outputs: &outputs, watch };
     let runs = pool.install(|| {
-        let runs = (0..count).into_par_iter().map(|index| one(plan, &written, index, watch));
+        let written = || WrittenScene::new(&plan.scene);
+        let runs = (0..count).into_par_iter().map_init(written, |written, index| shared.run(written, index));
         runs.flatten().collect()
     });
     let varied = plan.varied.iter().map(|variation| variation.name.clone()).collect();
-    Ok(Sweep { varied, columns, runs })
+    Ok(Sweep { varied, columns: outputs.columns().to_vec(), runs })
 }
 
-/// One run; none if it was cancelled.
-fn one(plan: &SweepPlan, written: &WrittenScene, index: usize, watch: &impl Watch) -> Option<SweepRun> {
-    if watch.cancelled() {
-        return None;
-    }
-    let values = plan.values(index);
-    let changes = plan.varied.iter().zip(&values).flat_map(|(variation, value)| variation.changes(*value));
-    let result =
-        match written.with_numbers(changes).map_err(EngineError::from).and_then(|scene| start(&scene)) {
-            Ok(run) => advance(run, watch)?,
+/// What all runs of a sweep share. The varied numbers change neither names nor what is connected, so that the outputs are the
+/// same groups of columns in each of them.
+struct SharedParts<'a, W> {
+    plan: &'a SweepPlan,
+    outputs: &'a Outputs,
+    watch: &'a W,
+}
+
+impl<W: Watch> SharedParts<'_, W> {
+    /// One run; none if it was cancelled. `written` is the scene with the numbers of any other run.
+    fn run(&self, written: &mut WrittenScene, index: usize) -> Option<SweepRun> {
+        if self.watch.cancelled() {
+            return None;
+        }
+        let values = self.plan.values(index);
+        let result = match self.start(written, &values) {
+            Ok(run) => self.advance(run)?,
             Err(error) => Err(error),
         };
-    watch.done();
-    Some(SweepRun { index, values, result })
-}
-
-fn start(scene: &Scene) -> Result<Simulation, EngineError> {
-    Simulation::from_model(Model::new(scene)?)
-}
-
-/// Runs to the end; none if it was cancelled on the way.
-fn advance(mut run: Simulation, watch: &impl Watch) -> Option<Result<Reached, EngineError>> {
-    loop {
-        match run.advance_towards(run.duration(), PIECE) {
-            Err(error) => return Some(Err(error)),
-            Ok(true) => break,
-            Ok(false) if watch.cancelled() => return None,
-            Ok(false) => {}
-        }
+        self.watch.done();
+        Some(SweepRun { index, values, result })
     }
-    let mut outputs = Vec::new();
-    Outputs::new(&run).write(&run, &mut outputs);
-    let summary = run.summary();
-    let (evaluations, doubts) = (summary.evaluations, summary.doubts.len());
-    Some(Ok(Reached { time: run.time(), outputs, evaluations, doubts }))
+
+    fn start(&self, written: &mut WrittenScene, values: &[f64]) -> Result<Simulation, EngineError> {
+        let varied = self.plan.varied.iter().zip(values);
+        written.set_numbers(varied.flat_map(|(variation, value)| variation.changes(*value)))?;
+        Simulation::from_model(Model::of_written(&written.read()?, written)?)
+    }
+
+    /// Runs to the end; none if it was cancelled on the way.
+    fn advance(&self, mut run: Simulation) -> Option<Result<Reached, EngineError>> {
+        loop {
+            match run.advance_towards(run.duration(), PIECE) {
+                Err(error) => return Some(Err(error)),
+                Ok(true) => break,
+                Ok(false) if self.watch.cancelled() => return None,
+                Ok(false) => {}
+            }
+        }
+        let mut outputs = Vec::with_capacity(self.outputs.columns().len());
+        self.outputs.write(&run, &mut outputs);
+        let summary = run.summary();
+        let (evaluations, doubts) = (summary.evaluations, summary.doubts.len());
+        Some(Ok(Reached { time: run.time(), outputs, evaluations, doubts }))
+    }
 }

@@ -98,6 +98,21 @@ fn a_run_that_cannot_be_is_listed_and_ends_nothing_else() {
     assert_eq!(codes, ["mass-not-positive", "mass-not-positive", "mass-not-positive", "", ""]);
 }
 
+#[test]
+fn a_run_outside_the_range_of_a_parameter_is_refused_as_alone() {
+    let masses = Values::Grid { from: 1.0, to: 1000.0, count: 2 };
+    let mut scene = pendulum();
+    scene.parameters.retain(|parameter| parameter.places()[0].pointer() == "/bodies/0/mass");
+    assert_eq!(scene.parameters.len(), 1, "the built-in scene offers its mass");
+    let vary = Variation::new(&scene, "/bodies/0/mass", masses).unwrap();
+    let found =
+        sweep(&SweepPlan { varied: vec![vary], ..SweepPlan::new(scene.clone()) }, 1, &Unwatched).unwrap();
+    let alone = scene.changed([], [("/bodies/0/mass", &json!(1000.0))]).unwrap();
+    let refused = Simulation::new(&alone).unwrap_err();
+    assert_eq!(found.runs[1].result, Err(refused));
+    assert!(found.runs[0].result.is_ok());
+}
+
 /// Cancels after some runs.
 struct Impatient(AtomicUsize);
 

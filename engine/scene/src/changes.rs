@@ -4,6 +4,7 @@ use crate::error::SceneError;
 use crate::parameter::Parameter;
 use crate::scene::Scene;
 use crate::settings::Settings;
+use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
 /// Largest number of places that one change may touch.
@@ -14,6 +15,7 @@ const CHOICES: [&str; 3] = ["/coordinates", "/simulation/integrator", "/simulati
 const ZERO_TRIPLES: [&str; 4] = ["center_of_mass", "position", "velocity", "angular_velocity"];
 
 /// A scene as JSON in which everything that may be changed is written out.
+#[derive(Clone, Debug)]
 pub struct WrittenScene(Value);
 
 impl WrittenScene {
@@ -73,22 +75,27 @@ impl WrittenScene {
         self.0
     }
 
-    /// The scene with other numbers at some places, each named by a JSON pointer: as [`Scene::changed`], without writing and
-    /// reading a text for each of many changes of one scene.
+    /// Writes other numbers at some places, each named by a JSON pointer. What stood there is lost: who changes the same places
+    /// again and again needs no copy.
     ///
     /// # Errors
     ///
-    /// [`SceneError`]: a place without a number, or a scene that cannot be read any more.
-    pub fn with_numbers<'a>(
-        &self,
+    /// [`SceneError::NoNumber`]: a place without a number, or a number that is not finite.
+    pub fn set_numbers<'a>(
+        &mut self,
         numbers: impl IntoIterator<Item = (&'a str, f64)>,
-    ) -> Result<Scene, SceneError> {
-        let mut written = Self(self.0.clone());
-        for (pointer, number) in numbers {
-            written.set(pointer, &json!(number))?;
-        }
+    ) -> Result<(), SceneError> {
+        numbers.into_iter().try_for_each(|(pointer, number)| self.set(pointer, &json!(number)))
+    }
+
+    /// The scene that is written here: as [`Scene::changed`], without writing and reading a text.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`]: it cannot be read any more.
+    pub fn read(&self) -> Result<Scene, SceneError> {
         // The text is only needed to say where a scene cannot be read.
-        serde_json::from_value(written.0.clone()).or_else(|_| Scene::from_json(&written.0.to_string()))
+        Scene::deserialize(&self.0).or_else(|_| Scene::from_json(&self.0.to_string()))
     }
 
     /// What can be said about a place that is not there.

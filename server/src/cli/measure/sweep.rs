@@ -51,6 +51,9 @@ pub(in crate::cli) struct Options {
     /// Integrator, instead of the scene's.
     #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
     integrator: Option<IntegratorKind>,
+    /// Carry no estimate of the error along, which takes a third of the time: doubts that follow from it are then missing.
+    #[arg(long)]
+    no_estimate: bool,
     /// What is told of each run at its end, instead of the scene's choice; see `triad run --help`.
     #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = choice::output)]
     outputs: Vec<Output>,
@@ -139,6 +142,7 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
     settings.duration = options.until.unwrap_or(settings.duration);
     settings.tolerance = options.tolerance.unwrap_or(settings.tolerance);
     settings.integrator = options.integrator.unwrap_or(settings.integrator);
+    settings.error_estimate &= !options.no_estimate;
     if !options.outputs.is_empty() {
         settings.outputs.clone_from(&options.outputs);
     }
