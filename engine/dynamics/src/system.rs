@@ -20,6 +20,8 @@ pub mod driver;
 
 pub mod load;
 
+pub mod contact;
+
 pub mod event;
 
 pub mod body;
@@ -32,6 +34,7 @@ use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, Model, ModelBody, wants_joint};
 use crate::system::angle::Angle;
 use crate::system::body::RigidBody;
+use crate::system::contact::DryFriction;
 use crate::system::event::EventFunction;
 use crate::system::feature::{Feature, TargetCurve};
 use crate::system::index::{ConstraintId, FeatureId, IncidenceId, RowId, SolverRow};
@@ -134,6 +137,8 @@ pub struct System {
     pub angle_joints: Vec<String>,
     /// Loads besides gravity.
     pub loads: Vec<SystemLoad>,
+    /// Friction of loads that the reaction of their joint loads.
+    pub frictions: Vec<DryFriction>,
     /// Numbers whose passing of a value is an event.
     pub event_functions: Arc<[EventFunction]>,
     /// The rows.
@@ -192,6 +197,7 @@ impl System {
             angles,
             angle_joints,
             loads,
+            frictions: DryFriction::all(&model),
             event_functions,
             rows: Vec::new(),
             constraints: Vec::with_capacity(constraints.len()),

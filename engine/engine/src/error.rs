@@ -106,7 +106,7 @@ pub enum EngineError {
         /// What is known of the last good state.
         last: LastGood,
     },
-    /// An integrator that the scene asks for, and whose partner it does not ask for.
+    /// An integrator that the scene asks for without what it needs, or with what it does not know.
     #[error("{integrator} cannot run this scene: {why}")]
     Integrator {
         /// The integrator.
@@ -212,7 +212,8 @@ impl EngineError {
             Self::NoConvergence { .. } => "no-convergence",
             Self::Stalled { .. } => "stalled",
             Self::Undetermined { .. } => "undetermined-motion",
-            Self::Integrator { .. } => "integrator-alone",
+            Self::Integrator { integrator: IntegratorKind::Trapezoidal, .. } => "integrator-alone",
+            Self::Integrator { .. } => "integrator-unable",
             Self::StepLimit { .. } => "step-limit",
             Self::TimeOutside { .. } => "time-outside-run",
             Self::UnknownName { .. } => "unknown-name",
@@ -289,8 +290,12 @@ impl EngineError {
             Self::Undetermined { .. } => {
                 "Use projection as the stabilization, with taylor or dop853.".to_owned()
             }
-            Self::Integrator { .. } => {
+            Self::Integrator { integrator: IntegratorKind::Trapezoidal, .. } => {
                 "Ask for the stabilization augmented-lagrangian, which brings it along, or leave the integrator to auto."
+                    .to_owned()
+            }
+            Self::Integrator { .. } => {
+                "Leave the integrator to auto and the constraints to projection, or ask for dop853, dopri5, ode45 or radau."
                     .to_owned()
             }
             Self::StepLimit { .. } => {

@@ -12,12 +12,10 @@ mod rigid;
 
 pub use rigid::{RigidMultipliers, rigid_multipliers};
 
-use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_dynamics::dynamics::elimination::Multipliers;
+use triad_dynamics::dynamics::elimination::{JointWrench, Multipliers};
 use triad_dynamics::model::BodyRef;
-use triad_dynamics::system::Constraint;
 use triad_dynamics::system::row::equation_labels;
 
 /// One multiplier λ of eq. (6.6) with the label of its equation.
@@ -82,7 +80,7 @@ pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
             })
             .map(|(label, value)| Multiplier { label, value })
             .collect();
-        let Some(JointWrench { side, force, moment, about }) = joint_wrench(at, constraint) else { continue };
+        let Some(JointWrench { side, force, moment, about }) = at.joint_wrench(constraint) else { continue };
         joints.push(JointMultipliers {
             joint: constraint.name.clone(),
             rows,
@@ -95,28 +93,4 @@ pub fn multipliers(at: &Multipliers) -> Vec<JointMultipliers> {
         });
     }
     joints
-}
-
-/// What a joint or driver does to body j, or to body i if j is the ground.
-pub(crate) struct JointWrench {
-    /// 0 for body i, 1 for body j.
-    pub side: usize,
-    /// Force in the world, N.
-    pub force: Vector3<f64>,
-    /// Moment about the joint's point on that body, N m.
-    pub moment: Vector3<f64>,
-    /// That point in the world, m.
-    pub about: Vector3<f64>,
-}
-
-/// The reaction of a joint or driver; none where it meets no moving body.
-pub(crate) fn joint_wrench(at: &Multipliers, constraint: &Constraint) -> Option<JointWrench> {
-    let system = at.system;
-    let side = usize::from(constraint.bodies[1] != BodyRef::Ground);
-    let BodyRef::Moving(body) = constraint.bodies[side] else { return None };
-    let incidence = constraint.incidence_ids().find(|&id| system[id].body == body)?;
-    let [force, about_center] = at.wrench_on(incidence);
-    let q = &at.state.bodies()[body].q;
-    let arm = q.arm(&constraint.points[side]);
-    Some(JointWrench { side, force, moment: about_center - arm.cross(&force), about: q.r + arm })
 }

@@ -306,7 +306,7 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<Omitted
         return;
     }
     let name = format!("{} friction", joint.name);
-    let friction = Friction { viscous: joint.damping, coulomb: joint.friction, smoothing: SMOOTHING };
+    let friction = Friction { smoothing: SMOOTHING, ..Friction::new(joint.damping, joint.friction) };
     let of = joint.name.clone();
     let load = match joint.kind {
         JointType::Revolute => Load::turning_friction(name, &of, friction),

@@ -531,14 +531,33 @@ export interface components {
              */
             pointer: string;
         };
-        /** @description Friction along one freedom of a joint: −(viscous ẋ + coulomb tanh(ẋ / smoothing)). */
+        /**
+         * @description Friction along one freedom of a joint: −(viscous ẋ + (coulomb + coefficient · radius · N) tanh(ẋ / smoothing)), where the
+         *     joint's own reaction presses with N.
+         */
         Friction: {
+            /**
+             * Format: double
+             * @description Coefficient of friction between the parts that the joint's reaction presses together.
+             */
+            coefficient?: number;
             /**
              * Format: double
              * @description Coulomb friction at full sliding, N or N m.
              * @default 0
              */
             coulomb?: number;
+            /**
+             * Format: double
+             * @description Distance of the two ends at which the parts touch, m, with the joint's point on body j (on body i where j is the ground)
+             *     half-way: moments across the axis then press as well. Without it, forces across the axis alone.
+             */
+            guide?: number | null;
+            /**
+             * Format: double
+             * @description Radius of the pin, m: needed with a coefficient about an axis, unknown along one.
+             */
+            radius?: number | null;
             /**
              * Format: double
              * @description Velocity at which Coulomb friction has reached three quarters, m/s or rad/s.

@@ -6,6 +6,7 @@
 //! directors, orthonormal or not, and for full and reduced bodies alike.
 
 mod factor;
+mod friction;
 mod idle;
 mod increment;
 mod projectable;
@@ -14,7 +15,7 @@ mod solution;
 mod twist_jacobian;
 
 pub use projectable::ProjectableState;
-pub use solution::{Accelerations, Multipliers};
+pub use solution::{Accelerations, JointWrench, Multipliers};
 pub use twist_jacobian::TwistJacobian;
 
 use crate::dynamics::blocks::{BlockProduct, SchurLayout};
@@ -23,6 +24,7 @@ use crate::state::{AppliedForces, State};
 use crate::system::System;
 use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
 use crate::system::natural::NaturalCoordinates;
+use friction::Frictions;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
 use triad_linalg::BlockCholesky;
@@ -88,6 +90,8 @@ pub struct Elimination {
     /// Whether the current factor is that of a regularized S.
     regularized: bool,
     regularizes_inertia: bool,
+    /// Dry friction, if there is any.
+    frictions: Option<Box<Frictions>>,
     /// Work done so far.
     pub counters: Counters,
 }
@@ -111,6 +115,7 @@ impl Elimination {
             redundant: false,
             regularized: false,
             regularizes_inertia: system.regularizes_inertia(),
+            frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
             counters: Counters::default(),
         }
     }
@@ -146,6 +151,16 @@ impl Elimination {
         state.require_velocities();
         self.linearize(system, state);
         self.set_forces(system, state);
+        if self.frictions.is_some() {
+            self.add_friction(system, state, |own| own.solve_motion(system, state, baumgarte));
+        }
+        self.solve_motion(system, state, baumgarte);
+        self.counters.evaluations += 1;
+        self.last_accelerations(system, state)
+    }
+
+    /// Solves the equations of motion with the applied forces in place.
+    fn solve_motion(&mut self, system: &System, state: &State, baumgarte: (f64, f64)) {
         let (damping, stiffness) = (2.0 * baumgarte.0, baumgarte.1 * baumgarte.1);
         let correction = move |value: f64, rate: f64| -damping * rate - stiffness * value;
         self.set_particular(system, state, true, |q, q_dot| {
@@ -157,14 +172,16 @@ impl Elimination {
         });
         self.set_gamma(system, state, true, correction);
         self.solve(system);
-        self.counters.evaluations += 1;
-        self.last_accelerations(system, state)
     }
 
     /// What [`Elimination::accelerate`] has found last, at the state that it was given.
     pub fn last_accelerations<'a>(&'a self, system: &'a System, state: &'a State) -> Accelerations<'a> {
-        let multipliers = Multipliers::new(system, state, &self.jacobian, &self.lambda);
-        Accelerations::new(multipliers, &self.bodies)
+        Accelerations::new(self.multipliers(system, state), &self.bodies)
+    }
+
+    /// The multipliers of the last solution, at the state that it was given.
+    fn multipliers<'a>(&'a self, system: &'a System, state: &'a State) -> Multipliers<'a> {
+        Multipliers::new(system, state, &self.jacobian, &self.lambda)
     }
 
     /// One mass-orthogonal Newton step of the positions q towards Φ = 0, with the factor at hand. Returns the size

@@ -141,10 +141,18 @@ fn reduced_mass(body: &RigidBody, q: &NaturalCoordinates) -> [[Matrix3<f64>; 2];
     ]
 }
 
-/// g = Vᵀ(G − M V̇q̇), G being the applied forces at the state — eq. (6.5).
+/// g = Vᵀ(G − M V̇q̇), G being the applied forces at the state — eq. (6.5) — without dry friction, which follows from λ.
 pub fn force(system: &System, at: &State) -> DVector<f64> {
+    force_of(system, at, AppliedForces::new(system, at).bodies)
+}
+
+/// The same of given applied forces G.
+pub fn force_of(
+    system: &System,
+    at: &State,
+    applied: impl IntoIterator<Item = NaturalCoordinates>,
+) -> DVector<f64> {
     let mut out = DVector::zeros(system.coordinates);
-    let applied = AppliedForces::new(system, at).bodies;
     for ((body, state), mut natural) in system.bodies.iter().zip(at.bodies()).zip(applied) {
         if body.coordinates == Coordinates::Reduced {
             natural.e[2] -= state.q_dot.e[0].cross(&state.q_dot.e[1]) * (2.0 * body.ibar[2]);

@@ -8,6 +8,10 @@ use nalgebra::Vector3;
 
 /// Greatest stiffness, damping or friction that a load may have, SI units: far above steel, far below overflow.
 const MAX_COEFFICIENT: f64 = 1e15;
+/// Greatest coefficient of friction: rubber on rubber has about 1.
+const MAX_FRICTION: f64 = 100.0;
+/// Least radius of a pin and length of a guide, m.
+const MIN_LENGTH: f64 = 1e-9;
 
 /// A checked load.
 #[derive(Clone, Debug)]
@@ -122,6 +126,7 @@ impl ModelLoad {
             }
             Load::Torsion { joint, stiffness, free_angle, damping, torque, friction, .. } => {
                 let drive = torque.as_ref().map(|t| reader.curve("torque", t)).transpose()?;
+                check_dry(reader, friction.as_ref(), true)?;
                 LoadKind::Torsion {
                     joint: reader.joint(joint, &[JointKind::Revolute, JointKind::Cylindrical])?,
                     law: law(reader, *stiffness, *free_angle, *damping, drive, *friction)?,
@@ -129,6 +134,7 @@ impl ModelLoad {
             }
             Load::Slider { joint, stiffness, free_length, damping, force, friction, .. } => {
                 let drive = force.as_ref().map(|f| reader.curve("force", f)).transpose()?;
+                check_dry(reader, friction.as_ref(), false)?;
                 LoadKind::Slider {
                     joint: reader.joint(joint, &[JointKind::Prismatic, JointKind::Cylindrical])?,
                     law: law(reader, *stiffness, *free_length, *damping, drive, *friction)?,
@@ -136,6 +142,30 @@ impl ModelLoad {
             }
         };
         Ok(Self { name: load.name().to_owned(), kind })
+    }
+}
+
+/// Refuses friction with a coefficient that lacks the radius of its pin, or has what it does not use.
+fn check_dry(reader: &ModelReader, friction: Option<&Friction>, turning: bool) -> Result<(), ModelError> {
+    let Some(friction) = friction else { return Ok(()) };
+    reader.number("friction/coefficient", friction.coefficient, 0.0, MAX_FRICTION)?;
+    for (key, length) in [("friction/radius", friction.radius), ("friction/guide", friction.guide)] {
+        if let Some(length) = length {
+            reader.number(key, length, MIN_LENGTH, 1e9)?;
+            if friction.coefficient == 0.0 {
+                return Err(reader.wrong(key, "its friction has a length, but no coefficient"));
+            }
+        }
+    }
+    match friction.radius {
+        None if turning && friction.coefficient > 0.0 => Err(reader.wrong(
+            "friction/coefficient",
+            "friction with a coefficient about an axis needs the radius of its pin: give friction.radius, in m",
+        )),
+        Some(_) if !turning => {
+            Err(reader.wrong("friction/radius", "friction along an axis has no radius: leave it out"))
+        }
+        _ => Ok(()),
     }
 }
 

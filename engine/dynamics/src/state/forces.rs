@@ -117,7 +117,7 @@ impl SystemLoad {
 
     /// The length, angle or displacement that it acts along, and its rate. A spring of no length has no direction to
     /// pull in.
-    fn coordinate(&self, at: &State) -> Option<(f64, f64)> {
+    pub(crate) fn coordinate(&self, at: &State) -> Option<(f64, f64)> {
         match self {
             Self::Force { .. } | Self::Moment { .. } => None,
             Self::Spring { from, to, .. } => {
@@ -145,6 +145,14 @@ impl SystemLoad {
         Some([x, rate, law.value(x, rate, at.time)])
     }
 
+    /// The unit axis in the world that a load about or along a joint acts about or along; zero for other loads.
+    pub(crate) fn axis(&self, at: &State) -> Vector3<f64> {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } | Self::Spring { .. } => Vector3::zeros(),
+            Self::Torsion { axis, .. } | Self::Slider { axis, .. } => at.feature_value(*axis),
+        }
+    }
+
     /// The force or moment in the world of a load that is one.
     pub fn given(&self, at: &State) -> Option<Vector3<f64>> {
         match self {
@@ -157,7 +165,7 @@ impl SystemLoad {
 
     /// Adds the generalized force of a force or moment `value` along its coordinate: the gradient of the coordinate
     /// times that.
-    fn push(&self, system: &System, at: &State, value: f64, forces: &mut AppliedForces) {
+    pub(crate) fn push(&self, system: &System, at: &State, value: f64, forces: &mut AppliedForces) {
         match self {
             Self::Force { .. } | Self::Moment { .. } => {}
             Self::Spring { from, to, .. } => {

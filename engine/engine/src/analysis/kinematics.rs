@@ -91,6 +91,7 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
     let idle = idle_bodies(scene, &mut path)?;
     let mut masses = Masses::new(scene)?;
     let mut notes = path.notes().to_vec();
+    notes.extend(masses.without_friction());
     let mut states = Vec::new();
     loop {
         let time = (states.len() as f64 * settings.every).min(settings.duration);

@@ -122,6 +122,12 @@ pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
                 .to_owned(),
         );
     }
+    if !stage.mechanism.system.frictions.is_empty() {
+        notes.push(
+            "friction with a coefficient is left out: about a position at rest it has no linear law"
+                .to_owned(),
+        );
+    }
     let steady = match about {
         ModesAbout::Equilibrium => {
             equilibrium::find(&mut stage)?;

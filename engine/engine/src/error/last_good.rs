@@ -40,6 +40,11 @@ pub enum Cause {
         /// The product of its relative pivots.
         pivot_product: f64,
     },
+    /// Dry friction raises the reaction that loads it by more than that raises the friction: no motion satisfies both.
+    Locked {
+        /// The load with the friction.
+        load: String,
+    },
 }
 
 impl fmt::Display for Cause {
@@ -60,6 +65,11 @@ impl fmt::Display for Cause {
                     "\"{joint}\" hardly holds since the start, where others leave it {pivot_product:.0e} of a firm hold"
                 )
             }
+            Self::Locked { load } => write!(
+                f,
+                "the friction of \"{load}\" locks: it presses its joint together faster than it can hold, and no motion \
+                 satisfies both"
+            ),
         }
     }
 }
@@ -82,6 +92,10 @@ impl Cause {
             Self::Weak { .. } => {
                 "Move the points or axes of that joint away from the singular position that it starts in, or leave it out \
                  if others hold the same."
+            }
+            Self::Locked { .. } => {
+                "A real mechanism stops here with a jolt. Take a smaller coefficient, a longer guide or a thinner pin, or end the \
+                 run before."
             }
         }
     }

@@ -34,7 +34,12 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
         let why = format!("{why}the augmented Lagrangian is solved together with the trapezoidal rule");
         return (IntegratorKind::Trapezoidal, why);
     }
-    let obstacle = if let Some(load) = mechanism.system.model.custom_loads.first() {
+    let dry = mechanism.system.frictions.first().map(|dry| &mechanism.system.model.loads[dry.load].name);
+    let obstacle = if let Some(load) = dry {
+        Some(format!(
+            "friction of \"{load}\" follows from the reactions, which have no series before the motion has"
+        ))
+    } else if let Some(load) = mechanism.system.model.custom_loads.first() {
         Some(format!("load \"{}\" is a function without a power series", load.name))
     } else if method == ConstraintMethod::Projection {
         settings.step.map(|_| "its steps have no fixed size".to_owned())

@@ -9,7 +9,9 @@ pub fn power(at: &Multipliers) -> f64 {
     let (system, state) = (at.system, at.state);
     let custom = system.model.custom_loads.iter().map(|load| load.power(system, state));
     let loads: f64 = system.loads.iter().map(|load| load.power(state)).chain(custom).sum();
-    loads + driver_power(at)
+    let friction = |[force, rate]: [f64; 2]| force * rate;
+    let frictions: f64 = system.frictions.iter().map(|dry| friction(at.dry_friction(dry))).sum();
+    loads + frictions + driver_power(at)
 }
 
 /// −λᵀ ν: constraints act with −Φ_qᵀ λ, and Φ_q q̇ = ν.

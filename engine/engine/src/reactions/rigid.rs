@@ -7,7 +7,7 @@ use crate::scene::Coordinates;
 use serde::Serialize;
 use triad_dynamics::dynamics::elimination::Accelerations;
 use triad_dynamics::equations;
-use triad_dynamics::equations::augmented::{for_mass_entries, force};
+use triad_dynamics::equations::augmented::{for_mass_entries, force_of};
 use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::system::index::RowId;
 use triad_dynamics::system::natural::NaturalCoordinates;
@@ -29,7 +29,8 @@ pub struct RigidMultipliers {
 pub fn rigid_multipliers(accelerations: &Accelerations) -> Vec<RigidMultipliers> {
     let multipliers = &accelerations.multipliers;
     let (system, at) = (multipliers.system, multipliers.state);
-    let mut rest = force(system, at);
+    let applied = (0..system.bodies.len()).map(|body| *accelerations.force_on(body));
+    let mut rest = force_of(system, at, applied);
     let mut acceleration = vec![0.0; system.coordinates];
     accelerations.write(&mut acceleration);
     for_mass_entries(system, at, |row, column, value| rest[row] -= value * acceleration[column]);

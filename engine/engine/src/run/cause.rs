@@ -21,7 +21,13 @@ const TIGHT: f64 = 1e-11;
 impl Simulation {
     /// Why the motion cannot continue from the current state, if that can be found.
     pub(super) fn cause(&self) -> Option<Cause> {
-        self.out_of_reach().or_else(|| self.nearly_dependent())
+        self.locked().or_else(|| self.out_of_reach()).or_else(|| self.nearly_dependent())
+    }
+
+    /// Whether friction and the reaction that loads it have grown together without bounds.
+    fn locked(&self) -> Option<Cause> {
+        let load = self.mechanism.elimination.locked_friction(self.system())?;
+        Some(Cause::Locked { load: self.model().loads[load].name.clone() })
     }
 
     /// Whether drivers ask for positions that the joints do not allow: then none is found a little ahead.

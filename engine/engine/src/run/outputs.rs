@@ -4,7 +4,6 @@ mod columns;
 
 use super::Simulation;
 use crate::integrate::add_power;
-use crate::reactions::joint_wrench;
 use crate::scene::{Output, OutputKind};
 use nalgebra::Vector3;
 use triad_dynamics::dynamics::elimination::Multipliers;
@@ -177,13 +176,17 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
         Group::Angle(angle) => row.extend([state.angles()[angle].value, state.angles()[angle].rate]),
         Group::Slide(joint) => row.extend(slide(&model.joints[joint], state)),
         Group::Load(load) => {
+            let dry = system.frictions.iter().find(|dry| dry.load == load);
             let load = &system.loads[load];
             if let Some(vector) = load.given(state) {
                 push(row, &[vector]);
                 row.push(load.power(state));
             } else {
                 // A spring of no length has no direction to act in.
-                let [x, rate, value] = load.acting(state).unwrap_or_default();
+                let [x, rate, mut value] = load.acting(state).unwrap_or_default();
+                if let Some(dry) = dry {
+                    value += run.state().solved().multipliers.dry_friction(dry)[0];
+                }
                 row.extend([x, rate, value, value * rate]);
             }
         }
@@ -209,8 +212,7 @@ fn push(row: &mut Vec<f64>, vectors: &[Vector3<f64>]) {
 
 /// Force and moment of a joint or driver; zero where it meets no moving body.
 fn wrench(at: &Multipliers, constraint: usize) -> [Vector3<f64>; 2] {
-    joint_wrench(at, &at.system.constraints[constraint])
-        .map_or_else(Default::default, |w| [w.force, w.moment])
+    at.joint_wrench(&at.system.constraints[constraint]).map_or_else(Default::default, |w| [w.force, w.moment])
 }
 
 /// Of a driven angle or slide its value, its rate and the effort along it, of another driver force and moment; and the power.

@@ -6,12 +6,13 @@ use super::{Simulation, explain};
 use crate::error::EngineError;
 use crate::integrate::{self, Integrator};
 use crate::model::{CustomLoad, CustomLoadError, Model};
-use crate::scene::{IntegratorKind, Scene};
+use crate::scene::{ConstraintMethod, IntegratorKind, Scene};
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::{self, Rank};
 use triad_dynamics::constraints::start;
 use triad_dynamics::dynamics::elimination::Counters;
+use triad_dynamics::system::System;
 
 impl Simulation {
     /// Checks, assembles and starts a scene.
@@ -127,20 +128,49 @@ fn analyze_rank(
             rank.rank - rank.at_start
         ));
     }
+    if !(rank.dependent.is_empty() || system.frictions.is_empty()) {
+        notes.push(
+            "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which \
+             need not be those of a real mechanism"
+                .to_owned(),
+        );
+    }
     elimination.set_dependent(&rank.dependent);
     elimination.counters = Counters::default();
     Ok(rank)
 }
 
-/// Refuses custom loads that cannot be evaluated at the start, or not by the integrator that the scene asks for.
-fn check_loads(mechanism: &Mechanism) -> Result<(), CustomLoadError> {
+/// Refuses custom loads that cannot be evaluated at the start, and loads that the integrator cannot that the scene asks for.
+fn check_loads(mechanism: &Mechanism) -> Result<(), EngineError> {
+    check_friction(&mechanism.system)?;
     let model = &mechanism.system.model;
     let Some(load) = model.custom_loads.first() else { return Ok(()) };
     if model.settings.integrator == IntegratorKind::Taylor {
-        return Err(CustomLoadError::NoSeries { load: load.name.clone() });
+        return Err(CustomLoadError::NoSeries { load: load.name.clone() }.into());
     }
     for load in &model.custom_loads {
         load.at(model, 0.0, &mechanism.state)?;
     }
     Ok(())
+}
+
+/// Refuses dry friction where the reactions that load it are not solved for with the accelerations.
+fn check_friction(system: &System) -> Result<(), EngineError> {
+    let settings = &system.model.settings;
+    if system.frictions.is_empty() {
+        return Ok(());
+    }
+    let why = match (settings.integrator, settings.constraint_method) {
+        (IntegratorKind::Taylor, _) => {
+            "friction with a coefficient follows from the reactions, whose series are not known before those of the motion"
+        }
+        (IntegratorKind::Rattle, _) => {
+            "friction with a coefficient follows from the reactions, which its steps know as impulses alone"
+        }
+        (_, ConstraintMethod::Penalty { .. } | ConstraintMethod::AugmentedLagrangian { .. }) => {
+            "friction with a coefficient follows from the reactions, for which this treatment of the constraints puts penalties"
+        }
+        _ => return Ok(()),
+    };
+    Err(EngineError::Integrator { integrator: settings.integrator, why })
 }

@@ -7,6 +7,7 @@ mod closed_forms;
 mod events;
 mod exactness;
 mod explicit;
+mod friction;
 mod integrators;
 mod parts;
 mod problems;

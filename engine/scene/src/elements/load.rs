@@ -17,7 +17,8 @@ pub enum LoadFrame {
     Body,
 }
 
-/// Friction along one freedom of a joint: −(viscous ẋ + coulomb tanh(ẋ / smoothing)).
+/// Friction along one freedom of a joint: −(viscous ẋ + (coulomb + coefficient · radius · N) tanh(ẋ / smoothing)), where the
+/// joint's own reaction presses with N.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Friction {
@@ -30,13 +31,54 @@ pub struct Friction {
     /// Velocity at which Coulomb friction has reached three quarters, m/s or rad/s.
     #[serde(default = "default_smoothing")]
     pub smoothing: f64,
+    /// Coefficient of friction between the parts that the joint's reaction presses together.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub coefficient: f64,
+    /// Radius of the pin, m: needed with a coefficient about an axis, unknown along one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Distance of the two ends at which the parts touch, m, with the joint's point on body j (on body i where j is the ground)
+    /// half-way: moments across the axis then press as well. Without it, forces across the axis alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub guide: Option<f64>,
 }
 
 impl Friction {
     /// Viscous (N s/m or N m s/rad) and Coulomb friction (N or N m), smoothed below 1 mm/s or 1 mrad/s.
     pub fn new(viscous: f64, coulomb: f64) -> Self {
-        Self { viscous, coulomb, smoothing: default_smoothing() }
+        Self { viscous, coulomb, smoothing: default_smoothing(), coefficient: 0.0, radius: None, guide: None }
     }
+
+    /// Dry friction that the reaction of its joint loads, with this coefficient; about an axis it needs a [`Friction::radius`]
+    /// — eq. (6.11).
+    ///
+    /// ```
+    /// use triad_scene::{Friction, Load};
+    ///
+    /// let bearing = Load::turning_friction("bearing", "pin", Friction::dry(0.1).radius(0.01).guide(0.04));
+    /// assert_eq!(bearing.name(), "bearing");
+    /// ```
+    pub fn dry(coefficient: f64) -> Self {
+        Self { coefficient, ..Self::new(0.0, 0.0) }
+    }
+
+    /// The radius of the pin, m.
+    #[must_use]
+    pub fn radius(self, radius: f64) -> Self {
+        Self { radius: Some(radius), ..self }
+    }
+
+    /// The distance of the ends at which the parts touch, m.
+    #[must_use]
+    pub fn guide(self, guide: f64) -> Self {
+        Self { guide: Some(guide), ..self }
+    }
+}
+
+/// Left out of what is written, so that a scene without it keeps its fingerprint.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 fn default_smoothing() -> f64 {

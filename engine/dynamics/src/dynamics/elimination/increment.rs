@@ -80,9 +80,7 @@ impl Elimination {
     pub fn set_unit_load(&mut self, system: &System, state: &State, load: usize) -> Option<(f64, f64)> {
         self.forces.bodies.fill(NaturalCoordinates::default());
         let law = system.loads[load].linearized(system, state, &mut self.forces);
-        for (solve, force) in self.bodies.iter_mut().zip(&self.forces.bodies) {
-            solve.force = *force;
-        }
+        self.take_forces();
         law
     }
 

@@ -142,6 +142,11 @@ impl Elimination {
     /// Weight of each body and all loads at a state.
     pub fn set_forces(&mut self, system: &System, state: &State) {
         self.forces.evaluate(system, state);
+        self.take_forces();
+    }
+
+    /// Takes the applied forces over to the bodies.
+    pub(super) fn take_forces(&mut self) {
         for (solve, force) in self.bodies.iter_mut().zip(&self.forces.bodies) {
             solve.force = *force;
         }

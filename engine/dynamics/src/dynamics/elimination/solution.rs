@@ -2,11 +2,12 @@
 //! under them.
 
 use super::{BodySolve, TwistJacobian, natural_acceleration};
+use crate::model::BodyRef;
 use crate::state::State;
-use crate::system::System;
 use crate::system::index::{IncidenceId, RowId};
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
+use crate::system::{Constraint, System};
 use nalgebra::Vector3;
 
 /// Multipliers of all joints and drivers at a state.
@@ -58,6 +59,31 @@ impl<'a> Multipliers<'a> {
         }
         wrench
     }
+
+    /// The reaction of a joint or driver; none where it meets no moving body.
+    pub fn joint_wrench(&self, constraint: &Constraint) -> Option<JointWrench> {
+        let system = self.system;
+        let side = usize::from(constraint.bodies[1] != BodyRef::Ground);
+        let BodyRef::Moving(body) = constraint.bodies[side] else { return None };
+        let incidence = constraint.incidence_ids().find(|&id| system[id].body == body)?;
+        let [force, about_center] = self.wrench_on(incidence);
+        let q = &self.state.bodies()[body].q;
+        let arm = q.arm(&constraint.points[side]);
+        Some(JointWrench { side, force, moment: about_center - arm.cross(&force), about: q.r + arm })
+    }
+}
+
+/// What a joint or driver does to body j, or to body i if j is the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct JointWrench {
+    /// 0 for body i, 1 for body j.
+    pub side: usize,
+    /// Force in the world, N.
+    pub force: Vector3<f64>,
+    /// Moment about the joint's point on that body, N m.
+    pub moment: Vector3<f64>,
+    /// That point in the world, m.
+    pub about: Vector3<f64>,
 }
 
 /// Accelerations and multipliers at a state.

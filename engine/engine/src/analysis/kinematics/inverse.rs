@@ -27,6 +27,13 @@ impl Masses {
         Ok(Self { system, state, left: Vec::new() })
     }
 
+    /// That friction is left out which follows from the reactions that are looked for, if there is any.
+    pub(super) fn without_friction(&self) -> Option<String> {
+        let note =
+            "friction with a coefficient is left out of the forces; a run of the driven mechanism has it";
+        (!self.system.frictions.is_empty()).then(|| note.to_owned())
+    }
+
     /// Takes loads and inertia at the state that is held.
     pub(super) fn take(&mut self, stage: &Stage, accelerations: &[NaturalCoordinates]) {
         let Self { system, state, left } = self;

@@ -36,6 +36,12 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
     mechanism.rhs(t, y, &mut rate);
     let n = mechanism.system.coordinates;
     let Mechanism { system, state, elimination, .. } = mechanism;
+    let at = elimination.last_accelerations(system, state).multipliers;
+    let dry: Vec<(usize, f64)> = system
+        .frictions
+        .iter()
+        .map(|friction| (friction.load, friction.steepest_damping() * at.pressing(friction)))
+        .collect();
     for load in 0..system.loads.len() {
         let name = &system.model.loads[load].name;
         let Some((stiffness, _)) = elimination.set_unit_load(system, state, load) else { continue };
@@ -46,7 +52,8 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         };
         let (speed, acceleration) = (along(&y[n..]).abs(), along(&rate[n..]).abs());
         let mobility = elimination.mobility(system, state, load).unwrap_or(0.0).max(0.0);
-        let decay = system.loads[load].steepest_damping() * mobility;
+        let dry: f64 = dry.iter().filter(|(of, _)| *of == load).map(|(_, damping)| damping).sum();
+        let decay = (system.loads[load].steepest_damping() + dry) * mobility;
         if decay * duration > MANY_DECAYS * cost_of_decays {
             return Some(format!("load \"{name}\" makes motions decay within {:.0e} s", 1.0 / decay));
         }

@@ -151,7 +151,7 @@ fn friction(method: &TrialMethod, quick: bool) -> StressOutcome {
         free_length: 0.0,
         damping: 0.0,
         force: None,
-        friction: Some(Friction { viscous: 0.0, coulomb: 2.0, smoothing: 1e-6 }),
+        friction: Some(Friction { smoothing: 1e-6, ..Friction::new(0.0, 2.0) }),
     });
     // tanh is one but for the last micrometres a second: their effect on the path is 1e-12 m.
     Trial::new(scene, method)
