@@ -20,7 +20,25 @@ fn main() {
 fn prepare() -> Result<(), Box<dyn Error>> {
     page::embed()?;
     glyphs::write()?;
+    name_build()?;
     fold_equal_functions()
+}
+
+/// Version, commit and target, as `0.1.0 (1a2b3c4d, x86_64-unknown-linux-gnu)`; without a repository there is no commit.
+fn name_build() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-changed=../.git/logs/HEAD");
+    let asked = Command::new("git").args(["rev-parse", "--short=12", "HEAD"]).output();
+    let known = asked.ok().filter(|output| output.status.success());
+    let commit = known.map_or_else(
+        || "no commit".to_owned(),
+        |output| String::from_utf8_lossy(&output.stdout).trim().to_owned(),
+    );
+    println!(
+        "cargo::rustc-env=TRIAD_BUILD={} ({commit}, {})",
+        env::var("CARGO_PKG_VERSION")?,
+        env::var("TARGET")?
+    );
+    Ok(())
 }
 
 /// Has the linker keep one of several functions whose instructions are equal: 2 MB of the binary. LLD can, which the

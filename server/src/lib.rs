@@ -34,6 +34,9 @@ pub mod cli;
 
 use problem::Problem;
 
+/// What was built of which sources for which machine: verdicts name what made them.
+pub const BUILD: &str = env!("TRIAD_BUILD");
+
 /// The server as one service; tests call it in process.
 pub fn app(state: app::App) -> axum::Router {
     api::router(state)

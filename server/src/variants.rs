@@ -7,6 +7,7 @@ use axum::http::StatusCode;
 use triad_lessons::{Lesson, VariantError};
 
 use crate::problem::Problem;
+use crate::store::names;
 
 /// Lessons that are kept.
 const KEPT: usize = 256;
@@ -31,6 +32,7 @@ impl Variants {
     /// Errors if the seed is refused or the lesson has no numbers for it.
     pub fn of(&self, lesson: &Lesson, seed: &str) -> Result<Arc<Lesson>, Problem> {
         let seed = checked(seed)?;
+        let seed = seed.as_str();
         if seed.is_empty() {
             return Ok(Arc::new(lesson.clone()));
         }
@@ -58,10 +60,10 @@ impl Variants {
     }
 }
 
-/// A seed of reasonable length, without control characters.
+/// A seed of reasonable length, without control characters; all spellings of a name's letters are the same seed.
 ///
 /// Errors if it is too long or has control characters.
-pub fn checked(seed: &str) -> Result<&str, Problem> {
+fn checked(seed: &str) -> Result<String, Problem> {
     let seed = seed.trim();
     if seed.chars().count() > MAX_SEED_LENGTH || seed.chars().any(char::is_control) {
         return Err(Problem::new(
@@ -71,7 +73,7 @@ pub fn checked(seed: &str) -> Result<&str, Problem> {
             "use the student's name",
         ));
     }
-    Ok(seed)
+    Ok(names::shown(seed))
 }
 
 impl From<VariantError> for Problem {

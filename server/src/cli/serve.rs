@@ -2,6 +2,7 @@
 
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use axum::http::StatusCode;
 use clap::Args;
@@ -13,6 +14,9 @@ use crate::app::{App, REPORTS};
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::store::Store;
+
+/// How long the end of the program waits for the gradebook.
+const CLOSING: Duration = Duration::from_secs(5);
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Serve {
@@ -59,7 +63,6 @@ impl Default for Serve {
 
 /// Serves until it is stopped.
 pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
-    let store = Store::open(&options.database)?;
     let limits = Limits {
         sessions: options.max_sessions,
         bodies: options.max_bodies,
@@ -67,10 +70,12 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
         followers: options.max_followers,
         ..Limits::default()
     };
-    let app = App::new(course, store, limits).with_reports(&options.reports);
     let runtime =
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
-    let served = runtime.block_on(listen(options, app));
+    let served = runtime.block_on(async {
+        let store = Store::open(&options.database).await?;
+        listen(options, App::new(course, store, limits).with_reports(&options.reports)).await
+    });
     // What still computes for callers that are gone is not waited for.
     runtime.shutdown_background();
     served.map(|()| Outcome::Done)
@@ -99,7 +104,10 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         lectures.clear();
         sessions.clear();
     };
+    let store = app.store.clone();
     crate::listen::serve(listener, crate::app(app), stopped, ending).await;
+    // What is being written is finished; whoever hangs beyond that has not been answered.
+    drop(tokio::time::timeout(CLOSING, store.close()).await);
     Ok(())
 }
 

@@ -1,258 +1,157 @@
-//! The gradebook: submissions and their verdicts in one SQLite file.
+//! The gradebook: people, what they handed in, what it earned and who decided what, in one SQLite file.
+//!
+//! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: each
+//! submission is one transaction, written through before it returns.
 
+mod error;
+mod file;
+pub mod hash;
+mod log;
+pub mod names;
+mod random;
+mod records;
 mod schema;
+mod sql;
+mod submissions;
+#[cfg(test)]
+mod tests;
+mod transaction;
 
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::path::Path;
 use std::time::Duration;
 
-use axum::http::StatusCode;
-use rusqlite::Connection;
-use serde_json::Value;
+use sqlx::SqlitePool;
+use sqlx::sqlite::{SqliteConnectOptions, SqlitePoolOptions, SqliteSynchronous};
 
-use crate::problem::Problem;
+pub use error::StoreError;
+use file::Place;
+pub use submissions::{HandIn, Kept, Query, StoredSubmission, Whose};
+use transaction::Transaction;
 
-/// Why the gradebook could not be opened, read or written.
-#[derive(Debug, thiserror::Error)]
-pub enum StoreError {
-    /// The file is not there, not writable, or not a database.
-    #[error("cannot open the database {}: {cause}", path.display())]
-    Open {
-        /// The file.
-        path: PathBuf,
-        /// What SQLite said.
-        cause: rusqlite::Error,
-    },
-    /// The file was written by a later version of this program.
-    #[error("the database has format {found}, this program knows formats up to {known}")]
-    Newer {
-        /// Format of the file.
-        found: i64,
-        /// Newest format known here.
-        known: i64,
-    },
-    /// A statement failed.
-    #[error("the database refused: {0}")]
-    Sql(#[from] rusqlite::Error),
-    /// A stored document is not JSON.
-    #[error("submission {id} is damaged: {cause}")]
-    Damaged {
-        /// The submission.
-        id: String,
-        /// What the reader said.
-        cause: serde_json::Error,
-    },
-}
+/// The course of those who use the workbench without accounts.
+pub const HOME: &str = "home";
+/// How long a statement waits for another program that writes.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Connections that read; one more writes.
+const READERS: u32 = 4;
 
-impl From<StoreError> for Problem {
-    fn from(error: StoreError) -> Self {
-        let status = StatusCode::INTERNAL_SERVER_ERROR;
-        let (code, hint) = match &error {
-            StoreError::Open { .. } => (
-                "database-unavailable",
-                "check that the folder exists and is writable, or name another file with --database",
-            ),
-            StoreError::Newer { .. } => {
-                ("database-newer", "use the newer program, or name another file with --database")
-            }
-            StoreError::Sql(_) => ("database-failed", "check that the disk is not full, then try again"),
-            StoreError::Damaged { .. } => {
-                ("database-damaged", "restore the database file from a copy; other submissions are unharmed")
-            }
-        };
-        Self::new(status, code, error.to_string(), hint)
-    }
-}
-
-/// A submission as it is kept.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StoredSubmission {
-    /// Its name.
-    pub id: String,
-    /// Slug of the lesson.
-    pub lesson: String,
-    /// Who handed it in.
-    pub student: String,
-    /// When, RFC 3339 in UTC.
-    pub submitted_at: String,
-    /// What was handed in.
-    pub answers: Value,
-    /// What it earned, with the provenance of the grading.
-    pub verdict: Value,
-}
-
-/// Which submissions to list.
-#[derive(Debug, Clone, Default)]
-pub struct Query {
-    /// Only this student's.
-    pub student: Option<String>,
-    /// Only for this lesson.
-    pub lesson: Option<String>,
-    /// At most so many, newest first.
-    pub limit: usize,
-}
-
-/// The gradebook. Calls block on the disk: from async code, use `spawn_blocking`.
+/// The gradebook.
 #[derive(Debug)]
 pub struct Store {
-    connection: Mutex<Connection>,
+    writer: SqlitePool,
+    readers: SqlitePool,
+    place: Option<Place>,
 }
 
 impl Store {
-    /// Opens the file, making it if it is not there, and brings its tables up to date.
+    /// Opens the file, making it if it is not there, looks whether it is whole, and brings its tables up to date.
     ///
-    /// Errors if it cannot be opened, is no database, or is of a later version.
-    pub fn open(path: &Path) -> Result<Self, StoreError> {
-        let connection =
-            Connection::open(path).map_err(|cause| StoreError::Open { path: path.to_owned(), cause })?;
-        Self::prepare(connection).map_err(|error| match error {
-            StoreError::Sql(cause) => StoreError::Open { path: path.to_owned(), cause },
-            other => other,
-        })
+    /// Errors if it cannot be opened or written, is no database, is damaged, or is of a later version.
+    pub async fn open(path: &Path) -> Result<Self, StoreError> {
+        let file = Place::prepare(path)?;
+        Self::open_file(&file).await.map_err(|error| error.opening(path))
+    }
+
+    async fn open_file(file: &Path) -> Result<Self, StoreError> {
+        let options = SqliteConnectOptions::new()
+            .filename(file)
+            .busy_timeout(PATIENCE)
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true);
+        let writer = pool(1).connect_lazy_with(options.clone());
+        write_ahead(&writer).await?;
+        let (whole,): (String,) = sqlx::query_as("PRAGMA quick_check(1)").fetch_one(&writer).await?;
+        if whole != "ok" {
+            return Err(StoreError::Damaged(whole));
+        }
+        let mut transaction = Transaction::begin(&writer).await?;
+        schema::migrate(&mut transaction).await?;
+        transaction.commit().await?;
+        let readers = pool(READERS).connect_lazy_with(options.read_only(true));
+        Ok(Self { writer, readers, place: Some(Place::remember(file.to_owned())) })
     }
 
     /// A gradebook that is forgotten when it is dropped.
+    pub fn in_memory() -> Self {
+        // Each connection to memory has a database of its own: there is one, for as long as the store.
+        let options = SqliteConnectOptions::new().in_memory(true).foreign_keys(true);
+        let first = pool(1).after_connect(|connection, _| {
+            Box::pin(async move {
+                schema::migrate(connection).await.map_err(|error| sqlx::Error::Protocol(error.to_string()))
+            })
+        });
+        let writer = first.connect_lazy_with(options);
+        Self { readers: writer.clone(), writer, place: None }
+    }
+
+    /// Begins a transaction that writes.
+    async fn write(&self) -> Result<Transaction, StoreError> {
+        Transaction::begin(&self.writer).await
+    }
+
+    /// Errors if the file is no longer where it was opened.
+    fn place_is_right(&self) -> Result<(), StoreError> {
+        self.place.as_ref().map_or(Ok(()), Place::check)
+    }
+
+    /// Whether something could be handed in now.
     ///
-    /// Errors if SQLite refuses it.
-    pub fn in_memory() -> Result<Self, StoreError> {
-        Self::prepare(Connection::open_in_memory()?)
+    /// Errors with what is in the way.
+    pub async fn ready(&self) -> Result<(), StoreError> {
+        self.place_is_right()?;
+        self.write().await?.rollback().await
     }
 
-    fn prepare(mut connection: Connection) -> Result<Self, StoreError> {
-        connection.busy_timeout(Duration::from_secs(5))?;
-        // Answers with the mode that it took; an in-memory database keeps its own.
-        connection.query_row("PRAGMA journal_mode = WAL", [], |_| Ok(()))?;
-        connection.pragma_update(None, "synchronous", "FULL")?;
-        schema::migrate(&mut connection)?;
-        Ok(Self { connection: Mutex::new(connection) })
-    }
-
-    fn lock(&self) -> MutexGuard<'_, Connection> {
-        // Each statement is a transaction of its own, so a panic elsewhere leaves nothing half-written.
-        self.connection.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Keeps a submission; it can neither be changed nor removed.
-    ///
-    /// Errors if it cannot be written.
-    pub fn add(&self, submission: &StoredSubmission) -> Result<(), StoreError> {
-        self.lock().execute(
-            "INSERT INTO submission (id, lesson, student, submitted_at, answers, verdict) \
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
-            (
-                &submission.id,
-                &submission.lesson,
-                &submission.student,
-                &submission.submitted_at,
-                submission.answers.to_string(),
-                submission.verdict.to_string(),
-            ),
-        )?;
-        Ok(())
-    }
-
-    /// How often a student has handed in a lesson.
+    /// Faults of the records of all courses, as sentences; empty if everything is as it was written.
     ///
     /// Errors if the file cannot be read.
-    pub fn attempts(&self, student: &str, lesson: &str) -> Result<usize, StoreError> {
-        let connection = self.lock();
-        let mut statement = connection
-            .prepare_cached("SELECT COUNT(*) FROM submission WHERE student = ?1 AND lesson = ?2")?;
-        let count: i64 = statement.query_row((student, lesson), |row| row.get(0))?;
-        Ok(usize::try_from(count).unwrap_or_default())
-    }
-
-    /// Lists submissions, newest first.
-    ///
-    /// Errors if the file cannot be read.
-    pub fn list(&self, query: &Query) -> Result<Vec<StoredSubmission>, StoreError> {
-        let connection = self.lock();
-        let mut statement = connection.prepare_cached(
-            "SELECT id, lesson, student, submitted_at, answers, verdict FROM submission \
-             WHERE (?1 IS NULL OR student = ?1) AND (?2 IS NULL OR lesson = ?2) \
-             ORDER BY submitted_at DESC, rowid DESC LIMIT ?3",
-        )?;
-        let limit = i64::try_from(query.limit).unwrap_or(i64::MAX);
-        let rows = statement.query_map((&query.student, &query.lesson, limit), |row| {
-            Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?))
-        })?;
+    pub async fn faults(&self) -> Result<Vec<String>, StoreError> {
+        let courses: Vec<(String,)> = sqlx::query_as(sql::COURSES).fetch_all(&self.readers).await?;
         let mut found = Vec::new();
-        for row in rows {
-            let (id, lesson, student, submitted_at, answers, verdict): (_, _, _, _, String, String) = row?;
-            let id: String = id;
-            let parse = |text: &str| {
-                serde_json::from_str(text).map_err(|cause| StoreError::Damaged { id: id.clone(), cause })
-            };
-            let (answers, verdict) = (parse(&answers)?, parse(&verdict)?);
-            found.push(StoredSubmission { id, lesson, student, submitted_at, answers, verdict });
+        for (course,) in courses {
+            found.extend(log::faults(&self.readers, &course).await?);
         }
         Ok(found)
     }
+
+    /// Finishes what is being written and lets go of the file.
+    pub async fn close(&self) {
+        self.readers.close().await;
+        self.writer.close().await;
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use serde_json::json;
+/// Connections that stay: a store in memory lives in one, and opening a file again costs more than keeping it. What a
+/// request that was given up left half-done is undone.
+fn pool(most: u32) -> SqlitePoolOptions {
+    let stays = SqlitePoolOptions::new().max_connections(most).idle_timeout(None).max_lifetime(None);
+    stays.test_before_acquire(false).after_release(|connection, _| {
+        Box::pin(async move {
+            transaction::undo(connection).await;
+            Ok(true)
+        })
+    })
+}
 
-    fn submission(id: &str, student: &str) -> StoredSubmission {
-        StoredSubmission {
-            id: id.into(),
-            lesson: "pendulum".into(),
-            student: student.into(),
-            submitted_at: format!("2025-01-01T00:00:0{id}Z"),
-            answers: json!({"q": {"value": "0.1"}}),
-            verdict: json!({"earned": 0.1}),
+/// Changes go to a log beside the file, so that readers do not wait. Several programs that open a new file at once get in
+/// each other's way here, where SQLite does not wait by itself.
+async fn write_ahead(writer: &SqlitePool) -> Result<(), StoreError> {
+    let mut tries = 0;
+    loop {
+        match sqlx::query("PRAGMA journal_mode = WAL").execute(writer).await.map_err(StoreError::from) {
+            Err(StoreError::Busy) if tries < 50 => tries += 1,
+            other => return other.map(drop),
         }
+        tokio::time::sleep(PATIENCE / 50).await;
     }
+}
 
-    #[test]
-    fn what_was_handed_in_survives_a_restart_unchanged() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let path = folder.path().join("grades.db");
-        let store = Store::open(&path).expect("opens");
-        store.add(&submission("1", "ada")).expect("adds");
-        store.add(&submission("2", "emmy")).expect("adds");
-        drop(store);
+/// Now, in milliseconds since 1970.
+fn now() -> i64 {
+    jiff::Timestamp::now().as_millisecond()
+}
 
-        let store = Store::open(&path).expect("opens again");
-        let all = store.list(&Query { limit: 10, ..Query::default() }).expect("lists");
-        assert_eq!(all, [submission("2", "emmy"), submission("1", "ada")], "newest first");
-        let ada = Query { student: Some("ada".into()), limit: 10, ..Query::default() };
-        assert_eq!(store.list(&ada).expect("lists"), [submission("1", "ada")]);
-        let attempts = |student, lesson| store.attempts(student, lesson).expect("counts");
-        assert_eq!(
-            [attempts("ada", "pendulum"), attempts("ada", "chain"), attempts("eve", "pendulum")],
-            [1, 0, 0]
-        );
-    }
-
-    #[test]
-    fn submissions_can_be_neither_changed_nor_removed() {
-        let store = Store::in_memory().expect("opens");
-        store.add(&submission("1", "ada")).expect("adds");
-        assert!(store.add(&submission("1", "eve")).is_err(), "an id is used once");
-        assert!(store.lock().execute("UPDATE submission SET student = 'eve'", []).is_err());
-        assert!(store.lock().execute("DELETE FROM submission", []).is_err());
-    }
-
-    #[test]
-    fn a_database_of_a_later_version_is_refused() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let path = folder.path().join("grades.db");
-        let store = Store::open(&path).expect("opens");
-        store.lock().pragma_update(None, "user_version", 99).expect("pragma");
-        drop(store);
-        assert!(matches!(Store::open(&path), Err(StoreError::Newer { found: 99, known: 1 })));
-    }
-
-    #[test]
-    fn a_file_that_is_no_database_is_refused_by_name() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let path = folder.path().join("notes.txt");
-        std::fs::write(&path, "not a database, but long enough to be read as one".repeat(40))
-            .expect("writes");
-        let error = Store::open(&path).expect_err("refused");
-        assert!(error.to_string().contains("notes.txt"), "{error}");
-    }
+/// A name that was never used before.
+pub fn identifier() -> String {
+    uuid::Uuid::new_v4().simple().to_string()
 }

@@ -1,42 +1,96 @@
-//! The tables, and the steps that bring an older database up to date.
+//! Bringing a database to the tables of this version.
 
-use rusqlite::Connection;
+use sqlx::{Row, SqliteConnection};
 
-use super::StoreError;
+use super::error::StoreError;
+use super::log::{self, Event};
+use super::records::{self, SubmissionRow, VerdictRow};
+use super::{HOME, now, sql};
 
-/// One entry per version, in order; a database at version `k` has had the first `k` applied.
-const STEPS: [&str; 1] = ["
-    CREATE TABLE submission (
-        id            TEXT PRIMARY KEY NOT NULL,
-        lesson        TEXT NOT NULL,
-        student       TEXT NOT NULL,
-        submitted_at  TEXT NOT NULL,
-        answers       TEXT NOT NULL,
-        verdict       TEXT NOT NULL
-    ) STRICT;
-    CREATE INDEX submission_by_student ON submission (student, lesson, submitted_at);
-    CREATE INDEX submission_by_lesson ON submission (lesson, submitted_at);
-    -- What a student handed in is a record: it is added to, never changed.
-    CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission
-        BEGIN SELECT RAISE(ABORT, 'submissions are immutable'); END;
-    CREATE TRIGGER submission_is_kept BEFORE DELETE ON submission
-        BEGIN SELECT RAISE(ABORT, 'submissions are kept'); END;
-"];
+/// Format of the database that this program writes.
+const FORMAT: i64 = 2;
 
-/// Brings the database to the newest version, each step in a transaction of its own.
-pub(super) fn migrate(connection: &mut Connection) -> Result<(), StoreError> {
-    let found: i64 = connection.query_row("PRAGMA user_version", [], |row| row.get(0))?;
-    let known = i64::try_from(STEPS.len()).unwrap_or(i64::MAX);
-    if found > known {
-        return Err(StoreError::Newer { found, known });
+/// Makes the tables, or carries those of format 1 over, within a transaction: another program that opens the
+/// same file meanwhile waits.
+pub(super) async fn migrate(transaction: &mut SqliteConnection) -> Result<(), StoreError> {
+    let (found,): (i64,) = sqlx::query_as("PRAGMA user_version").fetch_one(&mut *transaction).await?;
+    if found > FORMAT {
+        return Err(StoreError::Newer { found, known: FORMAT });
     }
-    for (version, step) in (1_i64..).zip(STEPS) {
-        if version > found {
-            let transaction = connection.transaction()?;
-            transaction.execute_batch(step)?;
-            transaction.pragma_update(None, "user_version", version)?;
-            transaction.commit()?;
+    if found == 1 {
+        for statement in OUT_OF_THE_WAY {
+            sqlx::query(statement).execute(&mut *transaction).await?;
         }
     }
+    if found < FORMAT {
+        for statement in sql::TABLES.iter().chain(sql::RECORDS) {
+            sqlx::query(*statement).execute(&mut *transaction).await?;
+        }
+        add_course(transaction, HOME, "At home").await?;
+    }
+    if found == 1 {
+        carry_over(transaction).await?;
+        sqlx::query("DROP TABLE submission_1").execute(&mut *transaction).await?;
+    }
+    // Written each time: a file that cannot be written is found out before anybody hands in.
+    sqlx::query("PRAGMA user_version = 2").execute(&mut *transaction).await?;
+    Ok(())
+}
+
+/// Adds a course, if it is not there.
+pub(super) async fn add_course(
+    connection: &mut SqliteConnection,
+    id: &str,
+    title: &str,
+) -> Result<(), StoreError> {
+    let add = sqlx::query(sql::ADD_COURSE).bind(id).bind(title).bind(super::random::join_code()?).bind(1);
+    add.bind(super::random::token()?).bind(now()).execute(connection).await?;
+    Ok(())
+}
+
+/// Format 1 had one table, whose indices keep their names.
+const OUT_OF_THE_WAY: [&str; 5] = [
+    "DROP TRIGGER submission_is_immutable",
+    "DROP TRIGGER submission_is_kept",
+    "DROP INDEX submission_by_student",
+    "DROP INDEX submission_by_lesson",
+    "ALTER TABLE submission RENAME TO submission_1",
+];
+
+/// Each row of format 1 becomes a submission, its verdict and an event, in the order in which they came.
+async fn carry_over(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    const ROWS: &str =
+        "SELECT id, lesson, student, submitted_at, answers, verdict FROM submission_1 ORDER BY rowid";
+    for row in sqlx::query(ROWS).fetch_all(&mut *connection).await? {
+        let (id, slug, student): (String, String, String) =
+            (row.try_get(0)?, row.try_get(1)?, row.try_get(2)?);
+        let (at, answers, body): (String, String, String) =
+            (row.try_get(3)?, row.try_get(4)?, row.try_get(5)?);
+        let received: i64 = at.parse::<jiff::Timestamp>().map_or(0, jiff::Timestamp::as_millisecond);
+        let person = super::submissions::person_of(connection, HOME, &student, received).await?;
+        let (assignment, _) = super::submissions::assignment(connection, HOME, &slug).await?;
+        let submission = SubmissionRow {
+            id,
+            assignment,
+            person,
+            received_at: received,
+            student,
+            answers,
+            request_key: None,
+            counted: 1,
+        };
+        // Format 1 did not keep lessons: what graded these is known by its short fingerprint in the verdict alone.
+        let build = serde_json::from_str::<serde_json::Value>(&body).unwrap_or_default();
+        let build = build["provenance"]["engine"].as_str().unwrap_or_default().to_owned();
+        let verdict = VerdictRow::first(&submission.id, body, String::new(), &build, received);
+        let detail = records::seal(&submission, &verdict);
+        let event =
+            Event { actor: &submission.person, what: "submitted", subject: &submission.id, detail: &detail };
+        let n = log::append(connection, HOME, received, &event).await?;
+        submission.add(connection, n).await?;
+        verdict.add(connection).await?;
+    }
+    let event = Event { actor: "triad", what: "migrated", subject: HOME, detail: "from format 1" };
+    log::append(connection, HOME, now(), &event).await?;
     Ok(())
 }

@@ -1,8 +1,10 @@
 //! Lessons, hints, submissions.
 
+use axum::body::Body;
+use axum::http::Request;
 use serde_json::{Value, json};
 
-use crate::{get, post, server};
+use crate::{get, post, send, server};
 
 #[tokio::test]
 async fn lessons_are_listed_and_shown_without_their_answers() {
@@ -95,18 +97,52 @@ async fn a_right_and_a_wrong_submission_are_graded_kept_and_listed() {
 }
 
 #[tokio::test]
-async fn text_where_a_number_belongs_uses_no_attempt_and_is_not_kept() {
+async fn text_where_a_number_belongs_is_kept_and_uses_no_attempt() {
     let server = server();
     let path = "/api/v1/lessons/simple-pendulum/submissions";
     let body = json!({"student": "ada", "answers": {"period": {"value": "quite long", "unit": "s"}}});
     let reply = post(&server, path, body).await;
     assert_eq!(reply.status, 200);
     let verdict = reply.json();
-    assert_eq!((&verdict["gradable"], &verdict["id"]), (&json!(false), &Value::Null));
+    assert_eq!(verdict["gradable"], false);
     let marks: Vec<&Value> =
         verdict["questions"].as_array().expect("questions").iter().map(|q| &q["verdict"]).collect();
     assert!(marks.contains(&&json!("invalid")), "{marks:?}");
-    assert_eq!(get(&server, "/api/v1/submissions").await.json(), json!([]));
+    let kept = get(&server, "/api/v1/submissions").await.json();
+    assert_eq!(
+        (&kept[0]["id"], &kept[0]["answers"]["period"]["value"]),
+        (&verdict["id"], &json!("quite long"))
+    );
+}
+
+#[tokio::test]
+async fn a_request_that_is_repeated_is_told_the_same_verdict() {
+    let server = server();
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let ask = async |key: &str, body: Value| {
+        let request =
+            Request::post(path).header("content-type", "application/json").header("idempotency-key", key);
+        send(&server, request.body(Body::from(body.to_string())).expect("a request")).await
+    };
+    let first = ask("k1", reference()).await;
+    let again = ask("k1", reference()).await;
+    assert_eq!((first.status.as_u16(), first.json()), (201, again.json()));
+    assert_ne!(ask("k2", reference()).await.json()["id"], first.json()["id"]);
+    assert_eq!(get(&server, "/api/v1/submissions").await.json().as_array().map(Vec::len), Some(2));
+    ask(&"k".repeat(201), reference()).await.problem(400, "invalid-key");
+}
+
+#[tokio::test]
+async fn spellings_of_a_name_are_one_student() {
+    let server = server();
+    let path = "/api/v1/lessons/joint-reactions/submissions";
+    let handed =
+        async |student: &str| post(&server, path, json!({"student": student, "answers": {}})).await.json();
+    let (composed, decomposed) = (handed("Zo\u{eb}").await, handed(" Zoe\u{308} ").await);
+    assert_eq!(composed["student"], decomposed["student"]);
+    assert_eq!(composed["provenance"], decomposed["provenance"], "the same numbers");
+    let listed = get(&server, "/api/v1/submissions?student=ZO%C3%8B").await.json();
+    assert_eq!(listed.as_array().map(Vec::len), Some(2));
 }
 
 #[tokio::test]

@@ -26,7 +26,7 @@ use triad_lessons::Course;
 
 /// A server with the built-in course and a gradebook in memory.
 fn state(limits: Limits) -> App {
-    App::new(Course::embedded().expect("a course"), Store::in_memory().expect("a store"), limits)
+    App::new(Course::embedded().expect("a course"), Store::in_memory(), limits)
 }
 
 fn server() -> Router {

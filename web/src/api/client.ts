@@ -87,10 +87,11 @@ async function call<T>(
   body?: unknown,
   signal?: AbortSignal,
   key?: string,
+  more?: Record<string, string>,
 ): Promise<T> {
   let response: Response;
   try {
-    const headers: Record<string, string> = { accept: "application/json, application/problem+json" };
+    const headers: Record<string, string> = { accept: "application/json, application/problem+json", ...more };
     if (body !== undefined) headers["content-type"] = "application/json";
     if (key !== undefined) headers.authorization = `Bearer ${key}`;
     response = await fetch(path.startsWith("/api/") ? path : BASE + path, {
@@ -119,6 +120,13 @@ const when = (at: number | undefined): string => (at === undefined ? "" : `?at=$
 /** Whose numbers: a student's name, or another seed. */
 const whose = (seed?: string): string => (seed ? `?${new URLSearchParams({ seed })}` : "");
 
+/** What is handed in. */
+export interface Handed {
+  student?: string;
+  seed?: string;
+  answers: Record<string, Answer>;
+}
+
 export type SessionSource = { lesson: string; seed?: string } | { builtin: string } | { scene: unknown };
 
 export const api = {
@@ -137,12 +145,11 @@ export const api = {
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
   starterUrl: (slug: string, question: string, language: string): string =>
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
-  submit: (slug: string, student: string, answers: Record<string, Answer>, seed?: string) =>
-    call<GradedSubmission>(
-      "POST",
-      `/lessons/${id(slug)}/submissions`,
-      seed === undefined ? { student, answers } : { student, seed, answers },
-    ),
+  /** A request that is sent again under the same name is one submission. */
+  submit: (slug: string, body: Handed, name: string) =>
+    call<GradedSubmission>("POST", `/lessons/${id(slug)}/submissions`, body, undefined, undefined, {
+      "idempotency-key": name,
+    }),
   submissions: (query: { student: string; lesson?: string; limit?: number }, signal?: AbortSignal) => {
     const search = new URLSearchParams({ student: query.student });
     if (query.lesson) search.set("lesson", query.lesson);

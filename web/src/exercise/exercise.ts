@@ -38,6 +38,8 @@ class ExerciseSection {
   private readonly outcome = h("div", { class: "outcome", tabindex: "-1" });
   private readonly history: HistoryList;
   private readonly form: HTMLFormElement;
+  /** What was sent and not yet answered, with the name of the request: sent again, it is the same request. */
+  private sent: { text: string; name: string } | undefined;
   /** Follows a change of the name, from whichever part of the page. */
   private readonly renamed = (): void => {
     if (document.activeElement !== this.name) this.name.value = student.get();
@@ -134,7 +136,11 @@ class ExerciseSection {
     this.send.textContent = "Checking…";
     try {
       const answers = Object.fromEntries(this.fields.map((field) => [field.id, field.answer()]));
-      const verdict = await api.submit(slug, who, answers, hasVariants ? seed : undefined);
+      const body = hasVariants ? { student: who, seed, answers } : { student: who, answers };
+      const text = JSON.stringify(body);
+      if (this.sent?.text !== text) this.sent = { text, name: requestName() };
+      const verdict = await api.submit(slug, body, this.sent.name);
+      this.sent = undefined;
       await this.showVerdict(verdict);
       this.history.add(verdict);
     } catch (error) {
@@ -155,6 +161,13 @@ class ExerciseSection {
     const wrong = this.fields.find((field) => byId.get(field.id)?.verdict !== "right");
     (wrong?.root ?? this.outcome).scrollIntoView({ block: "nearest" });
   }
+}
+
+/** A name that no other request has. Browsers make UUIDs only where the connection is encrypted. */
+function requestName(): string {
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
+    byte.toString(16).padStart(2, "0"),
+  ).join("");
 }
 
 /** Says whose numbers these are; without a name, asks for one. */

@@ -56,8 +56,7 @@ export function historyList(lesson: Lesson): HistoryList {
       }
     },
     add: (verdict) => {
-      if (!verdict.gradable || verdict.id === null || verdicts.some((before) => before.id === verdict.id))
-        return;
+      if (verdicts.some((before) => before.id === verdict.id)) return;
       verdicts.unshift(verdict);
       paint();
     },
@@ -76,13 +75,15 @@ function entry(lesson: Lesson, verdict: GradedSubmission): HTMLElement {
         "span",
         { class: `standing ${verdict.passed ? "is-right" : "is-open"}` },
         icon(verdict.passed ? "check" : "dash"),
-        `${points(verdict.earned)} of ${points(verdict.possible)}`,
+        verdict.gradable ? `${points(verdict.earned)} of ${points(verdict.possible)}` : "Kept, not judged",
       ),
       h("time", { datetime: verdict.submitted_at }, dateTime(verdict.submitted_at)),
       h(
         "span",
         { class: "history-right" },
-        `${right} of ${plural(verdict.questions.length, "question")} right`,
+        verdict.gradable
+          ? `${right} of ${plural(verdict.questions.length, "question")} right`
+          : "an answer could not be read; no attempt used",
       ),
     ),
   );

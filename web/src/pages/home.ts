@@ -141,13 +141,13 @@ function paint(
 function bestOf(verdicts: GradedSubmission[]): Map<string, Best> {
   const best = new Map<string, Best>();
   for (const verdict of verdicts) {
-    if (!verdict.gradable) continue;
+    // What could not be judged earns nothing and is no attempt, but the lesson is begun.
     const before = best.get(verdict.lesson);
     best.set(verdict.lesson, {
-      earned: Math.max(before?.earned ?? 0, verdict.earned),
+      earned: Math.max(before?.earned ?? 0, verdict.gradable ? verdict.earned : 0),
       possible: verdict.possible,
       passed: (before?.passed ?? false) || verdict.passed,
-      attempts: (before?.attempts ?? 0) + 1,
+      attempts: (before?.attempts ?? 0) + (verdict.gradable ? 1 : 0),
     });
   }
   return best;

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::StatusCode;
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,11 +23,13 @@ use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::{Query, StoredSubmission};
+use crate::store::{HOME, HandIn, Query, Whose, identifier, names};
 use crate::{blocking, grading};
 
-/// Longest name of a student, in characters.
-const MAX_NAME_LENGTH: usize = 100;
+/// Where a client names its request: a request that is repeated under the same name is one submission.
+const KEY: &str = "idempotency-key";
+/// Longest such name.
+const LONGEST_KEY: usize = 200;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<triad_lessons::Submission>();
@@ -37,10 +39,10 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 }
 
 /// The verdict of a submission.
-#[derive(Debug, Serialize, JsonSchema)]
+#[derive(Debug, Serialize, Deserialize, JsonSchema)]
 struct GradedSubmission {
-    /// Its name; null where nothing was graded, hence nothing kept.
-    id: Option<String>,
+    /// Its name.
+    id: String,
     /// When it came, RFC 3339 in UTC.
     submitted_at: String,
     /// What it earned.
@@ -50,73 +52,94 @@ struct GradedSubmission {
 
 /// Hand in answers to a lesson's exercise.
 ///
-/// The verdict has an `id` if the submission was kept. Where an answer cannot be read (text for a number, a unit
-/// that does not exist) the verdict says `gradable: false` and what to correct; nothing is kept, no attempt used.
-/// Where the author opens the right answers (to those who passed, or after so many attempts), each question has its
-/// `reference_html`.
-#[utoipa::path(post, path = "/lessons/{slug}/submissions", operation_id = "submit_answers", tag = "submissions", params(("slug" = String, Path)),
+/// What is handed in is kept. Where an answer cannot be read (text for a number, a unit that does not exist) the verdict
+/// says `gradable: false` and what to correct; no attempt is used. Where the author opens the right answers (to those who
+/// passed, or after so many attempts), each question has its `reference_html`. A request that is repeated with the same
+/// `Idempotency-Key` is told the verdict of the first and keeps nothing.
+#[utoipa::path(post, path = "/lessons/{slug}/submissions", operation_id = "submit_answers", tag = "submissions", params(("slug" = String, Path),
+    ("idempotency-key" = Option<String>, Header, description = "A name of this request, never used before")),
     request_body(content = ref(of::<triad_lessons::Submission>()), example = json!({"student": "ada", "answers": {"tension": {"value": "29.4", "unit": "N"}}})),
     responses(
     (status = 201, description = "Graded and kept", body = ref(of::<GradedSubmission>())),
-    (status = 200, description = "Not gradable: says what to correct", body = ref(of::<GradedSubmission>())),
+    (status = 200, description = "Kept, but not gradable: says what to correct", body = ref(of::<GradedSubmission>())),
     (status = 404, description = "No such lesson", body = ref(PROBLEM)),
-    (status = 422, description = "Not a submission", body = ref(PROBLEM))))]
+    (status = 409, description = "All attempts are used", body = ref(PROBLEM)),
+    (status = 422, description = "Not a submission", body = ref(PROBLEM)),
+    (status = 503, description = "It could not be kept: says why", body = ref(PROBLEM))))]
 async fn submit(
     State(app): State<App>,
     PathParameters(slug): PathParameters<String>,
+    headers: HeaderMap,
     Json(body): Json<Value>,
 ) -> Result<impl IntoResponse, Problem> {
-    blocking(move || {
-        let lesson = lessons::find(&app, &slug)?;
-        let name = body.get("student").and_then(Value::as_str);
-        let student = student(name)?;
-        let (submission, mut verdict) = grading::grade(lesson, &app.variants, &body.to_string())?;
-        let id = uuid::Uuid::new_v4().simple().to_string();
-        let submitted_at = format!("{:.3}", jiff::Timestamp::now());
-        let gradable = verdict.gradable;
-        verdict.student = Some(student.clone());
-        let described = |verdict: &Verdict| {
-            let graded = GradedSubmission {
-                id: gradable.then(|| id.clone()),
-                submitted_at: submitted_at.clone(),
-                verdict: verdict.clone(),
-            };
-            serde_json::to_value(graded).map_err(Problem::internal)
-        };
-        // What is kept can be listed by anybody: it goes without the right answers.
-        let kept = described(&verdict)?;
-        if gradable {
-            let attempts = app.store.attempts(&student, &lesson.slug)? + 1;
-            grading::open(lesson, &app.variants, &submission, &mut verdict, attempts)?;
+    let key = request_key(&headers)?;
+    let grading = app.clone();
+    let (submission, new) = blocking(move || graded(&grading, &slug, &body, key)).await?;
+    let kept = app.store.hand_in(&new).await?;
+    let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
+    let document = blocking(move || {
+        let mut told: GradedSubmission = serde_json::from_value(kept.verdict).map_err(Problem::internal)?;
+        if told.verdict.gradable {
+            let lesson = lessons::find(&app, &new.lesson)?;
+            grading::open(lesson, &app.variants, &submission, &mut told.verdict, kept.attempts)?;
         }
-        let document = described(&verdict)?;
-        if gradable {
-            app.store.add(&StoredSubmission {
-                id: id.clone(),
-                lesson: lesson.slug.clone(),
-                student: student.clone(),
-                submitted_at: submitted_at.clone(),
-                answers: serde_json::to_value(&submission.answers).map_err(Problem::internal)?,
-                verdict: kept,
-            })?;
-        }
-        let status = if gradable { StatusCode::CREATED } else { StatusCode::OK };
-        Ok((status, Answer(document)))
+        Ok(told)
+    });
+    Ok((status, Answer(document.await?)))
+}
+
+/// The name that the client gave to the request.
+fn request_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
+    let Some(value) = headers.get(KEY) else { return Ok(None) };
+    let text = value.to_str().ok().filter(|text| !text.is_empty() && text.len() <= LONGEST_KEY);
+    text.map(|text| Some(text.to_owned())).ok_or_else(|| {
+        let detail = format!("the header {KEY} is empty, not ASCII, or longer than {LONGEST_KEY} characters");
+        Problem::new(StatusCode::BAD_REQUEST, "invalid-key", detail, "send a UUID, or leave it out")
     })
-    .await
+}
+
+/// What is handed in, with its verdict as it is to be kept: without the right answers.
+fn graded(
+    app: &App,
+    slug: &str,
+    body: &Value,
+    key: Option<String>,
+) -> Result<(triad_lessons::Submission, HandIn), Problem> {
+    let lesson = lessons::find(app, slug)?;
+    let student = student(body.get("student").and_then(Value::as_str))?;
+    let (submission, mut verdict) = grading::grade(lesson, &app.variants, &body.to_string())?;
+    verdict.student = Some(student.clone());
+    let received = jiff::Timestamp::now();
+    let counted = verdict.gradable;
+    let told = GradedSubmission { id: identifier(), submitted_at: format!("{received:.3}"), verdict };
+    let new = HandIn {
+        id: told.id.clone(),
+        course: HOME.to_owned(),
+        lesson: lesson.slug.clone(),
+        whose: Whose::Named,
+        student,
+        received_at: received.as_millisecond(),
+        answers: serde_json::to_string(&submission.answers).map_err(Problem::internal)?,
+        verdict: serde_json::to_value(told).map_err(Problem::internal)?,
+        counted,
+        key,
+        bundle: lesson.bundle(),
+    };
+    Ok((submission, new))
 }
 
 /// Who hands in: a name of reasonable length, without control characters.
 fn student(name: Option<&str>) -> Result<String, Problem> {
-    let name = name.unwrap_or_default().trim();
+    let typed = name.unwrap_or_default();
+    let name = names::shown(typed);
     let wrong = if name.is_empty() {
         "the submission does not say whose it is".to_owned()
-    } else if name.chars().count() > MAX_NAME_LENGTH {
-        format!("the student's name has more than {MAX_NAME_LENGTH} characters")
-    } else if name.chars().any(char::is_control) {
+    } else if name.chars().count() > names::LONGEST {
+        format!("the student's name has more than {} characters", names::LONGEST)
+    } else if typed.trim().chars().any(char::is_control) {
         "the student's name has control characters".to_owned()
     } else {
-        return Ok(name.to_owned());
+        return Ok(name);
     };
     let hint = r#"add "student": "your name" beside "answers""#;
     Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-student", wrong.clone(), hint)
@@ -197,8 +220,15 @@ async fn list(
     QueryParameters(filter): QueryParameters<Filter>,
 ) -> Result<Answer<SubmissionList>, Problem> {
     let limit = filter.limit.unwrap_or(100).min(app.limits.submissions);
-    let query = Query { student: filter.student, lesson: filter.lesson, limit };
-    let found = blocking(move || Ok(app.store.list(&query)?)).await?;
+    let person = match filter.student {
+        None => None,
+        Some(name) => match app.store.person_named(HOME, &name).await? {
+            None => return Ok(Answer(SubmissionList(Vec::new()))),
+            found => found,
+        },
+    };
+    let query = Query { course: HOME.to_owned(), person, lesson: filter.lesson, limit };
+    let found = app.store.list(&query).await?;
     let kept = found.into_iter().map(|submission| KeptSubmission {
         answers: without_files(submission.answers),
         verdict: submission.verdict,

@@ -1,0 +1,112 @@
+//! Every statement, in the words that SQLite and PostgreSQL share: parameters `$1`, text, `BIGINT` and `DOUBLE PRECISION`
+//! columns, times in milliseconds since 1970, JSON as text, no comparison as a result.
+
+/// The tables; the formats before are brought to them by `schema.rs`.
+pub(super) const TABLES: &[&str] = &[
+    "CREATE TABLE person (id TEXT PRIMARY KEY NOT NULL, name TEXT NOT NULL, created_at BIGINT NOT NULL)",
+    // `events` and `chain` are the number and the hash of the last event; who changes them holds the course.
+    "CREATE TABLE course (id TEXT PRIMARY KEY NOT NULL, title TEXT NOT NULL, join_code TEXT NOT NULL, join_open BIGINT \
+     NOT NULL, secret TEXT NOT NULL, created_at BIGINT NOT NULL, events BIGINT NOT NULL, chain TEXT NOT NULL)",
+    "CREATE TABLE membership (course TEXT NOT NULL REFERENCES course(id), person TEXT NOT NULL REFERENCES person(id), \
+     role TEXT NOT NULL, name_key TEXT NOT NULL, seed TEXT NOT NULL, joined_at BIGINT NOT NULL, \
+     PRIMARY KEY (course, person), UNIQUE (course, name_key))",
+    "CREATE TABLE identity (kind TEXT NOT NULL, subject TEXT NOT NULL, person TEXT NOT NULL REFERENCES person(id), \
+     secret TEXT NOT NULL, PRIMARY KEY (kind, subject))",
+    "CREATE TABLE session (token_sha256 TEXT PRIMARY KEY NOT NULL, person TEXT NOT NULL REFERENCES person(id), \
+     created_at BIGINT NOT NULL, seen_at BIGINT NOT NULL, ends_at BIGINT NOT NULL)",
+    "CREATE TABLE invitation (token_sha256 TEXT PRIMARY KEY NOT NULL, course TEXT NOT NULL REFERENCES course(id), \
+     role TEXT NOT NULL, ends_at BIGINT NOT NULL)",
+    "CREATE TABLE lesson_version (sha256 TEXT PRIMARY KEY NOT NULL, slug TEXT NOT NULL, bundle TEXT NOT NULL, \
+     added_at BIGINT NOT NULL)",
+    "CREATE TABLE assignment (id TEXT PRIMARY KEY NOT NULL, course TEXT NOT NULL REFERENCES course(id), slug TEXT NOT NULL, \
+     most_attempts BIGINT, UNIQUE (course, slug))",
+    "CREATE TABLE submission (id TEXT PRIMARY KEY NOT NULL, assignment TEXT NOT NULL REFERENCES assignment(id), \
+     person TEXT NOT NULL REFERENCES person(id), n BIGINT NOT NULL, received_at BIGINT NOT NULL, student TEXT NOT NULL, \
+     answers TEXT NOT NULL, request_key TEXT, counted BIGINT NOT NULL, \
+     UNIQUE (assignment, person, request_key))",
+    "CREATE INDEX submission_by_person ON submission (person, assignment, n)",
+    "CREATE INDEX submission_by_assignment ON submission (assignment, n)",
+    "CREATE TABLE verdict (submission TEXT NOT NULL REFERENCES submission(id), run BIGINT NOT NULL, body TEXT NOT NULL, \
+     lesson_sha256 TEXT NOT NULL, build TEXT NOT NULL, seed TEXT NOT NULL, \
+     parameters TEXT NOT NULL, earned DOUBLE PRECISION NOT NULL, possible DOUBLE PRECISION NOT NULL, \
+     passed BIGINT NOT NULL, made_at BIGINT NOT NULL, PRIMARY KEY (submission, run))",
+    "CREATE TABLE decision (id TEXT PRIMARY KEY NOT NULL, course TEXT NOT NULL REFERENCES course(id), n BIGINT NOT NULL, \
+     kind TEXT NOT NULL, person TEXT NOT NULL REFERENCES person(id), assignment TEXT NOT NULL REFERENCES assignment(id), \
+     amount DOUBLE PRECISION, reason TEXT NOT NULL, decided_by TEXT NOT NULL REFERENCES person(id), \
+     decided_at BIGINT NOT NULL)",
+    "CREATE INDEX decision_by_course ON decision (course, n)",
+    "CREATE TABLE event (course TEXT NOT NULL REFERENCES course(id), n BIGINT NOT NULL, at BIGINT NOT NULL, \
+     actor TEXT NOT NULL, what TEXT NOT NULL, subject TEXT NOT NULL, detail TEXT NOT NULL, sha256 TEXT NOT NULL, \
+     PRIMARY KEY (course, n))",
+];
+
+/// What is a record is added to and never changed. In SQLite's words; PostgreSQL says it by rights of the role.
+pub(super) const RECORDS: &[&str] = &[
+    "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
+     BEGIN SELECT RAISE(ABORT, 'submissions are immutable'); END",
+    "CREATE TRIGGER submission_is_kept BEFORE DELETE ON submission \
+     BEGIN SELECT RAISE(ABORT, 'submissions are kept'); END",
+    "CREATE TRIGGER verdict_is_immutable BEFORE UPDATE ON verdict \
+     BEGIN SELECT RAISE(ABORT, 'verdicts are immutable'); END",
+    "CREATE TRIGGER verdict_is_kept BEFORE DELETE ON verdict BEGIN SELECT RAISE(ABORT, 'verdicts are kept'); END",
+    "CREATE TRIGGER decision_is_immutable BEFORE UPDATE ON decision \
+     BEGIN SELECT RAISE(ABORT, 'decisions are immutable'); END",
+    "CREATE TRIGGER decision_is_kept BEFORE DELETE ON decision BEGIN SELECT RAISE(ABORT, 'decisions are kept'); END",
+    "CREATE TRIGGER event_is_immutable BEFORE UPDATE ON event BEGIN SELECT RAISE(ABORT, 'events are immutable'); END",
+    "CREATE TRIGGER event_is_kept BEFORE DELETE ON event BEGIN SELECT RAISE(ABORT, 'events are kept'); END",
+    "CREATE TRIGGER lesson_is_immutable BEFORE UPDATE ON lesson_version \
+     BEGIN SELECT RAISE(ABORT, 'lessons are immutable'); END",
+    "CREATE TRIGGER seed_is_immutable BEFORE UPDATE OF seed ON membership \
+     BEGIN SELECT RAISE(ABORT, 'seeds are immutable'); END",
+];
+
+/// All statements with their names, for the test that prepares them.
+macro_rules! statements {
+    ($($name:ident = $text:expr;)*) => {
+        $(pub(super) const $name: &str = $text;)*
+        #[cfg(test)]
+        pub(super) const ALL: &[(&str, &str)] = &[$((stringify!($name), $text)),*];
+    };
+}
+
+statements! {
+    ADD_COURSE = "INSERT INTO course (id, title, join_code, join_open, secret, created_at, events, chain) \
+        VALUES ($1, $2, $3, $4, $5, $6, 0, '') ON CONFLICT (id) DO NOTHING";
+    // The first statement of everything that is logged: it holds the course until the end of the transaction.
+    NEXT_EVENT = "UPDATE course SET events = events + 1 WHERE id = $1 RETURNING events, chain";
+    SET_CHAIN = "UPDATE course SET chain = $2 WHERE id = $1";
+    ADD_EVENT = "INSERT INTO event (course, n, at, actor, what, subject, detail, sha256) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7, $8)";
+    EVENTS = "SELECT n, at, actor, what, subject, detail, sha256 FROM event WHERE course = $1 ORDER BY n";
+    END_OF_CHAIN = "SELECT events, chain FROM course WHERE id = $1";
+    COURSES = "SELECT id FROM course ORDER BY id";
+
+    MEMBER_BY_NAME = "SELECT person FROM membership WHERE course = $1 AND name_key = $2";
+    ADD_PERSON = "INSERT INTO person (id, name, created_at) VALUES ($1, $2, $3)";
+    ADD_MEMBER = "INSERT INTO membership (course, person, role, name_key, seed, joined_at) VALUES ($1, $2, $3, $4, $5, $6)";
+
+    ADD_LESSON = "INSERT INTO lesson_version (sha256, slug, bundle, added_at) VALUES ($1, $2, $3, $4) \
+        ON CONFLICT (sha256) DO NOTHING";
+    LESSON = "SELECT bundle FROM lesson_version WHERE sha256 = $1";
+    ADD_ASSIGNMENT = "INSERT INTO assignment (id, course, slug) VALUES ($1, $2, $3) ON CONFLICT (course, slug) DO NOTHING";
+    ASSIGNMENT = "SELECT id, most_attempts FROM assignment WHERE course = $1 AND slug = $2";
+    SET_MOST_ATTEMPTS = "UPDATE assignment SET most_attempts = $3 WHERE course = $1 AND slug = $2";
+
+    ATTEMPTS = "SELECT COUNT(*) FROM submission WHERE assignment = $1 AND person = $2 AND counted = 1";
+    BY_KEY = "SELECT id, n FROM submission WHERE assignment = $1 AND person = $2 AND request_key = $3";
+    ATTEMPTS_UNTIL = "SELECT COUNT(*) FROM submission WHERE assignment = $1 AND person = $2 AND counted = 1 AND n <= $3";
+    ADD_SUBMISSION = "INSERT INTO submission (id, assignment, person, n, received_at, student, answers, request_key, \
+        counted) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9)";
+    ADD_VERDICT = "INSERT INTO verdict (submission, run, body, lesson_sha256, build, seed, parameters, earned, \
+        possible, passed, made_at) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
+    LATEST_VERDICT = "SELECT body FROM verdict WHERE submission = $1 ORDER BY run DESC LIMIT 1";
+    SUBMISSIONS = "SELECT s.id, a.slug, s.student, s.answers, v.body FROM submission s \
+        JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
+        WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
+        AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) \
+        ORDER BY s.n DESC LIMIT $4";
+    // Whether what stands there is what was written.
+    RECORDED = "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n";
+    VERDICTS = "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission \
+        JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n, v.run";
+}

@@ -1,0 +1,245 @@
+//! Handing in, and what was handed in.
+
+use serde_json::Value;
+use sqlx::SqliteConnection;
+
+use super::error::StoreError;
+use super::hash::sha256;
+use super::log::{self, Event};
+use super::records::{self, SubmissionRow, VerdictRow};
+use super::{Store, identifier, names, now, sql};
+
+/// A submission as it is kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredSubmission {
+    /// Its name.
+    pub id: String,
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// Who handed it in, as the person was called then.
+    pub student: String,
+    /// What was handed in.
+    pub answers: Value,
+    /// What it earned, with the provenance of the grading: the latest verdict.
+    pub verdict: Value,
+}
+
+/// Which submissions to list.
+#[derive(Debug, Clone, Default)]
+pub struct Query {
+    /// Of this course.
+    pub course: String,
+    /// Only this person's, by id.
+    pub person: Option<String>,
+    /// Only for this lesson.
+    pub lesson: Option<String>,
+    /// At most so many, newest first.
+    pub limit: usize,
+}
+
+/// Who hands in.
+#[derive(Debug, Clone)]
+pub enum Whose {
+    /// Somebody who is known, by id.
+    Person(String),
+    /// Whoever types the name: at home.
+    Named,
+}
+
+/// What is handed in and what it earned.
+#[derive(Debug, Clone)]
+pub struct HandIn {
+    /// A name that was never used before.
+    pub id: String,
+    /// The course.
+    pub course: String,
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// Who hands in.
+    pub whose: Whose,
+    /// The person's name.
+    pub student: String,
+    /// When it came, in milliseconds since 1970.
+    pub received_at: i64,
+    /// The answers as JSON.
+    pub answers: String,
+    /// The verdict as it is to be kept.
+    pub verdict: Value,
+    /// Whether it counts as an attempt: not if an answer could not be read.
+    pub counted: bool,
+    /// What the sender calls this request: the same name again is the same submission.
+    pub key: Option<String>,
+    /// The lesson that graded it, as [`triad_lessons::Lesson::bundle`] writes it.
+    pub bundle: String,
+}
+
+/// What was kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept {
+    /// How many attempts the person has used, this one included.
+    pub attempts: usize,
+    /// The verdict that is kept, of an earlier request if this one repeats it.
+    pub verdict: Value,
+}
+
+impl Store {
+    /// Keeps a submission with its verdict, or finds the one that an earlier request of the same key kept. Attempts are
+    /// counted in the same transaction.
+    ///
+    /// Errors if all attempts are used, or it cannot be written: then nothing is kept.
+    pub async fn hand_in(&self, new: &HandIn) -> Result<Kept, StoreError> {
+        self.place_is_right()?;
+        let mut transaction = self.write().await?;
+        let (kept, is_new) = keep(&mut transaction, new).await?;
+        if is_new {
+            transaction.commit().await?;
+        } else {
+            transaction.rollback().await?;
+        }
+        // A file that was moved away meanwhile has taken the submission with it.
+        self.place_is_right()?;
+        Ok(kept)
+    }
+
+    /// Bounds the attempts at a lesson; `None`: as many as one likes.
+    ///
+    /// Errors if it cannot be written.
+    pub async fn set_most_attempts(
+        &self,
+        course: &str,
+        lesson: &str,
+        most: Option<i64>,
+    ) -> Result<(), StoreError> {
+        let mut transaction = self.write().await?;
+        assignment(&mut transaction, course, lesson).await?;
+        let set = sqlx::query(sql::SET_MOST_ATTEMPTS).bind(course).bind(lesson).bind(most);
+        set.execute(&mut *transaction).await?;
+        transaction.commit().await
+    }
+
+    /// The id of the person of that name, if there is one.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn person_named(&self, course: &str, name: &str) -> Result<Option<String>, StoreError> {
+        let find = sqlx::query_as(sql::MEMBER_BY_NAME).bind(course).bind(names::key(name));
+        let found: Option<(String,)> = find.fetch_optional(&self.readers).await?;
+        Ok(found.map(|(id,)| id))
+    }
+
+    /// Lists submissions, newest first. Rows that cannot be read are left out and named in the server's log.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn list(&self, query: &Query) -> Result<Vec<StoredSubmission>, StoreError> {
+        let limit = i64::try_from(query.limit).unwrap_or(i64::MAX);
+        let list = sqlx::query_as(sql::SUBMISSIONS).bind(&query.course).bind(&query.person);
+        let rows: Vec<(String, String, String, String, String)> =
+            list.bind(&query.lesson).bind(limit).fetch_all(&self.readers).await?;
+        let read = |(id, lesson, student, answers, verdict): (String, String, String, String, String)| {
+            let parsed = (serde_json::from_str(&answers), serde_json::from_str(&verdict));
+            let (Ok(answers), Ok(verdict)) = parsed else {
+                eprintln!("triad: submission {id} is damaged: restore the database from a copy");
+                return None;
+            };
+            Some(StoredSubmission { id, lesson, student, answers, verdict })
+        };
+        Ok(rows.into_iter().filter_map(read).collect())
+    }
+
+    /// The lesson of that SHA-256, as it was when it graded something.
+    ///
+    /// Errors if it is not kept or the file cannot be read.
+    pub async fn lesson_version(&self, sha256: &str) -> Result<String, StoreError> {
+        let found = sqlx::query_as(sql::LESSON).bind(sha256).fetch_optional(&self.readers).await?;
+        found.map(|(bundle,)| bundle).ok_or(StoreError::Unknown("version of a lesson"))
+    }
+}
+
+/// Keeps it, unless an earlier request of the same key did: then nothing of this transaction is wanted.
+async fn keep(connection: &mut SqliteConnection, new: &HandIn) -> Result<(Kept, bool), StoreError> {
+    let person = match &new.whose {
+        Whose::Person(id) => id.clone(),
+        Whose::Named => person_of(connection, &new.course, &new.student, new.received_at).await?,
+    };
+    let (assignment, most) = assignment(connection, &new.course, &new.lesson).await?;
+    let submission = SubmissionRow {
+        id: new.id.clone(),
+        assignment: assignment.clone(),
+        person: person.clone(),
+        received_at: new.received_at,
+        student: new.student.clone(),
+        answers: new.answers.clone(),
+        request_key: new.key.clone(),
+        counted: i64::from(new.counted),
+    };
+    let lesson = sha256(&new.bundle);
+    let verdict = VerdictRow::first(&new.id, new.verdict.to_string(), lesson.clone(), crate::BUILD, now());
+    let detail = records::seal(&submission, &verdict);
+    let event = Event { actor: &person, what: "submitted", subject: &new.id, detail: &detail };
+    let n = log::append(connection, &new.course, new.received_at, &event).await?;
+    if let Some(key) = &new.key {
+        let find = sqlx::query_as(sql::BY_KEY).bind(&assignment).bind(&person).bind(key);
+        let earlier: Option<(String, i64)> = find.fetch_optional(&mut *connection).await?;
+        if let Some((id, n)) = earlier {
+            return Ok((repeated(connection, &assignment, &person, &id, n).await?, false));
+        }
+    }
+    let count = sqlx::query_as(sql::ATTEMPTS).bind(&assignment).bind(&person);
+    let (used,): (i64,) = count.fetch_one(&mut *connection).await?;
+    if let Some(most) = most.filter(|most| new.counted && used >= *most) {
+        return Err(StoreError::AttemptsUsed(most));
+    }
+    let add = sqlx::query(sql::ADD_LESSON).bind(lesson).bind(&new.lesson).bind(&new.bundle);
+    add.bind(now()).execute(&mut *connection).await?;
+    submission.add(connection, n).await?;
+    verdict.add(connection).await?;
+    let attempts = usize::try_from(used).unwrap_or_default() + usize::from(new.counted);
+    Ok((Kept { attempts, verdict: new.verdict.clone() }, true))
+}
+
+/// What an earlier request of the same key kept.
+async fn repeated(
+    connection: &mut SqliteConnection,
+    assignment: &str,
+    person: &str,
+    id: &str,
+    n: i64,
+) -> Result<Kept, StoreError> {
+    let count = sqlx::query_as(sql::ATTEMPTS_UNTIL).bind(assignment).bind(person).bind(n);
+    let (used,): (i64,) = count.fetch_one(&mut *connection).await?;
+    let (body,): (String,) = sqlx::query_as(sql::LATEST_VERDICT).bind(id).fetch_one(&mut *connection).await?;
+    let verdict = serde_json::from_str(&body).map_err(|cause| StoreError::Damaged(cause.to_string()))?;
+    Ok(Kept { attempts: usize::try_from(used).unwrap_or_default(), verdict })
+}
+
+/// The assignment of a lesson, with the most attempts it allows; made when it is first needed.
+pub(super) async fn assignment(
+    connection: &mut SqliteConnection,
+    course: &str,
+    slug: &str,
+) -> Result<(String, Option<i64>), StoreError> {
+    let add = sqlx::query(sql::ADD_ASSIGNMENT).bind(identifier()).bind(course).bind(slug);
+    add.execute(&mut *connection).await?;
+    let find = sqlx::query_as(sql::ASSIGNMENT).bind(course).bind(slug);
+    Ok(find.fetch_one(&mut *connection).await?)
+}
+
+/// The person of that name; at home whoever types a name is known by it from then on.
+pub(super) async fn person_of(
+    connection: &mut SqliteConnection,
+    course: &str,
+    name: &str,
+    at: i64,
+) -> Result<String, StoreError> {
+    let key = names::key(name);
+    let find = sqlx::query_as(sql::MEMBER_BY_NAME).bind(course).bind(&key);
+    let found: Option<(String,)> = find.fetch_optional(&mut *connection).await?;
+    if let Some((id,)) = found {
+        return Ok(id);
+    }
+    let id = identifier();
+    let add = sqlx::query(sql::ADD_PERSON).bind(&id).bind(name).bind(at);
+    add.execute(&mut *connection).await?;
+    let add = sqlx::query(sql::ADD_MEMBER).bind(course).bind(&id).bind("student").bind(key).bind(name);
+    add.bind(at).execute(&mut *connection).await?;
+    Ok(id)
+}

@@ -1,0 +1,278 @@
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde_json::json;
+use sqlx::Executor;
+use tempfile::TempDir;
+
+use super::*;
+
+fn new(student: &str) -> HandIn {
+    let id = identifier();
+    HandIn {
+        id: id.clone(),
+        course: HOME.into(),
+        lesson: "pendulum".into(),
+        whose: Whose::Named,
+        student: student.into(),
+        received_at: now(),
+        answers: json!({"q": {"value": "0.1"}}).to_string(),
+        verdict: json!({"id": id, "earned": 0.1, "passed": false, "provenance": {"seed": student}}),
+        counted: true,
+        key: None,
+        bundle: "the lesson".into(),
+    }
+}
+
+fn all() -> Query {
+    Query { course: HOME.into(), limit: 1000, ..Query::default() }
+}
+
+async fn ids(store: &Store) -> Vec<String> {
+    store.list(&all()).await.expect("lists").into_iter().map(|one| one.id).collect()
+}
+
+/// A folder, and the path of a gradebook in it.
+fn place() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("grades.db");
+    (folder, path)
+}
+
+async fn open(path: &Path) -> Store {
+    Store::open(path).await.expect("opens")
+}
+
+#[tokio::test]
+async fn what_was_handed_in_survives_a_restart_unchanged() {
+    let (_folder, path) = place();
+    let store = open(&path).await;
+    let (ada, emmy) = (new("Ada"), new("Emmy"));
+    assert_eq!(store.hand_in(&ada).await.expect("keeps").attempts, 1);
+    store.hand_in(&emmy).await.expect("keeps");
+    store.close().await;
+
+    let store = open(&path).await;
+    let found = store.list(&all()).await.expect("lists");
+    assert_eq!([&found[0].id, &found[1].id], [&emmy.id, &ada.id], "newest first");
+    assert_eq!((&found[1].verdict, found[1].answers.to_string()), (&ada.verdict, ada.answers.clone()));
+    let person = store.person_named(HOME, " ADA ").await.expect("looks");
+    assert!(person.is_some());
+    let hers = store.list(&Query { person, ..all() }).await.expect("lists");
+    assert_eq!(hers.iter().map(|one| one.student.as_str()).collect::<Vec<_>>(), ["Ada"]);
+    assert_eq!(store.lesson_version(&hash::sha256("the lesson")).await.expect("kept"), "the lesson");
+    assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+#[tokio::test]
+async fn records_can_be_neither_changed_nor_removed() {
+    let store = Store::in_memory();
+    let one = new("ada");
+    store.hand_in(&one).await.expect("keeps");
+    assert!(store.hand_in(&one).await.is_err(), "an id is used once");
+    for table in ["submission", "verdict", "event"] {
+        let mut transaction = store.write().await.expect("begins");
+        let change = match table {
+            "submission" => "UPDATE submission SET student = 'eve'",
+            "verdict" => "UPDATE verdict SET earned = 10",
+            _ => "UPDATE event SET actor = 'eve'",
+        };
+        assert!(sqlx::query(change).execute(&mut *transaction).await.is_err(), "{table}");
+        let remove = match table {
+            "submission" => "DELETE FROM submission",
+            "verdict" => "DELETE FROM verdict",
+            _ => "DELETE FROM event",
+        };
+        assert!(sqlx::query(remove).execute(&mut *transaction).await.is_err(), "{table}");
+    }
+}
+
+/// SQLite prepares each statement; the same words are for PostgreSQL.
+#[tokio::test]
+async fn every_statement_is_understood() {
+    let store = Store::in_memory();
+    let mut transaction = store.write().await.expect("begins");
+    assert!(sql::ALL.len() > 15);
+    for (name, text) in sql::ALL {
+        let prepared = transaction.prepare(sqlx::SqlStr::from_static(text)).await;
+        assert!(prepared.is_ok(), "{name}: {prepared:?}");
+        assert!(!text.contains('?') && !text.contains("rowid"), "{name} is in SQLite's words");
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn of_two_hundred_at_once_three_attempts_are_three() {
+    let (_folder, path) = place();
+    let store = Arc::new(open(&path).await);
+    store.set_most_attempts(HOME, "pendulum", Some(3)).await.expect("sets");
+    let sent: Vec<_> = (0..200)
+        .map(|_| {
+            let store = store.clone();
+            tokio::spawn(async move { store.hand_in(&new("ada")).await })
+        })
+        .collect();
+    let (mut kept, mut refused) = (BTreeSet::new(), 0);
+    for one in sent {
+        match one.await.expect("ends") {
+            Ok(one) => assert!(kept.insert(one.attempts)),
+            Err(StoreError::AttemptsUsed(3)) => refused += 1,
+            Err(other) => panic!("{other}"),
+        }
+    }
+    assert_eq!((kept, refused), (BTreeSet::from([1, 2, 3]), 197));
+    assert_eq!(ids(&store).await.len(), 3);
+    // What cannot be read is kept, uses no attempt and is not refused.
+    let unread = HandIn { counted: false, ..new("ada") };
+    assert_eq!(store.hand_in(&unread).await.expect("keeps").attempts, 3);
+    assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_request_that_is_repeated_is_one_submission() {
+    let (_folder, path) = place();
+    let store = Arc::new(open(&path).await);
+    let sent: Vec<_> = (0..20)
+        .map(|_| {
+            let store = store.clone();
+            tokio::spawn(async move { store.hand_in(&HandIn { key: Some("k".into()), ..new("ada") }).await })
+        })
+        .collect();
+    let mut told = BTreeSet::new();
+    for one in sent {
+        let one = one.await.expect("ends").expect("keeps");
+        assert_eq!(one.attempts, 1);
+        told.insert(one.verdict["id"].to_string());
+    }
+    assert_eq!((told.len(), ids(&store).await.len()), (1, 1));
+    store.hand_in(&HandIn { key: Some("k".into()), ..new("emmy") }).await.expect("a key is one person's");
+    store.hand_in(&HandIn { key: Some("l".into()), ..new("ada") }).await.expect("another");
+    assert_eq!(ids(&store).await.len(), 3);
+    assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn several_programs_make_and_share_one_file() {
+    let (_folder, path) = place();
+    let opened: Vec<_> = (0..6)
+        .map(|_| {
+            let path = path.clone();
+            tokio::spawn(async move {
+                let store = open(&path).await;
+                for _ in 0..10 {
+                    store.hand_in(&new("ada")).await.expect("keeps");
+                }
+                store
+            })
+        })
+        .collect();
+    let mut stores = Vec::new();
+    for one in opened {
+        stores.push(one.await.expect("ends"));
+    }
+    assert_eq!(ids(&stores[0]).await.len(), 60);
+    assert_eq!(stores[5].faults().await.expect("looks"), Vec::<String>::new());
+}
+
+/// What is moved, replaced or removed, the database or its log of changes: nothing is acknowledged that a restart forgets.
+#[tokio::test]
+async fn a_file_that_is_taken_away_takes_no_submissions() {
+    for (file, replaced) in [("grades.db", false), ("grades.db", true), ("grades.db-wal", false)] {
+        let (folder, path) = place();
+        let store = open(&path).await;
+        store.hand_in(&new("ada")).await.expect("keeps");
+        let away = folder.path().join("away");
+        fs::rename(folder.path().join(file), &away).expect("moves");
+        if replaced {
+            fs::copy(&away, folder.path().join(file)).expect("copies");
+        }
+        let refused = store.hand_in(&new("ada")).await;
+        assert!(matches!(refused, Err(StoreError::Moved(_))), "{file}: {refused:?}");
+        assert!(matches!(store.ready().await, Err(StoreError::Moved(_))));
+        fs::rename(&away, folder.path().join(file)).expect("moves back");
+        store.hand_in(&new("ada")).await.expect("keeps again");
+        store.close().await;
+        assert_eq!(ids(&open(&path).await).await.len(), 2, "{file}");
+    }
+}
+
+#[tokio::test]
+async fn a_full_disk_keeps_nothing_halfway_and_recovers() {
+    let (_folder, path) = place();
+    let store = open(&path).await;
+    store.hand_in(&new("ada")).await.expect("keeps");
+    let bound = |pages: &'static str| sqlx::query(pages).execute(&store.writer);
+    // As many pages as there are: what a disk without room does.
+    bound("PRAGMA max_page_count = 1").await.expect("bounds");
+    let large = HandIn { answers: "\"long\"".to_owned() + &" ".repeat(1 << 20), ..new("emmy") };
+    let refused = store.hand_in(&large).await;
+    assert!(matches!(refused, Err(StoreError::Full)), "{refused:?}");
+    assert_eq!(ids(&store).await.len(), 1);
+    bound("PRAGMA max_page_count = 1000000").await.expect("bounds");
+    store.hand_in(&large).await.expect("keeps");
+    assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+#[tokio::test]
+async fn a_program_that_holds_the_file_is_waited_for_and_then_named() {
+    let (_folder, path) = place();
+    let (store, other) = (open(&path).await, open(&path).await);
+    let held = other.write().await.expect("begins");
+    let refused = store.hand_in(&new("ada")).await;
+    assert!(matches!(refused, Err(StoreError::Busy)), "{refused:?}");
+    held.rollback().await.expect("ends");
+    store.hand_in(&new("ada")).await.expect("keeps");
+    assert_eq!(ids(&store).await.len(), 1);
+}
+
+/// One byte anywhere: the file is refused, or the fault is found, or the byte holds nothing.
+#[tokio::test]
+async fn a_flipped_byte_is_found() {
+    let (_folder, path) = place();
+    let store = open(&path).await;
+    for k in 0..20 {
+        let answers = json!({"file": "0123456789".repeat(800)}).to_string();
+        store.hand_in(&HandIn { answers, ..new(&format!("student {k}")) }).await.expect("keeps");
+    }
+    let before = store.list(&all()).await.expect("lists");
+    store.close().await;
+    let whole = fs::read(&path).expect("reads");
+    let (mut refused, mut found, mut harmless) = (0, 0, 0);
+    for place in (100..whole.len()).step_by(whole.len() / 60) {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 1;
+        fs::write(&path, bytes).expect("writes");
+        let Ok(store) = Store::open(&path).await else {
+            refused += 1;
+            continue;
+        };
+        match (store.faults().await, store.list(&all()).await) {
+            (Ok(faults), Ok(now)) if faults.is_empty() => {
+                assert!(now == before, "byte {place} changed a submission unseen");
+                harmless += 1;
+            }
+            _ => found += 1,
+        }
+        store.close().await;
+    }
+    assert!(refused > 0 && found > 10, "{refused} refused, {found} found, {harmless} harmless");
+}
+
+#[tokio::test]
+async fn a_database_of_a_later_version_is_refused() {
+    let (_folder, path) = place();
+    let store = open(&path).await;
+    sqlx::query("PRAGMA user_version = 99").execute(&store.writer).await.expect("writes");
+    store.close().await;
+    assert!(matches!(Store::open(&path).await, Err(StoreError::Newer { found: 99, known: 2 })));
+}
+
+#[tokio::test]
+async fn a_file_that_is_no_database_is_refused_by_name() {
+    let (folder, _) = place();
+    let path = folder.path().join("notes.txt");
+    fs::write(&path, "not a database, but long enough to be read as one".repeat(40)).expect("writes");
+    let error = Store::open(&path).await.expect_err("refused");
+    assert!(error.to_string().contains("notes.txt"), "{error}");
+}
