@@ -7,12 +7,15 @@
 //!
 //! The modules stand in reading order, and each uses only what stands before it: [`rendering`] (Markdown and figures as
 //! safe HTML), [`answers`] (what a student types), [`files`] (what an author writes), [`exercise`] (questions ready to
-//! grade), [`lesson`] (lessons, courses and their variants), [`tasks`] (questions answered by work), [`verdict`] (what
-//! is said about an answer, and its HTML), [`grading`], and [`check`] (proving a course).
+//! grade), [`lesson`] (lessons, courses and their variants), [`tasks`] (questions answered by work), `recognition` (usual
+//! mistakes behind wrong numbers and formulas), [`verdict`] (what is said about an answer, and its HTML), [`grading`], and
+//! [`check`] (proving a course).
 
 #![allow(clippy::missing_errors_doc)] // said in a sentence: the crate is no library for others
 
 mod text;
+
+mod mistakes;
 
 pub mod rendering;
 
@@ -29,6 +32,8 @@ pub mod exercise;
 pub mod lesson;
 
 pub mod tasks;
+
+mod recognition;
 
 pub mod verdict;
 

@@ -4,6 +4,7 @@
 mod build;
 mod closed;
 mod context;
+pub mod derivation;
 pub mod parameters;
 mod quantity;
 pub mod question;

@@ -1,6 +1,7 @@
 //! Questions that are answered by numbers: units read, expressions evaluated, wrong models run.
 
 use super::context::{BuildContext, BuildError, build_error, refuse};
+use super::derivation::Derivation;
 use super::parameters::Parameters;
 use super::question::{Misconception, QuantityQuestion, QuestionBody};
 use crate::answers::TypedValue;
@@ -42,6 +43,7 @@ pub(super) fn quantity(
         reference: values.values,
         error,
         misconceptions,
+        derivation: Derivation::new(question, reference, context),
         follows: question.follows.clone(),
     }))
 }

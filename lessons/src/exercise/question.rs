@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use triad_engine::scene::{IntegratorKind, Scene};
 
+use super::derivation::Derivation;
 use crate::answers::RunSettings;
 use crate::answers::tolerance::{Tolerance, ValueShape};
 use crate::answers::units::Unit;
@@ -116,6 +117,8 @@ pub struct QuantityQuestion {
     pub error: f64,
     /// Wrong answers that are recognised.
     pub misconceptions: Vec<Misconception>,
+    /// Where the reference comes from.
+    pub derivation: Derivation,
     /// How a wrong earlier answer is carried through.
     pub follows: Option<FollowFile>,
 }

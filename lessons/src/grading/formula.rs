@@ -3,6 +3,7 @@
 use crate::answers::{Answer, TypedValue};
 use crate::exercise::Formula;
 use crate::random::SeededRandom;
+use crate::recognition::formula::recognise;
 use crate::verdict::feedback::{Feedback, FormulaFinding, Judgement};
 use crate::verdict::invalid::InvalidClosed;
 use triad_engine::scene::expression::Expression;
@@ -39,9 +40,12 @@ pub(crate) fn judge(
         .filter(|k| question.reference.uses(*k) && !formula.uses(*k))
         .map(|k| names[k])
         .collect();
-    match missing.as_slice() {
-        [one] => wrong(None, FormulaFinding::MissingSymbol { symbol: (*one).to_owned() }),
-        _ => wrong(None, FormulaFinding::Unknown),
+    if let [one] = missing.as_slice() {
+        return wrong(Some("missing-symbol"), FormulaFinding::MissingSymbol { symbol: (*one).to_owned() });
+    }
+    match recognise(question, &formula, seed) {
+        Some(usual) => wrong(Some(usual.mistake.code), FormulaFinding::Usual(usual)),
+        None => wrong(None, FormulaFinding::Unknown),
     }
 }
 

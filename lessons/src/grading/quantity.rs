@@ -3,13 +3,16 @@
 use super::reading::{self, Reading};
 use crate::answers::Answer;
 use crate::answers::tolerance::{ValueShape, distance, norm};
-use crate::exercise::QuantityQuestion;
+use crate::exercise::{Misconception, QuantityQuestion};
+use crate::recognition::quantity::{recognise, with_one_more_slip};
 use crate::verdict::feedback::{Feedback, Judgement, NumberFinding, QuantityFeedback, UnitFinding};
 use crate::verdict::invalid::InvalidQuantity;
 
 /// Share of the points that belongs to the unit, where finding it is part of the question: the right number alone is not
 /// enough to pass.
 const UNIT_SHARE: f64 = 0.5;
+/// Part of the reference's size from which an answer is far off, however few its digits.
+const FAR: f64 = 0.1;
 /// Powers of ten that a wrong prefix makes.
 const PREFIX_POWERS: [i32; 8] = [-6, -3, -2, -1, 1, 2, 3, 6];
 
@@ -35,6 +38,15 @@ pub(crate) fn judge(
         (Some(id), finding)
     } else if is_too_coarse(question, &reading) {
         return Err(InvalidQuantity::InsufficientPrecision { digits: question.tolerance.digits() });
+    } else if let Some((id, finding)) = turned(question, values) {
+        (Some(id), finding)
+    } else if let Some(usual) = recognise(question, values, &reading.rounding) {
+        (Some(usual.mistake.code), NumberFinding::Usual(usual))
+    } else if let Some(at) = with_one_more_slip(question, values, &reading.rounding) {
+        let m = &question.misconceptions[at];
+        (Some(m.id.as_str()), NumberFinding::MisconceptionAndMore { feedback: m.feedback.clone() })
+    } else if let Some(finding) = direction(question, values) {
+        (Some("direction"), finding)
     } else {
         (None, NumberFinding::Unknown)
     };
@@ -48,11 +60,19 @@ pub(crate) fn judge(
 }
 
 /// Whether an answer is wrong by no more than the rounding of its own digits: then more digits may make it right. It tells
-/// nothing that the verdict on those digits would not.
+/// nothing that the verdict on those digits would not. Nobody rounds to zero what is not small, nor by a tenth of the whole.
 fn is_too_coarse(question: &QuantityQuestion, reading: &Reading) -> bool {
-    let allowed = question.tolerance.allowed(norm(&question.reference)) + norm(&reading.rounding);
+    let size = norm(&question.reference);
+    let allowed = question.tolerance.allowed(size);
+    let explained = reading.values.iter().zip(&reading.rounding).zip(&question.reference).all(
+        |((value, rounding), right)| {
+            let rounding = if *value == 0.0 { 0.0 } else { *rounding };
+            (value - right).abs() <= (allowed + rounding) * (1.0 + 1e-12)
+        },
+    );
     !question.tolerance.is_exact()
-        && distance(&reading.values, &question.reference) <= allowed * (1.0 + 1e-12)
+        && explained
+        && distance(&reading.values, &question.reference) <= FAR * size
 }
 
 /// The numbers of an answer in the question's unit, if they can be read and their dimension is right.
@@ -61,7 +81,7 @@ pub(super) fn values(question: &QuantityQuestion, answer: &Answer) -> Option<Vec
     reading.mismatch.is_none().then_some(reading.values)
 }
 
-/// The misconception that leads to these values: the author's own first, then those that any question can have.
+/// The misconception that leads to these values: the author's own first, then an opposite sign and a power of ten.
 fn misconception<'a>(question: &'a QuantityQuestion, values: &[f64]) -> Option<(&'a str, NumberFinding)> {
     let accepts = |wanted: &[f64]| question.tolerance.accepts(values, wanted);
     let own = question.misconceptions.iter().filter(|m| accepts(&m.value));
@@ -69,19 +89,33 @@ fn misconception<'a>(question: &'a QuantityQuestion, values: &[f64]) -> Option<(
         return Some((&m.id, NumberFinding::Misconception { feedback: m.feedback.clone() }));
     }
     let reference = &question.reference;
-    if question.tolerance.is_exact() || norm(reference) == 0.0 {
+    if norm(reference) == 0.0 {
         return None;
     }
     let scaled = |k: f64| reference.iter().map(|t| k * t).collect::<Vec<_>>();
     if accepts(&scaled(-1.0)) {
         return Some(("opposite-sign", NumberFinding::OppositeSign));
     }
-    if PREFIX_POWERS.iter().any(|k| accepts(&scaled(libm::pow(10.0, f64::from(*k))))) {
+    if !question.tolerance.is_exact()
+        && PREFIX_POWERS.iter().any(|k| accepts(&scaled(libm::pow(10.0, f64::from(*k)))))
+    {
         return Some(("power-of-ten", NumberFinding::PowerOfTen));
     }
-    if question.shape == ValueShape::Vector && question.tolerance.accepts(&[norm(values)], &[norm(reference)])
-    {
-        return Some(("direction", NumberFinding::Direction { frame: question.frame.clone() }));
-    }
     None
+}
+
+/// A misconception of the author's with the opposite sign: what is said of it holds as well.
+fn turned<'a>(question: &'a QuantityQuestion, values: &[f64]) -> Option<(&'a str, NumberFinding)> {
+    let opposite: Vec<f64> = values.iter().map(|x| -x).collect();
+    let accepts =
+        |m: &&Misconception| question.tolerance.accepts(&opposite, &m.value) && norm(&m.value) > 0.0;
+    let m = question.misconceptions.iter().find(accepts)?;
+    Some((&m.id, NumberFinding::Misconception { feedback: m.feedback.clone() }))
+}
+
+/// A vector of the right length.
+fn direction(question: &QuantityQuestion, values: &[f64]) -> Option<NumberFinding> {
+    let (typed, right) = ([norm(values)], [norm(&question.reference)]);
+    let fits = question.shape == ValueShape::Vector && question.tolerance.accepts(&typed, &right);
+    fits.then(|| NumberFinding::Direction { frame: question.frame.clone() })
 }

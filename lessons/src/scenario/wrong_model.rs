@@ -59,7 +59,10 @@ pub(crate) fn value(
             Err(WrongModelError::SizeHasNoSides)
         }
         WrongModel::OtherSide => Ok(of(scene, measured)?.into_iter().map(|x| -x).collect()),
-        WrongModel::OtherFrame => in_body_frame(scene, measured),
+        WrongModel::OtherFrame => {
+            let seen = Observation::of(&run_to(scene, measured.time)?);
+            in_body_frame(&seen, scene, measured)
+        }
         WrongModel::Degrees => of(&in_degrees(scene), measured),
         WrongModel::NoGravity => of(&Scene { gravity: [0.0; 3], ..scene.clone() }, measured),
         WrongModel::MassForWeight => {
@@ -81,8 +84,11 @@ pub(crate) fn value(
 }
 
 /// The vector's components along the directors of the body that it belongs to.
-fn in_body_frame(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, WrongModelError> {
-    let seen = Observation::of(&run_to(scene, measured.time)?);
+pub(super) fn in_body_frame(
+    seen: &Observation,
+    scene: &Scene,
+    measured: &MeasuredFile,
+) -> Result<Vec<f64>, WrongModelError> {
     let vector = seen.vector(scene, measured)?;
     let name = match (&measured.body, &measured.joint) {
         (Some(body), _) => body.clone(),
@@ -99,7 +105,7 @@ fn in_body_frame(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, Wro
 }
 
 /// The position of the moment, at rest, with drivers that stand still.
-fn at_rest(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, WrongModelError> {
+pub(super) fn at_rest(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, WrongModelError> {
     let run = run_to(scene, measured.time)?;
     let still = stopped(scene, measured.time);
     // The start of the scene that stands still is that of the scene itself, so its drivers do not fit there; the

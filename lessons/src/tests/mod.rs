@@ -5,6 +5,7 @@ mod kinds;
 mod properties;
 mod refusals;
 mod tasks;
+mod typical_mistakes;
 mod ways_of_writing;
 
 use std::collections::BTreeMap;
@@ -180,7 +181,7 @@ fn findings_of_the_check_name_place_and_remedy() {
         ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be distinguished"),
         ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
         ("reference/answers.toml", "value = \"b\"", "value = \"a\"", "judged Right"),
-        ("wrong/other-side.toml", "14.21", "15.21", "recognised nothing"),
+        ("wrong/other-side.toml", "14.21", "15.21", "recognised other-direction"),
         ("wrong/other-side.toml", "\"14.21\", \"10.90\"", "\"-14.21\", \"-10.90\"", "judged Right"),
         ("lesson.md", "\\tag{2.3}", "\\tag{2.4}", "02-simple-pendulum/lesson.md:"),
         ("lesson.md", "(#eq-2.1)", "(#eq-9.1)", "leads nowhere"),

@@ -8,6 +8,7 @@ use triad_engine::scene::expression::Expression;
 use crate::answers::tolerance::{Tolerance, ValueShape};
 use crate::answers::units::Unit;
 use crate::answers::{Answer, TypedValue};
+use crate::exercise::derivation::Derivation;
 use crate::exercise::{ChoiceOption, Formula, QuantityQuestion};
 use crate::grading::{closed, formula, quantity};
 use crate::verdict::Mark;
@@ -85,6 +86,7 @@ fn question(
         reference,
         error: 0.0,
         misconceptions: Vec::new(),
+        derivation: Derivation::default(),
         follows: None,
     }
 }

@@ -5,6 +5,7 @@ use super::sent::Mark;
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
 use crate::files::EquationPart;
+use crate::recognition::quantity::Recognised;
 use crate::scenario::measure::MeasureError;
 
 /// How one answer was judged.
@@ -121,6 +122,8 @@ pub(crate) enum FormulaFinding {
         feedback: String,
     },
     OppositeSign,
+    /// A mistake that every question knows.
+    Usual(Recognised),
     /// The only symbol that the formula lacks.
     MissingSymbol {
         symbol: String,
@@ -143,8 +146,14 @@ pub(crate) enum NumberFinding {
     Misconception {
         feedback: String,
     },
+    /// The author's misconception, and another mistake besides.
+    MisconceptionAndMore {
+        feedback: String,
+    },
     OppositeSign,
     PowerOfTen,
+    /// A mistake that every question knows.
+    Usual(Recognised),
     /// The length of a vector is right, its direction is not.
     Direction {
         frame: Option<String>,

@@ -9,6 +9,7 @@ use super::feedback::{
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
 use crate::files::EquationPart;
+use crate::recognition::quantity::Recognised;
 use crate::rendering::html::escape;
 use crate::rendering::markdown::render_short;
 use crate::text::plain;
@@ -62,6 +63,7 @@ fn formula(finding: &FormulaFinding) -> String {
         FormulaFinding::MissingSymbol { symbol } => {
             paragraph(&format!("The answer also depends on {}.", escape(symbol)))
         }
+        FormulaFinding::Usual(recognised) => usual(recognised),
         FormulaFinding::Unknown => String::new(),
     }
 }
@@ -74,6 +76,9 @@ fn quantity(quantity: &QuantityFeedback) -> String {
             return paragraph(&format!("The {numbers} right, the unit is not.")) + &unit(&quantity.unit);
         }
         NumberFinding::Misconception { feedback } => render_short(feedback),
+        NumberFinding::MisconceptionAndMore { feedback } => {
+            render_short(feedback) + &paragraph("Something else is off besides.")
+        }
         NumberFinding::OppositeSign if one => paragraph("The size is right, the sign is not."),
         NumberFinding::OppositeSign => {
             paragraph("The size is right, every sign is not: this is the opposite one.")
@@ -85,6 +90,7 @@ fn quantity(quantity: &QuantityFeedback) -> String {
             let frame = escape(frame.as_deref().unwrap_or("the stated frame"));
             paragraph(&format!("The length is right, the direction is not. Components in {frame}?"))
         }
+        NumberFinding::Usual(recognised) => usual(recognised),
         NumberFinding::Unknown => String::new(),
     };
     let either = match quantity.unit {
@@ -92,6 +98,12 @@ fn quantity(quantity: &QuantityFeedback) -> String {
         UnitFinding::Given | UnitFinding::Found => String::new(),
     };
     format!("<p>Not right.</p>{number}{either}{}", unit(&quantity.unit))
+}
+
+/// What to look at after a usual mistake.
+fn usual(recognised: &Recognised) -> String {
+    let sign = if recognised.and_sign { " Look at the sign as well." } else { "" };
+    paragraph(&format!("{}{sign}", escape(recognised.mistake.words)))
 }
 
 fn unit(finding: &UnitFinding) -> String {
