@@ -48,6 +48,8 @@ pub use answers::{Answer, Submission, SubmissionError};
 pub use check::{Fault, check_course, check_course_files, check_lesson, reference_submission};
 pub use exercise::Parameters;
 pub use grading::{GradeError, Understood, grade, understand};
-pub use lesson::{Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, VariantError};
+pub use lesson::{
+    Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, NotionGraph, VariantError,
+};
 pub use tasks::InstancesView;
 pub use verdict::{Mark, QuestionVerdict, Verdict, open};

@@ -22,10 +22,11 @@ const UNTIL: &str = "0.01";
 const MOST_STEPS: &str = "40";
 
 /// Options that have their cases in other tests, or open a port: the command, and where.
-const ELSEWHERE: [(&str, &str); 9] = [
+const ELSEWHERE: [(&str, &str); 10] = [
     ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
     ("lesson preview", "it serves a page"),
     ("lesson list", "commands.rs"),
+    ("lesson graph", "lessons/src/tests"),
     ("lesson check", "the course is proved by lessons/src/tests"),
     ("lesson new", "lessons/src/tests"),
     ("lesson starter", "lessons/src/tests"),

@@ -3,6 +3,7 @@
 mod answers;
 mod findings;
 mod measured;
+mod notions;
 mod programs;
 mod question;
 mod references;
@@ -40,6 +41,7 @@ pub fn check_course_files(course: &Course) -> Vec<Fault> {
 pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
     let mut found = Findings::new(lesson);
     texts::about(course, &mut found);
+    notions::in_order(course, &mut found);
     texts::text(course, &mut found);
     texts::stray_files(&mut found);
     texts::unfinished(&mut found);

@@ -18,8 +18,8 @@ pub(super) fn about(course: &Course, found: &mut Findings) {
             found.add("lesson.toml", 0, format!("{key} is empty"), "write one");
         }
     }
-    if !(10..=40).contains(&about.minutes) {
-        found.add("lesson.toml", 0, "a lesson takes 10 to 40 minutes", "split or join lessons");
+    if !(10..=180).contains(&about.minutes) {
+        found.add("lesson.toml", 0, "a lesson takes 10 to 180 minutes", "split or join lessons");
     }
     if about.objectives.is_empty() || about.objectives.iter().any(|o| o.trim().is_empty()) {
         found.add(
@@ -113,7 +113,7 @@ fn link(course: &Course, target: &str, file: &str, line: usize, found: &mut Find
     let (page, fragment) = target.split_once('#').unwrap_or((target, ""));
     let there = match page.strip_prefix("/lessons/") {
         _ if page.is_empty() => Some(found.lesson),
-        Some(slug) => course.lessons().iter().find(|l| l.slug == slug),
+        Some(slug) => course.lesson(slug).filter(|l| l.slug == slug),
         None if page.starts_with('/') => None,
         None => return,
     };

@@ -1,5 +1,7 @@
 //! `course.toml` and `lesson.toml`.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,6 +13,15 @@ pub struct CourseFile {
     pub format_version: u32,
     /// Title of the course.
     pub title: String,
+    /// Slugs of the lessons that are taken, in the order in which they are taught. Without it all lessons are, by the
+    /// numbers of their folders. What is left out can still be opened by its address.
+    pub lessons: Option<Vec<String>>,
+    /// Whether the lessons that are built into the program can be taken too. A folder of the same slug replaces one.
+    #[serde(default)]
+    pub built_in: bool,
+    /// Notions that students bring along, so that no lesson has to introduce them.
+    #[serde(default)]
+    pub assumes: Vec<String>,
 }
 
 /// `NN-slug/lesson.toml`: what a lesson is about.
@@ -21,13 +32,19 @@ pub struct LessonFile {
     pub title: String,
     /// One sentence for the list of lessons.
     pub summary: String,
-    /// How long a student needs, in minutes (10 to 40).
+    /// How long a student needs, in minutes (10 to 180): text, scenario and questions, programs included.
     pub minutes: u32,
     /// What the student can do afterwards; each begins with a verb.
     pub objectives: Vec<String>,
     /// Slugs of the lessons that come before.
     #[serde(default)]
     pub prerequisites: Vec<String>,
+    /// Notions that the lesson introduces, each with the words by which a text uses it.
+    #[serde(default)]
+    pub introduces: BTreeMap<String, Vec<String>>,
+    /// Notions of earlier lessons that it builds on.
+    #[serde(default)]
+    pub needs: Vec<String>,
     /// Predict, run, check, explain.
     #[serde(default, rename = "step")]
     pub steps: Vec<StepFile>,

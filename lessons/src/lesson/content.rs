@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use triad_engine::scene::{Scene, SceneError};
 
+use super::numbering::Places;
 use super::reader::{LessonError, LessonReader, fingerprint, line_of, named};
 use crate::exercise::{self, BuildContext, Exercise, Parameters, Question};
 use crate::files::{ExerciseFile, Files, LessonFile, ReferenceFile, WrongFile};
@@ -50,15 +51,32 @@ pub(crate) struct QuestionSources {
 }
 
 impl Lesson {
-    /// Reads a lesson from its files; `folder` is `NN-slug`.
+    /// Number and slug in the name of a lesson's folder, `NN-slug`.
+    ///
+    /// Errors if it is no such name.
+    pub(super) fn name(folder: &str) -> Result<(u32, &str), LessonError> {
+        folder.split_once('-').and_then(|(n, slug)| Some((n.parse::<u32>().ok()?, slug))).ok_or_else(|| {
+            let problem = "a lesson's folder is named NN-slug, for example 02-simple-pendulum".to_owned();
+            LessonError::Unreadable { file: folder.to_owned(), line: 1, problem }
+        })
+    }
+
+    /// Reads a lesson by itself from its files; `folder` is `NN-slug`.
     ///
     /// Errors if a file is missing or cannot be read.
     pub fn from_files(folder: &str, files: Files) -> Result<Self, LessonError> {
-        let split = folder.split_once('-').and_then(|(n, slug)| Some((n.parse::<u32>().ok()?, slug)));
-        let Some((number, slug)) = split else {
-            let problem = "a lesson's folder is named NN-slug, for example 02-simple-pendulum".to_owned();
-            return Err(LessonError::Unreadable { file: folder.to_owned(), line: 1, problem });
-        };
+        let (number, slug) = Self::name(folder)?;
+        let mut places = Places::default();
+        places.put(slug, number, number);
+        Self::at_its_place(folder, files, &places)
+    }
+
+    /// Reads a lesson of a course.
+    ///
+    /// Errors if a file is missing or cannot be read.
+    pub(super) fn at_its_place(folder: &str, files: Files, places: &Places) -> Result<Self, LessonError> {
+        let (_, slug) = Self::name(folder)?;
+        let (hash, files) = (fingerprint(&files), places.renumber(slug, files));
         let reader = LessonReader { folder, files: &files };
         let about = reader.toml("lesson.toml", "it holds title, summary, minutes and objectives")?;
         let mut figures = BTreeMap::new();
@@ -83,14 +101,14 @@ impl Lesson {
         }
         Ok(Self {
             slug: slug.to_owned(),
-            number,
+            number: places.of(slug),
             folder: folder.to_owned(),
             about,
             text,
             scene,
             exercise,
             wrong,
-            hash: fingerprint(&files),
+            hash,
             parameters,
             seed: String::new(),
             sources,

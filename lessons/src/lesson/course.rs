@@ -6,6 +6,7 @@ use std::path::Path;
 use thiserror::Error;
 
 use super::content::Lesson;
+use super::numbering::Places;
 use super::reader::LessonError;
 use crate::files::{CourseFile, Files};
 
@@ -21,7 +22,10 @@ const MAX_FILES: usize = 5000;
 pub struct Course {
     /// Title of the course.
     pub title: String,
+    /// Notions that students bring along.
+    pub assumes: Vec<String>,
     lessons: Vec<Lesson>,
+    others: Vec<Lesson>,
     stray: Vec<String>,
 }
 
@@ -97,59 +101,143 @@ impl Course {
     ///
     /// Errors if a lesson cannot be read.
     pub fn from_files(files: Files) -> Result<Self, CourseError> {
-        let head = files.get("course.toml").ok_or_else(|| CourseError::Head {
-            problem: "it is missing; write format_version = 1 and a title into it".to_owned(),
-        })?;
-        let head: CourseFile = toml::from_str(&String::from_utf8_lossy(head))
-            .map_err(|error| CourseError::Head { problem: error.message().to_owned() })?;
-        if head.format_version != 1 {
-            let problem =
-                format!("format_version {} is not known; this program reads 1", head.format_version);
-            return Err(CourseError::Head { problem });
-        }
-        let mut folders: BTreeMap<String, Files> = BTreeMap::new();
-        let mut stray = Vec::new();
-        for (path, bytes) in files {
-            match path.split_once('/') {
-                Some((folder, rest)) => {
-                    folders.entry(folder.to_owned()).or_default().insert(rest.to_owned(), bytes);
-                }
-                None if path == "course.toml" => {}
-                None => stray.push(path),
+        let head = head(&files)?;
+        let (mut folders, stray) = split(files);
+        let own = by_number(folders.keys())?;
+        let order = match (&head.lessons, head.built_in) {
+            (None, false) => None,
+            (order, false) => order.clone(),
+            (order, true) => {
+                let built_in = built_in(&own, &mut folders)?;
+                Some(order.clone().unwrap_or_else(|| {
+                    let new = own.iter().map(|(_, slug, _)| slug).filter(|slug| !built_in.contains(slug));
+                    built_in.iter().chain(new).cloned().collect()
+                }))
             }
-        }
+        };
+        let all = by_number(folders.keys())?;
+        let places = places(&all, order.as_deref())?;
         let mut lessons: Vec<Lesson> = Vec::new();
         for (folder, files) in folders {
-            lessons.push(Lesson::from_files(&folder, files)?);
+            lessons.push(Lesson::at_its_place(&folder, files, &places)?);
         }
         lessons.sort_by_key(|l| l.number);
-        for (k, lesson) in lessons.iter().enumerate() {
-            if let Some(other) =
-                lessons[..k].iter().find(|o| o.number == lesson.number || o.slug == lesson.slug)
-            {
-                return Err(CourseError::Twice {
-                    first: other.folder.clone(),
-                    second: lesson.folder.clone(),
-                });
-            }
-        }
-        Ok(Self { title: head.title, lessons, stray })
+        let others = order.map_or_else(Vec::new, |order| lessons.split_off(order.len()));
+        Ok(Self { title: head.title, assumes: head.assumes, lessons, others, stray })
     }
 
-    /// The lessons in order.
+    /// The lessons that are taken, in order.
     pub fn lessons(&self) -> &[Lesson] {
         &self.lessons
     }
 
-    /// A lesson by its slug (`simple-pendulum`), its folder (`02-simple-pendulum`) or its number (`2`).
+    /// Lessons that are at hand and not taken; links may lead to them.
+    pub fn others(&self) -> &[Lesson] {
+        &self.others
+    }
+
+    /// A lesson by its slug (`simple-pendulum`), its folder (`02-simple-pendulum`) or its number (`2`), taken or not.
     pub fn lesson(&self, name: &str) -> Option<&Lesson> {
-        self.lessons.iter().find(|l| l.slug == name || l.folder == name || l.number.to_string() == name)
+        self.lessons
+            .iter()
+            .chain(&self.others)
+            .find(|l| l.slug == name || l.folder == name || l.number.to_string() == name)
     }
 
     /// Files beside the lessons that do not belong there.
     pub(crate) fn stray(&self) -> &[String] {
         &self.stray
     }
+}
+
+/// `course.toml`.
+fn head(files: &Files) -> Result<CourseFile, CourseError> {
+    let head = files.get("course.toml").ok_or_else(|| CourseError::Head {
+        problem: "it is missing; write format_version = 1 and a title into it".to_owned(),
+    })?;
+    let head: CourseFile = toml::from_str(&String::from_utf8_lossy(head))
+        .map_err(|error| CourseError::Head { problem: error.message().to_owned() })?;
+    if head.format_version != 1 {
+        let problem = format!("format_version {} is not known; this program reads 1", head.format_version);
+        return Err(CourseError::Head { problem });
+    }
+    Ok(head)
+}
+
+/// The files of each folder, and those that lie beside the folders.
+fn split(files: Files) -> (BTreeMap<String, Files>, Vec<String>) {
+    let mut folders: BTreeMap<String, Files> = BTreeMap::new();
+    let mut stray = Vec::new();
+    for (path, bytes) in files {
+        match path.split_once('/') {
+            Some((folder, rest)) => {
+                folders.entry(folder.to_owned()).or_default().insert(rest.to_owned(), bytes);
+            }
+            None if path == "course.toml" => {}
+            None => stray.push(path),
+        }
+    }
+    (folders, stray)
+}
+
+/// Number, slug and name of each folder, by number.
+fn by_number<'a>(
+    folders: impl Iterator<Item = &'a String>,
+) -> Result<Vec<(u32, String, String)>, CourseError> {
+    let mut all = Vec::new();
+    for folder in folders {
+        let (number, slug) = Lesson::name(folder)?;
+        all.push((number, slug.to_owned(), folder.clone()));
+    }
+    all.sort();
+    Ok(all)
+}
+
+/// Adds the built-in lessons that the folder does not replace, and tells their order.
+fn built_in(
+    own: &[(u32, String, String)],
+    folders: &mut BTreeMap<String, Files>,
+) -> Result<Vec<String>, CourseError> {
+    let files = EMBEDDED.iter().map(|(path, bytes)| ((*path).to_owned(), bytes.to_vec())).collect();
+    let order = head(&files)?.lessons;
+    let (built_in, _) = split(files);
+    let order = match order {
+        Some(order) => order,
+        None => by_number(built_in.keys())?.into_iter().map(|(_, slug, _)| slug).collect(),
+    };
+    for (folder, files) in built_in {
+        let (_, slug) = Lesson::name(&folder)?;
+        if own.iter().all(|(_, known, _)| known != slug) {
+            folders.insert(folder, files);
+        }
+    }
+    Ok(order)
+}
+
+/// The place of each lesson: as `order` says, what it leaves out behind; without it by number.
+fn places(all: &[(u32, String, String)], order: Option<&[String]>) -> Result<Places, CourseError> {
+    let mut places = Places::default();
+    for (k, (number, slug, folder)) in all.iter().enumerate() {
+        let same = |(n, s, _): &&(u32, String, String)| s == slug || order.is_none() && n == number;
+        if let Some((_, _, first)) = all[..k].iter().find(same) {
+            return Err(CourseError::Twice { first: first.clone(), second: folder.clone() });
+        }
+        places.put(slug, *number, *number);
+    }
+    let Some(order) = order else { return Ok(places) };
+    let left_out = all.iter().map(|(_, slug, _)| slug).filter(|slug| !order.contains(slug));
+    for (place, slug) in (1..).zip(order.iter().chain(left_out)) {
+        let Some((number, ..)) = all.iter().find(|(_, known, _)| known == slug) else {
+            let problem = format!("lessons names {slug}, which is no folder NN-{slug}; correct the name");
+            return Err(CourseError::Head { problem });
+        };
+        if order[..order.len().min(place as usize - 1)].contains(slug) {
+            let problem = format!("lessons names {slug} twice; remove one");
+            return Err(CourseError::Head { problem });
+        }
+        places.put(slug, *number, place);
+    }
+    Ok(places)
 }
 
 fn read_folder(folder: &Path, prefix: &str, files: &mut Files) -> Result<(), CourseError> {

@@ -3,6 +3,8 @@
 mod bundle;
 mod content;
 pub mod course;
+mod notions;
+mod numbering;
 mod reader;
 mod rules;
 mod variant;
@@ -10,6 +12,8 @@ mod view;
 
 pub use content::Lesson;
 pub use course::{Course, CourseError};
+pub(crate) use notions::need;
+pub use notions::{Need, NotionGraph, NotionNode};
 pub use reader::LessonError;
 pub(crate) use reader::line_of;
 pub use variant::VariantError;

@@ -21,6 +21,8 @@ impl Lesson {
             summary: self.about.summary.clone(),
             minutes: self.about.minutes,
             objectives: self.about.objectives.clone(),
+            introduces: self.about.introduces.keys().cloned().collect(),
+            needs: self.about.needs.clone(),
         }
     }
 
@@ -57,6 +59,10 @@ pub struct LessonSummary {
     pub minutes: u32,
     /// What the student can do afterwards.
     pub objectives: Vec<String>,
+    /// Notions that it introduces.
+    pub introduces: Vec<String>,
+    /// Notions that it builds on.
+    pub needs: Vec<String>,
 }
 
 /// A lesson as a student sees it.

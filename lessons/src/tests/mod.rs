@@ -2,6 +2,7 @@
 
 mod golden_variants;
 mod kinds;
+mod order;
 mod properties;
 mod refusals;
 mod tasks;
@@ -98,7 +99,7 @@ fn an_answer_that_cannot_be_judged_uses_no_attempt_and_gives_the_reason() {
         answers: BTreeMap::from([("nope".to_owned(), answer("1", ""))]),
         ..Submission::default()
     };
-    let error = grade(course.lesson("2").unwrap(), &unknown).unwrap_err();
+    let error = grade(course.lesson("simple-pendulum").unwrap(), &unknown).unwrap_err();
     assert!(error.to_string().contains("tension-bottom"));
 }
 
@@ -201,7 +202,7 @@ fn findings_of_the_check_name_place_and_remedy() {
             "hints = [\"\", \"Write down both",
             "a hint is missing or empty",
         ),
-        ("lesson.toml", "minutes = 30", "minutes = 90", "10 to 40 minutes"),
+        ("lesson.toml", "minutes = 30", "minutes = 190", "10 to 180 minutes"),
         (
             "lesson.toml",
             "kind = \"run\"",

@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 use triad_engine::analysis::ModesAbout;
 
 use crate::problem::Problem;
-use course::{grade, lesson, preview};
+use course::{grade, graph, lesson, preview};
 use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
@@ -208,6 +208,13 @@ enum Command {
 enum Lesson {
     /// List the lessons.
     List,
+    /// Tell what each lesson introduces and needs, and from where: what may be left out, and what must come before.
+    #[command(after_help = "Examples:\n  triad lesson graph\n  triad --course my-course lesson graph --dot")]
+    Graph {
+        /// As a graph for Graphviz.
+        #[arg(long)]
+        dot: bool,
+    },
     /// Prove the course: references pass, wrong answers get their own feedback, every number has a source.
     #[command(after_help = "Examples:\n  triad lesson check\n  triad lesson check simple-pendulum\n  \
         triad --course my-course lesson check")]
@@ -285,6 +292,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Scenes { name: None, .. } => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
+        Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
         Command::Lesson(Lesson::New { slug, into }) => lesson::new(&slug, &into, json),
         Command::Lesson(Lesson::Preview { lesson, port }) => {

@@ -1145,11 +1145,15 @@ export interface components {
             has_variants: boolean;
             /** @description The text as safe HTML. */
             html: string;
+            /** @description Notions that it introduces. */
+            introduces: string[];
             /**
              * Format: uint32
              * @description Time a student needs.
              */
             minutes: number;
+            /** @description Notions that it builds on. */
+            needs: string[];
             /**
              * Format: uint32
              * @description Place in the course, from 1.
@@ -1183,11 +1187,15 @@ export interface components {
         };
         /** @description A lesson in the list of lessons. */
         LessonSummary: {
+            /** @description Notions that it introduces. */
+            introduces: string[];
             /**
              * Format: uint32
              * @description Time a student needs.
              */
             minutes: number;
+            /** @description Notions that it builds on. */
+            needs: string[];
             /**
              * Format: uint32
              * @description Place in the course, from 1.

@@ -118,7 +118,7 @@ pub(in crate::cli) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome
             let hint = "choose another name, or edit that one";
             return Err(Problem::new(StatusCode::CONFLICT, "lesson-exists", what, hint));
         }
-        course.lessons().iter().map(|l| l.number).max().unwrap_or(0) + 1
+        course.lessons().iter().chain(course.others()).map(|l| l.number).max().unwrap_or(0) + 1
     } else {
         write(&head, "format_version = 1\ntitle = \"A course\"\n")?;
         1

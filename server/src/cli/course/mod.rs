@@ -1,5 +1,6 @@
 //! Commands for lessons and their authors.
 
 pub(in crate::cli) mod grade;
+pub(in crate::cli) mod graph;
 pub(in crate::cli) mod lesson;
 pub(in crate::cli) mod preview;
