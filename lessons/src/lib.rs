@@ -8,8 +8,9 @@
 //! The modules stand in reading order, and each uses only what stands before it: [`rendering`] (Markdown and figures as
 //! safe HTML), [`answers`] (what a student types), [`files`] (what an author writes), [`exercise`] (questions ready to
 //! grade), [`lesson`] (lessons, courses and their variants), [`tasks`] (questions answered by work), `recognition` (usual
-//! mistakes behind wrong numbers and formulas), [`verdict`] (what is said about an answer, and its HTML), [`grading`], and
-//! [`check`] (proving a course).
+//! mistakes behind wrong numbers and formulas), [`verdict`] (what is said about an answer, and its HTML), [`grading`],
+//! [`mod@standing`] (what earlier submissions decide), and [`check`] (proving a course). [`mod@seed`] tells what a student's
+//! numbers are drawn from.
 
 #![allow(clippy::missing_errors_doc)] // said in a sentence: the crate is no library for others
 
@@ -25,6 +26,8 @@ pub mod files;
 
 mod random;
 
+pub mod seed;
+
 mod scenario;
 
 pub mod exercise;
@@ -39,6 +42,8 @@ pub mod verdict;
 
 pub mod grading;
 
+pub mod standing;
+
 pub mod check;
 
 #[cfg(test)]
@@ -51,5 +56,7 @@ pub use grading::{GradeError, Understood, grade, understand};
 pub use lesson::{
     Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, NotionGraph, VariantError,
 };
+pub use seed::seed;
+pub use standing::{Attempt, open, settle, standing};
 pub use tasks::InstancesView;
-pub use verdict::{Mark, QuestionVerdict, Verdict, open};
+pub use verdict::{Mark, QuestionVerdict, Verdict};

@@ -1,12 +1,15 @@
 //! From what a student hands in to a verdict: the same for the page, HTTP and the command line.
 
+use std::collections::BTreeMap;
+
 use axum::http::StatusCode;
-use triad_lessons::GradeError;
-use triad_lessons::answers::{Submission, SubmissionError};
+use triad_lessons::answers::{Answer, Submission, SubmissionError};
 use triad_lessons::lesson::Lesson;
 use triad_lessons::verdict::Verdict;
+use triad_lessons::{Attempt, GradeError};
 
 use crate::problem::Problem;
+use crate::store::StoredSubmission;
 use crate::variants::Variants;
 
 impl From<SubmissionError> for Problem {
@@ -47,18 +50,39 @@ pub fn grade(lesson: &Lesson, variants: &Variants, text: &str) -> Result<(Submis
     Ok((submission, verdict))
 }
 
-/// Adds the right answers to a verdict if the author opens them after so many attempts, this one included.
+/// Puts what a student's earlier submissions to the lesson, the oldest first, decide into the verdict of one more.
 ///
-/// Errors if the gradebook cannot be read.
+/// Errors if one that is kept cannot be read.
+pub fn settle(
+    lesson: &Lesson,
+    earlier: Vec<StoredSubmission>,
+    submission: &Submission,
+    verdict: &mut Verdict,
+) -> Result<(), Problem> {
+    let read = |kept: StoredSubmission| {
+        let answers: BTreeMap<String, Answer> =
+            serde_json::from_value(kept.answers).map_err(Problem::internal)?;
+        let verdict: Verdict = serde_json::from_value(kept.verdict).map_err(Problem::internal)?;
+        Ok((answers, verdict))
+    };
+    let earlier = earlier.into_iter().map(read).collect::<Result<Vec<_>, Problem>>()?;
+    let earlier: Vec<Attempt> =
+        earlier.iter().map(|(answers, verdict)| Attempt { answers, verdict }).collect();
+    triad_lessons::settle(lesson, &earlier, &submission.answers, verdict);
+    Ok(())
+}
+
+/// Adds the right answers of the questions that are open to a verdict that is settled.
+///
+/// Errors if the lesson has no numbers for the submission's seed.
 pub fn open(
     lesson: &Lesson,
     variants: &Variants,
     submission: &Submission,
     verdict: &mut Verdict,
-    attempts: usize,
 ) -> Result<(), Problem> {
     let lesson = variants.of(lesson, seed(submission))?;
-    triad_lessons::open(&lesson, verdict, attempts);
+    triad_lessons::open(&lesson, verdict);
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 
 mod answers;
 mod findings;
+pub(crate) mod guessing;
 mod measured;
 mod notions;
 mod programs;
@@ -20,6 +21,7 @@ pub use references::reference_submission;
 /// Checks a whole course. Empty means proven.
 pub fn check_course(course: &Course) -> Vec<Fault> {
     let mut faults = check_course_files(course);
+    faults.extend(guessing::longest(course));
     for lesson in course.lessons() {
         faults.extend(check_lesson(course, lesson));
     }
@@ -50,6 +52,7 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
         question::itself(question, &mut found);
         tasks::task(question, &mut found);
     }
+    guessing::share(&mut found);
     answers::blank_fails(&mut found);
     answers::reference_passes(&mut found);
     answers::wrong_answers_fail(&mut found);

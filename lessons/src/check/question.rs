@@ -1,6 +1,7 @@
 //! One question as it is written.
 
 use super::findings::Findings;
+use super::guessing;
 use crate::answers::tolerance::norm;
 use crate::exercise::{Formula, QuantityQuestion, Question, QuestionBody};
 use crate::files::ProvenanceKind;
@@ -24,7 +25,8 @@ pub(super) fn itself(question: &Question, found: &mut Findings) {
     }
     match &question.body {
         QuestionBody::Quantity(q) => quantity(question, q, found),
-        QuestionBody::Choice { options, .. } => {
+        QuestionBody::Choice { options, right } => {
+            guessing::options(id, options, right, found);
             for option in options.iter().filter(|o| o.reason.trim().is_empty() || o.text.trim().is_empty()) {
                 found.question(id, format!("option {} has no text or no reason", option.id), "write both");
             }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::findings::Findings;
 use super::programs::{self, TaskError};
 use super::references::{file, judged};
+use crate::answers::{Answer, RunSettings, TypedValue};
 use crate::exercise::{ModelTask, Question, QuestionBody, Trajectory, Tuning};
 use crate::scenario::measure::with_error;
 use crate::tasks::trajectory::{ReferenceMotion, reference_csv};
@@ -35,11 +36,47 @@ fn tuning(found: &mut Findings, id: &str, task: &Tuning) -> Result<(), TaskError
         let what = format!("it asks for {:e}, its reference is off by up to {error:e}", task.error);
         found.question(id, what, "ask for at least ten times the error of the reference");
     }
+    for (settings, what) in without_work(task) {
+        let answer = Answer { settings: Some(settings), ..Answer::default() };
+        if judged(found.lesson, id, answer).is_some_and(|given| given.share > 0.0) {
+            let what = format!("{what} earns points");
+            found.question(id, what, "tighten the error or the budget, or let the run be longer");
+        }
+    }
     Ok(())
 }
 
-/// Every demand has feedback, and the joints that are demanded exist.
+/// Settings that nobody has thought about: the coarsest and the finest tolerance of each method, and the reference without
+/// any stabilization.
+fn without_work(task: &Tuning) -> Vec<(RunSettings, String)> {
+    let plain = |integrator, tolerance: f64| RunSettings {
+        integrator,
+        tolerance: TypedValue::Number(tolerance),
+        baumgarte: None,
+    };
+    let mut tried: Vec<(RunSettings, String)> = Vec::new();
+    for integrator in &task.integrators {
+        for tolerance in [1e-1, 1e-13] {
+            tried.push((plain(*integrator, tolerance), format!("{integrator} at {tolerance:e}")));
+        }
+    }
+    if task.baumgarte {
+        let none = [TypedValue::Number(0.0), TypedValue::Number(0.0)];
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            for integrator in &task.integrators {
+                let settings = RunSettings { baumgarte: Some(none.clone()), ..plain(*integrator, tolerance) };
+                tried.push((settings, format!("no stabilization, {integrator} at {tolerance:e},")));
+            }
+        }
+    }
+    tried
+}
+
+/// Every demand has feedback, the joints that are demanded exist, and the scene that everybody has earns nothing.
 fn model(found: &mut Findings, id: &str, task: &ModelTask) {
+    if judged(found.lesson, id, file(found.lesson.scene.to_string())).is_some_and(|given| given.share > 0.0) {
+        found.question(id, "the lesson's own scene earns points", "ask for another mechanism");
+    }
     for watch in task.watches().iter().filter(|w| w.feedback.trim().is_empty()) {
         let what = format!("the watch \u{201c}{}\u{201d} has no feedback", watch.what);
         found.question(id, what, "write it");

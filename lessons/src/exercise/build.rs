@@ -6,7 +6,7 @@ use super::context::{BuildContext, BuildError, QuestionError, build_error, refus
 use super::question::{Exercise, QuantityQuestion, Question, QuestionBody};
 use super::{closed, quantity, tasks};
 use crate::answers::tolerance::ValueShape;
-use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile};
+use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile, earlier_value};
 
 /// Joins questions and references.
 pub(crate) fn build(
@@ -36,7 +36,7 @@ pub(crate) fn build(
             remedy: "remove it from reference/answers.toml or ask it".to_owned(),
         });
     }
-    Ok(Exercise { pass_mark: file.pass_mark, opens: file.opens, questions })
+    Ok(Exercise { pass_mark: file.pass_mark, questions })
 }
 
 /// An id that can be used and is used once, and points that count.
@@ -103,12 +103,19 @@ fn follows_earlier(questions: &[Question]) -> Result<(), QuestionError> {
             continue;
         };
         for earlier in follows.from.values() {
-            if !questions[..at].iter().any(|q| q.id == *earlier && q.kind == QuestionKind::Number) {
+            let (id, component) = earlier_value(earlier);
+            let fits = |q: &Question| match q.kind {
+                QuestionKind::Number => *earlier == q.id,
+                QuestionKind::Vector => id == q.id && component.is_some(),
+                _ => false,
+            };
+            if !questions[..at].iter().any(fits) {
                 return Err(QuestionError {
                     question: question.id.clone(),
                     in_reference: false,
                     problem: format!("it follows {earlier}, which is no earlier number"),
-                    remedy: "name an earlier question of kind number".to_owned(),
+                    remedy: "name an earlier number by its id, or a component of an earlier vector as id.y"
+                        .to_owned(),
                 });
             }
         }

@@ -9,8 +9,7 @@ use crate::answers::RunSettings;
 use crate::answers::tolerance::{Tolerance, ValueShape};
 use crate::answers::units::Unit;
 use crate::files::{
-    EquationPart, FollowFile, MeasuredFile, ModelFile, OpensFile, ProvenanceKind, QuestionKind, ScoreBand,
-    WatchFile,
+    EquationPart, FollowFile, MeasuredFile, ModelFile, ProvenanceKind, QuestionKind, ScoreBand, WatchFile,
 };
 use triad_engine::scene::expression::Expression;
 
@@ -19,8 +18,6 @@ use triad_engine::scene::expression::Expression;
 pub struct Exercise {
     /// Share of the points that passes the lesson.
     pub pass_mark: f64,
-    /// When the right answers are shown.
-    pub opens: OpensFile,
     /// The questions in order.
     pub questions: Vec<Question>,
 }
@@ -215,6 +212,8 @@ pub struct Tuning {
     pub budget: u64,
     /// Error to reach, SI.
     pub error: f64,
+    /// How far the constraints may be violated at the end, SI.
+    pub violation: Option<f64>,
     /// What is watched, with the end of the run as its time.
     pub watch: MeasuredFile,
     /// Integrators to choose from.

@@ -100,13 +100,13 @@ pub(super) fn tuning(
     })?;
     let sound = (1..=1_000_000).contains(&file.budget)
         && (1e-11..1.0).contains(&file.error)
+        && file.violation.is_none_or(|violation| (1e-12..1.0).contains(&violation))
         && file.end > 0.0
         && file.end <= 100.0
         && !file.integrators.is_empty()
         && scene.bodies.len() <= 20;
     if !sound {
-        let remedy =
-            "budget 1 to 1000000, error 1e-11 to 1, end up to 100 s, at most 20 bodies, some integrators";
+        let remedy = "budget 1 to 1000000, error 1e-11 to 1, violation 1e-12 to 1, end up to 100 s, at most 20 bodies, some integrators";
         return Err(build_error("its demands cannot be used", remedy));
     }
     let mut watch = file.watch.clone();
@@ -115,6 +115,7 @@ pub(super) fn tuning(
         scene,
         budget: file.budget,
         error: file.error,
+        violation: file.violation,
         watch,
         integrators: file.integrators.clone(),
         baumgarte: file.baumgarte,

@@ -20,24 +20,9 @@ pub struct ExerciseFile {
     /// Where the drawn numbers enter the scenario.
     #[serde(default)]
     pub scene: Vec<PatchFile>,
-    /// When the right answers and their sources are shown. Without it, never.
-    #[serde(default)]
-    pub opens: OpensFile,
     /// The questions, in order.
     #[serde(rename = "question")]
     pub questions: Vec<QuestionFile>,
-}
-
-/// When the right answers are shown, with the verdict: whichever comes first.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct OpensFile {
-    /// To a student who has passed the lesson.
-    #[serde(default)]
-    pub passed: bool,
-    /// To a student who has handed in this often, passed or not.
-    #[serde(default)]
-    pub attempts: Option<usize>,
 }
 
 /// A number that is drawn for each student from `from`, `from + step`, … up to `to`.

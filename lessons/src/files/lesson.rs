@@ -22,6 +22,25 @@ pub struct CourseFile {
     /// Notions that students bring along, so that no lesson has to introduce them.
     #[serde(default)]
     pub assumes: Vec<String>,
+    /// When the right answer to a question is shown. Without it, never.
+    #[serde(default)]
+    pub opens: OpensFile,
+}
+
+/// When the right answer to a question and its source are shown to a student, whichever comes first. From then on the points
+/// of the question are what they were before.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OpensFile {
+    /// When it has been answered right.
+    #[serde(default)]
+    pub right: bool,
+    /// After so many different answers to it, right or wrong.
+    #[serde(default)]
+    pub attempts: Option<usize>,
+    /// The same for a choice; it opens at the latest when one option is left.
+    #[serde(default)]
+    pub choices: Option<usize>,
 }
 
 /// `NN-slug/lesson.toml`: what a lesson is about.

@@ -15,15 +15,15 @@ pub mod skeleton;
 pub mod tasks;
 
 pub use exercise::{
-    ExerciseFile, MisconceptionFile, OpensFile, OptionFile, ParameterFile, PatchFile, QuestionFile,
-    QuestionKind, ToleranceFile,
+    ExerciseFile, MisconceptionFile, OptionFile, ParameterFile, PatchFile, QuestionFile, QuestionKind,
+    ToleranceFile,
 };
-pub use lesson::{CourseFile, LessonFile, StepFile, StepKind};
+pub use lesson::{CourseFile, LessonFile, OpensFile, StepFile, StepKind};
 pub use measured::{Component, CountKind, MeasuredFile, MotionKind};
 pub use reference::{ProvenanceKind, ReferenceFile, WrongFile};
 pub use tasks::{
     EquationPart, FollowFile, ImplementFile, ModelFile, ScoreBand, TrajectoryFile, TuningFile, WatchFile,
-    WrongModel, WrongModelFile,
+    WrongModel, WrongModelFile, earlier_value,
 };
 
 /// The files of one folder: path below it, content.

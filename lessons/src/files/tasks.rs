@@ -140,6 +140,8 @@ pub struct TuningFile {
     pub budget: u64,
     /// The error that must be reached at the end, in the unit of what is watched.
     pub error: f64,
+    /// How far the constraints may be violated at the end, in metres and unit vectors; without it, any.
+    pub violation: Option<f64>,
     /// What is watched, at the end of the run; its `time` is ignored.
     pub watch: MeasuredFile,
     /// End of the run, s.
@@ -151,16 +153,25 @@ pub struct TuningFile {
     pub baumgarte: bool,
 }
 
+/// The question and the component, from 0, that `force.y` or `speed` names.
+pub fn earlier_value(name: &str) -> (&str, Option<usize>) {
+    let component = |letter: &str| ["x", "y", "z"].iter().position(|known| *known == letter);
+    match name.split_once('.') {
+        Some((id, letter)) => (id, component(letter)),
+        None => (name, None),
+    }
+}
+
 /// `[question.follows]`: a wrong earlier answer is carried through.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FollowFile {
-    /// Symbols and the earlier questions (kind number) that they stand for.
+    /// Symbols and the earlier questions that they stand for: a number by its id, a component of a vector as `force.y`.
     pub from: BTreeMap<String, String>,
     /// The answer as an expression in these symbols and the parameters: number, list or list of rows.
     pub value: TypedValue,
     /// Share of the points for a right step from a wrong value.
-    #[serde(default = "all_points")]
+    #[serde(default = "follow_share")]
     pub share: f64,
 }
 
@@ -217,7 +228,8 @@ fn yes() -> bool {
     true
 }
 
-/// All points for a right step from a wrong value, unless the author says otherwise.
-fn all_points() -> f64 {
-    1.0
+/// Share for a right step from a wrong value, unless the author says otherwise: less than for the right answer, which no
+/// earlier mistake may make easier to reach.
+fn follow_share() -> f64 {
+    0.8
 }

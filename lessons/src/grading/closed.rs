@@ -14,9 +14,7 @@ pub(crate) fn choice(
     right: &str,
     answer: &Answer,
 ) -> Result<Judgement, InvalidClosed> {
-    let ((Some(text), _) | (None, Some(TypedValue::Text(text)))) = (&answer.choice, &answer.value) else {
-        return Err(InvalidClosed::NoOption);
-    };
+    let text = text(answer).ok_or(InvalidClosed::NoOption)?;
     let id = id(text);
     let option = options.iter().find(|o| o.id.to_lowercase() == id).ok_or_else(|| {
         let known = options.iter().map(|o| o.id.as_str()).collect::<Vec<_>>().join(", ");
@@ -26,6 +24,18 @@ pub(crate) fn choice(
         return Ok(Judgement::right(Feedback::Right { note: option.reason.clone() }));
     }
     Ok(Judgement::wrong(0.0, Some(&option.id), Feedback::Option { reason: option.reason.clone() }))
+}
+
+/// The option that an answer names, in small letters.
+pub(super) fn chosen(answer: &Answer) -> Option<String> {
+    text(answer).map(id)
+}
+
+fn text(answer: &Answer) -> Option<&str> {
+    match (&answer.choice, &answer.value) {
+        (Some(text), _) | (None, Some(TypedValue::Text(text))) => Some(text),
+        _ => None,
+    }
 }
 
 /// The id in `B)`, `(b)` or `option b`, in small letters.

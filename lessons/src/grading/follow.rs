@@ -1,13 +1,16 @@
 //! Follow-through: a right step from a wrong earlier answer.
 
 use super::quantity;
+use crate::answers::tolerance::norm;
 use crate::answers::{Answer, Submission};
 use crate::exercise::{QuantityQuestion, QuestionBody, numbers};
+use crate::files::earlier_value;
 use crate::lesson::Lesson;
 use crate::verdict::Mark;
 use crate::verdict::feedback::{Feedback, Judgement};
 
-/// Judges a wrong answer again with the student's own earlier values; `None` if these were right, or do not lead to it.
+/// Judges a wrong answer again with the student's own earlier values; `None` if these were right, do not lead to it, or lead
+/// to it without a step: nothing follows from zero, and what a misconception of this question leads to has words of its own.
 pub(super) fn judge(
     lesson: &Lesson,
     question: &QuantityQuestion,
@@ -18,28 +21,35 @@ pub(super) fn judge(
     let follows = question.follows.as_ref()?;
     let mut parameters = lesson.parameters.clone();
     let mut wrong: Vec<usize> = Vec::new();
-    for (symbol, id) in &follows.from {
+    for (symbol, name) in &follows.from {
+        let (id, component) = earlier_value(name);
         let place = lesson.exercise.questions.iter().position(|q| q.id == *id)?;
         let QuestionBody::Quantity(own) = &lesson.question(id)?.body else { return None };
-        let given = submission.answers.get(id).and_then(|a| quantity::values(own, a));
-        let value = match (earlier.get(place)?.mark, given) {
-            (Mark::Wrong, Some(given)) => {
+        let values = match earlier.get(place)?.mark {
+            // Of a wrong unit, which costs its share there, the number is carried on.
+            Mark::Wrong => {
                 wrong.push(place + 1);
-                *given.first()?
+                quantity::magnitudes(own, submission.answers.get(id)?)?
             }
-            (Mark::Right, _) => *own.reference.first()?,
-            _ => return None,
+            Mark::Right => own.reference.clone(),
+            Mark::Blank | Mark::Invalid | Mark::Waiting => return None,
         };
-        parameters.add(symbol, value);
+        if norm(&values) == 0.0 {
+            return None;
+        }
+        parameters.add(symbol, *values.get(component.unwrap_or(0))?);
     }
     if wrong.is_empty() {
         return None;
     }
+    let given = quantity::values(question, answer)?;
+    let is = |wanted: &[f64]| question.tolerance.accepts(&given, wanted);
     let carried = numbers(&follows.value, question.shape, &parameters).ok()?.values;
-    // What follows from the wrong value by the right step must not be a misconception that has its own name.
-    if !question.tolerance.accepts(&quantity::values(question, answer)?, &carried) {
+    if norm(&carried) == 0.0 || !is(&carried) || question.misconceptions.iter().any(|m| is(&m.value)) {
         return None;
     }
+    wrong.sort_unstable();
+    wrong.dedup();
     let mark = if follows.share >= 1.0 { Mark::Right } else { Mark::Wrong };
     let feedback = Feedback::FollowThrough { questions: wrong };
     Some(Judgement { mark, ..Judgement::wrong(follows.share, Some("follow-through"), feedback) })

@@ -30,7 +30,14 @@ pub(super) fn judge(task: &ModelTask, note: &str, answer: &Answer) -> Result<Jud
     if met == demands.len() {
         return Ok(Judgement::right(Feedback::Model { demands, note: Some(note.to_owned()) }));
     }
-    let share = met as f64 / demands.len() as f64;
+    // A scene of another structure is another mechanism, whatever it shares with the one that is asked for.
+    let (shown, structure): (Vec<&DemandResult>, Vec<&DemandResult>) =
+        demands.iter().partition(|d| matches!(d.demand, Demand::Watch { .. }));
+    let share = if structure.iter().all(|d| d.met) {
+        shown.iter().filter(|d| d.met).count() as f64 / shown.len().max(1) as f64
+    } else {
+        0.0
+    };
     let misconception = demands.iter().find(|d| !d.met).map(|d| d.demand.misconception());
     Ok(Judgement::wrong(share, misconception.as_deref(), Feedback::Model { demands, note: None }))
 }

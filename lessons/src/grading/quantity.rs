@@ -81,6 +81,11 @@ pub(super) fn values(question: &QuantityQuestion, answer: &Answer) -> Option<Vec
     reading.mismatch.is_none().then_some(reading.values)
 }
 
+/// The numbers of an answer if they can be read: in the question's unit, or as they are beside a unit of another dimension.
+pub(super) fn magnitudes(question: &QuantityQuestion, answer: &Answer) -> Option<Vec<f64>> {
+    reading::read(question, answer).ok().map(|reading| reading.values)
+}
+
 /// The misconception that leads to these values: the author's own first, then an opposite sign and a power of ten.
 fn misconception<'a>(question: &'a QuantityQuestion, values: &[f64]) -> Option<(&'a str, NumberFinding)> {
     let accepts = |wanted: &[f64]| question.tolerance.accepts(values, wanted);

@@ -13,6 +13,8 @@ use crate::verdict::invalid::InvalidSettings;
 
 /// A run ends after this many times the budget of evaluations.
 const BUDGETS: u64 = 4;
+/// A run that is precise earns half its points up to this many times the budget.
+const NEARLY: u64 = 2;
 /// Steps between two checks of the budget.
 const STEPS_PER_CHECK: u64 = 16;
 /// Tolerances of the curves in the picture.
@@ -23,6 +25,8 @@ const CURVE: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 struct RunCost {
     evaluations: u64,
     error: Option<f64>,
+    /// How far the constraints are violated at the end.
+    violation: f64,
 }
 
 /// Judges settings.
@@ -42,16 +46,22 @@ pub(super) fn judge(task: &Tuning, note: &str, answer: &Answer) -> Result<Judgem
         most: BUDGETS * task.budget,
         error: cost.error,
         allowed: task.error,
+        violation: task.violation.map(|allowed| [cost.violation, allowed]),
         note: note.to_owned(),
     };
     let (precise, cheap) = (feedback.is_precise(), feedback.is_cheap() && cost.error.is_some());
+    let drifted = feedback.has_drifted();
     let figure = Some(picture(task, settings, cost, &reference, precise && cheap));
     let feedback = Feedback::Tuning(feedback);
     let judgement = match (precise, cheap) {
         (true, true) => Judgement::right(feedback),
-        (true, false) => Judgement::wrong(0.5, Some("too-dear"), feedback),
-        (false, true) => Judgement::wrong(0.5, Some("too-coarse"), feedback),
-        (false, false) => Judgement::wrong(0.0, Some("too-coarse"), feedback),
+        // The finest tolerance is precise without a thought, the coarsest cheap: only what comes near to both earns a share.
+        (true, false) if cost.evaluations <= NEARLY * task.budget => {
+            Judgement::wrong(0.5, Some("too-dear"), feedback)
+        }
+        (true, false) => Judgement::wrong(0.0, Some("too-dear"), feedback),
+        (false, _) if drifted => Judgement::wrong(0.0, Some("drifted"), feedback),
+        (false, _) => Judgement::wrong(0.0, Some("too-coarse"), feedback),
     };
     Ok(Judgement { figure, ..judgement })
 }
@@ -104,12 +114,16 @@ fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<RunCost, Meas
     while !simulation.advance_towards(task.watch.time, STEPS_PER_CHECK)? {
         let evaluations = simulation.summary().evaluations;
         if evaluations > BUDGETS * task.budget {
-            return Ok(RunCost { evaluations, error: None });
+            return Ok(RunCost { evaluations, error: None, violation: f64::INFINITY });
         }
     }
-    let evaluations = simulation.summary().evaluations;
+    let summary = simulation.summary();
     let value = measure(scene, &simulation, &task.watch)?;
-    Ok(RunCost { evaluations, error: Some(distance(&value, reference)) })
+    Ok(RunCost {
+        evaluations: summary.evaluations,
+        error: Some(distance(&value, reference)),
+        violation: summary.position_violation,
+    })
 }
 
 /// The run in the picture of work and precision; when the demand is met, with the curves of all choices.

@@ -7,8 +7,9 @@ use triad_engine::scene::{Scene, SceneError};
 
 use super::numbering::Places;
 use super::reader::{LessonError, LessonReader, fingerprint, line_of, named};
+use super::variant;
 use crate::exercise::{self, BuildContext, Exercise, Parameters, Question};
-use crate::files::{ExerciseFile, Files, LessonFile, ReferenceFile, WrongFile};
+use crate::files::{ExerciseFile, Files, LessonFile, OpensFile, ReferenceFile, WrongFile};
 use crate::rendering::markdown::{self, Rendered};
 
 /// A lesson with everything that belongs to it, answers included. Only its views may leave the server.
@@ -34,8 +35,12 @@ pub struct Lesson {
     pub hash: String,
     /// The numbers drawn for a student, by name; the defaults where no student is known.
     pub parameters: Parameters,
-    /// Whose numbers these are: the seed that they were drawn from; empty for the defaults.
+    /// Whose numbers these are: a student, or a seed that was chosen; empty for the defaults.
     pub seed: String,
+    /// When right answers are shown.
+    pub opens: OpensFile,
+    /// What the numbers were drawn from: the name, or its keyed fingerprint where the class has a secret.
+    pub(crate) drawn_from: String,
     pub(crate) sources: QuestionSources,
     pub(crate) files: Arc<Files>,
     pub(crate) figures: BTreeMap<String, String>,
@@ -48,6 +53,8 @@ pub struct Lesson {
 pub(crate) struct QuestionSources {
     pub(crate) exercise: ExerciseFile,
     pub(crate) references: BTreeMap<String, ReferenceFile>,
+    /// The description of the scene, before numbers are put into it.
+    pub(crate) description: String,
 }
 
 impl Lesson {
@@ -84,14 +91,17 @@ impl Lesson {
             figures.insert(name.clone(), reader.text(name, "")?.to_owned());
         }
         let text = markdown::render(reader.text("lesson.md", "it holds the text of the lesson")?, &figures);
-        let scene = scene(&reader)?;
+        let mut scene = scene(&reader)?;
         let sources = QuestionSources {
             exercise: reader.toml("exercise.toml", "it holds the questions")?,
             references: reader
                 .toml("reference/answers.toml", "it holds the right answers and their sources")?,
+            description: scene["description"].as_str().unwrap_or_default().to_owned(),
         };
         let parameters = Parameters::defaults(&sources.exercise.parameters);
-        let exercise = questions(&reader, &sources, &parameters, &scene)?;
+        variant::describe(&mut scene, &sources.description, &parameters);
+        let mut exercise = questions(&reader, &sources, &parameters, &scene)?;
+        variant::shuffle_options(&mut exercise, slug, "");
         let mut wrong = BTreeMap::new();
         let mut wrong_files = BTreeSet::new();
         for name in named(&files, "wrong/", "toml") {
@@ -111,6 +121,8 @@ impl Lesson {
             hash,
             parameters,
             seed: String::new(),
+            opens: OpensFile::default(),
+            drawn_from: String::new(),
             sources,
             files: Arc::new(files),
             figures,

@@ -119,7 +119,8 @@ impl Course {
         let places = places(&all, order.as_deref())?;
         let mut lessons: Vec<Lesson> = Vec::new();
         for (folder, files) in folders {
-            lessons.push(Lesson::at_its_place(&folder, files, &places)?);
+            let lesson = Lesson::at_its_place(&folder, files, &places)?;
+            lessons.push(Lesson { opens: head.opens, ..lesson });
         }
         lessons.sort_by_key(|l| l.number);
         let others = order.map_or_else(Vec::new, |order| lessons.split_off(order.len()));

@@ -2,6 +2,7 @@
 
 mod bundle;
 mod content;
+mod conventions;
 pub mod course;
 mod notions;
 mod numbering;

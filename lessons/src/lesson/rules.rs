@@ -1,7 +1,9 @@
 //! What counts as right, in words for the student, from the numbers that grade.
 
+use std::fmt::Write as _;
+
 use crate::exercise::{Question, QuestionBody, Trajectory, Tuning};
-use crate::files::{MeasuredFile, MotionKind};
+use crate::files::{MeasuredFile, MotionKind, OpensFile};
 use crate::text::plain;
 
 /// What counts as right, from what grades.
@@ -11,7 +13,7 @@ pub(super) fn rule(question: &Question) -> String {
             let shown = if q.asks_unit { "" } else { q.unit.text() };
             let mut rule = q.tolerance.sentence(q.shape, shown, q.frame.as_deref());
             if q.follows.is_some() {
-                rule.push_str(" If your earlier answer was wrong, this one is judged with it.");
+                rule.push_str(" If your earlier answer was wrong, a right step from it still earns a share of the points.");
             }
             rule
         }
@@ -57,13 +59,35 @@ fn trajectory_rule(t: &Trajectory) -> String {
 }
 
 fn tuning_rule(t: &Tuning) -> String {
+    let constraints = t.violation.map_or_else(String::new, |violation| {
+        format!(", the constraints are violated by at most {}", plain(violation))
+    });
     format!(
-        "Right if at {} s the error is at most {} and at most {} evaluations were used; half the points for one of \
-         the two.",
+        "Right if at {} s the error is at most {}{constraints} and at most {} evaluations were used; half the points if it is \
+         precise with up to twice as many.",
         plain(t.watch.time),
         plain(t.error),
         t.budget
     )
+}
+
+/// When a right answer is shown, in words.
+pub(super) fn opens(opens: OpensFile) -> Option<String> {
+    let times = |n: usize| if n == 1 { "one answer".to_owned() } else { format!("{n} different answers") };
+    let mut when = Vec::new();
+    if opens.right {
+        when.push("you have given it".to_owned());
+    }
+    if let Some(n) = opens.attempts {
+        when.push(format!("you have tried {}", times(n)));
+    }
+    let mut text = format!("The right answer to a question is shown when {}", when.join(" or when "));
+    if let Some(n) = opens.choices {
+        let start = if when.is_empty() { "of a choice you have tried" } else { ", of a choice" };
+        let _ = write!(text, "{start} {}", times(n));
+    }
+    text.push_str(". From then on its points stay as they are.");
+    (opens != OpensFile::default()).then_some(text)
 }
 
 /// A measurement in words.

@@ -7,9 +7,10 @@ use triad_engine::scene::{Scene, SceneError};
 
 use super::content::Lesson;
 use crate::answers::tolerance::{distance, norm};
-use crate::exercise::{self, BuildContext, Exercise, Parameters, QuestionBody};
+use crate::exercise::{self, BuildContext, ChoiceOption, Exercise, Parameters, QuestionBody};
 use crate::files::ParameterFile;
 use crate::random::SeededRandom;
+use crate::seed::seed;
 
 /// Draws after which the search for numbers ends with an error.
 const MAX_DRAWS: usize = 64;
@@ -54,6 +55,21 @@ impl Lesson {
     ///
     /// Errors if no draw gives a lesson that can be judged.
     pub fn variant(&self, seed: &str) -> Result<Self, VariantError> {
+        self.variant_in(seed, "")
+    }
+
+    /// The lesson with the numbers of a student in a class with this secret; an empty one is none.
+    ///
+    /// Errors if no draw gives a lesson that can be judged.
+    pub fn variant_in(&self, student: &str, secret: &str) -> Result<Self, VariantError> {
+        let drawn_from = seed(student, &self.slug, secret);
+        let mut lesson = self.drawn(&drawn_from)?;
+        shuffle_options(&mut lesson.exercise, &self.slug, &drawn_from);
+        Ok(Self { seed: student.to_owned(), drawn_from, ..lesson })
+    }
+
+    /// The lesson with numbers drawn from a text.
+    fn drawn(&self, seed: &str) -> Result<Self, VariantError> {
         let files = &self.sources.exercise.parameters;
         let usable = |p: &ParameterFile| {
             p.from < p.to
@@ -66,7 +82,7 @@ impl Lesson {
         }
         if files.is_empty() {
             // Instances are the student's own even where the numbers are everybody's.
-            return Ok(Self { seed: seed.to_owned(), ..self.clone() });
+            return Ok(self.clone());
         }
         let mut random = SeededRandom::new(&format!("{}/{seed}", self.slug));
         let mut reason = String::new();
@@ -81,7 +97,7 @@ impl Lesson {
                 Err(error) => return Err(error),
             };
             match fits(&lesson.exercise).and_then(|()| starts(&lesson.scene)) {
-                Ok(()) => return Ok(Self { seed: seed.to_owned(), ..lesson }),
+                Ok(()) => return Ok(lesson),
                 Err(refused) => reason = refused.to_string(),
             }
         }
@@ -110,11 +126,32 @@ impl Lesson {
             };
             *place = serde_json::Value::Number(number);
         }
+        describe(&mut lesson.scene, &self.sources.description, &parameters);
         let context = BuildContext { parameters: &parameters, scene: &lesson.scene, files: &lesson.files };
         lesson.exercise =
             exercise::build(file, references, &context).map_err(|error| unusable(error.to_string()))?;
         lesson.parameters = parameters;
         Ok(lesson)
+    }
+}
+
+/// Puts the student's numbers into the description of the scene.
+pub(super) fn describe(scene: &mut serde_json::Value, description: &str, parameters: &Parameters) {
+    if let Some(place) = scene.get_mut("description") {
+        *place = parameters.fill(description).into();
+    }
+}
+
+/// Puts the options of each choice into an order of the student's own; their ids stay.
+pub(super) fn shuffle_options(exercise: &mut Exercise, lesson: &str, drawn_from: &str) {
+    for question in &mut exercise.questions {
+        let QuestionBody::Choice { options, .. } = &mut question.body else { continue };
+        // From the author's order, whatever order they were put into before.
+        options.sort_by(|a, b| a.id.cmp(&b.id));
+        let mut random = SeededRandom::new(&format!("{lesson}/{}/options/{drawn_from}", question.id));
+        let mut drawn: Vec<(f64, ChoiceOption)> = options.drain(..).map(|o| (random.unit(), o)).collect();
+        drawn.sort_by(|a, b| a.0.total_cmp(&b.0));
+        options.extend(drawn.into_iter().map(|(_, option)| option));
     }
 }
 

@@ -5,10 +5,11 @@ use serde::Serialize;
 use triad_engine::scene::{IntegratorKind, Scene};
 
 use super::content::Lesson;
-use super::rules::{measurement, rule};
+use super::conventions::conventions;
+use super::rules::{measurement, opens, rule};
 use crate::answers::tolerance::ValueShape;
 use crate::exercise::{ChoiceOption, Parameters, Question, QuestionBody};
-use crate::files::{EquationPart, MeasuredFile, QuestionKind, StepFile, StepKind};
+use crate::files::{EquationPart, MeasuredFile, QuestionKind, StepFile, StepKind, earlier_value};
 use crate::rendering::markdown;
 
 impl Lesson {
@@ -38,6 +39,11 @@ impl Lesson {
             seed: self.seed.clone(),
             exercise: ExerciseView {
                 pass_mark: self.exercise.pass_mark,
+                // A scene that cannot be read is reported where the lesson is read.
+                conventions_html: Scene::from_json(&self.scene.to_string())
+                    .map(|scene| markdown::render_short(&conventions(&scene)))
+                    .unwrap_or_default(),
+                opens: opens(self.opens),
                 questions: self.exercise.questions.iter().map(QuestionView::new).collect(),
             },
         }
@@ -105,6 +111,11 @@ pub struct StepView {
 pub struct ExerciseView {
     /// Share of the points that passes.
     pub pass_mark: f64,
+    /// What the scene takes for granted, as safe HTML: axes, gravity, masses, inertias, positive senses.
+    pub conventions_html: String,
+    /// When a right answer is shown, in words; absent if never.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opens: Option<String>,
     /// The questions in order.
     pub questions: Vec<QuestionView>,
 }
@@ -230,7 +241,11 @@ impl QuestionView {
                 view.unit = (!q.asks_unit).then(|| q.unit.text().to_owned());
                 view.size = (q.shape != ValueShape::Number).then_some(q.size);
                 view.components = components(q.frame.as_deref().unwrap_or_default(), q.size);
-                view.follows = q.follows.iter().flat_map(|f| f.from.values().cloned()).collect();
+                view.follows = q
+                    .follows
+                    .iter()
+                    .flat_map(|f| f.from.values().map(|name| earlier_value(name).0.to_owned()))
+                    .collect();
             }
             QuestionBody::Choice { options, .. } => {
                 let shown =

@@ -224,5 +224,5 @@ pub(crate) fn task<'a>(lesson: &'a Lesson, question: &str) -> Option<&'a Impleme
 
 /// The seed of the states of a question: each student and each question has their own.
 pub(crate) fn seed(lesson: &Lesson, question: &str) -> String {
-    format!("{}/{question}/{}", lesson.slug, lesson.seed)
+    format!("{}/{question}/{}", lesson.slug, lesson.drawn_from)
 }

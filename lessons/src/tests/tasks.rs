@@ -274,6 +274,15 @@ fn a_scene_is_judged_by_what_it_does() {
     );
     let many = InvalidAnswer::Model(InvalidModel::Bodies { bodies: 7, most: 6 });
     assert_eq!(why(large.to_string()), many);
+    // Another structure earns nothing, whatever else it shares: a block alone on its guide, and the scene of the lesson.
+    let mut alone = scene.clone();
+    let block = scene["bodies"].as_array().unwrap().iter().find(|b| b["name"] == "block").unwrap();
+    let guide = scene["joints"].as_array().unwrap().iter().find(|j| j["name"] == "guide").unwrap();
+    alone["bodies"] = serde_json::json!([block]);
+    alone["joints"] = serde_json::json!([guide]);
+    for other in [alone, lesson.scene.clone()] {
+        assert_eq!(judged(&lesson, "scene", file(other.to_string())).earned, 0.0);
+    }
     let empty = judgement(&lesson, "scene", file("{\"name\":\"x\",\"bodies\":[]}"));
     assert!(matches!(empty.mark, Mark::Wrong | Mark::Invalid), "{empty:?}");
 }
@@ -292,7 +301,11 @@ fn settings_are_run_and_drawn() {
     let picture = right.figure_svg.unwrap();
     assert!(picture.contains("dopri5") && picture.contains("your run"), "the curves open when it is right");
     let coarse = settings("dop853", "1e-4");
-    assert_eq!((coarse.misconception.as_deref(), coarse.earned), (Some("too-coarse"), 0.5 * coarse.possible));
+    assert_eq!(
+        (coarse.misconception.as_deref(), coarse.earned),
+        (Some("too-coarse"), 0.0),
+        "cheap is no work"
+    );
     assert!(!coarse.figure_svg.unwrap().contains("polyline"), "the curves would be the answer");
     assert_eq!(settings("dop853", "1e-11").misconception.as_deref(), Some("too-dear"));
     assert_eq!(settings("dopri5", "1e-12").verdict, Mark::Wrong);
@@ -318,8 +331,12 @@ fn a_right_step_from_a_wrong_answer_counts() {
     let (speed, pull) = both("3.000", "18.00");
     assert_eq!(
         (speed, pull.verdict, pull.misconception.as_deref()),
-        (Mark::Wrong, Mark::Right, Some("follow-through"))
+        (Mark::Wrong, Mark::Wrong, Some("follow-through"))
     );
+    assert_eq!(pull.earned, 0.8 * pull.possible);
+    // Nothing follows from zero, and what a known mistake leads to earns nothing.
+    assert_eq!(both("0", "0").1.earned, 0.0);
+    assert_eq!(both("3.1321", "19.62").1.misconception.as_deref(), Some("weight"));
     assert_eq!(html::message(&Feedback::FollowThrough { questions: vec![2] }), pull.message_html);
     // The same number beside a right speed is wrong.
     assert_eq!(both("4.4294", "18.00").1.verdict, Mark::Wrong);

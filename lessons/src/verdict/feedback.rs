@@ -302,14 +302,25 @@ pub(crate) struct TuningFeedback {
     pub error: Option<f64>,
     /// Error to reach.
     pub allowed: f64,
+    /// How far the constraints are violated at the end, and how far they may be, where that is asked.
+    pub violation: Option<[f64; 2]>,
     /// Why it is right.
     pub note: String,
 }
 
 impl TuningFeedback {
-    /// Whether the error was reached.
+    /// Whether error and constraints are as they are asked for.
     pub(crate) fn is_precise(&self) -> bool {
+        self.reaches_error() && !self.has_drifted()
+    }
+
+    fn reaches_error(&self) -> bool {
         self.error.is_some_and(|error| error <= self.allowed)
+    }
+
+    /// Whether the run came to its end with joints that have come apart.
+    pub(crate) fn has_drifted(&self) -> bool {
+        self.error.is_some() && self.violation.is_some_and(|[seen, allowed]| seen > allowed)
     }
 
     /// Whether the budget was kept.

@@ -257,6 +257,9 @@ fn motion(finding: MotionFinding) -> String {
 fn tuning(run: &TuningFeedback) -> String {
     let result = run_result(run);
     let advice = match (run.is_precise(), run.is_cheap()) {
+        (false, _) if run.has_drifted() => {
+            "The joint has come apart: look at what keeps the constraints, not only at the tolerance."
+        }
         (true, true) => return format!("<p>Right.</p><p>{result}</p>{}", render_short(&run.note)),
         (true, false) => "You bought more digits than were asked for, or bought them at the wrong place.",
         (false, true) => "There is money left: a tighter tolerance costs little for a method of high order.",
@@ -276,8 +279,15 @@ fn run_result(run: &TuningFeedback) -> String {
             "The run was stopped after {most} evaluations, {times} times the budget of {budget}."
         );
     };
+    let constraints = run.violation.map_or_else(String::new, |[seen, allowed]| {
+        let allowed_text = plain(allowed);
+        format!(
+            "Constraints violated by {seen:.1e}, {} the {allowed_text} that is allowed. ",
+            than(seen <= allowed)
+        )
+    });
     format!(
-        "Error {error:.1e}, {} the {} that is allowed. {} evaluations, {} the budget of {budget}.",
+        "Error {error:.1e}, {} the {} that is allowed. {constraints}{} evaluations, {} the budget of {budget}.",
         than(run.is_precise()),
         plain(run.allowed),
         run.evaluations,

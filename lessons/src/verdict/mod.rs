@@ -8,5 +8,4 @@ pub(crate) mod invalid;
 pub mod reference;
 pub mod sent;
 
-pub use reference::open;
-pub use sent::{Mark, Provenance, QuestionVerdict, Verdict};
+pub use sent::{Mark, Provenance, QuestionStanding, QuestionVerdict, Verdict};

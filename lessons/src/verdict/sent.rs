@@ -27,6 +27,16 @@ pub struct Verdict {
     pub provenance: Provenance,
 }
 
+impl Verdict {
+    /// Adds up the points of the questions and tells whether they pass.
+    pub(crate) fn sum(&mut self, pass_mark: f64) {
+        self.earned = self.questions.iter().map(|q| q.earned).sum();
+        self.possible = self.questions.iter().map(|q| q.possible).sum();
+        // The last digits of a sum of points are rounding.
+        self.passed = self.gradable && self.earned >= pass_mark * self.possible * (1.0 - 1e-12);
+    }
+}
+
 /// The outcome for one question.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct QuestionVerdict {
@@ -46,9 +56,26 @@ pub struct QuestionVerdict {
     /// A picture of what was computed, as SVG that the grader drew.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub figure_svg: Option<String>,
-    /// The right answer and its source, as safe HTML, where the author opens it.
+    /// What earlier submissions decide, where they are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standing: Option<QuestionStanding>,
+    /// The right answer and its source, as safe HTML, where it is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference_html: Option<String>,
+}
+
+/// Where a student stands with one question after all submissions so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct QuestionStanding {
+    /// Answers that said something else than all before.
+    pub attempts: usize,
+    /// The best points so far; where the answer is open, the best before it opened.
+    pub best: f64,
+    /// Whether the right answer is shown. The points stay as they were before.
+    pub open: bool,
+    /// Different answers that are left until the right one is shown, where it opens by their number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left: Option<usize>,
 }
 
 /// How one answer was judged.

@@ -23,7 +23,7 @@ use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::{HOME, HandIn, Query, Whose, identifier, names};
+use crate::store::{HOME, HandIn, Query, StoredSubmission, Whose, identifier, names};
 use crate::{blocking, grading};
 
 /// Where a client names its request: a request that is repeated under the same name is one submission.
@@ -53,9 +53,10 @@ struct GradedSubmission {
 /// Hand in answers to a lesson's exercise.
 ///
 /// What is handed in is kept. Where an answer cannot be read (text for a number, a unit that does not exist) the verdict
-/// says `gradable: false` and what to correct; no attempt is used. Where the author opens the right answers (to those who
-/// passed, or after so many attempts), each question has its `reference_html`. A request that is repeated with the same
-/// `Idempotency-Key` is told the verdict of the first and keeps nothing.
+/// says `gradable: false` and what to correct; nothing is judged, and no attempt is used. Each question tells its
+/// `standing` after all submissions so far. Where its right answer is open (it was right, or there were so many different
+/// answers), it has its `reference_html`, and its points stay what they were before. A request that is repeated with the
+/// same `Idempotency-Key` is told the verdict of the first and keeps nothing.
 #[utoipa::path(post, path = "/lessons/{slug}/submissions", operation_id = "submit_answers", tag = "submissions", params(("slug" = String, Path),
     ("idempotency-key" = Option<String>, Header, description = "A name of this request, never used before")),
     request_body(content = ref(of::<triad_lessons::Submission>()), example = json!({"student": "ada", "answers": {"tension": {"value": "29.4", "unit": "N"}}})),
@@ -73,15 +74,19 @@ async fn submit(
     Json(body): Json<Value>,
 ) -> Result<impl IntoResponse, Problem> {
     let key = request_key(&headers)?;
+    let lesson = lessons::find(&app, &slug)?.slug.clone();
+    let student = student(body.get("student").and_then(Value::as_str))?;
+    let earlier = earlier(&app, &student, &lesson).await?;
     let grading = app.clone();
-    let (submission, new) = blocking(move || graded(&grading, &slug, &body, key)).await?;
+    let (submission, new) =
+        blocking(move || graded(&grading, &lesson, student, &body, key, earlier)).await?;
     let kept = app.store.hand_in(&new).await?;
     let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
     let document = blocking(move || {
         let mut told: GradedSubmission = serde_json::from_value(kept.verdict).map_err(Problem::internal)?;
         if told.verdict.gradable {
             let lesson = lessons::find(&app, &new.lesson)?;
-            grading::open(lesson, &app.variants, &submission, &mut told.verdict, kept.attempts)?;
+            grading::open(lesson, &app.variants, &submission, &mut told.verdict)?;
         }
         Ok(told)
     });
@@ -98,16 +103,32 @@ fn request_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     })
 }
 
+/// What a student has handed in to a lesson, the oldest first.
+async fn earlier(app: &App, student: &str, lesson: &str) -> Result<Vec<StoredSubmission>, Problem> {
+    let Some(person) = app.store.person_named(HOME, student).await? else { return Ok(Vec::new()) };
+    let query = Query {
+        course: HOME.to_owned(),
+        person: Some(person),
+        lesson: Some(lesson.to_owned()),
+        limit: usize::MAX,
+    };
+    let mut found = app.store.list(&query).await?;
+    found.reverse();
+    Ok(found)
+}
+
 /// What is handed in, with its verdict as it is to be kept: without the right answers.
 fn graded(
     app: &App,
     slug: &str,
+    student: String,
     body: &Value,
     key: Option<String>,
+    earlier: Vec<StoredSubmission>,
 ) -> Result<(triad_lessons::Submission, HandIn), Problem> {
     let lesson = lessons::find(app, slug)?;
-    let student = student(body.get("student").and_then(Value::as_str))?;
     let (submission, mut verdict) = grading::grade(lesson, &app.variants, &body.to_string())?;
+    grading::settle(lesson, earlier, &submission, &mut verdict)?;
     verdict.student = Some(student.clone());
     let received = jiff::Timestamp::now();
     let counted = verdict.gradable;
