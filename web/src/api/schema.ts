@@ -513,6 +513,10 @@ export interface components {
         };
         /** @description The questions as a student sees them. */
         Exercise: {
+            /** @description What the scene takes for granted, as safe HTML: axes, gravity, masses, inertias, positive senses. */
+            conventions_html: string;
+            /** @description When a right answer is shown, in words; absent if never. */
+            opens?: string | null;
             /**
              * Format: double
              * @description Share of the points that passes.
@@ -580,8 +584,8 @@ export interface components {
             earned: number;
             /** @description False if an answer could not be read or needs more digits: fix it and send again, no attempt is used. */
             gradable: boolean;
-            /** @description Its name; null where nothing was graded, hence nothing kept. */
-            id: string | null;
+            /** @description Its name. */
+            id: string;
             /** @description Slug of the lesson. */
             lesson: string;
             /** @description Whether the lesson counts as passed: enough points, and nothing left that could not be read. */
@@ -1021,8 +1025,8 @@ export interface components {
             earned: number;
             /** @description False if an answer could not be read or needs more digits: fix it and send again, no attempt is used. */
             gradable: boolean;
-            /** @description Its name; null where nothing was graded, hence nothing kept. */
-            id: string | null;
+            /** @description Its name. */
+            id: string;
             /** @description Slug of the lesson. */
             lesson: string;
             /** @description Whether the lesson counts as passed: enough points, and nothing left that could not be read. */
@@ -1983,6 +1987,26 @@ export interface components {
         };
         /** @description Kind of a question. */
         QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "implement" | "trajectory" | "model" | "tuning";
+        /** @description Where a student stands with one question after all submissions so far. */
+        QuestionStanding: {
+            /**
+             * Format: uint
+             * @description Answers that said something else than all before.
+             */
+            attempts: number;
+            /**
+             * Format: double
+             * @description The best points so far; where the answer is open, the best before it opened.
+             */
+            best: number;
+            /**
+             * Format: uint
+             * @description Different answers that are left until the right one is shown, where it opens by their number.
+             */
+            left?: number | null;
+            /** @description Whether the right answer is shown. The points stay as they were before. */
+            open: boolean;
+        };
         /** @description The outcome for one question. */
         QuestionVerdict: {
             /**
@@ -2001,10 +2025,12 @@ export interface components {
              * @description Points that can be earned.
              */
             possible: number;
-            /** @description The right answer and its source, as safe HTML, where the author opens it. */
+            /** @description The right answer and its source, as safe HTML, where it is open. */
             reference_html?: string | null;
             /** @description The misconception that was recognised; for statistics and for the checks of authors. */
             slip?: string | null;
+            /** @description What earlier submissions decide, where they are known. */
+            standing?: components["schemas"]["QuestionStanding"] | null;
             /** @description Right, wrong, blank, invalid, or waiting for an answer that is invalid. */
             verdict: components["schemas"]["Mark"];
         };

@@ -1,7 +1,7 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
 import { api, problemOf } from "../api/client";
 import type { GradedSubmission, Lesson } from "../api/types";
-import { announce, h } from "../core/dom";
+import { announce, authored, h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
@@ -75,6 +75,7 @@ class ExerciseSection {
         h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}${toPass}`),
       ),
       whose(this.lesson),
+      conventions(this.lesson),
       this.form,
       this.history.root,
     ].filter((part) => part !== null);
@@ -95,6 +96,7 @@ class ExerciseSection {
         h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
         this.send,
       ),
+      this.lesson.exercise.opens ? h("p", { class: "opens" }, this.lesson.exercise.opens) : null,
       this.outcome,
     );
   }
@@ -168,6 +170,14 @@ function requestName(): string {
   return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
     byte.toString(16).padStart(2, "0"),
   ).join("");
+}
+
+/** What the scene takes for granted: axes, gravity, masses, positive senses. */
+function conventions(lesson: Lesson): HTMLElement | null {
+  const html = lesson.exercise.conventions_html;
+  return html
+    ? h("aside", { class: "conventions", "aria-label": "Conventions" }, authored(h("div"), html))
+    : null;
 }
 
 /** Says whose numbers these are; without a name, asks for one. */

@@ -2,7 +2,7 @@
 
 import type { GradedSubmission, Mark, QuestionVerdict } from "../api/types";
 import { authored, h } from "../core/dom";
-import { points } from "../core/format";
+import { plural, points } from "../core/format";
 import { type IconName, icon } from "../ui/icons";
 
 const WORDS: Record<Mark, { word: string; mark: IconName }> = {
@@ -35,6 +35,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
       h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`),
     ),
     text.textContent ? text : null,
+    standingLine(result),
     result.reference_html
       ? h(
           "details",
@@ -47,6 +48,19 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   );
 }
 
+/** Where the student stands with the question: tries that are left, or that its points stay as they are. */
+function standingLine({ standing, possible }: QuestionVerdict): HTMLElement | null {
+  if (!standing) return null;
+  const { attempts, best, open, left } = standing;
+  if (open && best >= possible) return null;
+  const text = open
+    ? `The right answer is open. Your points for this question stay at ${points(best)} of ${points(possible)}.`
+    : left != null && attempts > 0
+      ? `${plural(attempts, "different answer")} so far. After ${left} more the right answer is shown, and your points stay at the best before it: ${points(best)} of ${points(possible)}.`
+      : null;
+  return text ? h("p", { class: `standing-line ${open ? "is-open" : ""}` }, text) : null;
+}
+
 export function verdictSummary(verdict: GradedSubmission): HTMLElement {
   const score = `${points(verdict.earned)} of ${points(verdict.possible)} points`;
   const [cls, mark, title, text]: [string, IconName, string, string] = !verdict.gradable
@@ -54,7 +68,7 @@ export function verdictSummary(verdict: GradedSubmission): HTMLElement {
         "is-invalid",
         "warn",
         "Not counted yet",
-        "An answer was sent back, so nothing is stored and no attempt is used. Put it right and check again.",
+        "An answer was sent back, so nothing is judged and no attempt is used. Put it right and check again.",
       ]
     : verdict.passed
       ? [
