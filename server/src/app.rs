@@ -10,6 +10,7 @@ use crate::limits::Limits;
 use crate::session::Registry;
 use crate::store::Store;
 use crate::variants::Variants;
+use crate::work::Work;
 
 /// Where commands write reports and the workbench looks for them, unless the command line says otherwise.
 pub const REPORTS: &str = "reports";
@@ -27,6 +28,8 @@ pub struct App {
     pub sessions: Arc<Registry>,
     /// The lectures.
     pub lectures: Arc<Lectures>,
+    /// Places for what is computed on request.
+    pub work: Arc<Work>,
     /// What this server allows.
     pub limits: Arc<Limits>,
     /// The folder with the reports of commands.
@@ -42,6 +45,7 @@ impl App {
             store: Arc::new(store),
             sessions: Arc::default(),
             lectures: Arc::default(),
+            work: Arc::default(),
             limits: Arc::new(limits),
             reports: Path::new(REPORTS).into(),
         }

@@ -20,6 +20,8 @@ pub mod session;
 
 pub mod lecture;
 
+pub mod work;
+
 pub mod app;
 
 pub mod guide;

@@ -11,6 +11,8 @@ pub struct Limits {
     pub sessions: usize,
     /// Bodies in a scene, checked before anything is built from it.
     pub bodies: usize,
+    /// Bodies in a scene that is analysed: equilibria and modes take dense matrices, whose work grows with the cube.
+    pub analysed_bodies: usize,
     /// Joints, drivers and loads in a scene together.
     pub connections: usize,
     /// Bytes of a request's body.
@@ -40,6 +42,7 @@ impl Default for Limits {
         Self {
             sessions: 64,
             bodies: 500,
+            analysed_bodies: 60,
             connections: 2000,
             request_bytes: 8 << 20,
             idle: Duration::from_mins(30),

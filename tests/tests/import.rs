@@ -73,7 +73,11 @@ fn what_is_wrong_is_named_with_its_line() {
     };
     let (status, good) = import(arm.clone(), json!({}));
     assert_eq!(status, 200, "{good:#}");
+    let many: String = (0..200).map(|k| format!(" a{k}=\"1\"")).collect();
+    let ruler = format!("<!-- {} -->\n<robot", "=".repeat(300));
+    assert_eq!(import(arm.replacen("<robot", &ruler, 1), json!({})).0, 200);
     let cases = [
+        (arm.replacen("<mass", &format!("<mass{many}"), 1), "not-a-robot", "line=6"),
         (arm.replace("<mass value=\"2\"/>", "<mass value=\"heavy\"/>"), "not-a-robot", "line=6"),
         (arm.replace("type=\"continuous\"", "type=\"spherical\""), "not-a-robot", "line=17"),
         (arm.replace("</robot>", ""), "not-xml", ""),

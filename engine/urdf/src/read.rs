@@ -8,6 +8,9 @@ use crate::omissions::{MAX_LINKS, OmittedItem, UrdfError};
 /// XML nodes that are read.
 const MAX_NODES: u32 = 400_000;
 
+/// Attributes that an element may have; those of URDF have at most six. The XML reader compares each with all others.
+const MAX_ATTRIBUTES: usize = 100;
+
 #[derive(Debug)]
 pub(super) struct Robot {
     pub name: String,
@@ -70,6 +73,7 @@ pub(super) struct UrdfJoint {
 }
 
 pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot, UrdfError> {
+    bound_attributes(text)?;
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
         .map_err(|error| UrdfError::Xml { line: error.pos().row, cause: error.to_string() })?;
@@ -100,6 +104,35 @@ pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot
         }
     }
     Ok(robot)
+}
+
+/// Refuses elements of very many attributes before they are read.
+fn bound_attributes(text: &str) -> Result<(), UrdfError> {
+    let (mut line, mut attributes, mut quote, mut before) = (1, 0, None, b' ');
+    for byte in text.bytes() {
+        match (byte, quote) {
+            (b'\n', _) => line += 1,
+            (b'"' | b'\'', None) => {
+                quote = Some(byte);
+                attributes += usize::from(before == b'=');
+            }
+            (_, Some(opened)) if byte == opened => quote = None,
+            // Quotes do not pair in texts and comments: each element begins anew.
+            (b'<', _) => (attributes, quote) = (0, None),
+            _ => {}
+        }
+        if !byte.is_ascii_whitespace() {
+            before = byte;
+        }
+        if attributes > MAX_ATTRIBUTES {
+            return Err(UrdfError::Wrong {
+                line,
+                what: format!("an element has more than {MAX_ATTRIBUTES} attributes"),
+                hint: "URDF has no such element: look at the end of the one before",
+            });
+        }
+    }
+    Ok(())
 }
 
 fn link(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<Link, UrdfError> {

@@ -1,5 +1,7 @@
 //! Analyses of a scene other than running it: assembly, kinematics with inverse dynamics, static equilibrium, modes.
 
+use std::sync::Arc;
+
 use axum::extract::State;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
@@ -15,8 +17,9 @@ use utoipa_axum::routes;
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::Json;
 use crate::app::App;
+use crate::limits::Limits;
 use crate::problem::Problem;
-use crate::{blocking, session};
+use crate::session;
 
 /// Output times that a kinematic analysis over HTTP may have.
 const MAX_TIMES: f64 = 5_001.0;
@@ -99,9 +102,10 @@ async fn analyse<T: Serialize>(
     asked: AnalysisRequest,
     run: impl FnOnce(&Scene, &AnalysisRequest) -> Result<T, AnalysisError> + Send + 'static,
 ) -> Result<axum::Json<Value>, Problem> {
-    blocking(move || {
+    let work = Arc::clone(&app.work);
+    let job = move || {
         let scene = Scene::from_json(&asked.scene.to_string())?;
-        session::bounded(&scene, &app.limits)?;
+        session::bounded(&scene, &Limits { bodies: app.limits.analysed_bodies, ..(*app.limits).clone() })?;
         let times = scene.simulation.duration / scene.simulation.every;
         if times > MAX_TIMES {
             let detail = format!("the scene asks for {times:.0} output times, more than {MAX_TIMES}");
@@ -115,6 +119,6 @@ async fn analyse<T: Serialize>(
         }
         let found = run(&scene, &asked)?;
         serde_json::to_value(found).map(axum::Json).map_err(Problem::internal)
-    })
-    .await
+    };
+    work.run(job).await
 }

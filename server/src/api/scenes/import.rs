@@ -1,5 +1,7 @@
 //! Robots described in URDF, as scenes.
 
+use std::sync::Arc;
+
 use axum::extract::State;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,7 +15,7 @@ use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::Json;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::{blocking, session};
+use crate::session;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<UrdfImport>();
@@ -51,11 +53,12 @@ async fn import(
     State(app): State<App>,
     Json(robot): Json<UrdfImport>,
 ) -> Result<axum::Json<ImportedRobot>, Problem> {
-    blocking(move || {
+    let work = Arc::clone(&app.work);
+    let job = move || {
         let imported = triad_urdf::import(&robot.urdf, &robot.with)?;
         session::bounded(&imported.scene, &app.limits)?;
         let scene = serde_json::to_value(&imported.scene).map_err(Problem::internal)?;
         Ok(axum::Json(ImportedRobot { scene, left_out: imported.left_out }))
-    })
-    .await
+    };
+    work.run(job).await
 }

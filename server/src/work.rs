@@ -1,0 +1,107 @@
+//! Computing for callers, bounded: as much at a time as leaves the server a processor, and a short queue.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use axum::http::StatusCode;
+use tokio::sync::Semaphore;
+
+use crate::problem::Problem;
+
+/// Callers that may wait for a place. At some tenths of a second each, the last waits longer than people do.
+const WAITING: usize = 64;
+
+/// Places for computing that callers wait for.
+#[derive(Debug)]
+pub struct Work {
+    places: Semaphore,
+    waiting: AtomicUsize,
+}
+
+impl Default for Work {
+    fn default() -> Self {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        Self { places: Semaphore::new(cores.saturating_sub(1).max(1)), waiting: AtomicUsize::new(0) }
+    }
+}
+
+impl Work {
+    /// Runs `work` on a thread that may block, when its turn comes. A caller that leaves before has not asked.
+    ///
+    /// Errors if too many wait already, and as `work` does.
+    pub async fn run<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let _place = {
+            let _waiting = Waiting::among(&self.waiting)?;
+            self.places.acquire().await.map_err(Problem::internal)?
+        };
+        crate::blocking(work).await
+    }
+}
+
+/// One of those who wait.
+struct Waiting<'a>(&'a AtomicUsize);
+
+impl<'a> Waiting<'a> {
+    fn among(waiting: &'a AtomicUsize) -> Result<Self, Problem> {
+        // Counted before it is looked at: many may come at once.
+        let this = Self(waiting);
+        if waiting.fetch_add(1, Ordering::Relaxed) < WAITING {
+            return Ok(this);
+        }
+        Err(Problem::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            "too-much-work",
+            format!("{WAITING} others wait for the server to compute"),
+            "ask again in a few seconds, or compute on your own machine: triad --help",
+        ))
+    }
+}
+
+impl Drop for Waiting<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+    async fn so_many_compute_so_many_wait_and_the_others_are_sent_away() {
+        let work = Arc::new(Work { places: Semaphore::new(1), waiting: AtomicUsize::new(0) });
+        let busy = Arc::new(AtomicUsize::new(0));
+        let (finish, gate) = std::sync::mpsc::channel::<()>();
+        let gate = Arc::new(std::sync::Mutex::new(gate));
+        let asked: Vec<_> = (0..WAITING + 11)
+            .map(|_| {
+                let (work, busy, gate) = (Arc::clone(&work), Arc::clone(&busy), Arc::clone(&gate));
+                tokio::spawn(async move {
+                    let job = move || {
+                        assert_eq!(busy.fetch_add(1, Ordering::SeqCst), 0, "one at a time");
+                        gate.lock().expect("whole").recv().expect("a word");
+                        busy.fetch_sub(1, Ordering::SeqCst);
+                        Ok(())
+                    };
+                    work.run(job).await
+                })
+            })
+            .collect();
+        while asked.iter().filter(|task| task.is_finished()).count() < 10 {
+            tokio::task::yield_now().await;
+        }
+        (0..=WAITING).for_each(|_| finish.send(()).expect("somebody waits"));
+        let mut refused = 0;
+        for task in asked {
+            if let Err(problem) = task.await.expect("ends") {
+                assert_eq!(problem.code(), "too-much-work");
+                refused += 1;
+            }
+        }
+        assert_eq!(refused, 10);
+        assert_eq!(work.waiting.load(Ordering::Relaxed), 0);
+    }
+}
