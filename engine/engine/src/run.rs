@@ -6,6 +6,8 @@ mod singularity;
 mod frame;
 mod state_view;
 
+mod companion;
+
 mod cause;
 mod errors;
 mod events;
@@ -31,6 +33,7 @@ use crate::error::{EngineError, LastGood};
 use crate::integrate::Integrator;
 use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
+use companion::Companion;
 use singularity::SingularityMonitor;
 use state_view::CachedState;
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -52,6 +55,8 @@ use triad_dynamics::system::System;
 pub struct Simulation {
     mechanism: Mechanism,
     integrator: Integrator,
+    /// A second solution, where the integrator does not carry its error along.
+    companion: Option<Box<Companion>>,
     kind: IntegratorKind,
     reason: String,
     start: Vec<f64>,
@@ -235,6 +240,9 @@ impl Simulation {
             return Err(EngineError::StepLimit { time, steps, last });
         }
         self.work += self.work_of_last_step(self.integrator.last().t);
+        if let Some(companion) = &mut self.companion {
+            companion.keep_up(self.integrator.last());
+        }
         if let Err(stop) = self.integrator.step(&mut self.mechanism, end) {
             let failure = self.load_failure();
             let last =
@@ -307,9 +315,12 @@ impl Simulation {
 
     /// Makes the state at a time within the last step, not after the end of the run, the current one.
     fn set_current_time(&mut self, t: f64) {
-        let Self { mechanism, integrator, current, end, .. } = self;
+        let Self { mechanism, integrator, companion, current, end, .. } = self;
         let t = t.min(*end);
         current.replace(mechanism, t, |mechanism, y| integrator.interpolate(mechanism, t, y));
+        if let Some(companion) = companion {
+            companion.compare(t, current.y());
+        }
     }
 
     /// Makes y = (q, q̇) at time t, s, the current state.

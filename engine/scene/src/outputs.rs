@@ -33,6 +33,9 @@ pub enum OutputKind {
     Balance,
     /// How far the constraints are violated.
     Violations,
+    /// Estimated errors of what the row says, where they are estimated: of positions, directions, velocities and the energy, and of
+    /// reactions where these are among the outputs.
+    Errors,
 }
 
 words!(
@@ -54,6 +57,7 @@ words!(
         Energy => "energy",
         Balance => "balance",
         Violations => "violations",
+        Errors => "errors",
     }
 );
 
@@ -68,7 +72,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// What a table holds that nobody has chosen: bodies, reactions, energy, violations.
+    /// What a table holds that nobody has chosen: bodies, reactions, energy, violations, errors.
     ///
     /// ```
     /// use triad_scene::{Output, OutputKind};
@@ -80,8 +84,8 @@ impl Output {
     /// # Ok::<(), triad_scene::UnknownWord>(())
     /// ```
     pub fn usual() -> Vec<Self> {
-        use OutputKind::{Bodies, Energy, Reactions, Violations};
-        [Bodies, Reactions, Energy, Violations].map(Self::from).to_vec()
+        use OutputKind::{Bodies, Energy, Errors, Reactions, Violations};
+        [Bodies, Reactions, Energy, Violations, Errors].map(Self::from).to_vec()
     }
 
     /// Whether a list is that.

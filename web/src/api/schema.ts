@@ -4,6 +4,47 @@ export type paths = Record<string, never>;
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * @description Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start, or since
+         *     its numbers were changed.
+         */
+        Accuracy: {
+            /**
+             * Format: double
+             * @description Of angular velocities, rad/s.
+             */
+            angular_velocity: number;
+            /**
+             * Format: double
+             * @description Of the energy, J.
+             */
+            energy: number;
+            /**
+             * Format: double
+             * @description Of forces in joints and drivers, N; absent where the state tells no forces.
+             */
+            force?: number | null;
+            /**
+             * Format: double
+             * @description Of their moments, N m.
+             */
+            moment?: number | null;
+            /**
+             * Format: double
+             * @description Of centres of mass, m.
+             */
+            position: number;
+            /**
+             * Format: double
+             * @description Of directions, rad.
+             */
+            turn: number;
+            /**
+             * Format: double
+             * @description Of velocities of centres of mass, m/s.
+             */
+            velocity: number;
+        };
         /** @description What happens to a run whose scene is changed. */
         AfterChange: "restart" | "continue";
         /** @description A scene to analyse. */
@@ -1683,7 +1724,7 @@ export interface components {
                 number
             ] | null;
         };
-        /** @description A group of columns: bodies, frames, accelerations, reactions, drivers, joints, loads, markers, energy, balance, violations; of one element alone with its name behind a colon, like reactions:pin. */
+        /** @description A group of columns: bodies, frames, accelerations, reactions, drivers, joints, loads, markers, energy, balance, violations, errors; of one element alone with its name behind a colon, like reactions:pin. */
         Output: string;
         /** @description Settings that replace those of the scene. */
         Overrides: {
@@ -2339,6 +2380,8 @@ export interface components {
         };
         /** @description A session at one moment. */
         SessionState: {
+            /** @description Estimated errors of this state, where they are known. */
+            accuracy?: components["schemas"]["Accuracy"] | null;
             /** @description The bodies, in the scene's order. */
             bodies: components["schemas"]["BodyState"][];
             /**
@@ -2365,6 +2408,11 @@ export interface components {
             energy_drift: number;
             /** @description Why the simulation stopped before its end; the last good state is kept. */
             error?: components["schemas"]["Problem"] | null;
+            /**
+             * Format: double
+             * @description From when on they are not known, s.
+             */
+            error_unknown_from?: number | null;
             /**
              * Format: uint64
              * @description Evaluations of the equations of motion.

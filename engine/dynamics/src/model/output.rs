@@ -58,7 +58,7 @@ fn named(scene: &Scene, kind: OutputKind) -> Vec<&str> {
         OutputKind::Joints => joints().collect(),
         OutputKind::Loads => scene.loads.iter().map(crate::scene::Load::name).collect(),
         OutputKind::Markers => scene.markers.iter().map(|marker| marker.name.as_str()).collect(),
-        OutputKind::Energy | OutputKind::Balance | OutputKind::Violations => Vec::new(),
+        OutputKind::Energy | OutputKind::Balance | OutputKind::Violations | OutputKind::Errors => Vec::new(),
     }
 }
 

@@ -1,8 +1,10 @@
 //! What the numbers of a run are worth: estimates of their errors — THEORY section 11.
 
+use super::companion::Lost;
 use super::state_view::CachedState;
 use super::{Simulation, StateView};
 use crate::reactions::JointMultipliers;
+use crate::scene::IntegratorKind;
 use serde::Serialize;
 use std::borrow::Cow;
 use triad_dynamics::state::BodyFrame;
@@ -45,30 +47,30 @@ impl ReactionErrors {
 }
 
 impl Simulation {
-    /// Estimated errors of the current state. `None` where the integrator carries none along, where the scene's
-    /// `error_estimate` is switched off, and from [`Simulation::error_unknown_from`] on.
+    /// Estimated errors of the current state. `None` where the scene's `error_estimate` is switched off, and from
+    /// [`Simulation::error_unknown_from`] on.
     ///
-    /// The error is that of the method and of its rounding; that of the model is not in it.
+    /// A series carries its error along; beside other methods goes a second solution: [`Simulation::error_method`]. The error is
+    /// that of the method and of its rounding; that of the model is not in it. Of penalties it is what they are off from rigid
+    /// joints.
     ///
     /// ```
     /// use triad_engine::prelude::*;
     ///
     /// let mut run = Simulation::new(&catalogue::scene("simple-pendulum")?)?;
     /// run.advance_to(10.0)?;
-    /// let error = run.error_estimate().expect("the series carry it along");
+    /// let error = run.error_estimate().expect("it is on by default");
     /// assert!((1e-11..1e-8).contains(&error.position));
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn error_estimate(&self) -> Option<ErrorEstimate> {
-        let now = self.error_at(self.time())?;
-        let found = self.compare(&now);
-        Some(found)
+        Some(self.compare(&self.error_now()?))
     }
 
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
     /// a second time, without the error of the state.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
-        let better = self.without(&self.error_at(self.time())?);
+        let better = self.without(&self.error_now()?);
         let (here, there) = (self.multipliers(), StateView::new(self, Cow::Owned(better)).multipliers());
         let mut found = ReactionErrors::default();
         for (a, b) in here.iter().zip(&there) {
@@ -81,15 +83,38 @@ impl Simulation {
         Some(found)
     }
 
-    /// From when on the error is not known, s: it has grown so far that it is no longer small against the mechanism.
+    /// From when on the error is not known, s: it has grown so far that it is no longer small against the mechanism, or the second
+    /// solution that it is read off cannot go on.
     pub fn error_unknown_from(&self) -> Option<f64> {
-        self.integrator.error_lost()
+        match &self.companion {
+            Some(companion) => companion.lost().map(Lost::from),
+            None => self.integrator.error_lost(),
+        }
     }
 
-    /// Error of (q, q̇) at a time within the last step.
-    fn error_at(&self, t: f64) -> Option<Vec<f64>> {
-        let mut error = vec![0.0; self.current.y().len()];
-        self.integrator.error(self.system(), t, &mut error).then_some(error)
+    /// Integrator and tolerance of the second solution that the estimate is read off; `None` where the method carries its error
+    /// along.
+    pub fn error_method(&self) -> Option<(IntegratorKind, f64)> {
+        self.companion.as_ref().map(|companion| companion.method())
+    }
+
+    /// Why the error is not known from then on, in words that follow "from t = … on nothing is known of the error:".
+    pub(super) fn why_unknown(&self) -> &'static str {
+        match self.companion.as_ref().and_then(|companion| companion.lost()) {
+            Some(Lost::Stopped(_)) => "the second solution that it is read off cannot go on",
+            Some(Lost::TooLarge(_)) | None => "it has grown beyond a twentieth of the mechanism's length",
+        }
+    }
+
+    /// Error of (q, q̇) of the current state.
+    fn error_now(&self) -> Option<Vec<f64>> {
+        let (time, y) = (self.time(), self.current.y());
+        let mut error = vec![0.0; y.len()];
+        let known = match &self.companion {
+            Some(companion) => companion.error(time, y, &mut error),
+            None => self.integrator.error(self.system(), time, &mut error),
+        };
+        known.then_some(error)
     }
 
     /// The current state without an error.

@@ -2,7 +2,7 @@
 
 mod columns;
 
-use super::Simulation;
+use super::{ErrorEstimate, Simulation};
 use crate::integrate::add_power;
 use crate::scene::{Output, OutputKind};
 use nalgebra::Vector3;
@@ -34,6 +34,7 @@ enum Group {
     Energy,
     Balance,
     Violations,
+    Errors { reactions: bool },
 }
 
 /// The columns that a choice of outputs makes for a scene, and their numbers at the current state of its run.
@@ -137,6 +138,11 @@ fn groups(run: &Simulation, output: &Output) -> Vec<Group> {
         OutputKind::Energy => vec![Group::Energy],
         OutputKind::Balance => vec![Group::Balance],
         OutputKind::Violations => vec![Group::Violations],
+        OutputKind::Errors if model.settings.error_estimate => {
+            let reactions = model.settings.outputs.iter().any(|output| output.kind == OutputKind::Reactions);
+            vec![Group::Errors { reactions: reactions && !system.constraints.is_empty() }]
+        }
+        OutputKind::Errors => Vec::new(),
     }
 }
 
@@ -201,6 +207,15 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
             row.extend([kinetic, energy - kinetic, work, energy - run.start_energy - work]);
         }
         Group::Violations => row.extend([state.position_violation(system), state.velocity_violation(system)]),
+        Group::Errors { reactions } => {
+            let of = |error: ErrorEstimate| {
+                [error.position, error.turn, error.velocity, error.angular_velocity, error.energy]
+            };
+            row.extend(run.error_estimate().map_or([f64::NAN; 5], of));
+            if reactions {
+                row.extend(run.reaction_errors().map_or([f64::NAN; 2], |error| [error.force, error.moment]));
+            }
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Restarts of a run: at its start, from the state of another run, or backwards.
 
+use super::companion::Companion;
 use super::{Simulation, explain};
 use crate::error::EngineError;
 use crate::integrate::Integrator;
@@ -74,6 +75,7 @@ impl Simulation {
         (self.work, self.max_kinetic_energy) = (0.0, 0.0);
         self.singularities.reset();
         self.mechanism.set_state(time, y);
+        self.companion = Companion::start(self.kind, &self.mechanism, time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
         self.set_current(time, y);
         self.start_energy = self.current.state().energy(self.system());

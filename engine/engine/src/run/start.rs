@@ -1,5 +1,6 @@
 //! The start of a run: the scene is checked and assembled, its rank found, its integrator chosen.
 
+use super::companion::Companion;
 use super::singularity::SingularityMonitor;
 use super::state_view::CachedState;
 use super::{Simulation, explain};
@@ -71,6 +72,7 @@ impl Simulation {
         check_loads(&mechanism)?;
         let (kind, reason) = integrate::choose(&mut mechanism, &start);
         mechanism.elimination.counters = Counters::default();
+        let companion = Companion::start(kind, &mechanism, 0.0, &start);
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
         let singularities = SingularityMonitor::new(&mut mechanism, &rank);
         let conservative = mechanism.system.is_conservative();
@@ -80,6 +82,7 @@ impl Simulation {
         let mut simulation = Self {
             mechanism,
             integrator,
+            companion,
             kind,
             reason,
             start,

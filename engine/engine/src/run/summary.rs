@@ -51,6 +51,9 @@ pub struct Summary {
     /// Estimated errors of the current state, where they are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorEstimate>,
+    /// The second solution that they are read off, where the method does not carry its error along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_method: Option<String>,
     /// From when on they are not known, s: they have grown beyond what can be called small.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_unknown_from: Option<f64>,
@@ -111,6 +114,7 @@ impl Simulation {
             reason: self.reason.clone(),
             singularities,
             error,
+            error_method: self.error_method().map(|(kind, tolerance)| format!("{kind} at {tolerance:.0e}")),
             error_unknown_from: self.error_unknown_from(),
             doubts,
             finished: self.finished(),
@@ -125,8 +129,8 @@ impl Simulation {
         };
         if let Some(time) = self.error_unknown_from().filter(|&time| time <= self.time()) {
             return Some(format!(
-                "from t = {time:.6} s on nothing is known of the error: it has grown beyond a twentieth of the mechanism's \
-                 length; {instead}"
+                "from t = {time:.6} s on nothing is known of the error: {}; {instead}",
+                self.why_unknown()
             ));
         }
         let off = error?.position;

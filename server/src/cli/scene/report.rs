@@ -58,7 +58,7 @@ pub(super) fn report(
     let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
     let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
     say(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
-    say(&accuracy(scene, &summary, reactions));
+    say(&accuracy(&summary, reactions));
     for line in lines(&summary, verified, &notes) {
         say(&line);
     }
@@ -87,16 +87,10 @@ fn explanation(left: &SkippedItem) -> String {
 }
 
 /// What the numbers at the end are worth.
-fn accuracy(scene: &Scene, s: &Summary, reactions: Option<ReactionErrors>) -> String {
+fn accuracy(s: &Summary, reactions: Option<ReactionErrors>) -> String {
     let Some(error) = s.error else {
         let why = match s.error_unknown_from {
             Some(time) => format!("from t = {time:.6} s on unknown"),
-            None if scene.simulation.error_estimate => {
-                format!(
-                    "{} carries no estimate along; --verify compares with a second solution",
-                    s.integrator
-                )
-            }
             None => "switched off".to_owned(),
         };
         return format!("  error                  {why}");
@@ -107,6 +101,9 @@ fn accuracy(scene: &Scene, s: &Summary, reactions: Option<ReactionErrors>) -> St
     );
     if let Some(reactions) = reactions.filter(|reactions| reactions.largest_force > 0.0) {
         line.extend([", reactions to ", &format!("{:.0e}", reactions.relative()), " of the largest"]);
+    }
+    if let Some(method) = &s.error_method {
+        line.extend(["; by a second solution, ", method]);
     }
     line
 }

@@ -67,7 +67,24 @@ impl Outputs {
                 self.column("position_violation".to_owned(), "m");
                 self.column("velocity_violation".to_owned(), "m/s");
             }
+            Group::Errors { reactions } => self.errors(reactions),
         }
+    }
+
+    fn errors(&mut self, reactions: bool) {
+        let of_state = [
+            ("position", "m"),
+            ("turn", "rad"),
+            ("velocity", "m/s"),
+            ("angular_velocity", "rad/s"),
+            ("energy", "J"),
+        ];
+        let of_reactions = [("force", "N"), ("moment", "N m")];
+        for (of, unit) in of_state.into_iter().chain(of_reactions.into_iter().filter(|_| reactions)) {
+            self.column(format!("{of}_error"), unit);
+        }
+        let about = "position_error to moment_error: estimated errors, each the largest of all bodies or joints; NaN where unknown.";
+        self.convention(about.to_owned());
     }
 
     fn balance(&mut self) {

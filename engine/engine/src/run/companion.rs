@@ -1,0 +1,138 @@
+//! The second solution beside a run whose integrator carries no error along: the error is what lies between the two —
+//! eq. (11.12).
+
+use crate::integrate::{self, Integrator, StepRecord};
+use crate::scene::{ConstraintMethod, IntegratorKind};
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::system::System;
+
+/// Tolerance of the second solution over that of the first: its own error then spoils the estimate by a few parts in a hundred
+/// (measured: docs/ACCURACY.md).
+const TIGHTER: f64 = 1e-2;
+/// The same beside ode45, whose absolute tolerance is a thousandth of the relative one.
+const TIGHTER_THAN_ODE45: f64 = 1e-4;
+/// The least tolerance of the second solution: rounding is near. That of a run with steps of one size, whose error has nothing to
+/// do with its tolerance.
+const TIGHTEST: f64 = 1e-12;
+/// Part of the length of the mechanism beyond which the two are no longer compared: as for an error that a series carries.
+const LOST: f64 = 0.05;
+
+/// Why, and from when on, s, nothing is known of an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lost {
+    /// It is no longer small against the mechanism.
+    TooLarge(f64),
+    /// The second solution cannot go on.
+    Stopped(f64),
+}
+
+impl Lost {
+    /// From when on, s.
+    pub fn from(self) -> f64 {
+        match self {
+            Self::TooLarge(time) | Self::Stopped(time) => time,
+        }
+    }
+}
+
+/// A second solution of the same start, by the method that is best for the scene at a tighter tolerance.
+///
+/// It is compared at the ends of the first one's steps and wherever the first one is looked at, so that an error between steps is
+/// seen too. It takes steps of its own, whatever the outputs.
+#[derive(Clone, Debug)]
+pub(super) struct Companion {
+    mechanism: Mechanism,
+    integrator: Integrator,
+    kind: IntegratorKind,
+    /// When the two were compared last, s.
+    compared: f64,
+    /// The second solution at that time.
+    y: Vec<f64>,
+    lost: Option<Lost>,
+}
+
+impl Companion {
+    /// Starts beside an integrator of the given kind at (t, y), unless that carries its error along or none is wanted.
+    pub fn start(kind: IntegratorKind, mechanism: &Mechanism, t: f64, y: &[f64]) -> Option<Box<Self>> {
+        let settings = &mechanism.system.model.settings;
+        if kind == IntegratorKind::Taylor || !settings.error_estimate {
+            return None;
+        }
+        let tighter = if kind == IntegratorKind::Ode45 { TIGHTER_THAN_ODE45 } else { TIGHTER };
+        let tolerance = match settings.step {
+            None => (tighter * settings.tolerance).max(TIGHTEST),
+            Some(_) => TIGHTEST,
+        };
+        let mut mechanism = mechanism.clone();
+        let settings = &mut mechanism.system.model.settings;
+        settings.tolerance = tolerance;
+        settings.step = None;
+        settings.constraint_method = ConstraintMethod::Projection;
+        settings.integrator = IntegratorKind::Auto;
+        settings.error_estimate = false;
+        let (kind, _) = integrate::choose(&mut mechanism, y);
+        mechanism.set_state(t, y);
+        let integrator = Integrator::start(kind, &mut mechanism, t, y);
+        Some(Box::new(Self { mechanism, integrator, kind, compared: t, y: y.to_vec(), lost: None }))
+    }
+
+    /// Its method and tolerance.
+    pub fn method(&self) -> (IntegratorKind, f64) {
+        (self.kind, self.mechanism.system.model.settings.tolerance)
+    }
+
+    /// From when on nothing is known, and why.
+    pub fn lost(&self) -> Option<Lost> {
+        self.lost
+    }
+
+    /// Goes on to the end of the first one's last step, before it takes another.
+    pub fn keep_up(&mut self, first: &StepRecord) {
+        self.compare(first.t, &first.y);
+    }
+
+    /// Goes on to time t, not before that of the last comparison, at which the first solution is y.
+    pub fn compare(&mut self, t: f64, y: &[f64]) {
+        if self.lost.is_some() || t <= self.compared {
+            return;
+        }
+        let Self { mechanism, integrator, .. } = self;
+        let end = mechanism.system.model.settings.duration;
+        while integrator.last().t < t {
+            if integrator.step(mechanism, end).is_err() {
+                self.lost = Some(Lost::Stopped(integrator.last().t));
+                return;
+            }
+        }
+        integrator.interpolate(mechanism, t, &mut self.y);
+        self.compared = t;
+        let system = &mechanism.system;
+        // A comparison that is false for NaN as well.
+        let near = apart(system, y, &self.y) < LOST * system.length;
+        self.lost = (!near).then_some(Lost::TooLarge(t));
+    }
+
+    /// Writes the error of y at time t, if the two were compared last then.
+    pub fn error(&self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
+        let known = self.lost.is_none() && t == self.compared;
+        if known {
+            for (out, (here, there)) in out.iter_mut().zip(y.iter().zip(&self.y)) {
+                *out = here - there;
+            }
+        }
+        known
+    }
+}
+
+/// How far the positions of two states are apart, m: centres of mass, and directors for a mechanism of this length.
+fn apart(system: &System, a: &[f64], b: &[f64]) -> f64 {
+    let mut most = 0.0f64;
+    for body in &system.bodies {
+        let [a, b] = [a, b].map(|y| body.layout.position(&y[..system.coordinates]));
+        let turn = (0..3).map(|k| (a.e[k] - b.e[k]).norm()).fold(0.0, f64::max);
+        let off = (a.r - b.r).norm().max(system.length * turn);
+        // What is not a number must not get lost.
+        most = if off <= most { most } else { off };
+    }
+    most
+}
