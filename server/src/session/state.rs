@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_engine::run::Simulation;
+use triad_engine::run::{ErrorEstimate, Simulation};
 
 use super::change::Drag;
 use super::recording::Recording;
@@ -60,6 +60,44 @@ pub struct JointForce {
     pub force: [f64; 3],
     /// Moment about the joint's point, N m.
     pub moment: [f64; 3],
+}
+
+/// Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start, or since
+/// its numbers were changed.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Accuracy {
+    /// Of centres of mass, m.
+    pub position: f64,
+    /// Of directions, rad.
+    pub turn: f64,
+    /// Of velocities of centres of mass, m/s.
+    pub velocity: f64,
+    /// Of angular velocities, rad/s.
+    pub angular_velocity: f64,
+    /// Of the energy, J.
+    pub energy: f64,
+    /// Of forces in joints and drivers, N; absent where the state tells no forces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<f64>,
+    /// Of their moments, N m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment: Option<f64>,
+}
+
+impl Accuracy {
+    /// That of the run's current state, with that of its forces if these are told.
+    fn of(simulation: &Simulation, error: ErrorEstimate, forces: bool) -> Self {
+        let reactions = if forces { simulation.reaction_errors() } else { None };
+        Self {
+            position: error.position,
+            turn: error.turn,
+            velocity: error.velocity,
+            angular_velocity: error.angular_velocity,
+            energy: error.energy,
+            force: reactions.map(|found| found.force),
+            moment: reactions.map(|found| found.moment),
+        }
+    }
 }
 
 /// How forces are drawn in the viewer, for the page to do alike.
@@ -159,6 +197,12 @@ pub struct SessionState {
     pub position_violation: f64,
     /// Largest violation of the velocity constraints.
     pub velocity_violation: f64,
+    /// Estimated errors of this state, where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// From when on they are not known, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_unknown_from: Option<f64>,
     /// Integrator steps accepted.
     pub steps: u64,
     /// Integrator steps rejected.
@@ -240,6 +284,7 @@ impl SessionState {
         let frame = simulation.frame();
         let accelerations = simulation.mass_accelerations();
         let forces = forces(simulation);
+        let accuracy = summary.error.map(|error| Accuracy::of(simulation, error, !forces.is_empty()));
         let poses = frame.bodies.iter().zip(&accelerations);
         let bodies =
             simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| SessionBody {
@@ -268,6 +313,8 @@ impl SessionState {
             energy_drift: summary.energy_drift,
             position_violation: summary.position_violation,
             velocity_violation: summary.velocity_violation,
+            accuracy,
+            error_unknown_from: summary.error_unknown_from,
             steps: summary.steps,
             rejected: summary.rejected,
             evaluations: summary.evaluations,

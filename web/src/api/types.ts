@@ -5,6 +5,7 @@ type Schemas = components["schemas"];
 
 export type Vec3 = [number, number, number];
 
+export type Accuracy = Schemas["Accuracy"];
 export type AfterChange = Schemas["AfterChange"];
 export type Answer = Schemas["Answer"];
 export type Body = Schemas["Body"];

@@ -1,6 +1,6 @@
 // The state that is shown: time, energy, constraint violation, work of the integrator, coordinates.
 import { api } from "../api/client";
-import type { SessionState } from "../api/types";
+import type { Accuracy, SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
 import { fixed, num, sci, seconds } from "../core/format";
 import type { Session } from "../session/session";
@@ -20,6 +20,14 @@ function figure(label: string, about: string): Figure {
   return { root: h("div", { class: "figure" }, h("dt", { title: about }, label), value), value };
 }
 
+/** About how far the numbers of a state may be off. */
+function within(state: SessionState, what: keyof Accuracy, unit: string): string {
+  const error = state.accuracy?.[what];
+  if (typeof error === "number") return `about ${sci(error, 1)} ${unit}`;
+  const lost = state.error_unknown_from;
+  return typeof lost === "number" && !state.accuracy ? `unknown from ${seconds(lost)}` : "–";
+}
+
 /** The figures of a state, and how each is written. */
 const FIGURES: { label: string; about: string; of: (state: SessionState) => string }[] = [
   { label: "Time", about: "Simulated time", of: (state) => seconds(state.time) },
@@ -32,6 +40,22 @@ const FIGURES: { label: string; about: string; of: (state: SessionState) => stri
     label: "Energy drift",
     about: "Change of the energy since the start: it should stay near zero where nothing is lost",
     of: (state) => `${sci(state.energy_drift)} J`,
+  },
+  {
+    label: "Positions right to",
+    about:
+      "Estimated error of all positions so far, of the method and its rounding; that of the model is not in it",
+    of: (state) => within(state, "position", "m"),
+  },
+  {
+    label: "Velocities right to",
+    about: "Estimated error of all velocities so far",
+    of: (state) => within(state, "velocity", "m/s"),
+  },
+  {
+    label: "Forces right to",
+    about: "Estimated error of the forces of joints and drivers",
+    of: (state) => within(state, "force", "N"),
   },
   {
     label: "Violation |Φ|",

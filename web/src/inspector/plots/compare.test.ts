@@ -21,6 +21,15 @@ describe("two runs", () => {
     expect(text).toContain("a &lt; b &amp; c");
     expect(text).not.toContain("NaN");
   });
+  it("show the estimated error as a band, which ends where it is not known", () => {
+    const line = { label: "x", unit: "m", values: [0, 1, 2, 3], color: "red", dash: [] };
+    const colors = { ink: "#000", line: "#ccc", paper: "#fff" };
+    const bands = (errors: (number | null)[]): string | undefined =>
+      plotSvg("x", [0, 1, 2, 3], [{ ...line, errors }], colors).match(/<path d="([^"]*)" fill="red"/)?.[1];
+    expect(bands([0.1, 0.1, 0.1, 0.1])?.match(/[MLZ]/g)?.join("")).toBe("MLLLLLLLZ");
+    expect(bands([0.1, 0.1, null, 0.1])?.match(/[MLZ]/g)?.join("")).toBe("MLLLZMLZ");
+    expect(bands([])).toBeUndefined();
+  });
   it("have round ticks", () => {
     expect(ticks(0, 10)).toEqual([0, 2, 4, 6, 8, 10]);
     expect(ticks(-0.3, 0.3).map((tick) => Number(tick.toFixed(3)))).toContain(0.1);

@@ -1,7 +1,7 @@
 // Curves that are laid over those of the run: an earlier run that was kept, or a reference from a file.
 import type { SessionState } from "../../api/types";
 import { sci } from "../../core/format";
-import type { Chart, Curve } from "./charts";
+import { type Chart, type Curve, errorOf } from "./charts";
 import { type Columns, difference, resample } from "./compare";
 import type { Line } from "./svg-file";
 
@@ -83,7 +83,9 @@ export function compare(
     const now = states.map(curve.of);
     const color = COLORS[k % COLORS.length] ?? "--ink";
     const dash = DASHES[k % DASHES.length] ?? [];
+    const errors = states.map((state) => errorOf(curve, state) ?? null);
     const line: Line = { label: curve.label, unit: curve.unit, values: now, color, dash };
+    if (curve.error) line.errors = errors;
     const others = overlays.flatMap((overlay, at): Line[] => {
       const values = overlay.of(chart, curve, k);
       if (!values) return [];
@@ -104,6 +106,7 @@ export function compare(
               ...line,
               label: `${curve.label}, ${overlay.short}`,
               values: other,
+              errors: [],
               dash: OVERLAY_DASHES[at] ?? [],
             },
           ];

@@ -8,7 +8,7 @@ import type { Session } from "../../session/session";
 import { empty } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
 import { type LiveTable, liveTable } from "../../ui/table";
-import { type Chart, charts } from "./charts";
+import { type Chart, charts, errorOf } from "./charts";
 import { columnsOf } from "./compare";
 import { type Comparison, compare, keptRun, type Overlay, reference } from "./overlay";
 import { plotSvg } from "./svg-file";
@@ -83,9 +83,11 @@ export class PlotsTab implements Panel {
     const chart = this.chart();
     if (!chart) return;
     const states = this.session.past.all;
-    const values = chart.curves.map((curve) =>
-      `${curve.label} = ${num(curve.of(state), 6)} ${curve.unit}`.trim(),
-    );
+    const values = chart.curves.map((curve) => {
+      const error = errorOf(curve, state);
+      const within = error === undefined ? "" : ` ± ${sci(error, 1)}`;
+      return `${curve.label} = ${num(curve.of(state), 6)}${within} ${curve.unit}`.trim();
+    });
     this.readout.textContent = `At ${seconds(state.time)}: ${values.join(",  ")}`;
     this.fillTable(chart, states);
     if (states.length < 2)
@@ -147,12 +149,21 @@ export class PlotsTab implements Panel {
       return;
     }
     const theme = document.documentElement.dataset.theme ?? "";
+    const { lines } = this.compared(chart, states);
     plotter.draw(this.canvas, {
-      key: [chart.label, theme, this.kept?.name ?? "", this.reference?.name ?? "", this.mode.value].join("|"),
+      key: [
+        chart.label,
+        theme,
+        String(lines.length),
+        String(lines.filter((line) => line.errors?.length).length),
+        this.kept?.name ?? "",
+        this.reference?.name ?? "",
+        this.mode.value,
+      ].join("|"),
       log: chart.log === true && this.mode.value === "both",
       cursor: this.session.time,
       times: states.map((entry) => entry.time),
-      curves: this.compared(chart, states).lines,
+      curves: lines,
       seek: (time) => this.session.seek(time),
     });
   }

@@ -1,6 +1,7 @@
 // uPlot, fetched when a plot is first looked at.
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import type { Line } from "./svg-file";
 
 export interface Plot {
   /** A change of this key builds the plot anew. */
@@ -8,19 +9,23 @@ export interface Plot {
   log: boolean;
   cursor: number;
   times: number[];
-  curves: { label: string; unit: string; values: (number | null)[]; color: string; dash: number[] }[];
+  curves: Line[];
   seek: (time: number) => void;
 }
 
+/** An edge of a band: not drawn itself, and not in the legend. */
+const EDGE: uPlot.Series = { class: "edge", width: 0, points: { show: false } };
 /** Height of a plot, px. */
 const HEIGHT = 260;
 const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; cursor: { at: number } }>();
 
 export function draw(place: HTMLElement, drawing: Plot): void {
   const values = drawing.curves.map((curve) =>
-    curve.values.map((value) => (drawing.log && value !== null && value <= 0 ? null : value)),
+    curve.values.map((value) =>
+      Number.isFinite(value) && !(drawing.log && Number(value) <= 0) ? value : null,
+    ),
   );
-  const data: uPlot.AlignedData = [drawing.times, ...values];
+  const data: uPlot.AlignedData = [drawing.times, ...values, ...banded(drawing).flatMap(edges)];
   let entry = plots.get(place);
   if (entry?.key !== drawing.key || !place.contains(entry.plot.root)) {
     entry?.plot.destroy();
@@ -35,6 +40,19 @@ export function draw(place: HTMLElement, drawing: Plot): void {
   entry.plot.setData(data);
 }
 
+/** The curves about which a band shows the estimated error. */
+const banded = ({ curves, log }: Plot): Line[] => (log ? [] : curves.filter((curve) => curve.errors?.length));
+
+/** The upper and the lower edge of a band. */
+function edges({ values, errors }: Line): (number | null)[][] {
+  return [1, -1].map((side) =>
+    values.map((value, k) => {
+      const error = errors?.[k] ?? null;
+      return value === null || error === null ? null : value + side * error;
+    }),
+  );
+}
+
 function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, cursor: { at: number }): uPlot {
   const css = getComputedStyle(place);
   const color = (name: string): string => css.getPropertyValue(name).trim();
@@ -45,6 +63,9 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
     grid: { stroke: color("--line"), width: 1 },
     ticks: { stroke: color("--line"), width: 1 },
   };
+  const bands = banded(drawing);
+  const units = new Set(drawing.curves.map((curve) => curve.unit));
+  const unit = units.size === 1 ? (drawing.curves[0]?.unit ?? "") : "";
   const plot = new uPlot(
     {
       width: place.clientWidth || 400,
@@ -55,9 +76,9 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
         {
           ...axis,
           size: 66,
-          label: drawing.curves[0]?.unit || "",
+          label: unit,
           labelFont: font,
-          labelSize: drawing.curves[0]?.unit ? 18 : 0,
+          labelSize: unit ? 18 : 0,
           values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))),
         },
       ],
@@ -65,7 +86,7 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
         { label: "Time" },
         ...drawing.curves.map(
           (curve): uPlot.Series => ({
-            label: curve.label,
+            label: units.size > 1 ? `${curve.label}, ${curve.unit}` : curve.label,
             stroke: color(curve.color),
             width: 2,
             dash: curve.dash,
@@ -73,7 +94,12 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
             value: (_, value) => (value === null ? "–" : short(value)),
           }),
         ),
+        ...bands.flatMap(() => [EDGE, EDGE]),
       ],
+      bands: bands.map((curve, k) => ({
+        series: [1 + drawing.curves.length + 2 * k, 2 + drawing.curves.length + 2 * k],
+        fill: `color-mix(in srgb, ${color(curve.color)} 22%, transparent)`,
+      })),
       hooks: { draw: [(self) => drawCursor(self, cursor.at, color("--accent"))] },
       cursor: { drag: { x: false, y: false } },
       legend: { live: false },

@@ -6,6 +6,8 @@ export interface Line {
   values: (number | null)[];
   color: string;
   dash: number[];
+  /** Estimated errors of the values: a band about the line. */
+  errors?: (number | null)[];
 }
 
 /** Size of the picture, px. */
@@ -48,6 +50,7 @@ export function plotSvg(title: string, times: number[], lines: Line[], colors: C
       `<path d="M${LEFT} ${r(y(v))}H${RIGHT}" stroke="${colors.line}"/>`,
       text(`x="${LEFT - 10}" y="${r(y(v) + 5)}" text-anchor="end"`, short(v), colors),
     ]),
+    ...lines.map((line) => band(line, (k) => x(times[k] ?? 0), y)),
     ...lines.map((line) => curve(line, (k) => x(times[k] ?? 0), y)),
     ...lines.flatMap((line, k) => legendEntry(line, LEFT + k * LEGEND_ENTRY, colors)),
     text(`x="${(LEFT + RIGHT) / 2}" y="${HEIGHT - 14}" text-anchor="middle"`, "Time, s", colors),
@@ -74,6 +77,25 @@ function curve(line: Line, x: (k: number) => number, y: (value: number) => numbe
     return point;
   });
   return `<path d="${points.join("")}" fill="none" stroke="${line.color}" stroke-width="2.5"${dashes(line)}/>`;
+}
+
+/** The strip within the estimated error; it breaks where that is not known. */
+function band(line: Line, x: (k: number) => number, y: (value: number) => number): string {
+  const strips: [string[], string[]][] = [];
+  let open = false;
+  line.values.forEach((value, k) => {
+    const error = line.errors?.[k];
+    const known = value !== null && Number.isFinite(value) && error !== null && error !== undefined;
+    if (known) {
+      if (!open) strips.push([[], []]);
+      const [above, below] = strips.at(-1) ?? [[], []];
+      above.push(`${r(x(k))} ${r(y(value + error))}`);
+      below.unshift(`${r(x(k))} ${r(y(value - error))}`);
+    }
+    open = known;
+  });
+  const path = strips.map(([above, below]) => `M${[...above, ...below].join("L")}Z`).join("");
+  return path && `<path d="${path}" fill="${line.color}" fill-opacity="0.2"/>`;
 }
 
 function legendEntry(line: Line, left: number, colors: Colors): string[] {
