@@ -1,8 +1,8 @@
 //! Comparing a reference with what the scenario shows: the engine measures, the author's source decides.
 //!
 //! A measurement is no source. It proves that scenario and question speak of the same thing, so that a student who
-//! reads the answer off the run is right. What has no closed form may be computed by the engine; then the error comes
-//! from a second run by another method.
+//! reads the answer off the run is right: the run must know it, by its own estimate, far better than the question asks. What has no
+//! closed form may be computed by the engine; then the error comes from a second run by another method, too.
 
 use thiserror::Error;
 use triad_engine::run::Simulation;
@@ -12,7 +12,7 @@ use super::findings::Findings;
 use crate::answers::tolerance::{distance, norm};
 use crate::exercise::QuestionBody;
 use crate::files::MeasuredFile;
-use crate::scenario::measure::{MAX_STEPS, MeasureError, measure};
+use crate::scenario::measure::{MAX_STEPS, MeasureError, estimated_error, measure};
 
 /// Reads the scenario, runs it as far as the questions ask, and compares.
 pub(super) fn scene(found: &mut Findings) {
@@ -40,7 +40,7 @@ pub(super) fn scene(found: &mut Findings) {
         }
         let outcome = measure(&scene, &simulation, measured)
             .map_err(Disagreement::from)
-            .and_then(|value| compare(found, id, &value));
+            .and_then(|value| compare(found, id, &value, estimated_error(&simulation, measured)));
         if let Err(problem) = outcome {
             found.question(id, problem, "compare measured, value and the scene");
         }
@@ -60,10 +60,14 @@ enum Disagreement {
         "the scene shows {value:?}, a tenth of the tolerance is {allowed:e}, the difference {difference:e}"
     )]
     Value { value: Vec<f64>, allowed: f64, difference: f64 },
+    #[error(
+        "the scene shows it to {error:.0e} by the run's own estimate, a tenth of the tolerance is {allowed:e}"
+    )]
+    Uncertain { error: f64, allowed: f64 },
 }
 
-/// Compares what was measured, in SI units, with the reference.
-fn compare(found: &Findings, id: &str, value: &[f64]) -> Result<(), Disagreement> {
+/// Compares what was measured, in SI units with an error, with the reference.
+fn compare(found: &Findings, id: &str, value: &[f64], error: f64) -> Result<(), Disagreement> {
     let Some(QuestionBody::Quantity(quantity)) = found.lesson.question(id).map(|q| &q.body) else {
         return Err(Disagreement::NoQuantity);
     };
@@ -73,5 +77,12 @@ fn compare(found: &Findings, id: &str, value: &[f64]) -> Result<(), Disagreement
     }
     let difference = distance(&value, &quantity.reference);
     let allowed = 0.1 * quantity.tolerance.allowed(norm(&quantity.reference));
-    if difference <= allowed { Ok(()) } else { Err(Disagreement::Value { value, allowed, difference }) }
+    let error = error / quantity.unit.factor;
+    if difference > allowed {
+        Err(Disagreement::Value { value, allowed, difference })
+    } else if error > allowed {
+        Err(Disagreement::Uncertain { error, allowed })
+    } else {
+        Ok(())
+    }
 }

@@ -179,6 +179,12 @@ fn findings_of_the_check_name_place_and_remedy() {
         ("exercise.toml", "value = 9.81\n", "value = 29.5\n", "the misconception static is a right answer"),
         ("reference/answers.toml", "error = 1e-12", "error = 0.1", "at least ten times the error"),
         ("scene.json", "-9.81", "-9.80", "the scene shows"),
+        (
+            "scene.json",
+            "\"tolerance\"",
+            "\"error_estimate\": false, \"tolerance\"",
+            "by the run's own estimate",
+        ),
         ("scene.json", "[0, 0, 1], \"rows\"", "[0, 0, 0], \"rows\"", "pin"),
         ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be distinguished"),
         ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
