@@ -4,11 +4,9 @@ use crate::stress::random;
 use triad_engine::EngineError;
 use triad_engine::catalogue;
 use triad_engine::run::{Frame, Simulation};
-use triad_scene::Scene;
+use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 
-/// Tolerance of the run that errors are measured with, over that of the run that is judged.
-const TIGHTER: f64 = 1e-4;
-/// The least tolerance of that run.
+/// Tolerance of the run that errors are measured with.
 const TIGHTEST: f64 = 1e-13;
 /// Part of the length of a mechanism below which an error cannot be measured that way: both runs round.
 const MEASURABLE: f64 = 3e-12;
@@ -20,6 +18,9 @@ const GOOD: f64 = 3.0;
 const BAD: f64 = 0.1;
 /// Moments at which a run is judged.
 const MOMENTS: u32 = 20;
+
+/// Steps after which a run is judged no further: a method that does not suit its scene would take hours.
+const MOST_STEPS: u64 = 100_000;
 
 /// An estimate, and the error that it estimates.
 #[derive(Clone, Debug)]
@@ -50,16 +51,57 @@ impl Judged {
     }
 }
 
+/// The ways to run a scene whose estimates are judged: integrator, treatment and, of the methods that have them, the number of steps
+/// of one size in a run.
+pub const WAYS: [&str; 11] = [
+    "taylor",
+    "dop853",
+    "dopri5",
+    "ode45",
+    "radau",
+    "rattle",
+    "dop853 baumgarte",
+    "dopri5 partitioning",
+    "dop853 penalty",
+    "trapezoidal augmented-lagrangian",
+    "dop853 projection 2000",
+];
+
+/// A scene that runs in one of the [`WAYS`]; `None` for a word that is not known.
+pub fn in_the_way(scene: &Scene, way: &str) -> Option<Scene> {
+    let mut words = way.split(' ');
+    let mut scene = scene.clone();
+    let settings = &mut scene.simulation;
+    settings.integrator = words.next()?.parse().ok()?;
+    settings.constraint_method = words.next().unwrap_or("projection").parse().ok()?;
+    settings.step = match words.next() {
+        Some(steps) => Some(settings.duration / steps.parse::<f64>().ok()?),
+        None => None,
+    };
+    Some(scene)
+}
+
+/// The much tighter run that errors of a scene's run are measured with.
+fn truth(scene: &Scene) -> Scene {
+    let mut tight = scene.clone();
+    let settings = &mut tight.simulation;
+    settings.tolerance = TIGHTEST;
+    settings.integrator = IntegratorKind::Auto;
+    settings.constraint_method = ConstraintMethod::Projection;
+    settings.step = None;
+    settings.error_estimate = false;
+    tight
+}
+
 /// Judges the estimates of a scene's run, where it makes them and its errors can be measured.
 ///
 /// # Errors
 ///
 /// [`EngineError`]: the scene cannot start. A run that cannot go on is judged up to there.
 pub fn judge(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
-    let mut tight = scene.clone();
-    tight.simulation.tolerance = (scene.simulation.tolerance * TIGHTER).max(TIGHTEST);
-    tight.simulation.error_estimate = false;
-    let (mut run, mut truth) = (Simulation::new(scene)?, Simulation::new(&tight)?);
+    let (mut run, mut truth) = (Simulation::new(scene)?, Simulation::new(&truth(scene))?);
+    run.set_step_limit(MOST_STEPS);
+    truth.set_step_limit(MOST_STEPS);
     let length = run.system().length;
     let mut judged = Vec::new();
     for k in 1..=MOMENTS {

@@ -2,7 +2,8 @@
 
 use triad_engine::catalogue;
 use triad_engine::run::Simulation;
-use triad_lab::estimates::{Judged, judge, scenes};
+use triad_lab::estimates::{Judged, WAYS, in_the_way, judge, scenes};
+use triad_scene::IntegratorKind;
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_error() {
@@ -19,6 +20,41 @@ fn estimates_are_within_a_factor_of_three_of_the_error() {
     assert!(bad.is_empty(), "{bad:?}");
 }
 
+/// By every integrator and treatment, from a second solution.
+#[test]
+fn every_method_says_what_its_result_is_worth() {
+    for way in WAYS.iter().filter(|&&way| way != "taylor") {
+        let mut judged: Vec<Judged> = Vec::new();
+        for scene in &scenes(2) {
+            let scene = in_the_way(scene, way).unwrap().tolerance(1e-5);
+            // Not every method runs every scene.
+            judged.extend(judge(&scene).unwrap_or_default());
+        }
+        let good = judged.iter().filter(|one| one.is_good()).count();
+        assert!(judged.len() > 40 && 100 * good >= 95 * judged.len(), "{way}: {good} of {}", judged.len());
+        let bad: Vec<&Judged> = judged.iter().filter(|one| one.is_bad()).collect();
+        assert!(bad.is_empty(), "{way}: {bad:?}");
+    }
+}
+
+/// Neighbouring motions part: after the moment that the run tells, it gives no figure any more.
+#[test]
+fn a_chaotic_run_says_from_when_on_it_knows_nothing() {
+    for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+        let scene = catalogue::scene("spatial-double-pendulum").unwrap().duration(60.0).tolerance(1e-5);
+        let mut run = Simulation::new(&scene.integrator(integrator)).unwrap();
+        run.advance_to(60.0).unwrap();
+        let summary = run.summary();
+        let from = summary.error_unknown_from.unwrap();
+        assert!(5.0 < from && from < 60.0 && summary.error.is_none(), "{integrator}: {from}");
+        assert!(
+            summary.doubts.iter().any(|doubt| doubt.contains("nothing is known")),
+            "{:?}",
+            summary.doubts
+        );
+    }
+}
+
 /// Two thousand seconds at a loose tolerance: the phase is lost long before the end, and the run says so.
 #[test]
 fn a_long_run_is_not_silent() {
@@ -33,8 +69,10 @@ fn a_long_run_is_not_silent() {
 /// The estimate changes nothing of the motion.
 #[test]
 fn a_run_without_it_has_the_same_bits() {
-    for name in ["n-four-bar:2", "bricard", "spatial-chain:5"] {
-        let scene = catalogue::scene(name).unwrap();
+    let taylor = ["n-four-bar:2", "bricard", "spatial-chain:5"].map(|name| (name, IntegratorKind::Taylor));
+    let others = [IntegratorKind::Dop853, IntegratorKind::Radau, IntegratorKind::Rattle];
+    for (name, integrator) in taylor.into_iter().chain(others.map(|kind| ("spatial-double-pendulum", kind))) {
+        let scene = catalogue::scene(name).unwrap().integrator(integrator);
         let mut without = scene.clone();
         without.simulation.error_estimate = false;
         let [mut a, mut b] = [&scene, &without].map(|scene| Simulation::new(scene).unwrap());
@@ -49,7 +87,7 @@ fn a_run_without_it_has_the_same_bits() {
         }
         let (mut a, b) = (a.summary(), b.summary());
         assert!(a.error.is_some() && b.error.is_none());
-        a.error = None;
+        (a.error, a.error_method) = (None, None);
         assert_eq!(a, b, "{name}");
     }
 }
