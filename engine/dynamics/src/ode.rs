@@ -5,12 +5,23 @@ pub trait OdeSystem {
     /// Writes ẏ = f(t, y). The result must depend on nothing but t and y.
     fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]);
 
+    /// The same as [`OdeSystem::rhs`], for the ẏ of second-order equations y = (x, ẋ) where x is that of the last evaluation: what
+    /// depends on x alone need not be found again.
+    fn rhs_at_rates(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+        self.rhs(t, y, rate);
+    }
+
     /// Says that the next evaluation is that of a stage of an implicit step, and whether it is the first one of the stage in this
     /// step: what was found there before is near.
     fn begin_stage(&mut self, _stage: usize, _first: bool) {}
 
     /// Power of what changes the energy at the state that was evaluated last, W, where there is such and the system knows it.
     fn power(&self) -> Option<f64> {
+        None
+    }
+
+    /// The same at a state of its own, whose ẏ is not asked for.
+    fn power_at(&mut self, _t: f64, _y: &[f64]) -> Option<f64> {
         None
     }
 
@@ -22,6 +33,12 @@ pub trait OdeSystem {
 impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     fn rhs(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
         (**self).rhs(t, y, rate);
+    }
+    fn rhs_at_rates(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
+        (**self).rhs_at_rates(t, y, rate);
+    }
+    fn power_at(&mut self, t: f64, y: &[f64]) -> Option<f64> {
+        (**self).power_at(t, y)
     }
     fn begin_stage(&mut self, stage: usize, first: bool) {
         (**self).begin_stage(stage, first);

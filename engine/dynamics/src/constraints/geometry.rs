@@ -98,7 +98,7 @@ impl Geometry {
         Rank { rank: rows - self.dependent.len(), at_start: rows - lost, dependent: self.dependent.clone() }
     }
 
-    /// An orthonormal basis of the twists that the joints allow at the position — eq. (10.9), lengths of arc measured with the
+    /// An orthonormal basis of the twists that the joints allow at the position — eq. (10.11), lengths of arc measured with the
     /// mechanism's length: columns of (v, ω) body by body.
     pub fn twists(&mut self) -> DMatrix<f64> {
         let Self { system, elimination, .. } = self;

@@ -1,4 +1,4 @@
-//! The small motions that the joints allow at one position, to rounding, for charts that begin next to a singular one — eq. (10.9).
+//! The small motions that the joints allow at one position, to rounding, for charts that begin next to a singular one — eq. (10.11).
 
 use crate::dynamics::elimination::Elimination;
 use crate::state::State;

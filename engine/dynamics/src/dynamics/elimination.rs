@@ -148,8 +148,18 @@ impl Elimination {
         state: &'a State,
         baumgarte: (f64, f64),
     ) -> Accelerations<'a> {
-        state.require_velocities();
         self.linearize(system, state);
+        self.accelerate_here(system, state, baumgarte)
+    }
+
+    /// The same where the positions were linearized before.
+    pub fn accelerate_here<'a>(
+        &'a mut self,
+        system: &'a System,
+        state: &'a State,
+        baumgarte: (f64, f64),
+    ) -> Accelerations<'a> {
+        state.require_velocities();
         self.set_forces(system, state);
         if self.frictions.is_some() {
             self.add_friction(system, state, |own| own.solve_motion(system, state, baumgarte));

@@ -1,5 +1,5 @@
 //! Steady motions: all bodies keep their places in a frame that turns and slides uniformly; a body that is alike all around an
-//! axis may spin about it besides — eq. (10.13).
+//! axis may spin about it besides — eq. (10.15).
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use triad_dynamics::system::body::RigidBody;

@@ -94,8 +94,8 @@ pub struct Modes {
 /// Linearizes a scene about a position at rest.
 ///
 /// M ẍ + C ẋ + K x = 0 in a basis of small motions; K holds the stiffness of loads and the geometric stiffness of the constraint
-/// forces — eq. (10.11). About a steady motion x is measured in its frame, C holds the gyroscopic matrix besides and K the
-/// stiffness of the centrifugal forces — eq. (10.13).
+/// forces — eq. (10.13). About a steady motion x is measured in its frame, C holds the gyroscopic matrix besides and K the
+/// stiffness of the centrifugal forces — eq. (10.15).
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Augmented Lagrangian at the level of positions (index 3) with projections of velocity and acceleration — eq. (10.8)
+//! Augmented Lagrangian at the level of positions (index 3) with projections of velocity and acceleration — eq. (10.10)
 //! (Bayo and Ledesma, Nonlinear Dynamics 9 (1996); Cuadrado, Cardenal and Bayo, Multibody System Dynamics 1 (1997)).
 //!
 //! The partner is the implicit trapezoidal rule: with its formulas for q̇ and q̈, the equations of motion at the end of

@@ -1,12 +1,19 @@
 //! Integration in independent coordinates: any method for ordinary differential equations, applied to (η, η̇) of a
 //! [`Chart`]. The constraints of position and velocity hold at every stage and at every output.
 
+mod spatial;
+
+mod edge;
+mod tree;
+
+mod numbers;
+
 mod chart;
 
 pub use chart::{Chart, Guess, IndependentCoordinates};
 
 use super::hermite;
-use super::power::power;
+use super::power::{load_power, power};
 use super::step::{StepRecord, StopReason};
 use super::stepper::{OdeMethod, Stepper};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -15,35 +22,75 @@ use triad_dynamics::ode::OdeSystem;
 /// The mechanism in the coordinates of a chart.
 struct InCoordinates<'a> {
     mechanism: &'a mut Mechanism,
-    chart: &'a Chart,
+    chart: &'a mut Chart,
     guess: &'a mut Guess,
     /// What was found at the stages of an implicit step.
     at_stages: &'a mut Vec<Guess>,
     /// The stage that is evaluated next.
     stage: Option<usize>,
-    y: &'a mut [f64],
-    rate: &'a mut [f64],
+    /// The stage that was evaluated last.
+    at: Option<usize>,
+    /// Whether the last evaluation found a state, which is in place then.
+    found: bool,
+}
+
+impl InCoordinates<'_> {
+    /// Puts the mechanism into the state x and returns whether there is one; the search begins where the stage was found before.
+    fn find(&mut self, t: f64, x: &[f64]) -> bool {
+        let Self { mechanism, chart, at_stages, guess, .. } = self;
+        self.at = self.stage.take().filter(|stage| *stage < at_stages.len());
+        self.found = match self.at.and_then(|stage| at_stages.get_mut(stage)) {
+            Some(at_stage) => {
+                let found = chart.find_state(mechanism, t, x, at_stage);
+                guess.share_slowness(at_stage);
+                found
+            }
+            None => chart.find_state(mechanism, t, x, guess),
+        };
+        self.found
+    }
+
+    /// The rate of x at the state in place, whose accelerations were solved.
+    fn write_rate(&mut self, x: &[f64], rate: &mut [f64]) {
+        let guess = self.at.and_then(|stage| self.at_stages.get(stage)).unwrap_or(self.guess);
+        let f = self.chart.freedoms();
+        rate[..f].copy_from_slice(&x[f..]);
+        self.chart.accelerations(self.mechanism, guess, &mut rate[f..]);
+    }
 }
 
 impl OdeSystem for InCoordinates<'_> {
     fn rhs(&mut self, t: f64, x: &[f64], rate: &mut [f64]) {
-        let f = self.chart.freedoms();
-        let found = match self.stage.take().and_then(|stage| self.at_stages.get_mut(stage)) {
-            Some(guess) => {
-                let found = self.chart.find_state(self.mechanism, t, x, guess, self.y);
-                self.guess.share_slowness(guess);
-                found
-            }
-            None => self.chart.find_state(self.mechanism, t, x, self.guess, self.y),
-        };
-        if !found {
+        if !self.find(t, x) {
             // A step that leaves the chart is too long.
             rate.fill(f64::NAN);
             return;
         }
-        self.mechanism.rhs(t, self.y, self.rate);
-        rate[..f].copy_from_slice(&x[f..]);
-        self.chart.accelerations(&self.rate[self.mechanism.system.coordinates..], &mut rate[f..]);
+        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
+        elimination.accelerate(system, state, (0.0, 0.0));
+        self.write_rate(x, rate);
+    }
+
+    fn rhs_at_rates(&mut self, _: f64, x: &[f64], rate: &mut [f64]) {
+        self.at = None;
+        if !self.found || !self.chart.find_velocity(self.mechanism, &x[self.chart.freedoms()..], self.guess) {
+            rate.fill(f64::NAN);
+            return;
+        }
+        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
+        elimination.accelerate_here(system, state, (0.0, 0.0));
+        self.write_rate(x, rate);
+    }
+
+    fn power_at(&mut self, t: f64, x: &[f64]) -> Option<f64> {
+        if !self.find(t, x) {
+            return None;
+        }
+        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
+        if system.model.drivers.is_empty() && system.frictions.is_empty() {
+            return Some(load_power(system, state));
+        }
+        Some(power(&elimination.accelerate(system, state, (0.0, 0.0)).multipliers))
     }
 
     /// A stage is first sought from the one before it, then from where it was found.
@@ -67,7 +114,11 @@ impl OdeSystem for InCoordinates<'_> {
 
     fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {
         // The end of the step was evaluated last: its angles are in place.
+        if let Some(end) = self.at.and_then(|stage| self.at_stages.get(stage)) {
+            self.guess.copy_from(end);
+        }
         self.mechanism.state.commit_revolutions();
+        self.chart.commit(self.guess);
     }
 }
 
@@ -81,37 +132,35 @@ pub struct InChart<M> {
     last: StepRecord,
     /// State at the start of the last step.
     y_old: Vec<f64>,
-    /// x of the chart, a state and a rate of the mechanism.
+    guess_old: Guess,
+    /// x of the chart.
     x: Vec<f64>,
-    y: Vec<f64>,
-    rate: Vec<f64>,
 }
 
 impl<M: OdeMethod> InChart<M> {
     /// Starts at the consistent state y, about which the chart was taken, with the method that `start` makes.
     pub fn new(
-        (chart, mut guess): (Chart, Guess),
+        (mut chart, mut guess): (Chart, Guess),
         mechanism: &mut Mechanism,
         t: f64,
         y: &[f64],
         start: impl FnOnce(&mut dyn OdeSystem, &[f64]) -> M,
     ) -> Self {
         let mut x = vec![0.0; 2 * chart.freedoms()];
-        chart.coordinates(y, &mut x);
-        let last = StepRecord::new(t, y);
-        let (mut y, mut rate) = (y.to_vec(), y.to_vec());
+        chart.coordinates(&guess, &mut x);
+        let (last, guess_old) = (StepRecord::new(t, y), guess.clone());
         let mut at_stages = Vec::new();
         let mut system = InCoordinates {
             mechanism,
-            chart: &chart,
+            chart: &mut chart,
             guess: &mut guess,
             at_stages: &mut at_stages,
             stage: None,
-            y: &mut y,
-            rate: &mut rate,
+            at: None,
+            found: true,
         };
         let method = start(&mut system, &x);
-        Self { method, chart, guess, at_stages, y_old: last.y.clone(), last, x, y, rate }
+        Self { method, chart, guess, at_stages, y_old: y.to_vec(), guess_old, last, x }
     }
 
     /// How often independent coordinates were chosen.
@@ -123,29 +172,29 @@ impl<M: OdeMethod> InChart<M> {
     /// what was found at stages belongs to the last accepted step.
     fn renew(&mut self, mechanism: &mut Mechanism, just_stepped: bool) -> Result<(), StopReason> {
         let time = self.method.last().t;
-        let choices = self.chart.choices;
+        let before = self.chart.clone();
         if !self.chart.take(mechanism, time, &self.last.y, &mut self.guess) {
             return Err(StopReason::Undetermined { time });
         }
-        if self.chart.choices != choices {
-            self.chart.coordinates(&self.last.y, &mut self.x);
-            let mut step = Vec::new();
-            if just_stepped {
-                let mut start = vec![0.0; self.x.len()];
-                self.chart.coordinates(&self.y_old, &mut start);
-                step.push(start);
-                step.extend(self.at_stages.iter().map(|stage| self.chart.coordinates_of(stage)));
-            }
-            let Self { method, chart, guess, at_stages, y, rate, x, .. } = self;
-            let mut system = InCoordinates { mechanism, chart, guess, at_stages, stage: None, y, rate };
+        if self.chart.choices != before.choices {
+            self.chart.coordinates(&self.guess, &mut self.x);
+            let known = std::iter::once(&self.guess_old).chain(&self.at_stages).filter(|_| just_stepped);
+            let step: Vec<Vec<f64>> = known.map(|found| self.chart.translate(&before, found)).collect();
+            let Self { method, chart, guess, at_stages, x, .. } = self;
+            let mut system =
+                InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
             method.restart(&mut system, x, &step);
         }
         Ok(())
     }
 
-    fn advance(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
-        let Self { method, chart, guess, at_stages, y, rate, .. } = self;
-        method.step(&mut InCoordinates { mechanism, chart, guess, at_stages, stage: None, y, rate }, end)
+    /// Returns whether the end of the step was found.
+    fn advance(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<bool, StopReason> {
+        let Self { method, chart, guess, at_stages, .. } = self;
+        let mut system =
+            InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
+        method.step(&mut system, end)?;
+        Ok(system.found)
     }
 
     fn take_step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
@@ -153,22 +202,26 @@ impl<M: OdeMethod> InChart<M> {
             self.renew(mechanism, self.method.last().h > 0.0)?;
         }
         self.y_old.copy_from_slice(&self.last.y);
+        self.guess_old.copy_from(&self.guess);
         let mut result = self.advance(mechanism, end);
         if result.is_err() {
             // Another chart may reach where this one ends.
+            self.guess.copy_from(&self.guess_old);
             self.renew(mechanism, false)?;
             result = self.advance(mechanism, end);
         }
-        let Self { method, chart, guess, last, .. } = self;
-        let &StepRecord { t: time, h: step, y: ref x, .. } = method.last();
+        let &StepRecord { t: time, h: step, .. } = self.method.last();
         match result {
-            Ok(()) if chart.find_state(mechanism, time, x, guess, &mut last.y) => Ok(()),
+            Ok(true) => {
+                write_state(mechanism, &mut self.last.y);
+                Ok(())
+            }
             // A result that is not finite means that no state was found: far from the position of the chart, or at it.
-            Ok(()) | Err(StopReason::NotFinite { .. }) if step > 0.0 => {
+            Ok(false) | Err(StopReason::NotFinite { .. }) if step > 0.0 => {
                 Err(StopReason::NoConvergence { time, step })
             }
-            Ok(()) | Err(StopReason::NotFinite { .. }) => Err(StopReason::Undetermined { time }),
-            result => result,
+            Ok(false) | Err(StopReason::NotFinite { .. }) => Err(StopReason::Undetermined { time }),
+            Err(reason) => Err(reason),
         }
     }
 
@@ -204,11 +257,14 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         }
         // The guess of the run stays as it is: outputs between steps must not change the run.
         let mut guess = self.guess.clone();
-        let Self { method, chart, at_stages, y: scratch, rate, x, .. } = self;
+        let Self { method, chart, at_stages, x, .. } = self;
         let guess = &mut guess;
-        let mut system = InCoordinates { mechanism, chart, guess, at_stages, stage: None, y: scratch, rate };
+        let mut system =
+            InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
         method.interpolate(&mut system, t, x);
-        if !chart.find_state(mechanism, t, x, guess, y) {
+        if chart.find_state(mechanism, t, x, guess) {
+            write_state(mechanism, y);
+        } else {
             self.interpolate_ends(t, y);
         }
     }
@@ -219,5 +275,15 @@ impl<M: OdeMethod> Stepper for InChart<M> {
 
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
+    }
+}
+
+/// Writes the state in place.
+fn write_state(mechanism: &Mechanism, y: &mut [f64]) {
+    let Mechanism { system, state, .. } = mechanism;
+    let (q, q_dot) = y.split_at_mut(system.coordinates);
+    for (body, at) in system.bodies.iter().zip(state.bodies()) {
+        body.layout.store(&at.q, q);
+        body.layout.store(&at.q_dot, q_dot);
     }
 }

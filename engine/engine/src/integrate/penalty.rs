@@ -1,4 +1,4 @@
-//! Penalty method: constraints are replaced by stiff, damped masses — eq. (10.7).
+//! Penalty method: constraints are replaced by stiff, damped masses — eq. (10.9).
 //!
 //! There are no multipliers: (M + Φ_qᵀ α Φ_q) q̈ = g + Φ_qᵀ α (γ − 2 Ω μ Φ̇ − Ω² Φ), written with all rows, rigid-body
 //! rows included, as the literature has it. Redundant rows and singular positions do no harm; the constraints are

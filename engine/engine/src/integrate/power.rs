@@ -2,16 +2,20 @@
 
 use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::equations::{Source, equation};
-use triad_dynamics::system::Constraint;
+use triad_dynamics::state::State;
+use triad_dynamics::system::{Constraint, System};
 
 /// Power of drivers and of loads without potential, W.
 pub fn power(at: &Multipliers) -> f64 {
-    let (system, state) = (at.system, at.state);
-    let custom = system.model.custom_loads.iter().map(|load| load.power(system, state));
-    let loads: f64 = system.loads.iter().map(|load| load.power(state)).chain(custom).sum();
     let friction = |[force, rate]: [f64; 2]| force * rate;
-    let frictions: f64 = system.frictions.iter().map(|dry| friction(at.dry_friction(dry))).sum();
-    loads + frictions + driver_power(at)
+    let frictions: f64 = at.system.frictions.iter().map(|dry| friction(at.dry_friction(dry))).sum();
+    load_power(at.system, at.state) + frictions + driver_power(at)
+}
+
+/// Power of loads without potential that do not follow from reactions, W.
+pub fn load_power(system: &System, state: &State) -> f64 {
+    let custom = system.model.custom_loads.iter().map(|load| load.power(system, state));
+    system.loads.iter().map(|load| load.power(state)).chain(custom).sum()
 }
 
 /// −λᵀ ν: constraints act with −Φ_qᵀ λ, and Φ_q q̇ = ν.

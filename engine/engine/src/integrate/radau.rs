@@ -1,4 +1,4 @@
-//! Radau IIA of orders 5, 9 and 13: implicit Runge-Kutta for stiff springs, dampers and friction — eq. (10.5)
+//! Radau IIA of orders 5, 9 and 13: implicit Runge-Kutta for stiff springs, dampers and friction — eq. (10.6)
 //! (Hairer, Wanner, Solving Ordinary Differential Equations II, section IV.8).
 //!
 //! It integrates ẋ = f(t, x), x = (η, η̇), second-order equations in independent coordinates: the linear systems of
@@ -7,6 +7,8 @@
 
 mod coefficients;
 mod linear;
+mod updates;
+
 mod stages;
 
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
@@ -14,7 +16,7 @@ use super::stepper::OdeMethod;
 use coefficients::{ORDER_5, ORDER_9, ORDER_13, Tables};
 use linear::{Factors, RateJacobian};
 use nalgebra::DVector;
-use stages::Stages;
+use stages::{Stages, scale};
 use triad_dynamics::ode::OdeSystem;
 
 /// Least tolerance at which the method has order 5, and order 9: measured on stiff and driven mechanisms.
@@ -24,7 +26,9 @@ const AT_ORDER_9: f64 = 1e-9;
 /// costs more than a longer step saves.
 const CONTRACTION: f64 = 0.25;
 /// Ratio of successive corrections above which the next step gets a new Jacobian matrix.
-const SLOW: f64 = 1e-3;
+const SLOW: f64 = 1e-2;
+/// Part of a step at which its Jacobian matrix is taken: it differs least from those of all stages there.
+const MIDDLE: f64 = 0.5;
 /// Part of their size by which the coordinates may change in the first step, before its error is known.
 const FIRST_CHANGE: f64 = 1e-2;
 /// The first step where nothing moves yet, s.
@@ -149,6 +153,8 @@ impl Radau {
         self.turnover = self.new_turnover;
         self.last.advance(h, end);
         let StepRecord { t, y: x, .. } = &mut self.last;
+        // The last stage is the end of the step.
+        system.begin_stage(self.stages.z.len() - 1, false);
         system.rhs(*t, x, &mut self.rate);
         self.power = system.power();
         system.after_step(*t, x, &mut self.rate);
@@ -162,21 +168,35 @@ impl Radau {
         self.largest *= AFTER_UNSOLVED;
     }
 
-    /// Columns of ∂η̈/∂(η, η̇) by differences.
+    /// Columns of ∂η̈/∂(η, η̇) by differences, in the middle of the step that is to come where the last one foresees it, else at
+    /// its start.
     fn differentiate(&mut self, system: &mut impl OdeSystem) -> Result<(), StopReason> {
-        let f = self.last.y.len() / 2;
-        self.trial.copy_from_slice(&self.last.y);
-        for k in 0..2 * f {
+        let n = self.last.y.len();
+        let f = n / 2;
+        let (mut t, mut at_rest) = (self.last.t, self.rate.clone());
+        let mut middle = self.last.y.clone();
+        if self.stages.foresee(&self.last, self.h, MIDDLE, &mut middle) {
+            t += MIDDLE * self.h;
+        }
+        self.trial.copy_from_slice(&middle);
+        system.rhs(t, &middle, &mut at_rest);
+        // Rates first: they leave the positions as they are.
+        for place in (f..n).chain(0..f) {
             // In the size in which errors are measured: x itself may be rounding of zero.
-            let step = f64::EPSILON.sqrt() * (1.0 + self.last.y[k].abs());
-            self.trial[k] = self.last.y[k] + step;
-            let step = self.trial[k] - self.last.y[k];
-            system.rhs(self.last.t, &self.trial, &mut self.trial_rate);
-            self.trial[k] = self.last.y[k];
+            let step = f64::EPSILON.sqrt() / scale(place, n, middle[place], 1.0);
+            self.trial[place] = middle[place] + step;
+            let step = self.trial[place] - middle[place];
+            if place < f {
+                system.rhs(t, &self.trial, &mut self.trial_rate);
+            } else {
+                system.rhs_at_rates(t, &self.trial, &mut self.trial_rate);
+            }
+            self.trial[place] = middle[place];
             let RateJacobian { stiffness, damping, .. } = &mut self.jacobian;
-            let mut column = if k < f { stiffness.column_mut(k) } else { damping.column_mut(k - f) };
+            let mut column =
+                if place < f { stiffness.column_mut(place) } else { damping.column_mut(place - f) };
             for i in 0..f {
-                column[i] = (self.trial_rate[f + i] - self.rate[f + i]) / step;
+                column[i] = (self.trial_rate[f + i] - at_rest[f + i]) / step;
             }
             if !column.iter().all(|x| x.is_finite()) {
                 return Err(self.last.not_finite());
@@ -225,7 +245,11 @@ impl Radau {
                 *trial = x + z;
             }
         }
-        weighted_norm(self.defect.iter().copied(), &self.last.y, &self.trial, self.estimated)
+        let n = self.defect.len();
+        let ends = self.last.y.iter().zip(&self.trial).map(|(a, b)| a.abs().max(b.abs()));
+        let parts = self.defect.iter().zip(ends).enumerate();
+        let sum: f64 = parts.map(|(i, (x, y))| x * scale(i, n, y, self.estimated)).map(|x| x * x).sum();
+        (sum / n as f64).sqrt()
     }
 
     /// Factors for a step of size h.

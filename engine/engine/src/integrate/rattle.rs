@@ -1,5 +1,5 @@
 //! RATTLE, composed symmetrically to order 6: symplectic, symmetric in time, with the constraints of position and
-//! velocity satisfied at the end of each step — eq. (10.6)
+//! velocity satisfied at the end of each step — eq. (10.8)
 //! (Hairer, Lubich, Wanner, Geometric Numerical Integration, sections V.3, VII.1.4).
 //!
 //! It works in the natural coordinates of all bodies, where the mass matrix is constant. Steps have one size: energy

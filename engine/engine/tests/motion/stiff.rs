@@ -95,3 +95,61 @@ fn forty_windows_go_through_at_a_tight_tolerance_or_say_that_it_is_too_tight() {
         assert!(error.hint().contains("tenfold"), "{}", error.hint());
     }
 }
+
+#[test]
+fn the_governor_costs_less_and_errs_more_at_looser_tolerances() {
+    let (exact, _) = end(&by("governor/scene", IntegratorKind::Taylor, 1e-11, 2.0));
+    let (mut error_before, mut work_before) = (f64::INFINITY, 0);
+    for exponent in [3, 5, 7, 9] {
+        let tolerance = libm::pow(10.0, -f64::from(exponent));
+        let (frame, run) = end(&by("governor/scene", IntegratorKind::Radau, tolerance, 2.0));
+        let (error, summary) = (apart(&frame, &exact), run.summary());
+        let work = summary.evaluations;
+        println!(
+            "{tolerance:.0e}: {error:.1e}, {work} evaluations, {} factorizations",
+            summary.factorizations
+        );
+        assert!(error < error_before && error < 10.0 * tolerance, "{tolerance:.0e}: {error:.1e}");
+        assert!(work > work_before, "{tolerance:.0e}: {work} evaluations");
+        // Coordinates of joints leave nothing to solve for.
+        assert!(summary.factorizations <= work + 2 * summary.steps, "{summary:?}");
+        (error_before, work_before) = (error, work);
+    }
+    let summary = end(&by("governor/scene", IntegratorKind::Radau, 1e-6, 10.0)).1.summary();
+    assert!(summary.evaluations < 5000 && summary.steps < 160, "{summary:?}");
+    assert!(summary.position_violation < 1e-12, "{summary:?}");
+}
+
+#[test]
+fn joints_of_every_kind_in_the_tree() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let named = |path: &std::path::PathBuf, start: &str| {
+        path.file_name().unwrap().to_string_lossy().starts_with(start)
+    };
+    let mut seen = 0;
+    for path in files.filter(|path| named(path, "joint-") || named(path, "spatial-") || named(path, "heavy"))
+    {
+        let mut scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        scene.simulation.duration = scene.simulation.duration.min(1.0);
+        scene.simulation.step = None;
+        let by = |integrator, tolerance| {
+            let mut scene = scene.clone();
+            (scene.simulation.integrator, scene.simulation.tolerance) = (integrator, tolerance);
+            end(&scene)
+        };
+        let (exact, _) = by(IntegratorKind::Taylor, 1e-12);
+        let (frame, run) = by(IntegratorKind::Radau, 1e-8);
+        let (error, summary) = (apart(&frame, &exact), run.summary());
+        println!(
+            "{}: {error:.1e}, {} evaluations, {} steps",
+            path.display(),
+            summary.evaluations,
+            summary.steps
+        );
+        assert!(error < 1e-6, "{}: {error:.1e}", path.display());
+        assert!(summary.position_violation < 1e-9, "{}: {summary:?}", path.display());
+        seen += 1;
+    }
+    assert!(seen >= 16, "{seen} scenes");
+}

@@ -1,5 +1,5 @@
 //! Increments of natural coordinates under the constraints of one position, with residuals taken at another: what
-//! discretizations need that multiply Φ_Qᵀ of the start of a step and close Φ at its end — eq. (10.6).
+//! discretizations need that multiply Φ_Qᵀ of the start of a step and close Φ at its end — eq. (10.8).
 
 use super::Elimination;
 use super::right_side::{gram, particular_directors};

@@ -27,7 +27,7 @@ impl Approach {
         self.ends[2] = Some([time, slowness]);
     }
 
-    /// When the motion comes to a dead point, if it is next to one: t = t* + a u² + b u³ with u = 1/|q̇| — eq. (10.10).
+    /// When the motion comes to a dead point, if it is next to one: t = t* + a u² + b u³ with u = 1/|q̇| — eq. (10.12).
     pub(super) fn dead_point(&self) -> Option<f64> {
         let [first, second, last] = self.ends;
         let [first, second, last] = [first?, second?, last?];

@@ -167,7 +167,7 @@ impl Pencil {
         Eigen { value, vector: x * phase }
     }
 
-    /// The root next to `value` of yᴴ (λ² M + λ C + K) x = 0 — eq. (10.12).
+    /// The root next to `value` of yᴴ (λ² M + λ C + K) x = 0 — eq. (10.14).
     fn quotient(&self, value: Complex<f64>, x: &Vector, y: &Vector) -> Option<Complex<f64>> {
         let form = |matrix: &DMatrix<f64>| {
             let mut sum = Complex::new(0.0, 0.0);

@@ -1,15 +1,16 @@
 //! Independent coordinates of a mechanism near one position — eq. (10.4).
 //!
-//! A chart names f functionals η = L (q − q₀) and a basis Z of the motions that the constraints allow at q₀, with
-//! L Z = I. The position with given η is where Φ(q, t) = 0 and L (q − q₀) = η; velocities and accelerations follow from
-//! η̇ = L q̇ and η̈ = L q̈. In a chart the constraints hold at every stage of an integrator, not only at the ends of steps.
+//! A chart names f functionals η = L (p − p₀) of the numbers p that describe the mechanism, and a basis Z of the motions that
+//! the constraints allow at p₀, with L Z = I. The position with given η is where Φ(p, t) = 0 and L (p − p₀) = η; velocities
+//! and accelerations follow from η̇ = L ṗ and η̈ = L p̈. In a chart the constraints hold at every stage of an integrator, not
+//! only at the ends of steps.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use super::numbers::Numbers;
+use nalgebra::{DMatrix, DVector};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank;
 use triad_dynamics::constraints::tangent;
 use triad_dynamics::newton::{Projectable, Projected, project_positions, project_velocities, rules};
-use triad_dynamics::system::natural::NaturalCoordinates;
 use triad_linalg::independent_rows;
 
 /// Iterations of one solution above which the chart is taken anew at the current state.
@@ -26,7 +27,8 @@ const AHEAD: f64 = 1e-3;
 /// How the independent coordinates are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IndependentCoordinates {
-    /// Orthogonal to all that the constraints forbid: L = Zᵀ W with the weights W = diag(1/length² of r, 1 of directors).
+    /// Of the coordinates of joints along a tree, orthogonal to all that the constraints forbid: L = Zᵀ W with the weights
+    /// W = diag(1/length² of slides, 1 of angles).
     Tangent,
     /// Some of the coordinates q themselves, by pivoting.
     Partition,
@@ -35,8 +37,8 @@ pub enum IndependentCoordinates {
 /// Independent coordinates near one position.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    choice: IndependentCoordinates,
-    /// q₀.
+    numbers: Numbers,
+    /// p₀.
     base: DVector<f64>,
     /// Z, n × f.
     basis: DMatrix<f64>,
@@ -46,18 +48,20 @@ pub struct Chart {
     chosen: Vec<usize>,
     /// How often coordinates were chosen.
     pub choices: u64,
+    /// What η or η̇ still differ by.
+    gap: DVector<f64>,
+    /// A correction of p, or p̈.
+    change: DVector<f64>,
 }
 
 /// The state from which the search for the next one begins: the one that was found last.
 #[derive(Clone, Debug)]
 pub struct Guess {
-    q: DVector<f64>,
-    q_dot: DVector<f64>,
+    p: DVector<f64>,
+    p_dot: DVector<f64>,
     eta: DVector<f64>,
-    /// Where the chart was taken: q and η.
+    /// Where the chart was taken: p and η.
     taken: (DVector<f64>, DVector<f64>),
-    /// What η or η̇ still differ by.
-    gap: DVector<f64>,
     /// Most iterations of a search since the chart was taken.
     iterations: usize,
 }
@@ -65,8 +69,8 @@ pub struct Guess {
 impl Guess {
     /// Takes over all that another one of the same chart has found.
     pub fn copy_from(&mut self, other: &Self) {
-        self.q.copy_from(&other.q);
-        self.q_dot.copy_from(&other.q_dot);
+        self.p.copy_from(&other.p);
+        self.p_dot.copy_from(&other.p_dot);
         self.eta.copy_from(&other.eta);
         self.taken.0.copy_from(&other.taken.0);
         self.taken.1.copy_from(&other.taken.1);
@@ -80,7 +84,7 @@ impl Guess {
 
     /// Goes back to where the chart was taken: the next search must not begin where this one was lost.
     fn go_back(&mut self) {
-        self.q.copy_from(&self.taken.0);
+        self.p.copy_from(&self.taken.0);
         self.eta.copy_from(&self.taken.1);
         self.iterations = usize::MAX;
     }
@@ -100,32 +104,35 @@ impl Chart {
         t: f64,
         y: &[f64],
     ) -> Option<(Self, Guess)> {
-        let n = mechanism.system.coordinates;
         mechanism.set_state(t, y);
-        let rank = rank::analyze(&mechanism.system, &mut mechanism.state, &y[..n]);
+        let mut numbers = match choice {
+            IndependentCoordinates::Tangent => Numbers::joints(mechanism),
+            IndependentCoordinates::Partition => Numbers::Coordinates,
+        };
+        let n = numbers.count(mechanism);
+        let (mut p, mut p_dot) = (DVector::zeros(n), DVector::zeros(n));
+        numbers.read(mechanism, y, p.as_mut_slice(), p_dot.as_mut_slice());
+        let q = &y[..mechanism.system.coordinates];
+        let rank = rank::analyze(&mechanism.system, &mut mechanism.state, q);
         let freedoms = 6 * mechanism.system.bodies.len() - rank.rank;
         let mut chart = Self {
-            choice,
+            numbers,
             base: DVector::zeros(n),
             basis: DMatrix::zeros(n, freedoms),
             functionals: DMatrix::zeros(freedoms, n),
             chosen: Vec::new(),
             choices: 0,
-        };
-        let mut guess = Guess {
-            q: DVector::from_column_slice(&y[..n]),
-            q_dot: DVector::from_column_slice(&y[n..]),
-            eta: DVector::zeros(freedoms),
-            taken: (DVector::zeros(n), DVector::zeros(freedoms)),
             gap: DVector::zeros(freedoms),
-            iterations: 0,
+            change: DVector::zeros(n),
         };
+        let eta = DVector::zeros(freedoms);
+        let mut guess = Guess { taken: (p.clone(), eta.clone()), p, p_dot, eta, iterations: 0 };
         chart.take(mechanism, t, y, &mut guess).then_some((chart, guess))
     }
 
-    /// Whether searches have become slow: a new chart at the current state will be better.
+    /// Whether searches have become slow, or angles large: a new chart at the current state will be better.
     pub fn needs_refresh(&self, guess: &Guess) -> bool {
-        guess.iterations > SLOW
+        guess.iterations > SLOW || self.numbers.is_tilted(guess.p.as_slice())
     }
 
     /// Number of independent coordinates f.
@@ -133,42 +140,49 @@ impl Chart {
         self.basis.ncols()
     }
 
-    /// Takes the chart anew at a consistent state. Returns false if the motions that the constraints allow there cannot be
-    /// determined.
+    /// Whether the numbers place the mechanism by themselves: no constraint is left to be solved.
+    fn is_open(&self) -> bool {
+        self.basis.nrows() == self.basis.ncols() && matches!(self.numbers, Numbers::Joints { .. })
+    }
+
+    /// Takes the chart anew at a consistent state, where the guess is. Returns false if the motions that the constraints allow
+    /// there cannot be determined.
     pub fn take(&mut self, mechanism: &mut Mechanism, t: f64, y: &[f64], guess: &mut Guess) -> bool {
-        let n = mechanism.system.coordinates;
-        let Some(basis) = allowed_motions(mechanism, t, y, self.freedoms()) else { return false };
-        guess.q.copy_from_slice(&y[..n]);
-        guess.q_dot.copy_from_slice(&y[n..]);
+        if self.numbers.is_tilted(guess.p.as_slice()) {
+            self.numbers.restart(guess.p.as_mut_slice(), guess.p_dot.as_mut_slice());
+            self.functionals.fill(0.0);
+        }
+        self.numbers.commit(guess.p.as_slice());
+        let Some(basis) = self.allowed_motions(mechanism, t, y, guess) else { return false };
         guess.iterations = 0;
-        let taken = match self.choice {
-            IndependentCoordinates::Tangent => {
+        let taken = match self.numbers {
+            Numbers::Joints { .. } => {
                 self.tilt(mechanism, basis, guess);
                 true
             }
-            IndependentCoordinates::Partition => self.partition(&basis, guess),
+            Numbers::Coordinates => self.partition(&basis, guess),
         };
-        guess.taken.0.copy_from(&guess.q);
+        guess.taken.0.copy_from(&guess.p);
         guess.taken.1.copy_from(&guess.eta);
         taken
     }
 
-    /// Keeps L and q₀, and with them the coordinates, while the new basis is not tilted much against the old one; else takes
+    /// Keeps L and p₀, and with them the coordinates, while the new basis is not tilted much against the old one; else takes
     /// those of the new position.
     fn tilt(&mut self, mechanism: &Mechanism, basis: DMatrix<f64>, guess: &mut Guess) {
         let tilted = if self.choices > 0 { (&self.functionals * &basis).try_inverse() } else { None };
         if let Some(back) = tilted.filter(|back| back.amax() < TILTED) {
             self.basis = basis * back;
-            guess.eta = &self.functionals * (&guess.q - &self.base);
+            guess.eta = &self.functionals * (&guess.p - &self.base);
             return;
         }
-        let weights = weights(mechanism);
+        let weights = self.numbers.weights(mechanism);
         self.functionals = basis.transpose();
         for (mut column, w) in self.functionals.column_iter_mut().zip(weights.iter()) {
             column *= *w;
         }
         self.basis = basis;
-        self.base.copy_from(&guess.q);
+        self.base.copy_from(&guess.p);
         guess.eta.fill(0.0);
         self.choices += 1;
     }
@@ -192,66 +206,67 @@ impl Chart {
         for (row, &column) in self.chosen.iter().enumerate() {
             self.functionals[(row, column)] = 1.0;
         }
-        guess.eta = &self.functionals * &guess.q;
+        guess.eta = &self.functionals * &guess.p;
         true
     }
 
     /// x = (η, η̇) of what was found.
-    pub fn coordinates_of(&self, found: &Guess) -> Vec<f64> {
+    pub fn coordinates(&self, found: &Guess, x: &mut [f64]) {
+        let f = self.freedoms();
+        x[..f].copy_from_slice((&self.functionals * (&found.p - &self.base)).as_slice());
+        x[f..].copy_from_slice((&self.functionals * &found.p_dot).as_slice());
+    }
+
+    /// The same of what another chart had found, before it was taken anew.
+    pub fn translate(&self, before: &Self, found: &Guess) -> Vec<f64> {
+        let mut found = found.clone();
+        self.numbers.translate(&before.numbers, found.p.as_mut_slice(), found.p_dot.as_mut_slice());
         let mut x = vec![0.0; 2 * self.freedoms()];
-        let y: Vec<f64> = found.q.iter().chain(&found.q_dot).copied().collect();
-        self.coordinates(&y, &mut x);
+        self.coordinates(&found, &mut x);
         x
     }
 
-    /// x = (η, η̇) of a consistent state.
-    pub fn coordinates(&self, y: &[f64], x: &mut [f64]) {
-        let n = self.base.len();
-        let f = self.freedoms();
-        let q = DVector::from_column_slice(&y[..n]) - &self.base;
-        let q_dot = DVector::from_column_slice(&y[n..]);
-        x[..f].copy_from_slice((&self.functionals * q).as_slice());
-        x[f..].copy_from_slice((&self.functionals * q_dot).as_slice());
+    /// Counts whole turns from what was found.
+    pub fn commit(&mut self, found: &Guess) {
+        self.numbers.commit(found.p.as_slice());
     }
 
-    /// η̈ = L q̈.
-    pub fn accelerations(&self, q_ddot: &[f64], out: &mut [f64]) {
-        let product = &self.functionals * DVector::from_column_slice(q_ddot);
-        out.copy_from_slice(product.as_slice());
+    /// η̈ = L p̈ of the accelerations that were solved last, at the state in place, which is the guess.
+    pub fn accelerations(&mut self, mechanism: &Mechanism, guess: &Guess, out: &mut [f64]) {
+        self.numbers.second_derivatives(mechanism, &guess.p_dot, &mut self.change);
+        self.gap.gemv(1.0, &self.functionals, &self.change, 0.0);
+        out.copy_from_slice(self.gap.as_slice());
     }
 
-    /// Writes the state y with the independent coordinates and velocities x = (η, η̇) at time t, and keeps it as the next
-    /// guess. False if there is none near the guess.
-    pub fn find_state(
-        &self,
-        mechanism: &mut Mechanism,
-        t: f64,
-        x: &[f64],
-        guess: &mut Guess,
-        y: &mut [f64],
-    ) -> bool {
+    /// Puts the mechanism into the state with the independent coordinates and velocities x = (η, η̇) at time t, and keeps it
+    /// as the next guess. False if there is none near the guess.
+    pub fn find_state(&mut self, mechanism: &mut Mechanism, t: f64, x: &[f64], guess: &mut Guess) -> bool {
         let (eta, eta_dot) = x.split_at(self.freedoms());
+        let Mechanism { system, state, .. } = mechanism;
+        state.set_time(system, t);
         let found =
-            self.find_position(mechanism, t, eta, guess) && self.find_velocity(mechanism, eta_dot, guess);
-        let n = self.base.len();
-        y[..n].copy_from_slice(guess.q.as_slice());
-        y[n..].copy_from_slice(guess.q_dot.as_slice());
+            self.find_position(mechanism, eta, guess) && self.find_velocity(mechanism, eta_dot, guess);
         if !found {
             guess.go_back();
         }
         found
     }
 
-    /// Φ(q, t) = 0 with L (q − q₀) = η, from the last position and Z times the change of η — eq. (10.4).
-    fn find_position(&self, mechanism: &mut Mechanism, t: f64, eta: &[f64], guess: &mut Guess) -> bool {
-        let Mechanism { system, state, .. } = mechanism;
-        let Guess { q, eta: known, gap, .. } = guess;
-        state.set_time(system, t);
-        gap.copy_from_slice(eta);
-        *gap -= &*known;
-        q.gemv(1.0, &self.basis, gap, 1.0);
-        state.set_positions(system, q.as_slice());
-        let size = system.length.max(1.0);
+    /// Φ(p, t) = 0 with L (p − p₀) = η, from the last position and Z times the change of η — eq. (10.4).
+    fn find_position(&mut self, mechanism: &mut Mechanism, eta: &[f64], guess: &mut Guess) -> bool {
+        if self.is_open() {
+            guess.eta.copy_from_slice(eta);
+            guess.p.copy_from(&self.base);
+            guess.p.gemv(1.0, &self.basis, &guess.eta, 1.0);
+            return self.numbers.place(mechanism, guess.p.as_slice());
+        }
+        self.gap.copy_from_slice(eta);
+        self.gap -= &guess.eta;
+        guess.p.gemv(1.0, &self.basis, &self.gap, 1.0);
+        if !self.numbers.place(mechanism, guess.p.as_slice()) {
+            return false;
+        }
+        let size = mechanism.system.length.max(1.0);
         let mut on = AtCoordinates { chart: self, mechanism, guess, wanted: eta };
         let projected = project_positions(&mut on, &rules::CHART_POSITIONS, size);
         guess.note(projected);
@@ -261,18 +276,67 @@ impl Chart {
         projected.has_converged()
     }
 
-    /// Φ_q q̇ = ν with L q̇ = η̇ — eq. (10.4).
-    fn find_velocity(&self, mechanism: &mut Mechanism, eta_dot: &[f64], guess: &mut Guess) -> bool {
+    /// Φ_p ṗ = ν with L ṗ = η̇, at the position in place — eq. (10.4).
+    pub fn find_velocity(&mut self, mechanism: &mut Mechanism, eta_dot: &[f64], guess: &mut Guess) -> bool {
+        if self.is_open() {
+            self.gap.copy_from_slice(eta_dot);
+            guess.p_dot.gemv(1.0, &self.basis, &self.gap, 0.0);
+            self.numbers.move_at(mechanism, guess.p_dot.as_slice());
+            return true;
+        }
         let mut on = AtCoordinates { chart: self, mechanism, guess, wanted: eta_dot };
         let projected = project_velocities(&mut on, &rules::CHART_VELOCITIES, 1.0);
         guess.note(projected);
+        self.numbers.move_at(mechanism, guess.p_dot.as_slice());
         projected.has_converged()
+    }
+
+    /// An orthonormal basis, in the sense of W, of the f motions ṗ that the constraints allow at a state. In a singular
+    /// position, where they seem to allow more, it is that of the position a little further on.
+    fn allowed_motions(
+        &mut self,
+        mechanism: &mut Mechanism,
+        t: f64,
+        y: &[f64],
+        guess: &Guess,
+    ) -> Option<DMatrix<f64>> {
+        let (n, f) = (mechanism.system.coordinates, self.freedoms());
+        mechanism.set_state(t, y);
+        if !self.numbers.place(mechanism, guess.p.as_slice()) {
+            return None;
+        }
+        let mut twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
+        if twists.ncols() != f {
+            let speed = y[n..].iter().fold(0.0f64, |a, v| a.max(v.abs()));
+            if speed > 0.0 {
+                let step = AHEAD * mechanism.system.length / speed;
+                let mut ahead = y.to_vec();
+                ahead.iter_mut().zip(&y[n..]).for_each(|(q, v)| *q += step * v);
+                mechanism.state.set_positions(&mechanism.system, &ahead[..n]);
+                let length = mechanism.system.length;
+                project_positions(&mut mechanism.projectable(&mut ahead), &rules::AHEAD_POSITIONS, length);
+                twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
+            }
+        }
+        if twists.ncols() != f {
+            return None;
+        }
+        let weights = self.numbers.weights(mechanism).map(f64::sqrt);
+        let mut basis = self.numbers.columns(mechanism, &twists);
+        for (mut row, w) in basis.row_iter_mut().zip(weights.iter()) {
+            row *= *w;
+        }
+        let mut basis = basis.qr().q();
+        for (mut row, w) in basis.row_iter_mut().zip(weights.iter()) {
+            row /= *w;
+        }
+        Some(basis)
     }
 }
 
 /// A guess that is moved onto the constraints and to given η, or η̇, in turn — eq. (10.4).
 struct AtCoordinates<'a> {
-    chart: &'a Chart,
+    chart: &'a mut Chart,
     mechanism: &'a mut Mechanism,
     guess: &'a mut Guess,
     /// η, or η̇.
@@ -285,78 +349,30 @@ impl Projectable for AtCoordinates<'_> {
         elimination.linearize(system, state);
     }
 
-    /// q ← q + Δq, then q ← q + Z (η − L (q − q₀)); the sizes of both together.
+    /// p ← p + Δp, then p ← p + Z (η − L (p − p₀)); the sizes of both together.
     fn correct_positions(&mut self) -> f64 {
-        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
-        let Guess { q, gap, .. } = &mut *self.guess;
-        let step = elimination.correct_positions(system, state, q.as_mut_slice());
-        gap.copy_from_slice(self.wanted);
-        *gap -= &self.chart.functionals * (&*q - &self.chart.base);
-        q.gemv(1.0, &self.chart.basis, gap, 1.0);
-        state.set_positions(system, q.as_slice());
+        let Self { chart, mechanism, guess, wanted } = self;
+        let Chart { numbers, base, basis, functionals, gap, change, .. } = &mut **chart;
+        let step = numbers.correct_positions(mechanism, &mut guess.p, change);
+        gap.copy_from_slice(wanted);
+        *gap -= &*functionals * (&guess.p - &*base);
+        guess.p.gemv(1.0, basis, gap, 1.0);
+        if !numbers.place(mechanism, guess.p.as_slice()) {
+            return f64::NAN;
+        }
         step + gap.amax()
     }
 
-    /// q̇ ← q̇ + Z (η̇ − L q̇), then q̇ ← q̇ + Δq̇, which the state has not taken over yet; the sizes of both together, relative to
+    /// ṗ ← ṗ + Z (η̇ − L ṗ), then ṗ ← ṗ + Δṗ, which the state has not taken over yet; the sizes of both together, relative to
     /// the fastest.
     fn correct_velocities(&mut self) -> f64 {
-        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
-        let Guess { q_dot, gap, .. } = &mut *self.guess;
-        gap.copy_from_slice(self.wanted);
-        gap.gemv(-1.0, &self.chart.functionals, q_dot, 1.0);
-        q_dot.gemv(1.0, &self.chart.basis, gap, 1.0);
-        state.set_velocities(system, q_dot.as_slice());
-        let step = elimination.correct_velocities(system, state, q_dot.as_mut_slice()) + gap.amax();
-        step / system.length.max(1.0).max(q_dot.amax())
+        let Self { chart, mechanism, guess, wanted } = self;
+        let Chart { numbers, basis, functionals, gap, change, .. } = &mut **chart;
+        gap.copy_from_slice(wanted);
+        gap.gemv(-1.0, functionals, &guess.p_dot, 1.0);
+        guess.p_dot.gemv(1.0, basis, gap, 1.0);
+        numbers.move_at(mechanism, guess.p_dot.as_slice());
+        let step = numbers.correct_velocities(mechanism, &mut guess.p_dot, change) + gap.amax();
+        step / mechanism.system.length.max(1.0).max(guess.p_dot.amax())
     }
-}
-
-/// Weights W of the coordinates: places are measured in lengths of the mechanism.
-fn weights(mechanism: &Mechanism) -> DVector<f64> {
-    let system = &mechanism.system;
-    let place = 1.0 / (system.length * system.length);
-    let mut weights = DVector::from_element(system.coordinates, 1.0);
-    for body in &system.bodies {
-        weights.rows_mut(body.layout.first, 3).fill(place);
-    }
-    weights
-}
-
-/// An orthonormal basis, in the sense of W, of the f motions q̇ that the constraints allow at a state. In a singular
-/// position, where they seem to allow more, it is that of the position a little further on.
-fn allowed_motions(mechanism: &mut Mechanism, t: f64, y: &[f64], f: usize) -> Option<DMatrix<f64>> {
-    let n = mechanism.system.coordinates;
-    mechanism.set_state(t, y);
-    let mut twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
-    if twists.ncols() != f {
-        let speed = y[n..].iter().fold(0.0f64, |a, v| a.max(v.abs()));
-        if speed > 0.0 {
-            let step = AHEAD * mechanism.system.length / speed;
-            let mut ahead = y.to_vec();
-            ahead.iter_mut().zip(&y[n..]).for_each(|(q, v)| *q += step * v);
-            mechanism.state.set_positions(&mechanism.system, &ahead[..n]);
-            let length = mechanism.system.length;
-            project_positions(&mut mechanism.projectable(&mut ahead), &rules::AHEAD_POSITIONS, length);
-            twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
-        }
-    }
-    if twists.ncols() != f {
-        return None;
-    }
-    let mut basis = DMatrix::zeros(n, f);
-    let weights = weights(mechanism).map(f64::sqrt);
-    let bodies = mechanism.system.bodies.iter().zip(mechanism.state.bodies());
-    for (index, (body, state)) in bodies.enumerate() {
-        for k in 0..f {
-            let part = |at: usize| Vector3::new(twists[(at, k)], twists[(at + 1, k)], twists[(at + 2, k)]);
-            let omega = part(6 * index + 3);
-            let rate = NaturalCoordinates { r: part(6 * index), e: state.q.e.map(|e| omega.cross(&e)) };
-            body.layout.own_numbers(&rate, |column, value| basis[(column, k)] = value * weights[column]);
-        }
-    }
-    let mut basis = basis.qr().q();
-    for (mut row, w) in basis.row_iter_mut().zip(weights.iter()) {
-        row /= *w;
-    }
-    Some(basis)
 }

@@ -2,14 +2,16 @@
 
 use super::coefficients::{Method, ORDER_9, Tables};
 use super::linear::{Factors, RateJacobian};
+use super::updates::Updates;
 use crate::integrate::step::StepRecord;
 use nalgebra::{Complex, DVector};
 use triad_dynamics::ode::OdeSystem;
 
 /// Relative rounding of the stages: Newton's method does not converge further.
 const ROUNDING: f64 = 1e-12;
-/// Part of the error that a step may have to which its stages are solved.
-const SOLVED: f64 = 0.03;
+/// Part of the error that a step may have to which its stages are solved: what is left spoils the estimate of the error, and
+/// with 3e-2 steps are refused for nothing.
+const SOLVED: f64 = 1e-3;
 /// Ratio of successive corrections above which Newton's method does not converge.
 const DIVERGING: f64 = 0.99;
 /// Ratio of a step to the one before it above which the polynomial of that says nothing about the new stages.
@@ -44,6 +46,20 @@ pub struct Stages {
     real: DVector<f64>,
     pair: DVector<Complex<f64>>,
     weights: Vec<f64>,
+    /// One by the error that each number may have.
+    scale: Vec<f64>,
+    updates: Updates,
+}
+
+/// Whether the polynomial of the last step says something about one of size h.
+fn reaches(last: &StepRecord, h: f64) -> bool {
+    last.h > 0.0 && h <= MAX_EXTRAPOLATION * last.h
+}
+
+/// One by the error that number i of n, of size y, may have: coordinates are measured as they are, for where they count from is
+/// arbitrary; rates relative to their size if they are large.
+pub fn scale(i: usize, n: usize, y: f64, estimated: f64) -> f64 {
+    1.0 / (estimated * if 2 * i < n { 1.0 } else { 1.0 + y.abs() })
 }
 
 impl Stages {
@@ -64,6 +80,8 @@ impl Stages {
             real: DVector::zeros(n),
             pair: DVector::zeros(n),
             weights: vec![0.0; s],
+            scale: Vec::with_capacity(n),
+            updates: Updates::new(s * n),
         }
     }
 
@@ -72,7 +90,8 @@ impl Stages {
         (6 + self.method.stages()).max(9)
     }
 
-    /// Solves for the stages of a step of size h by simplified Newton iteration, to a part of the error `estimated`.
+    /// Solves for the stages of a step of size h by simplified Newton iteration with Broyden's updates, to a part of the error
+    /// `estimated`.
     pub fn solve(
         &mut self,
         system: &mut impl OdeSystem,
@@ -80,24 +99,21 @@ impl Stages {
         (jacobian, factors): (&RateJacobian, &Factors),
         estimated: f64,
     ) -> Option<Solved> {
-        let h = factors.h;
-        self.predict(last, h);
-        let enough = (ROUNDING / estimated).max(estimated.sqrt().min(SOLVED));
+        self.predict(last, factors.h);
+        self.scale.clear();
+        self.scale.extend(last.y.iter().enumerate().map(|(i, y)| scale(i, last.y.len(), *y, estimated)));
+        let enough = (ROUNDING / estimated).max(SOLVED);
         let most = self.max_iterations();
         let (mut size_before, mut rate, mut contraction) = (0.0f64, 0.0f64, 0.0f64);
+        self.updates.restart();
         for iteration in 0..most {
-            for stage in 0..self.z.len() {
-                for (trial, (x, z)) in self.trial.iter_mut().zip(last.y.iter().zip(&self.z[stage])) {
-                    *trial = x + z;
-                }
-                let node = self.method.tables.nodes[stage].0;
-                system.begin_stage(stage, iteration == 0);
-                system.rhs(last.t + node * h, &self.trial, &mut self.f[stage]);
-                if !self.f[stage].iter().all(|f| f.is_finite()) {
-                    return None;
-                }
+            if !self.evaluate(system, last, factors.h, iteration == 0) {
+                return None;
             }
-            let size = self.correct((jacobian, factors), last, estimated);
+            self.correct((jacobian, factors));
+            let size =
+                self.updates.improve(&self.scale) / (self.scale.len() as f64 * self.z.len() as f64).sqrt();
+            self.apply();
             if iteration > 0 {
                 rate = size / size_before;
                 contraction = if iteration == 1 { rate } else { (rate * contraction).sqrt() };
@@ -120,6 +136,25 @@ impl Stages {
         None
     }
 
+    /// ẋ at all stages. False if it is not finite.
+    fn evaluate(&mut self, system: &mut impl OdeSystem, last: &StepRecord, h: f64, first: bool) -> bool {
+        for stage in 0..self.z.len() {
+            self.set_trial(last, stage);
+            system.begin_stage(stage, first);
+            system.rhs(last.t + self.method.tables.nodes[stage].0 * h, &self.trial, &mut self.f[stage]);
+            if !self.f[stage].iter().all(|f| f.is_finite()) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn set_trial(&mut self, last: &StepRecord, stage: usize) {
+        for (trial, (x, z)) in self.trial.iter_mut().zip(last.y.iter().zip(&self.z[stage])) {
+            *trial = x + z;
+        }
+    }
+
     /// Evaluates the stages once more as they were found, for the power there. Returns by how much the work of the step may be
     /// off, relative to it, if the power at its start is `before`: the power there less what the stages make of it.
     pub fn find_power(
@@ -130,12 +165,10 @@ impl Stages {
         before: f64,
     ) -> [f64; 2] {
         for stage in 0..self.z.len() {
-            for (trial, (x, z)) in self.trial.iter_mut().zip(last.y.iter().zip(&self.z[stage])) {
-                *trial = x + z;
-            }
+            self.set_trial(last, stage);
             system.begin_stage(stage, false);
-            system.rhs(last.t + self.method.tables.nodes[stage].0 * h, &self.trial, &mut self.f[stage]);
-            self.power[stage] = system.power().unwrap_or(0.0);
+            let time = last.t + self.method.tables.nodes[stage].0 * h;
+            self.power[stage] = system.power_at(time, &self.trial).unwrap_or(0.0);
         }
         self.method.through(0.0, &mut self.weights);
         let foreseen: f64 = self.weights.iter().zip(&self.power).map(|(weight, power)| weight * power).sum();
@@ -163,42 +196,38 @@ impl Stages {
         work * x * h
     }
 
-    /// One Newton step of all stages; returns its size relative to the error that a step may have.
-    fn correct(
-        &mut self,
-        (jacobian, factors): (&RateJacobian, &Factors),
-        last: &StepRecord,
-        estimated: f64,
-    ) -> f64 {
-        let h = factors.h;
-        let tables = self.method.tables;
-        let inverse = &self.method.t_inverse;
-        let (n, s) = (last.y.len(), self.z.len());
-        let mut sum = 0.0;
-        let weight = |i: usize| estimated * (1.0 + last.y[i].abs());
-        let forward =
-            |f: &[Vec<f64>], k: usize, i: usize| (0..s).map(|j| inverse[(k, j)] * f[j][i]).sum::<f64>();
+    /// The correction of all stages by Newton's method, as one of w.
+    fn correct(&mut self, (jacobian, factors): (&RateJacobian, &Factors)) {
+        let Self { method, f, w, real, pair, updates, .. } = self;
+        let (h, tables, n) = (factors.h, method.tables, real.len());
+        let forward = |k: usize, i: usize| -> f64 {
+            f.iter().enumerate().map(|(j, f)| method.t_inverse[(k, j)] * f[i]).sum()
+        };
+        let correction = updates.next();
         for i in 0..n {
-            self.real[i] = forward(&self.f, 0, i) - tables.real / h * self.w[0][i];
+            real[i] = forward(0, i) - tables.real / h * w[0][i];
         }
-        factors.solve_real(jacobian, tables, &mut self.real);
-        for i in 0..n {
-            self.w[0][i] += self.real[i];
-            let part = self.real[i] / weight(i);
-            sum += part * part;
+        factors.solve_real(jacobian, tables, real);
+        correction[..n].copy_from_slice(real.as_slice());
+        for (place, eigenvalue) in tables.pairs.iter().enumerate() {
+            let (k, mu) = (1 + 2 * place, eigenvalue / h);
+            for i in 0..n {
+                pair[i] =
+                    Complex::new(forward(k, i), forward(k + 1, i)) - mu * Complex::new(w[k][i], w[k + 1][i]);
+            }
+            factors.solve_pair(jacobian, tables, place, pair);
+            for i in 0..n {
+                (correction[k * n + i], correction[(k + 1) * n + i]) = (pair[i].re, pair[i].im);
+            }
         }
-        for (pair, eigenvalue) in tables.pairs.iter().enumerate() {
-            let (k, mu) = (1 + 2 * pair, eigenvalue / h);
-            for i in 0..n {
-                let w = Complex::new(self.w[k][i], self.w[k + 1][i]);
-                self.pair[i] = Complex::new(forward(&self.f, k, i), forward(&self.f, k + 1, i)) - mu * w;
-            }
-            factors.solve_pair(jacobian, tables, pair, &mut self.pair);
-            for i in 0..n {
-                self.w[k][i] += self.pair[i].re;
-                self.w[k + 1][i] += self.pair[i].im;
-                sum += self.pair[i].norm_sqr() / (weight(i) * weight(i));
-            }
+    }
+
+    /// Applies the improved correction.
+    fn apply(&mut self) {
+        let (n, s) = (self.trial.len(), self.z.len());
+        let correction = self.updates.last();
+        for (w, correction) in self.w.iter_mut().zip(correction.chunks_exact(n)) {
+            w.iter_mut().zip(correction).for_each(|(w, correction)| *w += correction);
         }
         let t = &self.method.t;
         for (stage, z) in self.z.iter_mut().enumerate() {
@@ -206,13 +235,12 @@ impl Stages {
                 *z = (0..s).map(|k| t[(stage, k)] * self.w[k][i]).sum();
             }
         }
-        (sum / (s * n) as f64).sqrt()
     }
 
     /// First stages: from the polynomial of the last step, or none.
     fn predict(&mut self, last: &StepRecord, h: f64) {
         let s = self.z.len();
-        let known = last.h > 0.0 && h <= MAX_EXTRAPOLATION * last.h;
+        let known = reaches(last, h);
         for stage in 0..s {
             if !known {
                 self.z[stage].fill(0.0);
@@ -230,6 +258,18 @@ impl Stages {
                 *w = (0..s).map(|j| inverse[(k, j)] * self.z[j][i]).sum();
             }
         }
+    }
+
+    /// Adds to the end of the last step what its polynomial foresees for the part `part` of a step of size h, if that is not too far.
+    pub fn foresee(&mut self, last: &StepRecord, h: f64, part: f64, out: &mut [f64]) -> bool {
+        if !reaches(last, h) {
+            return false;
+        }
+        self.method.collocation(1.0 + part * h / last.h, &mut self.weights);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = last.y[i] + self.polynomial(i) - self.z_old[self.z_old.len() - 1][i];
+        }
+        true
     }
 
     /// The collocation polynomial of the last step, less its start, with the weights in place.

@@ -1,0 +1,218 @@
+//! Coordinates of joints along a tree that spans the mechanism: they place all bodies, and their joints hold by themselves.
+//! Joints outside the tree close loops, and remain to be solved — eq. (10.5).
+
+use super::edge::{self, Edge, screws_of};
+use super::spatial::{Placement, Twist};
+use nalgebra::{Matrix3, Vector3};
+use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::model::BodyRef;
+use triad_dynamics::state::BodyState;
+use triad_dynamics::system::System;
+use triad_dynamics::system::natural::NaturalCoordinates;
+
+/// Turn of a joint within a step above which whole turns of angles could be miscounted, rad.
+const LONGEST_TURN: f64 = 1.5;
+
+/// The tree, with the placements and velocities that it was given last.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    /// Each after the one of its parent.
+    edges: Vec<Edge>,
+    length: f64,
+    /// Angles that must not turn far within a step, with their values at its start: none where nothing counts turns.
+    watched: Vec<(usize, f64)>,
+    placements: Vec<Placement>,
+    velocities: Vec<Twist>,
+    /// Twist of each coordinate.
+    twists: Vec<Twist>,
+    /// How it changes while the coordinates move uniformly.
+    drags: Vec<Twist>,
+    /// Scratch: of bodies.
+    accelerations: Vec<Twist>,
+    natural: Vec<NaturalCoordinates>,
+}
+
+impl Tree {
+    /// The tree of a mechanism at the state in place, where all coordinates are zero.
+    pub fn new(mechanism: &Mechanism) -> Self {
+        let system = &mechanism.system;
+        let bodies = system.bodies.len();
+        let places: Vec<Placement> = mechanism.state.bodies().iter().map(placement).collect();
+        let edges = span(system, &places);
+        let coordinates = edges.last().map_or(0, |edge| edge.range().end);
+        let counts = !system.angles.is_empty();
+        let watched = edges.iter().filter(|_| counts).flat_map(Edge::angles).map(|place| (place, 0.0));
+        Self {
+            watched: watched.collect(),
+            length: system.length,
+            placements: places,
+            velocities: vec![Twist::zero(); bodies],
+            twists: vec![Twist::zero(); coordinates],
+            drags: vec![Twist::zero(); coordinates],
+            accelerations: vec![Twist::zero(); bodies],
+            natural: vec![NaturalCoordinates::default(); bodies],
+            edges,
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn coordinates(&self) -> usize {
+        self.twists.len()
+    }
+
+    /// 1 for coordinates that are angles, 1/length² for those that are lengths.
+    pub fn weights(&self) -> Vec<f64> {
+        let mut weights = vec![1.0 / (self.length * self.length); self.coordinates()];
+        for place in self.edges.iter().flat_map(Edge::angles) {
+            weights[place] = 1.0;
+        }
+        weights
+    }
+
+    /// Positions of all bodies at the coordinates s; nothing if a joint has turned too far since the last step.
+    pub fn place(&mut self, s: &[f64]) -> Option<&[NaturalCoordinates]> {
+        if self.watched.iter().any(|&(place, start)| (s[place] - start).abs() > LONGEST_TURN) {
+            return None;
+        }
+        for edge in &self.edges {
+            let twists = &mut self.twists[edge.range()];
+            let mut at = edge.relative(&s[edge.range()], twists);
+            if let Some(parent) = edge.parent {
+                let parent = self.placements[parent];
+                at = parent.after(&at);
+                twists.iter_mut().for_each(|twist| *twist = parent.carry(twist));
+            }
+            self.placements[edge.body] = at;
+            let e = [0, 1, 2].map(|k| at.turn.column(k).into_owned());
+            self.natural[edge.body] = NaturalCoordinates { r: at.at, e };
+        }
+        Some(&self.natural)
+    }
+
+    /// Velocities of all bodies at the rates of the coordinates, at the positions in place.
+    pub fn move_at(&mut self, rates: &[f64]) -> &[NaturalCoordinates] {
+        for edge in &self.edges {
+            let mut velocity = edge.parent.map_or_else(Twist::zero, |parent| self.velocities[parent]);
+            for place in edge.range() {
+                self.drags[place] = velocity.drag(&self.twists[place]);
+                velocity = velocity + self.twists[place] * rates[place];
+            }
+            self.velocities[edge.body] = velocity;
+            let at = &self.placements[edge.body];
+            let e = [0, 1, 2].map(|k| velocity.spin.cross(&at.turn.column(k).into_owned()));
+            self.natural[edge.body] = NaturalCoordinates { r: velocity.at(&at.at), e };
+        }
+        &self.natural
+    }
+
+    /// Rates of the coordinates for velocities of the bodies, given as (ṙ, ω), at the positions in place.
+    pub fn rates(&mut self, of: impl Fn(usize) -> [Vector3<f64>; 2], rates: &mut [f64]) {
+        for (body, twist) in self.accelerations.iter_mut().enumerate() {
+            let [velocity, spin] = of(body);
+            *twist = Twist::through(&self.placements[body].at, &velocity, &spin);
+        }
+        for edge in &self.edges {
+            let own = self.accelerations[edge.body];
+            let beyond = edge.parent.map_or(own, |parent| own - self.accelerations[parent]);
+            let at = &self.placements[edge.body].at;
+            edge::solve(&self.twists[edge.range()], &beyond, at, self.length, &mut rates[edge.range()]);
+        }
+    }
+
+    /// Second derivatives of the coordinates for accelerations (r̈, ω̇) of the bodies, at the positions and velocities in place.
+    pub fn second_derivatives(
+        &mut self,
+        of: impl Fn(usize) -> [Vector3<f64>; 2],
+        rates: &[f64],
+        out: &mut [f64],
+    ) {
+        for (body, twist) in self.accelerations.iter_mut().enumerate() {
+            let [acceleration, turning] = of(body);
+            let (at, moving) = (&self.placements[body].at, &self.velocities[body]);
+            *twist = Twist::through(at, &acceleration, &turning);
+            twist.flow -= moving.spin.cross(&moving.at(at));
+        }
+        let Self { edges, twists, drags, placements, accelerations, length, .. } = self;
+        // Children before their parents, whose own share must still be in place.
+        for edge in edges.iter().rev() {
+            let drag = edge.range().fold(Twist::zero(), |sum, place| sum + drags[place] * rates[place]);
+            let own = accelerations[edge.body] - drag;
+            let beyond = edge.parent.map_or(own, |parent| own - accelerations[parent]);
+            let at = &placements[edge.body].at;
+            edge::solve(&twists[edge.range()], &beyond, at, *length, &mut out[edge.range()]);
+        }
+    }
+
+    /// Counts turns from the coordinates s on.
+    pub fn commit(&mut self, s: &[f64]) {
+        for (place, start) in &mut self.watched {
+            *start = s[*place];
+        }
+    }
+
+    /// Whether a body has turned so far that its three angles should start anew.
+    pub fn is_tilted(&self, s: &[f64]) -> bool {
+        self.edges.iter().any(|edge| edge.is_tilted(&s[edge.range()]))
+    }
+
+    /// Starts the angles of bodies anew that have turned far, at the coordinates s with their rates.
+    pub fn restart(&mut self, s: &mut [f64], rates: &mut [f64]) {
+        let before = self.clone();
+        for edge in &mut self.edges {
+            if edge.is_tilted(&s[edge.range()]) {
+                *edge = edge.restarted(&s[edge.range()]);
+            }
+        }
+        self.translate(&before, s, rates);
+    }
+
+    /// Takes coordinates and rates of this tree before it was restarted, `other`, over into those that it has now.
+    pub fn translate(&self, other: &Self, s: &mut [f64], rates: &mut [f64]) {
+        for (edge, other) in self.edges.iter().zip(&other.edges).filter(|(edge, other)| !edge.is_same(other))
+        {
+            edge.translate(other, &mut s[edge.range()], &mut rates[edge.range()], self.length);
+        }
+    }
+}
+
+fn placement(body: &BodyState) -> Placement {
+    Placement { turn: Matrix3::from_columns(&body.q.e), at: body.q.r }
+}
+
+/// Edges that reach all bodies from the ground, each by the joint that leaves the fewest motions; a body that no such joint holds
+/// moves freely.
+fn span(system: &System, places: &[Placement]) -> Vec<Edge> {
+    let mut reached = vec![false; places.len()];
+    let mut edges: Vec<Edge> = Vec::with_capacity(places.len());
+    let known = |reached: &[bool], body: BodyRef| match body {
+        BodyRef::Ground => true,
+        BodyRef::Moving(body) => reached[body],
+    };
+    while edges.len() < places.len() {
+        let first = edges.last().map_or(0, |edge| edge.range().end);
+        let reaching = system.model.joints.iter().filter_map(|joint| {
+            let [i, j] = joint.bodies.map(|body| known(&reached, body));
+            let side = if i { 0 } else { 1 };
+            screws_of(joint).filter(|_| i != j).map(|screws| (screws, joint, side))
+        });
+        let nearest = reaching.min_by_key(|(screws, ..)| *screws);
+        let edge =
+            match nearest.map(|(_, joint, side)| (joint, side, joint.bodies[side], joint.bodies[1 - side])) {
+                Some((joint, side, parent, BodyRef::Moving(body))) => {
+                    let parent = match parent {
+                        BodyRef::Ground => None,
+                        BodyRef::Moving(parent) => Some(parent),
+                    };
+                    let from = parent.map_or_else(Placement::identity, |parent| places[parent]);
+                    Edge::by_joint(joint, side, [body, first], parent, places[body].seen_from(&from))
+                }
+                _ => {
+                    let body = reached.iter().position(|reached| !reached).unwrap_or(0);
+                    Edge::free([body, first], places[body])
+                }
+            };
+        reached[edge.body] = true;
+        edges.push(edge);
+    }
+    edges
+}
