@@ -2,22 +2,26 @@
 
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::state;
 
-/// Decay rate of a load times the length of the run above which an implicit method pays: measured, the series take half of its
-/// time on three rods with 6.5e4 of them, and one and a half times its time on the flyball governor with 8.1e4; their steps grow
-/// with this number.
-const MANY_DECAYS: f64 = 7e4;
-/// The tolerance at which [`MANY_DECAYS`] and [`MANY_OSCILLATIONS`] hold. At a tighter one the implicit method needs more
-/// steps, the series do not.
+/// Decays of a load in a run above which an implicit method pays: the steps of the series grow with their number, those of the
+/// implicit method with how far the mechanism moves. Measured in processor time, both cost the same at `MANY_DECAYS` and
+/// `DECAYS_A_RADIAN` more for each radian of the motion: at 5e3 on three rods in 4 s, at 1.2e4 on the flyball governor in 10 s.
+const MANY_DECAYS: f64 = 1.5e3;
+const DECAYS_A_RADIAN: f64 = 200.0;
+/// Radians of an oscillation that may be left out that are as costly for the series as a decay.
+const RADIANS_A_DECAY: f64 = 0.4;
+/// The tolerance at which these hold, and the power with which the implicit method then needs more steps at a tighter one; the
+/// series do not.
 const AT_TOLERANCE: f64 = 1e-6;
-/// Powers with which the bounds then grow: the governor takes the implicit method twice as long at 1e-10; oscillations that it
-/// leaves out at a loose tolerance are resolved at a tight one.
-const GROWTH: [f64; 2] = [1.0 / 12.0, 0.25];
-/// Angular frequency of a load times the length of the run above which an implicit method pays, provided that the
-/// oscillations are not excited: only then may it leave them out.
-const MANY_OSCILLATIONS: f64 = 3e5;
-/// Amplitude above which an oscillation counts as excited, in tolerances times the length of the mechanism.
-const EXCITED: f64 = 1e3;
+const GROWTH: f64 = 1.0 / 12.0;
+/// Freedoms that make an evaluation of the implicit method twice as dear, for its Jacobian matrix, and how much dearer it is
+/// where loops must be closed.
+const MANY_FREEDOMS: f64 = 16.0;
+const CLOSED: f64 = 3.0;
+/// Rate of an oscillation's coordinate above which it counts as excited, in tolerances times the length of the mechanism for each
+/// second: only what is smaller may be left out.
+const EXCITED: f64 = 3.0;
 /// Degrees of freedom above which the dense linear algebra of the implicit method costs more than small steps.
 const MAX_FREEDOMS: usize = 300;
 
@@ -30,8 +34,7 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         return None;
     }
     let length = mechanism.system.length;
-    let [cost_of_decays, cost_of_oscillations] =
-        GROWTH.map(|power| libm::pow(AT_TOLERANCE / tolerance, power).max(1.0));
+    let many = many_decays(mechanism, freedoms, y);
     let mut rate = vec![0.0; y.len()];
     mechanism.rhs(t, y, &mut rate);
     let n = mechanism.system.coordinates;
@@ -54,16 +57,27 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         let mobility = elimination.mobility(system, state, load).unwrap_or(0.0).max(0.0);
         let dry: f64 = dry.iter().filter(|(of, _)| *of == load).map(|(_, damping)| damping).sum();
         let decay = (system.loads[load].steepest_damping() + dry) * mobility;
-        if decay * duration > MANY_DECAYS * cost_of_decays {
+        if decay * duration > many {
             return Some(format!("load \"{name}\" makes motions decay within {:.0e} s", 1.0 / decay));
         }
         let omega = (stiffness * mobility).sqrt();
-        let amplitude = (acceleration / (omega * omega)).max(speed / omega);
-        if omega * duration > MANY_OSCILLATIONS * cost_of_oscillations
-            && amplitude <= EXCITED * tolerance * length
-        {
+        let excited = (acceleration / omega).max(speed);
+        if omega * duration > RADIANS_A_DECAY * many && excited <= EXCITED * tolerance * length {
             return Some(format!("spring \"{name}\" could oscillate at {omega:.0e} rad/s, but does not"));
         }
     }
     None
+}
+
+/// Decays in the run above which an implicit method pays.
+fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> f64 {
+    let system = &mechanism.system;
+    let (settings, gravity) = (&system.model.settings, system.model.gravity.norm());
+    // How far the mechanism moves, by its velocities or as a pendulum of its length would.
+    let pace = state::fastest(system, y).max((gravity / system.length).sqrt());
+    let dearer = if system.constraints.len() > system.bodies.len() { CLOSED } else { 1.0 };
+    (MANY_DECAYS + DECAYS_A_RADIAN * pace * settings.duration)
+        * libm::pow(AT_TOLERANCE / settings.tolerance, GROWTH)
+        * (1.0 + freedoms as f64 / MANY_FREEDOMS)
+        * dearer
 }
