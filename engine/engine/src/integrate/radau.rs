@@ -144,20 +144,13 @@ impl Radau {
         self.before = Some((h, error.max(MIN_LAST_ERROR)));
         let whole = h >= self.h;
         self.x_old.copy_from_slice(&self.last.y);
-        if let Some(end) = self.stages.z.last() {
-            for (x, z) in self.last.y.iter_mut().zip(end) {
-                *x += z;
-            }
-        }
+        self.last.y.copy_from_slice(&self.trial);
+        self.rate.copy_from_slice(&self.trial_rate);
         self.stages.accept();
         self.turnover = self.new_turnover;
         self.last.advance(h, end);
-        let StepRecord { t, y: x, .. } = &mut self.last;
-        // The last stage is the end of the step.
-        system.begin_stage(self.stages.z.len() - 1, false);
-        system.rhs(*t, x, &mut self.rate);
         self.power = system.power();
-        system.after_step(*t, x, &mut self.rate);
+        system.after_step(self.last.t, &mut self.last.y, &mut self.rate);
         self.jacobian.fresh = false;
         if self.fixed {
             return;
@@ -168,42 +161,76 @@ impl Radau {
         self.largest *= AFTER_UNSOLVED;
     }
 
-    /// Columns of ∂η̈/∂(η, η̇) by differences, in the middle of the step that is to come where the last one foresees it, else at
-    /// its start.
-    fn differentiate(&mut self, system: &mut impl OdeSystem) -> Result<(), StopReason> {
-        let n = self.last.y.len();
-        let f = n / 2;
-        let (mut t, mut at_rest) = (self.last.t, self.rate.clone());
-        let mut middle = self.last.y.clone();
-        if self.stages.foresee(&self.last, self.h, MIDDLE, &mut middle) {
-            t += MIDDLE * self.h;
+    /// Evaluates the end of a step of size h in a run to `end`. False if there is no state there: stages that were found do not
+    /// show that it is.
+    fn reach_end(&mut self, system: &mut impl OdeSystem, h: f64, end: f64) -> bool {
+        let StepRecord { t, y, .. } = &self.last;
+        let Some(z) = self.stages.z.last() else { return false };
+        for (trial, (x, z)) in self.trial.iter_mut().zip(y.iter().zip(z)) {
+            *trial = x + z;
         }
-        self.trial.copy_from_slice(&middle);
-        system.rhs(t, &middle, &mut at_rest);
+        let time = if h == end - t { end } else { t + h };
+        system.begin_stage(self.stages.z.len() - 1, false);
+        system.rhs(time, &self.trial, &mut self.trial_rate);
+        self.trial_rate.iter().all(|x| x.is_finite())
+    }
+
+    /// Columns of ∂η̈/∂(η, η̇) by differences, in the middle of the step that is to come where the last one foresees it, and
+    /// where there are states, else at its start.
+    fn differentiate(&mut self, system: &mut impl OdeSystem) -> Result<(), StopReason> {
+        let mut at = self.last.y.clone();
+        let foreseen = self.stages.foresee(&self.last, self.h, MIDDLE, &mut at)
+            && self.differentiate_at(system, self.last.t + MIDDLE * self.h, &at);
+        if !foreseen {
+            at.copy_from_slice(&self.last.y);
+            if !self.differentiate_at(system, self.last.t, &at) {
+                return Err(self.last.not_finite());
+            }
+        }
+        (self.jacobian.fresh, self.jacobian.valid) = (true, true);
+        self.factors = None;
+        Ok(())
+    }
+
+    /// The same at (t, x). False if a column is not finite.
+    fn differentiate_at(&mut self, system: &mut impl OdeSystem, t: f64, x: &[f64]) -> bool {
+        let (n, f) = (x.len(), x.len() / 2);
+        let mut at_rest = vec![0.0; n];
+        self.trial.copy_from_slice(x);
+        system.rhs(t, x, &mut at_rest);
         // Rates first: they leave the positions as they are.
-        for place in (f..n).chain(0..f) {
+        (f..n).chain(0..f).all(|place| {
             // In the size in which errors are measured: x itself may be rounding of zero.
-            let step = f64::EPSILON.sqrt() / scale(place, n, middle[place], 1.0);
-            self.trial[place] = middle[place] + step;
-            let step = self.trial[place] - middle[place];
+            let step = f64::EPSILON.sqrt() / scale(place, n, x[place], 1.0);
+            self.trial[place] = x[place] + step;
+            let step = self.trial[place] - x[place];
             if place < f {
                 system.rhs(t, &self.trial, &mut self.trial_rate);
             } else {
                 system.rhs_at_rates(t, &self.trial, &mut self.trial_rate);
             }
-            self.trial[place] = middle[place];
+            self.trial[place] = x[place];
             let RateJacobian { stiffness, damping, .. } = &mut self.jacobian;
             let mut column =
                 if place < f { stiffness.column_mut(place) } else { damping.column_mut(place - f) };
             for i in 0..f {
                 column[i] = (self.trial_rate[f + i] - at_rest[f + i]) / step;
             }
-            if !column.iter().all(|x| x.is_finite()) {
-                return Err(self.last.not_finite());
-            }
+            column.iter().all(|x| x.is_finite())
+        })
+    }
+
+    /// Prepares another attempt after a step of size h whose equations were not solved.
+    fn retry_shorter(&mut self, system: &mut impl OdeSystem, h: f64) -> Result<(), StopReason> {
+        if self.fixed && self.jacobian.fresh {
+            return Err(StopReason::NoConvergence { time: self.last.t, step: h });
         }
-        (self.jacobian.fresh, self.jacobian.valid) = (true, true);
-        self.factors = None;
+        self.last.steps.rejected += 1;
+        if !self.jacobian.fresh {
+            self.differentiate(system)?;
+        }
+        self.largest = UNSOLVED * h;
+        self.h = if self.fixed { self.h } else { self.largest };
         Ok(())
     }
 
@@ -299,16 +326,8 @@ impl OdeMethod for Radau {
                 self.stages.solve(system, &self.last, (&self.jacobian, factors), self.estimated)
             });
             let Some(solved) = solved else {
-                if self.fixed && self.jacobian.fresh {
-                    return Err(StopReason::NoConvergence { time: self.last.t, step: h });
-                }
-                self.last.steps.rejected += 1;
+                self.retry_shorter(system, h)?;
                 rejected = true;
-                if !self.jacobian.fresh {
-                    self.differentiate(system)?;
-                }
-                self.largest = UNSOLVED * h;
-                self.h = if self.fixed { self.h } else { self.largest };
                 continue;
             };
             self.contraction = solved.contraction;
@@ -318,6 +337,11 @@ impl OdeMethod for Radau {
             let by = (factor * libm::pow(error.max(MIN_ERROR), self.exponent)).clamp(CHANGE.0, CHANGE.1);
             let by = by.min((CONTRACTION / solved.contraction).max(MIN_FOR_CONTRACTION));
             if error < 1.0 || self.fixed {
+                if !self.reach_end(system, h, end) {
+                    self.retry_shorter(system, h)?;
+                    rejected = true;
+                    continue;
+                }
                 let by = if rejected { by.min(1.0) } else { by };
                 self.accept(system, h, end, error, by);
                 return Ok(());
