@@ -15,7 +15,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 /// The answers that pass the lesson on the pendulum: values of the closed form, written as a student would.
 fn right_answers(student: &str) -> Value {
-    json!({"student": student, "answers": {
+    json!({"student": student, "seed": "", "answers": {
         "independent-rows": {"value": "11"},
         "tension-bottom": {"value": "29.43", "unit": "N"},
         "period": {"value": "2.368", "unit": "s"},

@@ -176,7 +176,12 @@ fn broken(path: &str, from: &str, to: &str) -> Result<Vec<String>, String> {
 #[test]
 fn findings_of_the_check_name_place_and_remedy() {
     for (path, from, to, says) in [
-        ("exercise.toml", "value = 9.81\n", "value = 29.5\n", "the misconception static is a right answer"),
+        (
+            "exercise.toml",
+            "value = \"m*9.81\"\n",
+            "value = 29.5\n",
+            "the misconception static is a right answer",
+        ),
         ("reference/answers.toml", "error = 1e-12", "error = 0.1", "at least ten times the error"),
         ("scene.json", "-9.81", "-9.80", "the scene shows"),
         (
@@ -186,7 +191,7 @@ fn findings_of_the_check_name_place_and_remedy() {
             "by the run's own estimate",
         ),
         ("scene.json", "[0, 0, 1], \"rows\"", "[0, 0, 0], \"rows\"", "pin"),
-        ("exercise.toml", "value = 19.62", "value = 9.82", "cannot be distinguished"),
+        ("exercise.toml", "value = \"2*m*9.81\"", "value = \"m*9.82\"", "cannot be distinguished"),
         ("reference/answers.toml", "source = \"M qdd", "source = \"\" # M qdd", "no source"),
         ("reference/answers.toml", "value = \"b\"", "value = \"a\"", "judged Right"),
         ("wrong/other-side.toml", "14.21", "15.21", "recognised other-direction"),

@@ -78,8 +78,7 @@ async fn submit(
     let student = student(body.get("student").and_then(Value::as_str))?;
     let earlier = earlier(&app, &student, &lesson).await?;
     let grading = app.clone();
-    let (submission, new) =
-        blocking(move || graded(&grading, &lesson, student, &body, key, earlier)).await?;
+    let (submission, new) = blocking(move || graded(&grading, &lesson, student, &body, key, earlier)).await?;
     let kept = app.store.hand_in(&new).await?;
     let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
     let document = blocking(move || {
