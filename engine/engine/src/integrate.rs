@@ -1,8 +1,10 @@
 //! Integrators of the equations of motion. Each fills a [`StepRecord`]; [`Stepper`] is what a run needs of it.
 
-mod hermite;
+pub(crate) mod hermite;
 mod power;
 mod step;
+
+mod track;
 
 mod stepper;
 
@@ -32,3 +34,4 @@ pub use rattle::Rattle;
 pub use step::{StepRecord, Steps, StopReason};
 pub use stepper::{IslandStep, OdeMethod, SkippedWork, Stepper};
 pub use taylor::Taylor;
+pub use track::Track;

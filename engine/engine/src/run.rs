@@ -30,7 +30,7 @@ pub use state_view::StateView;
 pub use summary::Summary;
 
 use crate::error::{EngineError, LastGood};
-use crate::integrate::Integrator;
+use crate::integrate::{Integrator, StopReason};
 use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
 use companion::Companion;
@@ -243,7 +243,7 @@ impl Simulation {
         if let Some(companion) = &mut self.companion {
             companion.keep_up(self.integrator.last());
         }
-        if let Err(stop) = self.integrator.step(&mut self.mechanism, end) {
+        if let Err(stop) = self.step_integrator(end) {
             let failure = self.load_failure();
             let last =
                 self.stop_at_last_good(self.integrator.last().t, self.integrator.last().steps.accepted);
@@ -256,12 +256,23 @@ impl Simulation {
         if !(skip.checks && self.integrator.proves_constraints()) {
             self.check_step()?;
         }
-        self.singularities.step(&mut self.mechanism, &mut self.integrator);
         self.find_events();
         if !skip.reports {
             self.report_step();
         }
         Ok(())
+    }
+
+    /// Takes a step of the integrator, not beyond `end`, shorter ones where branches of the motion come near each other.
+    fn step_integrator(&mut self, end: f64) -> Result<(), StopReason> {
+        let Self { integrator, mechanism, singularities, .. } = self;
+        let mut end = end;
+        loop {
+            integrator.step(mechanism, end)?;
+            let Some(shorter) = singularities.step(mechanism, integrator) else { return Ok(()) };
+            integrator.take_back(mechanism);
+            end = shorter;
+        }
     }
 
     /// Measures the constraints at the end of the last step where the integrator has not proved that they hold.

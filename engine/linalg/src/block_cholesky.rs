@@ -270,6 +270,27 @@ impl BlockCholesky {
         self.pivot_products.as_deref().unwrap_or_default()
     }
 
+    /// Which blocks take part where a row of `block` nearly depends on others: raises the share of each block to the largest
+    /// |xᵢ| √Sᵢᵢ of its rows, relative to the largest of all, x = S⁻¹ e and e the row of the block with the smallest pivot. The
+    /// factorization must be one without regularization.
+    pub fn raise_shares(&self, block: usize, x: &mut [f64], shares: &mut [f64]) {
+        let Pivot { size, start, .. } = self.pivots[self.rank[block]];
+        let weakest = (start..start + size).min_by(|a, b| self.relative[*a].total_cmp(&self.relative[*b]));
+        let Some(weakest) = weakest else { return };
+        x.fill(0.0);
+        x[weakest] = 1.0;
+        self.solve(x);
+        let part = |row: usize| {
+            let diagonal = self.diagonal[row];
+            if diagonal.is_finite() { x[row].abs() * diagonal.sqrt() } else { 0.0 }
+        };
+        let most = (0..x.len()).map(part).fold(f64::MIN_POSITIVE, f64::max);
+        for (share, &place) in shares.iter_mut().zip(&self.rank) {
+            let Pivot { size, start, .. } = self.pivots[place];
+            *share = (start..start + size).map(|row| part(row) / most).fold(*share, f64::max);
+        }
+    }
+
     fn find_pivot_products(&mut self) {
         let Self { pivot_products: Some(products), pivots, rank, relative, rows_left_out, .. } = self else {
             return;
@@ -278,7 +299,8 @@ impl BlockCholesky {
             let Pivot { size, start, .. } = pivots[place];
             let counts =
                 |row: &usize| relative[*row].is_finite() && rows_left_out.binary_search(row).is_err();
-            *product = (start..start + size).filter(counts).map(|row| relative[row]).product();
+            *product =
+                (start..start + size).filter(counts).map(|row| relative[row]).fold(1.0, f64::min).max(0.0);
         }
     }
 }

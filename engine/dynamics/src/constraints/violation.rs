@@ -8,6 +8,7 @@ use crate::scene::{ConstraintMethod, Settings};
 use crate::state::State;
 use crate::system::feature::Difference;
 use crate::system::index::ConstraintId;
+use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::{Row, System};
 
@@ -123,13 +124,16 @@ pub fn worst(numbers: &[f64]) -> Vec<(ConstraintId, f64)> {
 
 /// Largest violation of a rigid-body row.
 fn rigid_violation(at: &State) -> f64 {
+    at.bodies().iter().fold(0.0, |largest, body| larger(largest, stretched(&body.q)))
+}
+
+/// Largest violation of the rigid-body rows of one body.
+pub fn stretched(q: &NaturalCoordinates) -> f64 {
     let mut largest = 0.0;
-    for state in at.bodies() {
-        for k in 0..3 {
-            for l in 0..=k {
-                let unit = if k == l { 1.0 } else { 0.0 };
-                largest = larger(largest, (state.q.e[k].dot(&state.q.e[l]) - unit).abs());
-            }
+    for k in 0..3 {
+        for l in 0..=k {
+            let unit = if k == l { 1.0 } else { 0.0 };
+            largest = larger(largest, (q.e[k].dot(&q.e[l]) - unit).abs());
         }
     }
     largest
@@ -146,6 +150,16 @@ fn row_size(system: &System, form: &Form) -> f64 {
         Form::Relation { slide: Some((_, _, factor)), .. } => (system.length * factor.abs()).max(1.0),
         Form::CommonVector { .. } | Form::Relation { .. } => 1.0,
     }
+}
+
+/// What Φ of each solver row is measured in.
+pub fn row_sizes(system: &System) -> Vec<f64> {
+    let mut sizes = vec![1.0; system.solver_rows];
+    for row in &system.rows {
+        // Rows of one form stand in a row; those after them overwrite the rest.
+        sizes[row.solver..].fill(row_size(system, &row.form));
+    }
+    sizes
 }
 
 /// What was observed of a run that may make its result doubtful.

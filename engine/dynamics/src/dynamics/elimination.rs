@@ -37,6 +37,8 @@ pub const REGULARIZATION: f64 = 1e-9;
 /// Relative pivot of S below which it is regularized although its rows were found independent: the position is nearly
 /// singular.
 pub(super) const NEAR_SINGULAR: f64 = 1e-9;
+/// The same where a step is to be decided by rows that hardly hold: rounding is just below.
+pub(super) const LOST: f64 = 1e-15;
 /// Steps of iterative refinement where S or an inertia is regularized.
 const REFINEMENTS: usize = 3;
 
@@ -89,6 +91,8 @@ pub struct Elimination {
     redundant: bool,
     /// Whether the current factor is that of a regularized S.
     regularized: bool,
+    /// Whether rows that hardly hold are kept, and dependent ones left out instead of regularized.
+    resolving: bool,
     regularizes_inertia: bool,
     /// Dry friction, if there is any.
     frictions: Option<Box<Frictions>>,
@@ -114,6 +118,7 @@ impl Elimination {
             residual: vec![0.0; rows],
             redundant: false,
             regularized: false,
+            resolving: false,
             regularizes_inertia: system.regularizes_inertia(),
             frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
             counters: Counters::default(),
@@ -123,6 +128,12 @@ impl Elimination {
     /// Says that S is singular at every state, so that the regularization is not tried for first.
     pub fn set_redundant(&mut self, redundant: bool) {
         self.redundant = redundant;
+    }
+
+    /// Whether from now on rows that hardly hold are kept: near a position where branches of motion almost meet, they alone
+    /// decide which one is followed, and regularization would hide them.
+    pub fn set_resolving(&mut self, resolving: bool) {
+        self.resolving = resolving;
     }
 
     /// Says which solver rows depend on others at every state, so that S is singular there.
@@ -241,7 +252,7 @@ impl Elimination {
         self.counters.solves += 1;
         self.lambda.copy_from_slice(&self.residual);
         self.apply_multipliers(system);
-        if self.regularized || self.regularizes_inertia {
+        if self.regularized || self.regularizes_inertia || self.resolving {
             for _ in 0..REFINEMENTS {
                 self.remove_regularization(system);
                 self.row_residual(system);

@@ -37,7 +37,7 @@ mod island;
 pub use island::IslandSeries;
 pub use step::{SeriesStep, StepPlan};
 
-use crate::dynamics::elimination::{Counters, NEAR_SINGULAR, REGULARIZATION};
+use crate::dynamics::elimination::{Counters, LOST, NEAR_SINGULAR, REGULARIZATION};
 use crate::model::BodyRef;
 use crate::system::System;
 use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar};
@@ -92,6 +92,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     redundant: bool,
     /// Whether the current factor is that of a regularized S.
     regularized: bool,
+    /// Whether rows that hardly hold are kept.
+    resolving: bool,
     /// Whether bodies have inertia regularization, which proximal steps take out again.
     regularizes_inertia: bool,
     /// Work done so far.
@@ -100,6 +102,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     probe: Option<Box<Self>>,
     /// The error that is carried along.
     transport: Option<Box<transport::Transport<L, B>>>,
+    /// What Φ of each solver row is measured in, where it is measured.
+    row_sizes: Vec<f64>,
 }
 
 impl<const L: usize> Series<L> {
@@ -162,10 +166,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             rows_left_out: false,
             redundant: false,
             regularized: false,
+            resolving: false,
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),
             probe: None,
             transport: None,
+            row_sizes: Vec::new(),
         }
     }
 
@@ -189,7 +195,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
             let smallest = self.schur.factor.factor(epsilon, 0.0);
             self.counters.factorizations += 1;
-            if self.regularized || smallest >= NEAR_SINGULAR {
+            if self.regularized || smallest >= if self.resolving { LOST } else { NEAR_SINGULAR } {
                 return;
             }
             self.regularized = true;

@@ -293,6 +293,11 @@ impl OdeMethod for Explicit {
         }
     }
 
+    fn take_back(&mut self) {
+        self.last.take_back();
+        self.last.y.copy_from_slice(&self.y_old);
+    }
+
     fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64], _: &[Vec<f64>]) {
         self.last.y.copy_from_slice(y);
         system.rhs(self.last.t, y, &mut self.rate);
@@ -318,7 +323,18 @@ impl Stepper for Explicit {
         // The last evaluation was at the end of the step.
         let pivot_products = Some(mechanism.elimination.pivot_products());
         let pace = state::fastest(&mechanism.system, y);
-        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products, pace })
+        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products, constraints: None, pace })
+    }
+
+    fn can_retreat(&self) -> bool {
+        !matches!(self.control, Control::Fixed) && self.last.h > 0.0
+    }
+
+    fn retreat(&mut self, mechanism: &mut Mechanism) {
+        self.take_back();
+        self.rate.copy_from_slice(&self.k[0]);
+        mechanism.set_state(self.last.t, &self.last.y);
+        mechanism.state.commit_revolutions();
     }
 
     fn boxed(&self) -> Box<dyn Stepper> {

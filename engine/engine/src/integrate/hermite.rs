@@ -1,7 +1,7 @@
 //! Hermite interpolation between the ends of a step, from values and derivatives.
 
 /// Value and rate at the part s of a step of size h, of the cubic with the given [value, rate] at both ends.
-pub(super) fn cubic(start: [f64; 2], end: [f64; 2], h: f64, s: f64) -> (f64, f64) {
+pub fn cubic(start: [f64; 2], end: [f64; 2], h: f64, s: f64) -> (f64, f64) {
     let ([y0, from], [y1, to]) = (start, end);
     let mean = (y1 - y0) / h;
     let (c2, c3) = (3.0 * mean - 2.0 * from - to, from + to - 2.0 * mean);
@@ -10,7 +10,7 @@ pub(super) fn cubic(start: [f64; 2], end: [f64; 2], h: f64, s: f64) -> (f64, f64
 
 /// Value and rate at the part s of a step of size h, of the polynomial of degree 5 with the given [value, rate, second
 /// derivative] at both ends.
-pub(super) fn quintic(start: [f64; 3], end: [f64; 3], h: f64, s: f64) -> (f64, f64) {
+pub fn quintic(start: [f64; 3], end: [f64; 3], h: f64, s: f64) -> (f64, f64) {
     let change = end[0] - start[0] - h * start[1] - 0.5 * h * h * start[2];
     let slope = h * (end[1] - start[1]) - h * h * start[2];
     let bend = h * h * (end[2] - start[2]);

@@ -273,6 +273,27 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         self.method.work_to(t)
     }
 
+    fn can_retreat(&self) -> bool {
+        self.last.h > 0.0
+    }
+
+    fn retreat(&mut self, mechanism: &mut Mechanism) {
+        self.method.take_back();
+        self.last.take_back();
+        let Self { method, chart, guess, guess_old, at_stages, last, y_old, x } = self;
+        last.y.copy_from_slice(y_old);
+        guess.copy_from(guess_old);
+        mechanism.set_state(last.t, y_old);
+        mechanism.state.commit_revolutions();
+        // Where no chart can be taken, the next step says so.
+        chart.take(mechanism, last.t, y_old, guess);
+        chart.commit(guess);
+        chart.coordinates(guess, x);
+        let mut system =
+            InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
+        method.restart(&mut system, x, &[]);
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

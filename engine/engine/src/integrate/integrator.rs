@@ -68,6 +68,12 @@ impl Integrator {
         (sum, mechanism.projections + projections)
     }
 
+    /// Takes the last step back, so that a shorter one can be taken instead.
+    pub fn take_back(&mut self, mechanism: &mut Mechanism) {
+        self.stepper.retreat(mechanism);
+        self.progress.restart(self.last().t);
+    }
+
     /// Takes one accepted step, not beyond `end`.
     ///
     /// # Errors

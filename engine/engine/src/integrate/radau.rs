@@ -368,6 +368,11 @@ impl OdeMethod for Radau {
         Some(self.stages.work(x, self.last.h))
     }
 
+    fn take_back(&mut self) {
+        self.last.take_back();
+        self.last.y.copy_from_slice(&self.x_old);
+    }
+
     fn restart(&mut self, system: &mut impl OdeSystem, x: &[f64], step: &[Vec<f64>]) {
         self.last.y.copy_from_slice(x);
         system.rhs(self.last.t, x, &mut self.rate);

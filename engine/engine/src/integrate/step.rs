@@ -117,6 +117,14 @@ impl StepRecord {
         self.steps.accepted += 1;
     }
 
+    /// Takes the last step back, which then counts as rejected. The state is the caller's to write.
+    pub(super) fn take_back(&mut self) {
+        self.t = self.t_old;
+        self.h = 0.0;
+        self.steps.accepted = self.steps.accepted.saturating_sub(1);
+        self.steps.rejected += 1;
+    }
+
     /// The reason why a state that is not finite ends the run.
     pub(super) fn not_finite(&self) -> StopReason {
         StopReason::NotFinite { time: self.t }

@@ -1,6 +1,7 @@
 //! What integrators offer: as methods for ordinary differential equations, and as integrators of a mechanism.
 
 use super::step::{StepRecord, StopReason};
+use super::track::Track;
 use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
@@ -24,6 +25,9 @@ pub trait OdeMethod: Clone + Debug + Send + Sync + 'static {
         None
     }
 
+    /// Takes the last step back. What else belongs to it is for [`OdeMethod::restart`] to renew.
+    fn take_back(&mut self);
+
     /// Goes on from the same state y, written in other coordinates, with the step size that was reached. `step` has the start and
     /// the stages of the last step in these coordinates, or nothing.
     fn restart(&mut self, system: &mut impl OdeSystem, y: &[f64], step: &[Vec<f64>]);
@@ -40,6 +44,8 @@ pub struct IslandStep<'a> {
     pub end: f64,
     /// Pivot products of the joints at its end, if a factorization there has given them.
     pub pivot_products: Option<&'a [f64]>,
+    /// Places of the island's joints and drivers among those of the mechanism, where it is not the whole.
+    pub constraints: Option<&'a [usize]>,
     /// How fast the rows turn at its end, 1/s: see [`state::pace`].
     pub pace: f64,
 }
@@ -82,17 +88,17 @@ pub trait Stepper: Debug + Send + Sync {
     fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
         let StepRecord { t, y, h, .. } = self.last();
         let pace = state::fastest(&mechanism.system, y);
-        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products: None, pace })
+        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products: None, constraints: None, pace })
     }
 
-    /// Pivot products of the joints at time t within that step, if the method has a way of its own to find them.
-    fn pivot_products_inside(&mut self, _: f64) -> Option<&[f64]> {
+    /// The path of that step, if the method has a way of its own to evaluate states on it.
+    fn track(&mut self) -> Option<&mut dyn Track> {
         None
     }
 
-    /// Writes y(t) within the step of [`Stepper::island_step`].
-    fn interpolate_island(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        self.interpolate(mechanism, t, y);
+    /// Whether the last step can be taken back.
+    fn can_retreat(&self) -> bool {
+        false
     }
 
     /// Writes the error of y(t) within the last step, if the method carries it along and knows it.
@@ -104,6 +110,12 @@ pub trait Stepper: Debug + Send + Sync {
     fn error_lost(&self) -> Option<f64> {
         None
     }
+
+    /// Takes the last step back, so that a shorter one can be taken instead; it then counts as rejected.
+    fn retreat(&mut self, _: &mut Mechanism) {}
+
+    /// Whether rows that hardly hold are kept, for methods that do not leave that to the mechanism's solver.
+    fn set_resolving(&mut self, _: bool) {}
 
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J, where the
     /// method knows it.

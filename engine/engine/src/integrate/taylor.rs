@@ -8,6 +8,7 @@ mod island;
 
 use super::step::{StepRecord, StopReason};
 use super::stepper::{IslandStep, SkippedWork, Stepper};
+use super::track::Track;
 use island::IslandStepper;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
@@ -117,16 +118,27 @@ impl Stepper for Taylor {
         island.last_step(&mechanism.system, self.stepped)
     }
 
-    fn pivot_products_inside(&mut self, t: f64) -> Option<&[f64]> {
-        let island = self.islands.get_mut(self.stepped);
-        Some(island.map_or(&[], |island| island.pivot_products_inside(t)))
+    fn track(&mut self) -> Option<&mut dyn Track> {
+        self.islands.get_mut(self.stepped).map(|island| island as &mut dyn Track)
     }
 
-    /// As the island that took the last step knows it: of other islands, the end of the step.
-    fn interpolate_island(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
-        y.copy_from_slice(&self.last.y);
-        if let Some(island) = self.islands.get(self.stepped) {
-            island.interpolate(&mechanism.system, t, y);
+    fn can_retreat(&self) -> bool {
+        self.islands.get(self.stepped).is_some_and(IslandStepper::can_retreat)
+    }
+
+    /// Only the island that took the last step goes back: it is then the one that is farthest behind.
+    fn retreat(&mut self, mechanism: &mut Mechanism) {
+        let system = &mechanism.system;
+        let Some(island) = self.islands.get_mut(self.stepped) else { return };
+        island.retreat();
+        self.last.take_back();
+        self.last.t = island.time();
+        self.last.t_old = self.last.t;
+        let StepRecord { t, y, .. } = &mut self.last;
+        self.islands.iter().for_each(|island| island.interpolate(system, *t, y));
+        if !system.angles.is_empty() {
+            mechanism.set_state(*t, y);
+            mechanism.state.commit_revolutions();
         }
     }
 
@@ -137,6 +149,10 @@ impl Stepper for Taylor {
 
     fn error_lost(&self) -> Option<f64> {
         self.islands.iter().filter_map(IslandStepper::error_lost).min_by(f64::total_cmp)
+    }
+
+    fn set_resolving(&mut self, resolving: bool) {
+        self.islands.iter_mut().for_each(|island| island.set_resolving(resolving));
     }
 
     fn work_to(&self, t: f64) -> Option<f64> {

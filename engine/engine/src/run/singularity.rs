@@ -2,21 +2,25 @@
 //!
 //! The product of a joint's relative pivots in S is the square of a number that passes through zero at a singular
 //! configuration. The factorizations of the run give it at the ends of steps. Inside a step, S is evaluated if its rows turn so
-//! far that one of these numbers may reach zero and come back. Mechanisms without loops have no such step.
+//! far that one of these numbers may come near zero and back. What such a dip is, two states beside it tell: a passage, or a
+//! place where branches of the motion come near each other. There the step is taken again, shorter, until it follows one of
+//! them. Mechanisms without loops have no such step.
 
 mod found;
 mod history;
+mod passage;
 mod probe;
 mod search;
 
 pub use found::SingularConfiguration;
 
-use crate::integrate::{Integrator, IslandStep};
+use crate::integrate::{Integrator, IslandStep, Track};
 use crate::scene::ConstraintMethod;
 use found::Found;
 use history::IslandHistory;
-use probe::Probe;
-use search::{SAMPLES, Search};
+use passage::{Examiner, root};
+use probe::{Path, Probe};
+use search::{SAMPLES, Search, StepData, Unresolved};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::constraints::violation;
@@ -28,6 +32,14 @@ const ZERO: f64 = 1e-8;
 /// Distance of the computed motion from a singular configuration, in tolerances (as an angle) and in violations of the
 /// constraints (as a pivot product).
 const ERRORS: f64 = 10.0;
+/// Part of the time to a place that is not resolved by which the next step goes on.
+const APPROACH: f64 = 0.5;
+/// Most steps that are taken again on the way past one such place.
+const MAX_RETREATS: usize = 200;
+/// Root of the least pivot product above which such a place is left behind.
+const LEFT_BEHIND: f64 = 1e-2;
+/// Room for the times of dips in a step.
+const USUAL_DIPS: usize = 64;
 
 /// Watches the pivots of a run.
 #[derive(Clone, Debug)]
@@ -37,14 +49,17 @@ pub struct SingularityMonitor {
     tolerance: f64,
     /// Whether no projection closes the constraints at the ends of steps.
     violated: bool,
-    /// Part of a joint's largest pivot product that counts as zero.
-    zero: f64,
+    /// Whether the author has chosen the steps.
+    fixed: bool,
     islands: Vec<IslandHistory>,
     found: Found,
+    examiner: Examiner,
     /// Pivot products at times of the last step: its start, its end, and those of the probes.
     samples: Vec<Vec<f64>>,
-    /// Pivot products at the singular configuration that was found last in the step.
-    at_found: Vec<f64>,
+    examined: Vec<f64>,
+    /// Whether rows that hardly hold are kept on the way past a place that was not resolved, and steps taken again there.
+    resolving: bool,
+    retreats: usize,
 }
 
 impl SingularityMonitor {
@@ -57,12 +72,18 @@ impl SingularityMonitor {
         Self {
             probe,
             tolerance: settings.tolerance,
-            violated: settings.constraint_method != ConstraintMethod::Projection,
-            zero: zero(settings.tolerance, 0.0),
+            violated: !matches!(
+                settings.constraint_method,
+                ConstraintMethod::Projection | ConstraintMethod::Partitioning
+            ),
+            fixed: settings.step.is_some(),
             islands: Vec::new(),
             found: Found::new(constraints),
-            samples: (0..SAMPLES).map(|_| Vec::with_capacity(constraints)).collect(),
-            at_found: Vec::with_capacity(constraints),
+            examiner: Examiner::default(),
+            samples: vec![Vec::with_capacity(constraints); SAMPLES],
+            examined: Vec::with_capacity(USUAL_DIPS),
+            resolving: false,
+            retreats: 0,
         }
     }
 
@@ -70,9 +91,7 @@ impl SingularityMonitor {
     pub fn reset(&mut self) {
         self.islands.clear();
         self.found.clear();
-        if let Some(probe) = &mut self.probe {
-            probe.count = 0;
-        }
+        self.examiner.count = 0;
     }
 
     /// Singular configurations that were passed so far, in the order of time.
@@ -80,53 +99,138 @@ impl SingularityMonitor {
         self.found.list(system)
     }
 
-    /// Evaluations of S inside steps so far.
-    pub fn probes(&self) -> u64 {
-        self.probe.as_ref().map_or(0, |probe| probe.count)
+    /// Where either of two branches may have been followed, in words.
+    pub fn doubts(&self, system: &System) -> Vec<String> {
+        self.found.doubts(system)
     }
 
-    /// Searches the step that was taken last.
-    pub fn step(&mut self, mechanism: &mut Mechanism, integrator: &mut Integrator) {
-        let Self { probe: Some(probe), found, samples, at_found, .. } = self else { return };
-        if found.is_full() {
-            return;
+    /// Evaluations of S inside steps so far.
+    pub fn probes(&self) -> u64 {
+        self.examiner.count
+    }
+
+    /// Searches the step that was taken last. Returns the time at which it should have ended, if it passes a place where
+    /// branches of the motion come nearer to each other than it can tell: it is to be taken back.
+    pub fn step(&mut self, mechanism: &mut Mechanism, integrator: &mut Integrator) -> Option<f64> {
+        let mut probe = self.probe.take()?;
+        let shorter = self.search(&mut probe, mechanism, integrator);
+        self.probe = Some(probe);
+        shorter
+    }
+
+    fn search(
+        &mut self,
+        probe: &mut Probe,
+        mechanism: &mut Mechanism,
+        integrator: &mut Integrator,
+    ) -> Option<f64> {
+        if self.found.is_full() {
+            return None;
         }
-        if self.violated {
-            self.zero = zero(self.tolerance, violation::relative(&mechanism.system, &mechanism.state));
-        }
-        let Some(step) = integrator.island_step(mechanism) else { return };
-        let IslandStep { island, start, end, pace, pivot_products } = step;
+        let can_retreat = integrator.can_retreat();
+        let IslandStep { island, start, end, pace, pivot_products, constraints } =
+            integrator.island_step(mechanism)?;
         if self.islands.len() <= island {
             self.islands.resize(island + 1, IslandHistory::default());
         }
         let history = &mut self.islands[island];
-        std::mem::swap(&mut history.pivot_products, &mut samples[0]);
-        let known = pivot_products.map(|products| probe::copy(products, &mut samples[1])).is_some();
+        if history.is_new() {
+            let all = 0..mechanism.system.constraints.len();
+            history.constraints = constraints.map_or_else(|| all.collect(), <[usize]>::to_vec);
+        }
+        let known = pivot_products.is_some_and(|products| !products.is_empty());
+        self.samples.iter_mut().for_each(|sample| sample.resize(history.constraints.len(), 0.0));
+        if let Some(products) = pivot_products.filter(|_| known) {
+            self.samples[1].copy_from_slice(products);
+        }
+        let open = if self.violated { violation::relative(&mechanism.system, &mechanism.state) } else { 0.0 };
+        let data = StepData {
+            island,
+            start,
+            end,
+            run_end: mechanism.system.model.settings.duration,
+            pace: pace.max(history.pace),
+            zero: zero(self.tolerance, open),
+            violated: self.violated,
+            may_shorten: can_retreat && !self.violated && !self.fixed && self.retreats < MAX_RETREATS,
+        };
+        let result = match integrator.track() {
+            Some(track) => self.look(track, data, pace, known),
+            None => self.look(&mut Path { probe, mechanism, integrator, start, end }, data, pace, known),
+        };
+        self.conclude(result, data, mechanism, integrator)
+    }
+
+    /// Looks at the path of a step whose rows turn at a pace at its end, where pivot products may be known.
+    fn look(
+        &mut self,
+        track: &mut dyn Track,
+        step: StepData,
+        pace: f64,
+        known: bool,
+    ) -> Result<(), Unresolved> {
+        let Self { islands, found, examiner, samples, examined, .. } = self;
+        let StepData { island, start, end, .. } = step;
+        let history = &mut islands[island];
+        let mut sample = |t: f64, out: &mut Vec<f64>| {
+            examiner.count += 1;
+            track.place(t);
+            out.copy_from_slice(track.pivot_products());
+        };
         if !known {
-            probe.pivot_products(mechanism, integrator, end, &mut samples[1]);
+            sample(end, &mut samples[1]);
         }
         if history.is_new() {
-            probe.pivot_products(mechanism, integrator, start, &mut samples[0]);
+            sample(start, &mut samples[0]);
             history.begin(&samples[0], pace);
+        } else {
+            samples[0].copy_from_slice(&history.pivot_products);
         }
+        examiner.allocate(track.numbers(), samples[0].len());
         history.note_largest(&samples[1]);
-        at_found.clear();
-        let fastest = pace.max(history.pace);
-        let mut search = Search {
-            probe,
-            found,
-            mechanism,
-            integrator,
-            history,
-            zero: self.zero,
-            pace: fastest,
-            samples,
-            at_found,
-        };
-        search.within((start, 0), (end, 1), 2);
-        history.note_change(&samples[0], &samples[1], (end - start) * fastest);
-        std::mem::swap(&mut history.pivot_products, &mut samples[1]);
+        examined.clear();
+        let mut search = Search { step, track, found, history, examiner, samples, examined };
+        search.within((start, 0), (end, 1), 2)?;
+        let history = &mut islands[island];
+        history.note_change(&samples[0], &samples[1], (end - start) * step.pace);
+        history.pivot_products.clone_from(&samples[1]);
         history.pace = pace;
+        Ok(())
+    }
+
+    /// Goes on, or has the step taken again.
+    fn conclude(
+        &mut self,
+        result: Result<(), Unresolved>,
+        StepData { island, start, .. }: StepData,
+        mechanism: &mut Mechanism,
+        integrator: &mut Integrator,
+    ) -> Option<f64> {
+        let Err(Unresolved { time }) = result else {
+            if self.resolving {
+                let largest = &self.islands[island].largest;
+                let least = (0..largest.len())
+                    .filter(|&joint| largest[joint] > ZERO)
+                    .map(|joint| root(&self.samples[1], largest, joint));
+                if self.examined.is_empty() && least.fold(1.0, f64::min) > LEFT_BEHIND {
+                    self.resolve(false, mechanism, integrator);
+                }
+            }
+            return None;
+        };
+        self.found.forget_after(island, start);
+        self.retreats += 1;
+        self.resolve(true, mechanism, integrator);
+        Some(start + APPROACH * (time - start))
+    }
+
+    fn resolve(&mut self, on: bool, mechanism: &mut Mechanism, integrator: &mut Integrator) {
+        if !on {
+            self.retreats = 0;
+        }
+        self.resolving = on;
+        mechanism.elimination.set_resolving(on);
+        integrator.set_resolving(on);
     }
 }
 

@@ -145,9 +145,10 @@ impl Simulation {
 
     /// What speaks against the current state.
     fn doubts(&self, singularities: &[SingularConfiguration], drift: f64) -> Vec<String> {
+        let mut doubts = self.singularities.doubts(&self.mechanism.system);
         // A Taylor series meets its tolerance or stops, and does not look at each step.
         if self.kind == IntegratorKind::Taylor {
-            return Vec::new();
+            return doubts;
         }
         let (system, current) = (&self.mechanism.system, self.current.state());
         let kinetic = self.max_kinetic_energy.max(current.kinetic_energy(system));
@@ -161,6 +162,7 @@ impl Simulation {
             open: violation::relative(system, current),
             swallowed: swallowed(system),
         };
-        violation::doubts(&system.model.settings, &signs)
+        doubts.extend(violation::doubts(&system.model.settings, &signs));
+        doubts
     }
 }

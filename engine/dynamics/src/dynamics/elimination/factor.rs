@@ -1,6 +1,6 @@
 //! S = A D⁻¹ Aᵀ and its factor — eq. (7.6).
 
-use super::{Elimination, NEAR_SINGULAR, REGULARIZATION};
+use super::{Elimination, LOST, NEAR_SINGULAR, REGULARIZATION};
 use crate::state::State;
 use crate::system::System;
 use crate::system::index::SolverRow;
@@ -12,12 +12,12 @@ impl Elimination {
     /// Builds A, S and its factor at the positions of a state.
     pub fn linearize(&mut self, system: &System, state: &State) {
         self.set_up(system, state);
-        self.regularized = self.redundant;
-        let epsilon = if self.redundant { REGULARIZATION } else { 0.0 };
+        self.regularized = self.redundant && !self.resolving;
+        let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
         self.assemble(system);
         let smallest = self.factor.factor(epsilon, 0.0);
         self.counters.factorizations += 1;
-        if !self.redundant && smallest < NEAR_SINGULAR {
+        if !self.regularized && smallest < if self.resolving { LOST } else { NEAR_SINGULAR } {
             self.regularized = true;
             self.assemble(system);
             self.factor.factor(REGULARIZATION, 0.0);
@@ -63,6 +63,12 @@ impl Elimination {
         self.assemble(system);
         self.factor.factor(0.0, 0.0);
         self.factor.pivot_products()
+    }
+
+    /// Which joints take part where a row of `joint` nearly depends on others, at the positions of
+    /// [`Elimination::pivot_products_at`]: see [`triad_linalg::BlockCholesky::raise_shares`].
+    pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
+        self.factor.raise_shares(joint, &mut self.residual, shares);
     }
 
     fn set_up(&mut self, system: &System, state: &State) {

@@ -104,7 +104,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn solve(&mut self, n: usize) {
         let rows = self.correction.len();
-        let refinements = match (self.regularizes_inertia, self.regularized) {
+        let refinements = match (self.regularizes_inertia, self.regularized || self.resolving) {
             (true, _) => PROXIMAL_STEPS,
             (false, true) => REFINEMENTS,
             (false, false) => 0,

@@ -82,9 +82,19 @@ impl IslandSeries {
         with!(&mut self.0, s => s.leave_out(rows));
     }
 
-    /// Makes room for evaluations of S inside steps.
-    pub fn enable_probes(&mut self) {
-        with!(&mut self.0, s => s.enable_probes());
+    /// Makes room for evaluations inside steps; `row_sizes` tells what Φ of each solver row is measured in.
+    pub fn enable_probes(&mut self, row_sizes: Vec<f64>) {
+        with!(&mut self.0, s => s.enable_probes(row_sizes));
+    }
+
+    /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].
+    pub fn set_resolving(&mut self, resolving: bool) {
+        with!(&mut self.0, s => s.set_resolving(resolving));
+    }
+
+    /// Goes back to the start t of the last step.
+    pub fn go_back(&mut self, t: f64) {
+        with!(&mut self.0, s => s.go_back(t));
     }
 
     /// From now on carries the error along.
@@ -127,9 +137,46 @@ impl IslandSeries {
         with!(&self.0, s => s.pivot_products())
     }
 
-    /// Pivot products of the joints a time τ after the start t of the last step, whose series have the given order.
-    pub fn pivot_products_inside(&mut self, t: f64, tau: f64, order: usize) -> &[f64] {
-        with!(&mut self.0, s => s.pivot_products_inside(t, tau, order))
+    /// Puts the copy for other states a time τ after the start t of the last step, whose series have the given order.
+    pub fn place_probe(&mut self, t: f64, tau: f64, order: usize) {
+        with!(&mut self.0, s => {
+            s.probe_at(t, tau, order);
+        });
+    }
+
+    /// How many numbers its state is made of: positions, then as many velocities.
+    pub fn numbers(&self) -> usize {
+        with!(&self.0, s => s.numbers())
+    }
+
+    /// Writes the numbers of the copy's state.
+    pub fn read_probe(&mut self, out: &mut [f64]) {
+        with!(&mut self.0, s => s.probe().map_or((), |probe| probe.read(out)));
+    }
+
+    /// Takes them over as its state at time t.
+    pub fn write_probe(&mut self, t: f64, numbers: &[f64]) {
+        with!(&mut self.0, s => s.probe().map_or((), |probe| probe.write(t, numbers)));
+    }
+
+    /// Moves the copy's state onto the constraints. Returns by how much, if Newton's method has converged.
+    pub fn project_probe(&mut self, length: f64) -> Option<f64> {
+        with!(&mut self.0, s => s.probe().and_then(|probe| probe.project(length)))
+    }
+
+    /// Largest |Φ| of the joints' rows at the copy's state, each relative to its size.
+    pub fn probe_open(&mut self) -> f64 {
+        with!(&mut self.0, s => s.probe().map_or(0.0, |probe| probe.open()))
+    }
+
+    /// Pivot products of the joints at the copy's state.
+    pub fn probe_pivot_products(&mut self) -> &[f64] {
+        with!(&mut self.0, s => s.probe().map_or(&[], |probe| probe.pivot_products_here()))
+    }
+
+    /// Which joints take part where a row of `joint` nearly depends on others, at the copy's last pivot products.
+    pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
+        with!(&mut self.0, s => s.probe().map_or((), |probe| probe.raise_shares(joint, shares)));
     }
 
     /// How fast rows turn at the state, 1/s.

@@ -1,7 +1,10 @@
-//! S at other times than that of the state: how near a step comes to a singular configuration — THEORY section 8.
+//! The island at other times than that of the state: how near a step comes to a singular configuration, and where it passes
+//! one — THEORY section 8. A copy of the series has the other state; the factor at the end of the step stays as it is.
 
 use super::expand::Value;
 use super::{Bodies, Series};
+use crate::constraints::violation;
+use crate::newton::{Movable, Projectable, project_positions, project_velocities, rules};
 use crate::state;
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
@@ -19,10 +22,20 @@ impl<const L: usize, B: Bodies<L>> WithSimd for PivotProducts<'_, L, B> {
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
-    /// Makes [`Series::pivot_products_inside`] possible.
-    pub fn enable_probes(&mut self) {
+    /// Makes a copy for other states; `row_sizes` tells what Φ of each solver row is measured in.
+    pub fn enable_probes(&mut self, row_sizes: Vec<f64>) {
         self.schur.factor.keep_pivot_products();
-        self.probe = Some(Box::new(self.clone()));
+        let mut probe = self.clone();
+        (probe.row_sizes, probe.resolving) = (row_sizes, true);
+        self.probe = Some(Box::new(probe));
+    }
+
+    /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].
+    pub fn set_resolving(&mut self, resolving: bool) {
+        self.resolving = resolving;
+        if let Some(transport) = &mut self.transport {
+            transport.set_resolving(resolving);
+        }
     }
 
     /// Pivot products of the joints at the point of expansion.
@@ -30,18 +43,99 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.schur.factor.pivot_products()
     }
 
-    /// The same a time τ after the start of the last step, which was cut at order `order`. The factor at the end of the
-    /// step stays as it is.
-    pub fn pivot_products_inside(&mut self, start: f64, tau: f64, order: usize) -> &[f64] {
-        let Self { q, stride, probe, .. } = self;
-        let Some(probe) = probe.as_deref_mut() else { return &[] };
+    /// The copy, in the state a time τ after the start of the last step, which was cut at order `order`.
+    pub fn probe_at(&mut self, start: f64, tau: f64, order: usize) -> Option<&mut Self> {
+        let Self { q, stride, probe, angles, .. } = self;
+        let probe = probe.as_deref_mut()?;
+        for (own, given) in probe.angles.list.iter_mut().zip(&angles.list) {
+            own.state.reference = given.state.reference;
+        }
         probe.set_time(start + tau);
         for (b, state) in probe.state.iter_mut().enumerate() {
             let coefficients = &q[b * *stride..=b * *stride + order];
             *state = Arch::new().dispatch(Value::<L, B> { coefficients, tau });
         }
-        Arch::new().dispatch(PivotProducts(probe));
-        probe.pivot_products()
+        Some(probe)
+    }
+
+    /// The copy, in the state that it was left in.
+    pub fn probe(&mut self) -> Option<&mut Self> {
+        self.probe.as_deref_mut()
+    }
+
+    /// How many numbers the state is made of: positions, then as many velocities.
+    pub fn numbers(&self) -> usize {
+        self.state.iter().flatten().map(|x| B::lanes(x).as_flattened().len()).sum()
+    }
+
+    /// Writes them.
+    pub fn read(&mut self, out: &mut [f64]) {
+        let (positions, velocities) = out.split_at_mut(out.len() / 2);
+        let mut out = positions.iter_mut().zip(velocities);
+        self.for_each(|x, v| {
+            if let Some(out) = out.next() {
+                (*out.0, *out.1) = (*x, *v);
+            }
+        });
+    }
+
+    /// Takes them over as the state at time t.
+    pub fn write(&mut self, t: f64, numbers: &[f64]) {
+        self.set_time(t);
+        let (positions, velocities) = numbers.split_at(numbers.len() / 2);
+        let mut given = positions.iter().zip(velocities);
+        self.for_each(|x, v| {
+            if let Some(given) = given.next() {
+                (*x, *v) = (*given.0, *given.1);
+            }
+        });
+    }
+
+    /// Moves the state onto the constraints. Returns by how much, if Newton's method has converged.
+    pub fn project(&mut self, length: f64) -> Option<f64> {
+        let positions = project_positions(self, &rules::PASSAGE_POSITIONS, length);
+        project_velocities(self, &rules::PASSAGE_VELOCITIES, length);
+        positions.has_converged().then_some(positions.moved)
+    }
+
+    /// Largest |Φ|, each relative to the size of its row, those of rigid bodies included.
+    pub fn open(&mut self) -> f64 {
+        self.place_values();
+        self.set_violation();
+        let rows = self.rows.extra.iter().zip(&self.row_sizes);
+        let mut most = rows.fold(0.0f64, |most, (extra, size)| most.max(extra.abs() / size));
+        for (bundle, [q, _]) in self.bundles.iter().zip(&self.state) {
+            for lane in 0..bundle.bodies().len() {
+                most = most.max(violation::stretched(&bundle.write(lane, q, false)));
+            }
+        }
+        most
+    }
+
+    /// Pivot products of the joints at the state.
+    pub fn pivot_products_here(&mut self) -> &[f64] {
+        Arch::new().dispatch(PivotProducts(self));
+        self.pivot_products()
+    }
+
+    /// Which joints take part where a row of `joint` nearly depends on others, at the last pivot products.
+    pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
+        self.schur.factor.raise_shares(joint, &mut self.correction, shares);
+    }
+
+    /// Goes back to the start t of the last step, from which the series were expanded.
+    pub fn go_back(&mut self, t: f64) {
+        for (b, state) in self.state.iter_mut().enumerate() {
+            state.copy_from_slice(&self.q[b * self.stride..b * self.stride + 2]);
+        }
+        for angle in &mut self.angles.list {
+            angle.state.reference = angle.theta[0];
+        }
+        self.set_time(t);
+        self.linearize();
+        if let Some(transport) = &mut self.transport {
+            transport.go_back(t);
+        }
     }
 
     #[inline(always)]

@@ -45,12 +45,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn correct_here(&mut self, which: usize) -> f64 {
         self.place_values();
-        self.rows.store_factors(0, &self.values);
-        self.angles.place(&self.values);
         if which == 0 {
-            self.rows.set_violation(B::DIRECTIONS, &self.values);
-            self.angles.set_violation(&self.values, &mut self.rows.extra);
+            self.set_violation();
         } else {
+            self.rows.store_factors(0, &self.values);
+            self.angles.place(&self.values);
             self.values_of(|state, _| state[1]);
             self.set_ground(false);
             let state = &self.state;
@@ -59,7 +58,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
             self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
         }
-        self.prescribed.demand(which, 1.0, &mut self.rows.extra);
+        if which > 0 {
+            self.prescribed.demand(which, 1.0, &mut self.rows.extra);
+        }
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.clear_force();
             let gamma = if which == 0 {
@@ -89,6 +90,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.place_values();
         self.rows.store_factors(0, &self.values);
         self.angles.place(&self.values);
+    }
+
+    /// Φ of the joints' rows, from the features' values in place.
+    #[inline(always)]
+    pub(super) fn set_violation(&mut self) {
+        self.rows.store_factors(0, &self.values);
+        self.angles.place(&self.values);
+        self.rows.set_violation(B::DIRECTIONS, &self.values);
+        self.angles.set_violation(&self.values, &mut self.rows.extra);
+        self.prescribed.demand(0, 1.0, &mut self.rows.extra);
     }
 
     /// The rows that depend on others everywhere — eq. (8.1); the state is left elsewhere. Where some are expected, S is

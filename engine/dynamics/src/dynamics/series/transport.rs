@@ -165,6 +165,23 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         }
     }
 
+    /// Goes back to the start t of the last step, where S is factored again, with the error that the motion had there.
+    pub fn go_back(&mut self, t: f64) {
+        for b in 0..self.error.len() {
+            self.error[b] = self.at(b, 0.0);
+            self.added[b] = [B::zero(); 2];
+        }
+        self.step.1 = 0.0;
+        let [last, used] = &mut self.factored;
+        used.copy_from_slice(last);
+        self.lost = self.lost.filter(|lost| *lost < t);
+    }
+
+    /// Whether rows that hardly hold are kept.
+    pub fn set_resolving(&mut self, resolving: bool) {
+        self.twin.set_resolving(resolving);
+    }
+
     /// Takes note of where S is factored.
     pub fn note_factored(&mut self, state: &[[B::Natural; 2]]) {
         for (own, state) in self.factored[0].iter_mut().zip(state) {

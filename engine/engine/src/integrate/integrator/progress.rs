@@ -24,6 +24,11 @@ impl ProgressMonitor {
         Self { window: WINDOW * islands.max(1) as u64, steps: 0, window_start: t, before: 0.0 }
     }
 
+    /// Forgets the window at hand: a step was taken back to time t.
+    pub(super) fn restart(&mut self, t: f64) {
+        (self.steps, self.window_start, self.before) = (0, t, 0.0);
+    }
+
     /// Counts a step that ended at time t. Returns the mean size of steps, s, if the rest of the run until `end` would need
     /// more than [`ENDLESS`] of them and they are not growing.
     pub(super) fn stalled(&mut self, t: f64, end: f64) -> Option<f64> {

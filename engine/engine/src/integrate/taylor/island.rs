@@ -2,9 +2,12 @@
 
 use crate::integrate::step::StopReason;
 use crate::integrate::stepper::IslandStep;
+use crate::integrate::track::Track;
 use std::ops::RangeInclusive;
+use triad_dynamics::constraints::violation;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, StepPlan};
+use triad_dynamics::model::BodyRef;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
 use triad_dynamics::system::islands::{self, Island};
@@ -30,6 +33,10 @@ const MANY_HALVINGS: u64 = 3;
 pub struct IslandStepper {
     /// Its bodies, if it is not the whole.
     own: Option<Box<System>>,
+    /// Places of its joints and drivers among those of the whole.
+    constraints: Option<Vec<usize>>,
+    /// Joints that have no rows because they are pivots of planar bodies on the ground, with the others of these bodies.
+    pivots: Vec<(usize, Vec<usize>)>,
     tolerance: f64,
     /// The order of the next step, not below the one for the tolerance and not above what there is room for.
     order: usize,
@@ -62,12 +69,14 @@ impl IslandStepper {
     ) -> Self {
         let own = own.map(|island| Box::new(island.system));
         let system = own.as_deref().unwrap_or(whole);
+        let constraints = own.as_deref().map(|own| places(whole, own));
         let skip = whole.model.settings.skip;
         let q = &y[..whole.coordinates];
         let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
         let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
         let order = order_for(tolerance, flat.is_some());
         let most = if system.bodies.len() > FEW_BODIES { order } else { MAX_ORDER };
+        let pivots = flat.as_ref().map(pivots).unwrap_or_default();
         let rows = flat.as_ref().unwrap_or(system).solver_rows;
         let loops = islands::has_loops(&system.model);
         let series_of = |measured: &System, order: usize| match flat {
@@ -87,7 +96,7 @@ impl IslandStepper {
         }
         let redundant = !dependent.is_empty();
         if loops {
-            series.enable_probes();
+            series.enable_probes(violation::row_sizes(flat.as_ref().unwrap_or(system)));
         }
         if whole.model.settings.error_estimate {
             series.carry_errors();
@@ -98,6 +107,8 @@ impl IslandStepper {
         Self {
             loops,
             own,
+            constraints,
+            pivots,
             tolerance,
             order,
             orders: order..=most,
@@ -153,13 +164,25 @@ impl IslandStepper {
     pub fn last_step(&self, whole: &System, island: usize) -> Option<IslandStep<'_>> {
         let system = self.own.as_deref().unwrap_or(whole);
         let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(system));
-        self.loops.then_some(IslandStep { island, start: self.t_old, end: self.t, pivot_products, pace })
+        let (start, end, constraints) = (self.t_old, self.t, self.constraints.as_deref());
+        self.loops.then_some(IslandStep { island, start, end, pivot_products, constraints, pace })
     }
 
-    /// Pivot products of the joints at time t within its last step.
-    pub fn pivot_products_inside(&mut self, t: f64) -> &[f64] {
-        let tau = (t - self.t_old).clamp(0.0, self.h_old);
-        self.series.pivot_products_inside(self.t_old, tau, self.order_old)
+    /// Whether its last step can be taken back.
+    pub fn can_retreat(&self) -> bool {
+        self.h_old > 0.0
+    }
+
+    /// Takes its last step back.
+    pub fn retreat(&mut self) {
+        (self.t, self.h_old) = (self.t_old, 0.0);
+        self.steps -= 1;
+        self.series.go_back(self.t);
+    }
+
+    /// Whether rows that hardly hold are kept.
+    pub fn set_resolving(&mut self, resolving: bool) {
+        self.series.set_resolving(resolving);
     }
 
     /// Work done so far.
@@ -246,6 +269,74 @@ impl IslandStepper {
         let tau = (t - self.t_old).clamp(0.0, self.h_old);
         self.series.interpolate(system, tau, self.order_old, y);
     }
+}
+
+impl Track for IslandStepper {
+    fn numbers(&self) -> usize {
+        self.series.numbers()
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The series go on beyond the step.
+    fn place(&mut self, t: f64) {
+        self.series.place_probe(self.t_old, t - self.t_old, self.order_old);
+    }
+
+    fn read(&mut self, out: &mut [f64]) {
+        self.series.read_probe(out);
+    }
+
+    fn write(&mut self, t: f64, numbers: &[f64]) {
+        self.series.write_probe(t, numbers);
+    }
+
+    fn project(&mut self) -> Option<f64> {
+        self.series.project_probe(self.length)
+    }
+
+    fn open(&mut self) -> f64 {
+        self.series.probe_open()
+    }
+
+    fn pivot_products(&mut self) -> &[f64] {
+        self.series.probe_pivot_products()
+    }
+
+    fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
+        self.series.raise_shares(joint, shares);
+        // What the other joints of a body with a pivot do to it, the pivot takes up.
+        for (pivot, others) in &self.pivots {
+            shares[*pivot] = others.iter().map(|other| shares[*other]).fold(shares[*pivot], f64::max);
+        }
+    }
+}
+
+/// Joints without rows in a plane, each with the other joints of its body.
+fn pivots(flat: &System) -> Vec<(usize, Vec<usize>)> {
+    let joints = &flat.model.joints;
+    let moves = |joint: usize, body: BodyRef| body != BodyRef::Ground && joints[joint].bodies.contains(&body);
+    let others = |pivot: usize| {
+        let shares =
+            |&other: &usize| other != pivot && joints[pivot].bodies.iter().any(|body| moves(other, *body));
+        (0..joints.len()).filter(shares).collect()
+    };
+    let rowless = (0..joints.len()).filter(|&joint| flat.constraints[joint].solver.is_empty());
+    rowless.map(|pivot| (pivot, others(pivot))).collect()
+}
+
+/// Places of the joints and drivers of an island among those of the whole: both lists are in the same order.
+fn places(whole: &System, island: &System) -> Vec<usize> {
+    let mut next = 0;
+    let place = |name: &str| {
+        let rest = whole.constraints.get(next..)?;
+        next += rest.iter().position(|constraint| constraint.name == name)? + 1;
+        Some(next - 1)
+    };
+    let mut place = place;
+    island.constraints.iter().filter_map(|constraint| place(&constraint.name)).collect()
 }
 
 /// Order of the first step for a tolerance, and the least of all: 8 for 1e-3, 14 for 1e-9, 18 for 1e-13. In a plane a further order costs little against what

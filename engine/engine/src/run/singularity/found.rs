@@ -9,7 +9,7 @@ use std::ops::Range;
 const USUAL: usize = 64;
 /// Greatest number of configurations that are kept; the search ends there.
 const MAX_CONFIGURATIONS: usize = 1000;
-/// Times that are closer than this, relative to 1 s or the time itself, belong to one configuration.
+/// Times of different islands that are closer than this, relative to 1 s or the time itself, belong to one configuration.
 const SAME_TIME: f64 = 1e-6;
 
 /// A singular configuration that a run passed.
@@ -17,7 +17,7 @@ const SAME_TIME: f64 = 1e-6;
 pub struct SingularConfiguration {
     /// When, s.
     pub time: f64,
-    /// Joints whose rows become dependent there.
+    /// Joints and drivers that take part where rows become dependent on each other.
     pub joints: Vec<String>,
 }
 
@@ -25,9 +25,19 @@ pub struct SingularConfiguration {
 #[derive(Clone, Debug)]
 struct Entry {
     time: f64,
-    /// The pivot product that was found there.
-    pivot_product: f64,
+    /// The island whose joints they are.
+    island: usize,
     joints: Range<usize>,
+}
+
+/// A place where branches of the motion come near each other, and either may have been followed.
+#[derive(Clone, Debug)]
+pub(super) struct Doubtful {
+    pub time: f64,
+    /// How near, as an angle, rad.
+    pub apart: f64,
+    /// Places of the joints in the mechanism.
+    pub joints: Vec<usize>,
 }
 
 /// All configurations that were found, in the order of time.
@@ -36,52 +46,83 @@ pub(super) struct Found {
     entries: Vec<Entry>,
     /// Joints of all entries.
     joints: Vec<usize>,
+    doubtful: Vec<Doubtful>,
 }
 
 impl Found {
     /// Allocates for a number of constraints.
     pub(super) fn new(constraints: usize) -> Self {
-        Self { entries: Vec::with_capacity(USUAL), joints: Vec::with_capacity(USUAL * constraints) }
+        Self {
+            entries: Vec::with_capacity(USUAL),
+            joints: Vec::with_capacity(USUAL * constraints),
+            doubtful: Vec::new(),
+        }
     }
 
     pub(super) fn clear(&mut self) {
         self.entries.clear();
         self.joints.clear();
+        self.doubtful.clear();
     }
 
     pub(super) fn is_full(&self) -> bool {
         self.entries.len() >= MAX_CONFIGURATIONS
     }
 
+    /// All of them by name; islands that pass theirs at the same time have one in common.
     pub(super) fn list(&self, system: &System) -> Vec<SingularConfiguration> {
         let name = |&joint: &usize| system.constraints[joint].name.clone();
-        let named = |entry: &Entry| SingularConfiguration {
-            time: entry.time,
-            joints: self.joints[entry.joints.clone()].iter().map(name).collect(),
-        };
-        self.entries.iter().map(named).collect()
-    }
-
-    /// Whether the configuration at a time at which a joint becomes dependent is known: at the same time, or with the same
-    /// joint at a time that is nearer than `near`. The one of the two that is nearer to zero is kept.
-    pub(super) fn is_known(&mut self, joint: usize, time: f64, pivot_product: f64, near: f64) -> bool {
-        let Self { entries, joints } = self;
-        let same = |known: &&mut Entry| {
-            let apart = (known.time - time).abs();
-            apart <= SAME_TIME * (1.0 + time.abs())
-                || (apart <= near && joints[known.joints.clone()].contains(&joint))
-        };
-        let Some(known) = entries.iter_mut().find(same) else { return false };
-        if pivot_product < known.pivot_product {
-            (known.time, known.pivot_product) = (time, pivot_product);
+        let mut list: Vec<SingularConfiguration> = Vec::new();
+        for entry in &self.entries {
+            let joints = self.joints[entry.joints.clone()].iter().map(name);
+            match list.last_mut() {
+                Some(last) if entry.time - last.time <= SAME_TIME * (1.0 + last.time.abs()) => {
+                    last.joints.extend(joints);
+                }
+                _ => list.push(SingularConfiguration { time: entry.time, joints: joints.collect() }),
+            }
         }
-        true
+        list
     }
 
-    pub(super) fn add(&mut self, time: f64, pivot_product: f64, joints: impl Iterator<Item = usize>) {
+    /// Keeps a doubtful place, unless one nearer than `near` is known.
+    pub(super) fn doubt(&mut self, place: Doubtful, near: f64) {
+        if !self.doubtful.iter().any(|known| (known.time - place.time).abs() <= near) {
+            self.doubtful.push(place);
+        }
+    }
+
+    /// The doubtful places, in words.
+    pub(super) fn doubts(&self, system: &System) -> Vec<String> {
+        let sentence = |place: &Doubtful| {
+            let joints: Vec<&str> =
+                place.joints.iter().map(|&joint| system.constraints[joint].name.as_str()).collect();
+            format!(
+                "at t = {:.6} s the motion passes within {:.0e} of a branching position of {}; either branch may be right: \
+                 compare with a tighter tolerance, with taylor or dop853 and projection",
+                place.time,
+                place.apart,
+                joints.join(", ")
+            )
+        };
+        self.doubtful.iter().map(sentence).collect()
+    }
+
+    /// Whether a configuration is known to which a zero at a time belongs: of the same island, and nearer than `near`.
+    pub(super) fn is_known(&self, island: usize, time: f64, near: f64) -> bool {
+        self.entries.iter().any(|known| known.island == island && (known.time - time).abs() <= near)
+    }
+
+    /// Forgets what was found of an island after a time, to which it goes back.
+    pub(super) fn forget_after(&mut self, island: usize, time: f64) {
+        self.entries.retain(|entry| entry.island != island || entry.time <= time);
+    }
+
+    /// Keeps a configuration with the places of its joints in the mechanism.
+    pub(super) fn add(&mut self, island: usize, time: f64, joints: impl Iterator<Item = usize>) {
         let first = self.joints.len();
         self.joints.extend(joints);
-        self.entries.push(Entry { time, pivot_product, joints: first..self.joints.len() });
+        self.entries.push(Entry { time, island, joints: first..self.joints.len() });
         self.entries.sort_unstable_by(|a, b| a.time.total_cmp(&b.time));
     }
 }

@@ -14,6 +14,8 @@ pub(super) struct IslandHistory {
     pub fastest_change: Vec<f64>,
     /// How fast rows turned at the end of the last step, 1/s.
     pub pace: f64,
+    /// Places of the island's joints and drivers in the mechanism.
+    pub constraints: Vec<usize>,
 }
 
 impl IslandHistory {
@@ -25,6 +27,8 @@ impl IslandHistory {
     /// Starts from the pivot products at the start of the first step.
     pub(super) fn begin(&mut self, pivot_products: &[f64], pace: f64) {
         (self.largest, self.pace) = (pivot_products.to_vec(), pace);
+        self.pivot_products = pivot_products.to_vec();
+        self.fastest_change = vec![0.0; pivot_products.len()];
     }
 
     pub(super) fn note_largest(&mut self, pivot_products: &[f64]) {
@@ -33,9 +37,13 @@ impl IslandHistory {
         }
     }
 
+    /// Notes how fast the root of a joint's pivot product changes for each radian that rows turn.
+    pub(super) fn note_rate(&mut self, joint: usize, rate: f64) {
+        self.fastest_change[joint] = self.fastest_change[joint].max(rate);
+    }
+
     /// Notes a change of pivot products while rows turned by an angle.
     pub(super) fn note_change(&mut self, from: &[f64], to: &[f64], turned: f64) {
-        self.fastest_change.resize(self.largest.len(), 0.0);
         if turned < MIN_TURN {
             return;
         }

@@ -1,178 +1,301 @@
-//! The search for singular configurations inside a step.
+//! The search for dips of pivot products inside a step.
 
-use super::found::Found;
+use super::found::{Doubtful, Found};
 use super::history::IslandHistory;
-use super::probe::{self, Probe};
-use crate::integrate::Integrator;
-use triad_dynamics::constraints::mechanism::Mechanism;
+use super::passage::{Dip, Examiner, Finding, root};
+use crate::integrate::Track;
+use std::f64::consts::PI;
 
 /// Greatest number of times that a step is halved.
-const MAX_DEPTH: usize = 8;
-/// Places for pivot products: both ends of a step, one for each division, one for the search for a zero, and one to spare.
+const MAX_DEPTH: usize = 14;
+/// Places for pivot products: both ends of a step, one for each division, one for the search for a dip, and one to spare.
 pub(super) const SAMPLES: usize = MAX_DEPTH + 4;
 /// Bound of the rate at which the distance from a singular configuration, as an angle, changes, relative to the pace of the
 /// fastest body.
-const RATE_BOUND: f64 = 2.5;
+const RATE_BOUND: f64 = 5.0;
 /// The same relative to the fastest change of that joint so far, which masses and lengths may make faster.
 const OBSERVED_RATE_BOUND: f64 = 2.0;
+/// Distance of an end from a singular configuration, as an angle, rad, below which these bounds are widened, and by how much:
+/// many change fastest just there.
+const NEAR: f64 = 0.1;
+const STEEP: f64 = 2.0;
 /// A joint whose largest pivot product is below this is redundant.
 const REDUNDANT: f64 = 1e-7;
-/// Pivot product, in zeros of the joint, below which a joint has become dependent at the configuration that was found last.
-const TOGETHER: f64 = 1e3;
-/// Pivot product below which a joint is named with a configuration.
-const INVOLVED: f64 = 1e-6;
+/// Root of a pivot product, relative to the largest, below which a dip is looked at, and a joint has its zero at one.
+const DEEP: f64 = 0.1;
 /// Turn of the rows below which a part of a step is not divided, rad.
 const FINEST: f64 = 0.05;
-/// Greatest number of probes in the search for one zero.
+/// Greatest number of probes in the search for one dip.
 const MAX_PROBES: usize = 12;
-/// Factor by which each probe should bring the root of the pivot product nearer to zero.
-const CONVERGING: f64 = 0.5;
-/// Number of probes that do not come nearer to a zero after which the search ends.
-const MAX_FAILURES: usize = 3;
-/// Turn of the rows, in roots of what counts as zero, below which two zeros of the same joint are one configuration.
-const SAME: f64 = 20.0;
+/// Turn of the rows up to which the time of a dip is found, and the same in its distance from zero.
+const EXACT: (f64, f64) = (2e-5, 0.02);
+/// The same where the distance from zero itself is wanted.
+const SHARP: (f64, f64) = (1e-8, 0.05);
+/// Part of the distance of samples within which the vertex of their parabola is uncertain.
+const UNCERTAIN: f64 = 0.1;
+/// Turn of the rows by which a dip behind the end of a step may still be looked at with it, rad: the next step would start
+/// beside it.
+const BEHIND: f64 = 2e-3;
+/// Turn of the rows within which two dips are one, rad: a joint that has lost its hold has to turn before it does so again.
+const SAME: f64 = 0.02;
+/// Turn of the rows from the start of a step to a dip below which the step is not shortened any more, rad.
+const NEAREST: f64 = 1e-8;
 
-/// A time and the pivot product of a joint there.
-type Sample = (f64, f64);
+/// A place where the step should not have passed as it did.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unresolved {
+    /// When, s.
+    pub time: f64,
+}
 
-/// The search for zeros of pivot products inside a step.
-pub(super) struct Search<'a> {
-    pub probe: &'a mut Probe,
-    pub found: &'a mut Found,
-    pub mechanism: &'a mut Mechanism,
-    pub integrator: &'a mut Integrator,
-    pub history: &'a IslandHistory,
-    /// Part of a joint's largest pivot product that counts as zero.
-    pub zero: f64,
+/// What a search is given about the step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepData {
+    pub island: usize,
+    pub start: f64,
+    pub end: f64,
+    /// End of the run, s.
+    pub run_end: f64,
     /// How fast rows turn, 1/s.
     pub pace: f64,
+    /// Part of a joint's largest pivot product that counts as zero.
+    pub zero: f64,
+    /// Whether no projection closes the constraints at the ends of steps.
+    pub violated: bool,
+    /// Whether the step can be taken again, shorter.
+    pub may_shorten: bool,
+}
+
+/// The search for dips of pivot products inside a step.
+pub(super) struct Search<'a> {
+    pub step: StepData,
+    pub track: &'a mut dyn Track,
+    pub found: &'a mut Found,
+    pub history: &'a mut IslandHistory,
+    pub examiner: &'a mut Examiner,
     /// Pivot products at the start and at the end of the step, then those of probes.
     pub samples: &'a mut [Vec<f64>],
-    /// Pivot products at the configuration that was found last.
-    pub at_found: &'a mut Vec<f64>,
+    /// Times of the dips that were looked at in the step.
+    pub examined: &'a mut Vec<f64>,
 }
 
 impl Search<'_> {
     /// Keeps the pivot products at time t.
     fn sample(&mut self, t: f64, place: usize) {
-        self.probe.pivot_products(self.mechanism, self.integrator, t, &mut self.samples[place]);
+        self.examiner.count += 1;
+        self.track.place(t);
+        self.samples[place].copy_from_slice(self.track.pivot_products());
     }
 
-    /// What counts as zero for the pivot product of a joint.
-    fn zero(&self, joint: usize) -> f64 {
-        self.history.largest[joint] * self.zero
+    /// Square of the distance of a joint from a singular configuration, relative to its largest.
+    fn square(&self, joint: usize, place: usize) -> f64 {
+        self.samples[place][joint] / self.history.largest[joint]
     }
 
-    /// The joint that is most likely to become dependent between two samples so far apart in time; and its distances from that
-    /// at both: zero there, π/2 at its largest pivot product.
-    fn suspect(&self, a: usize, b: usize, apart: f64) -> Option<(usize, f64, f64)> {
+    /// Whether a dip was looked at that belongs to a time.
+    fn is_examined(&self, time: f64) -> bool {
+        self.examined.iter().any(|known| (known - time).abs() * self.step.pace <= SAME)
+    }
+
+    /// The joint that is most likely to become dependent between two samples; and its distances from that at both: zero there,
+    /// π/2 at its largest pivot product, and π where it has just come from a zero that is known.
+    fn suspect(&self, a: (f64, usize), b: (f64, usize)) -> Option<(usize, f64, f64)> {
         // In steps that rounding makes very short both ends may be indistinguishable from zero.
-        let floor = self.zero.sqrt();
-        let turned = apart * self.pace;
-        let IslandHistory { largest, fastest_change, .. } = self.history;
+        let floor = self.step.zero.sqrt();
+        let turned = (b.0 - a.0) * self.step.pace;
+        let IslandHistory { largest, fastest_change, .. } = &*self.history;
+        let known = [a, b].map(|end| self.is_examined(end.0));
         let mut found = None;
         let mut least = 1.0;
-        for (joint, largest) in largest.iter().enumerate().filter(|(_, largest)| **largest > REDUNDANT) {
-            let part = |place: usize| {
-                let product = self.samples[place].get(joint).copied().unwrap_or(f64::NAN);
-                let root = (product / largest).clamp(0.0, 1.0).sqrt();
-                if root <= floor { 0.0 } else { root - floor }
+        for (joint, _) in largest.iter().enumerate().filter(|(_, largest)| **largest > REDUNDANT) {
+            let part = |end: usize| {
+                let root = self.square(joint, [a, b][end].1).clamp(0.0, 1.0).sqrt();
+                match known[end] && root < DEEP {
+                    true => PI,
+                    false if root <= floor => 0.0,
+                    false => libm::asin(root - floor),
+                }
             };
             let observed = fastest_change.get(joint);
             let rate = observed.map_or(RATE_BOUND, |fastest| RATE_BOUND.max(OBSERVED_RATE_BOUND * fastest));
-            let bound = rate * turned;
-            let (from, to) = (part(a), part(b));
-            // The sine is less than its angle. Comparisons that are false for NaN as well.
+            let (from, to) = (part(0), part(1));
+            let steep = if from.min(to) < NEAR { STEEP } else { 1.0 };
+            let bound = steep * rate * turned;
+            // A comparison that is false for NaN as well.
             if from + to <= least * bound {
-                let (from, to) = (libm::asin(from), libm::asin(to));
-                let gone =
-                    self.at_found.get(joint).is_some_and(|found| *found <= TOGETHER * self.zero(joint));
-                if from + to <= least * bound && !gone {
-                    least = (from + to) / bound.max(f64::MIN_POSITIVE);
-                    found = Some((joint, from, to));
-                }
+                least = (from + to) / bound.max(f64::MIN_POSITIVE);
+                found = Some((joint, from, to));
             }
         }
         found
     }
 
-    /// Searches for zeros between two times whose samples are given; further ones are kept from `place` on.
-    pub(super) fn within(&mut self, a: (f64, usize), b: (f64, usize), place: usize) {
+    /// Searches for dips between two times whose samples are given; further ones are kept from `place` on.
+    ///
+    /// # Errors
+    ///
+    /// The first place that the step must be shortened for.
+    pub(super) fn within(
+        &mut self,
+        a: (f64, usize),
+        b: (f64, usize),
+        place: usize,
+    ) -> Result<(), Unresolved> {
         if place + 1 >= self.samples.len() || self.found.is_full() {
-            return;
+            return Ok(());
         }
+        let Some((joint, from, to)) = self.suspect(a, b) else { return Ok(()) };
         let apart = b.0 - a.0;
-        let Some((joint, from, to)) = self.suspect(a.1, b.1, apart) else { return };
         // Where it would be zero if it fell and rose at one rate.
-        let part = if from + to > 0.0 { (from / (from + to)).clamp(0.1, 0.9) } else { 0.5 };
-        let time = a.0 + part * apart;
-        self.sample(time, place);
-        let sample = |search: &Self, (t, place): (f64, usize)| (t, search.samples[place][joint]);
-        let middle = (time, place);
-        let near = (sample(self, middle).1 / self.history.largest[joint]).max(0.0).sqrt();
-        let finest = apart * self.pace < FINEST;
-        if near < CONVERGING * from.max(to) || finest {
-            let three = (sample(self, a), sample(self, middle), sample(self, b));
-            if let Some(zero) = self.root(joint, three.0, three.1, three.2) {
-                self.keep(joint, zero);
+        let part = if from + to > 0.0 { (from / (from + to)).clamp(0.25, 0.75) } else { 0.5 };
+        let mut middle = (a.0 + part * apart, place);
+        self.sample(middle.0, place);
+        let dip = self.dip(joint, a, middle, b);
+        if let Some(dip) = dip {
+            self.judge(dip)?;
+            if dip.time > a.0 && dip.time < b.0 {
+                middle.0 = dip.time;
+                self.sample(dip.time, place);
             }
+        } else if apart * self.step.pace < FINEST {
+            return Ok(());
         }
-        if finest {
-            return;
-        }
-        self.within(a, middle, place + 1);
-        self.within(middle, b, place + 1);
+        self.within(a, middle, place + 1)?;
+        self.within(middle, b, place + 1)
     }
 
-    /// The time of a zero near `m`, by the secant: the root of the pivot product is a number that changes its sign there, of
-    /// which only the size is known. Of the two zeros that two sizes allow, the slope selects one.
-    fn root(&mut self, joint: usize, a: Sample, m: Sample, b: Sample) -> Option<f64> {
-        let root = |(t, product): Sample| (t, product.max(0.0).sqrt());
-        let place = self.samples.len() - 1;
-        let (mut last, mut now) = (root(a), root(m));
-        let mut slope = (last.1 + root(b).1) / (b.0 - a.0);
-        let zero = self.zero(joint);
-        let mut failures = 0;
+    /// The dip of a joint near three samples.
+    fn dip(&mut self, joint: usize, a: (f64, usize), m: (f64, usize), b: (f64, usize)) -> Option<Dip> {
+        let StepData { start, end, pace, .. } = self.step;
+        let points = [a, m, b].map(|(t, place)| (t, self.square(joint, place)));
+        // A probe may have met the dip, which then lies on either side of it.
+        let beside = FINEST / pace;
+        let range = (start.max(a.0 - beside), (end + BEHIND / pace).min(b.0 + beside));
+        let (_, least, _) = vertex(&points)?;
+        let shallow = (b.0 - a.0) * pace >= FINEST && least > DEEP * DEEP;
+        let dip = if shallow { None } else { self.descend(joint, points, range, EXACT) };
+        dip.filter(|dip| dip.root < DEEP)
+    }
+
+    /// The least distance of a joint from a singular configuration near three points, up to a turn of the rows or a part of that
+    /// distance, by the vertex of a parabola: near zero, pivot products are squares of numbers that change at one rate.
+    fn descend(
+        &mut self,
+        joint: usize,
+        mut points: [(f64, f64); 3],
+        range: (f64, f64),
+        exact: (f64, f64),
+    ) -> Option<Dip> {
+        let (pace, place) = (self.step.pace, self.samples.len() - 1);
         for _ in 0..MAX_PROBES {
-            let apart = (now.0 - last.0).abs();
-            let slopes = [last.1 + now.1, (last.1 - now.1).abs()].map(|change| change / apart);
-            let between = libm::log(slopes[0] / slope).abs() <= libm::log(slopes[1] / slope).abs();
-            slope = if between { slopes[0] } else { slopes[1] };
-            let signed = if between { -now.1 } else { now.1 };
-            // A zero at an end of the step may seem to lie behind it.
-            let next = (now.0 + (now.0 - last.0) * signed / (last.1 - signed)).clamp(a.0, b.0);
-            let vanishes = now.1 * now.1 <= zero;
-            if next.is_nan() || next == now.0 {
-                return vanishes.then_some(now.0);
+            let (mut time, _, curvature) = vertex(&points)?;
+            let best =
+                points.iter().fold(points[0], |best, point| if point.1 < best.1 { *point } else { best });
+            // False for NaN as well.
+            if !(time >= range.0 && time <= range.1) {
+                time = nearer(&points, best, time)?;
             }
-            self.sample(next, place);
-            let there = root((next, self.samples[place][joint]));
-            if vanishes {
-                return Some(if there.1 < now.1 { next } else { now.0 });
+            let (root, slope) = (best.1.max(0.0).sqrt(), curvature.sqrt());
+            if (time - best.0).abs() * slope.max(pace) <= exact.0.max(exact.1 * root) {
+                return Some(Dip { joint, time, root, slope, pace });
             }
-            failures += usize::from(there.1 > CONVERGING * now.1);
-            if failures == MAX_FAILURES {
+            self.sample(time, place);
+            let square = self.square(joint, place);
+            let worst = (0..3).fold(0, |worst, k| if points[k].1 > points[worst].1 { k } else { worst });
+            if !(square < points[worst].1) {
                 return None;
             }
-            (last, now) = (now, there);
+            points[worst] = (time, square);
         }
         None
     }
 
-    /// Keeps the singular configuration at a zero, unless it is known.
-    fn keep(&mut self, joint: usize, time: f64) {
-        let place = self.samples.len() - 1;
-        self.sample(time, place);
-        probe::copy(&self.samples[place], self.at_found);
-        let product = self.samples[place][joint];
-        let near = SAME * self.zero.sqrt() / self.pace;
-        // Of all constraints, where the samples may be those of one island.
-        let products = self.probe.evaluate(self.mechanism, self.integrator, time);
-        if self.found.is_known(joint, time, product, near) {
-            return;
-        }
-        let least = products.iter().fold(f64::INFINITY, |least, product| least.min(*product));
-        let limit = INVOLVED.max(self.zero).max(2.0 * least);
-        self.found.add(time, product, (0..products.len()).filter(|joint| products[*joint] <= limit));
+    /// The same dip, exactly enough to tell its distance from none.
+    fn sharpened(&mut self, dip: Dip) -> Dip {
+        let (beside, place) = (EXACT.0.max(dip.root) / dip.slope, self.samples.len() - 1);
+        let points = [-beside, 0.0, beside].map(|apart| {
+            self.sample(dip.time + apart, place);
+            (dip.time + apart, self.square(dip.joint, place))
+        });
+        let range = (dip.time - beside, dip.time + beside);
+        self.descend(dip.joint, points, range, SHARP).unwrap_or(Dip { root: 0.0, ..dip })
     }
+
+    /// Finds out what a dip is, and keeps it if it is a singular configuration.
+    fn judge(&mut self, mut dip: Dip) -> Result<(), Unresolved> {
+        let StepData { island, start, end, run_end, pace, zero, violated, may_shorten } = self.step;
+        let near = SAME / pace;
+        if self.is_examined(dip.time) {
+            return Ok(());
+        }
+        self.examined.push(dip.time);
+        self.history.note_rate(dip.joint, dip.slope / pace);
+        if self.found.is_known(island, dip.time, near) {
+            return Ok(());
+        }
+        let mut finding = self.examiner.examine(self.track, dip, &self.history.largest);
+        if let Finding::Unresolved(_) = finding {
+            let sharp = self.sharpened(dip);
+            dip.time = sharp.time;
+            if self.examiner.has_followed(self.track, sharp) {
+                finding = Finding::Regular;
+            }
+        }
+        let places = &self.history.constraints;
+        match finding {
+            Finding::Regular => {}
+            Finding::Singular(time) => {
+                if time >= 0.0 && time <= run_end.max(end) && !self.found.is_known(island, time, near) {
+                    let joints = self.examiner.involved().map(|joint| places[joint]);
+                    self.found.add(island, time, joints);
+                }
+            }
+            // Nothing brings these methods nearer to the singular configuration than the root of their violation.
+            Finding::Unresolved(_) if violated => {
+                if dip.root * dip.root <= zero {
+                    self.found.add(island, dip.time, std::iter::once(places[dip.joint]));
+                }
+            }
+            // The next step will look at it from nearer.
+            Finding::Unresolved(_) if dip.time > end => {}
+            Finding::Unresolved(_) if may_shorten && (dip.time - start) * pace > NEAREST => {
+                return Err(Unresolved { time: dip.time });
+            }
+            Finding::Unresolved(apart) => {
+                let joints = (0..places.len()).filter(|joint| self.loses_hold(*joint, dip));
+                let joints = joints.map(|joint| places[joint]).collect();
+                self.found.doubt(Doubtful { time: dip.time, apart, joints }, near);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a joint is about as near to losing its hold as that of a dip.
+    fn loses_hold(&self, joint: usize, dip: Dip) -> bool {
+        let products = &self.samples[self.samples.len() - 1];
+        self.history.largest[joint] > REDUNDANT
+            && root(products, &self.history.largest, joint) < DEEP.min(10.0 * dip.root.max(EXACT.0))
+    }
+}
+
+/// A time near the best of three points, if that is an end of them, and the vertex of their parabola is too near it to be told
+/// from a dip beside it.
+fn nearer(points: &[(f64, f64); 3], best: (f64, f64), vertex: f64) -> Option<f64> {
+    let others = points.iter().filter(|point| point.0 != best.0);
+    let next = others.fold(f64::INFINITY, |next, point| {
+        let apart = point.0 - best.0;
+        if apart.abs() < next.abs() { apart } else { next }
+    });
+    let outside = (vertex - best.0) / next;
+    (outside < 0.0 && outside > -UNCERTAIN).then_some(best.0 + UNCERTAIN * next)
+}
+
+/// The vertex of the parabola through three points: where, its value, and half its second derivative. `None` if it has no
+/// least value.
+fn vertex(&[a, b, c]: &[(f64, f64); 3]) -> Option<(f64, f64, f64)> {
+    let slope = (b.1 - a.1) / (b.0 - a.0);
+    let curvature = ((c.1 - a.1) / (c.0 - a.0) - slope) / (c.0 - b.0);
+    let time = 0.5 * (a.0 + b.0 - slope / curvature);
+    let least = a.1 + (time - a.0) * (slope + curvature * (time - b.0));
+    (curvature > 0.0).then_some((time, least, curvature))
 }

@@ -1,0 +1,140 @@
+//! Singular positions that runs pass: all of them, none invented, at their times and with all joints that take part; and
+//! positions where branches of the motion only come near each other.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use serde_json::json;
+use std::f64::consts::PI;
+use triad_engine::Scene;
+use triad_engine::run::Simulation;
+use triad_scene::IntegratorKind::{self, Dop853, Dopri5, Ode45, Radau, Taylor};
+
+const TOLERANCES: [f64; 10] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
+
+fn problem(path: &str) -> Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/problems/");
+    Scene::from_json(&std::fs::read_to_string(format!("{folder}{path}")).unwrap()).unwrap()
+}
+
+fn run(scene: &Scene, integrator: IntegratorKind, tolerance: f64) -> Simulation {
+    let mut scene = scene.clone();
+    (scene.simulation.integrator, scene.simulation.tolerance) = (integrator, tolerance);
+    let mut run = Simulation::new(&scene).unwrap();
+    run.set_step_limit(20_000);
+    run
+}
+
+/// Runs a scene: it passes singular positions at the exact times and at no others, with these joints.
+fn passes(
+    scene: &Scene,
+    kinds: &[IntegratorKind],
+    exact: &[f64],
+    joints: &[&str],
+    error: impl Fn(f64) -> f64,
+) {
+    let mut wrong = Vec::new();
+    for &kind in kinds {
+        for tolerance in TOLERANCES {
+            let mut run = run(scene, kind, tolerance);
+            run.advance_to(run.duration()).unwrap();
+            let found = run.singular_configurations();
+            let off = found.iter().zip(exact).map(|(f, e)| (f.time - e).abs()).fold(0.0, f64::max);
+            let named = found.iter().all(|found| found.joints == joints);
+            if found.len() != exact.len() || off > error(tolerance) || !named {
+                wrong.push(format!("{kind:?} {tolerance:.0e}: off by {off:.1e}: {found:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_driven_parallelogram_passes_its_flat_positions() {
+    // Crank angle 0.4 + 5 t.
+    let exact: Vec<f64> = (1..5).map(|k| (PI * f64::from(k) - 0.4) / 5.0).collect();
+    let kinds = [Taylor, Dop853, Dopri5, Ode45];
+    passes(&problem("four-bars/parallelogram.json"), &kinds, &exact, &["O", "A", "B", "D"], |tolerance| {
+        1e-11 + tolerance
+    });
+}
+
+#[test]
+fn the_linkage_of_sarrus_passes_its_flat_positions() {
+    // Both pairs of plates lie flat at once.
+    let exact = [0.256_695_961, 0.544_490_164];
+    let joints = ["x1", "x2", "x3", "y1", "y2", "y3"];
+    passes(
+        &problem("sarrus/passages.json"),
+        &[Taylor, Dop853, Dopri5, Radau],
+        &exact,
+        &joints,
+        |tolerance| 2e-9 + 10.0 * tolerance,
+    );
+}
+
+/// A four-bar of links 1, 2 − δ, 1 and 2 m, with the crank at −1 rad and 1.5 rad/s: where it would be flat without δ, at
+/// t = 2/3 s, it is `nearness` away from that.
+fn beside_a_change_point(nearness: f64) -> Scene {
+    let coupler = 2.0 - 0.25 * nearness * nearness;
+    let crank = (f64::cos(-1.0), f64::sin(-1.0));
+    // The rocker's end is 1 from (2, 0) and `coupler` from the crank's end.
+    let (dx, dy) = (2.0 - crank.0, -crank.1);
+    let apart = dx.hypot(dy);
+    let along = (coupler * coupler - 1.0 + apart * apart) / (2.0 * apart);
+    let across = (coupler * coupler - along * along).sqrt();
+    let (ux, uy) = (dx / apart, dy / apart);
+    let ends =
+        [1.0, -1.0].map(|s| (crank.0 + along * ux - s * across * uy, crank.1 + along * uy + s * across * ux));
+    let end = if (ends[0].1 - crank.1).abs() < (ends[1].1 - crank.1).abs() { ends[0] } else { ends[1] };
+    let c = ((end.0 - crank.0) / coupler, (end.1 - crank.1) / coupler);
+    let r = (end.0 - 2.0, end.1);
+    // Velocities: those of the joints along the coupler agree.
+    let v = (-1.5 * crank.1, 1.5 * crank.0);
+    let rocker = (v.0 * c.0 + v.1 * c.1) / (-r.1 * c.0 + r.0 * c.1);
+    let w = (-rocker * r.1, rocker * r.0);
+    let turning = ((w.0 - v.0) * -c.1 + (w.1 - v.1) * c.0) / coupler;
+    let body =
+        |name: &str, mass: f64, at: (f64, f64), u: (f64, f64), length: f64, v: (f64, f64), omega: f64| {
+            let inertia = mass * length * length / 12.0;
+            json!({"name": name, "mass": mass, "position": [at.0, at.1, 0],
+            "center_of_mass": [0.5 * length, 0, 0], "inertia": {"principal": [0.001, inertia, inertia]},
+            "orientation": {"u": [u.0, u.1, 0], "v": [-u.1, u.0, 0]},
+            "velocity": [v.0, v.1, 0], "angular_velocity": [0, 0, omega]})
+        };
+    let joint = |name: &str, i: &str, p: (f64, f64), j: &str, q: f64| {
+        json!({"name": name, "type": "revolute", "body_i": i, "point_i": [p.0, p.1, 0], "axis_i": [0, 0, 1],
+            "body_j": j, "point_j": [q, 0, 0], "axis_j": [0, 0, 1]})
+    };
+    let scene = json!({"name": "beside a change point", "gravity": [0, 0, 0],
+        "bodies": [body("crank", 1.0, (0.0, 0.0), crank, 1.0, (0.0, 0.0), 1.5),
+            body("coupler", 2.0, crank, c, coupler, v, turning),
+            body("rocker", 1.0, (2.0, 0.0), r, 1.0, (0.0, 0.0), rocker)],
+        "joints": [joint("O", "ground", (0.0, 0.0), "crank", 0.0), joint("A", "crank", (1.0, 0.0), "coupler", 0.0),
+            joint("B", "coupler", (coupler, 0.0), "rocker", 1.0), joint("D", "ground", (2.0, 0.0), "rocker", 0.0)],
+        "simulation": {"duration": 1.5}});
+    Scene::from_json(&scene.to_string()).unwrap()
+}
+
+#[test]
+fn near_a_change_point_the_branch_is_right_or_the_doubt_is_told() {
+    let mut silent = Vec::new();
+    for nearness in [1e-2, 1e-4, 1e-6, 1e-8] {
+        let scene = beside_a_change_point(nearness);
+        for kind in [Taylor, Dop853, Dopri5, Ode45, Radau, IntegratorKind::Rattle] {
+            for tolerance in TOLERANCES {
+                // Nothing turns back: the shorter coupler makes the rocker swing.
+                let mut run = run(&scene, kind, tolerance);
+                let stopped = run.advance_to(run.duration()).is_err();
+                let right = run.frame().bodies[2].angular_velocity[2] < 0.0;
+                let summary = run.summary();
+                let told = stopped || !summary.doubts.is_empty() || !summary.singularities.is_empty();
+                // What the series can do, they do.
+                let sure = kind == Taylor && nearness > 1e-7;
+                if !(right || told) || (sure && !(right && summary.singularities.is_empty())) {
+                    silent.push(format!("{nearness:.0e} {kind:?} {tolerance:.0e}: {summary:?}"));
+                }
+            }
+        }
+    }
+    assert!(silent.is_empty(), "{}", silent.join("\n"));
+}
