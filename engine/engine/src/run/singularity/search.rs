@@ -157,7 +157,8 @@ impl Search<'_> {
                 middle.0 = dip.time;
                 self.sample(dip.time, place);
             }
-        } else if apart * self.step.pace < FINEST {
+        }
+        if apart * self.step.pace < FINEST {
             return Ok(());
         }
         self.within(a, middle, place + 1)?;
