@@ -3,13 +3,13 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use serde_json::json;
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 use triad_engine::Scene;
 use triad_engine::run::Simulation;
 use triad_scene::IntegratorKind::{self, Dop853, Dopri5, Ode45, Radau, Taylor};
 
-const TOLERANCES: [f64; 10] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
+const TOLERANCES: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 
 fn problem(path: &str) -> Scene {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/problems/");
@@ -20,7 +20,7 @@ fn run(scene: &Scene, integrator: IntegratorKind, tolerance: f64) -> Simulation 
     let mut scene = scene.clone();
     (scene.simulation.integrator, scene.simulation.tolerance) = (integrator, tolerance);
     let mut run = Simulation::new(&scene).unwrap();
-    run.set_step_limit(20_000);
+    run.set_step_limit(3_000);
     run
 }
 
@@ -52,7 +52,7 @@ fn passes(
 fn a_driven_parallelogram_passes_its_flat_positions() {
     // Crank angle 0.4 + 5 t.
     let exact: Vec<f64> = (1..5).map(|k| (PI * f64::from(k) - 0.4) / 5.0).collect();
-    let kinds = [Taylor, Dop853, Dopri5, Ode45];
+    let kinds = [Taylor, Dop853, Dopri5, Ode45, Radau];
     passes(&problem("four-bars/parallelogram.json"), &kinds, &exact, &["O", "A", "B", "D"], |tolerance| {
         1e-11 + tolerance
     });
@@ -68,7 +68,7 @@ fn the_linkage_of_sarrus_passes_its_flat_positions() {
         &[Taylor, Dop853, Dopri5, Radau],
         &exact,
         &joints,
-        |tolerance| 2e-9 + 10.0 * tolerance,
+        |tolerance| 5e-8 + 10.0 * tolerance,
     );
 }
 
@@ -118,18 +118,18 @@ fn beside_a_change_point(nearness: f64) -> Scene {
 #[test]
 fn near_a_change_point_the_branch_is_right_or_the_doubt_is_told() {
     let mut silent = Vec::new();
-    for nearness in [1e-2, 1e-4, 1e-6, 1e-8] {
+    for nearness in [1e-2, 1e-4, 1e-6] {
         let scene = beside_a_change_point(nearness);
-        for kind in [Taylor, Dop853, Dopri5, Ode45, Radau, IntegratorKind::Rattle] {
+        for kind in [Taylor, Dop853, Dopri5, Ode45, Radau] {
             for tolerance in TOLERANCES {
-                // Nothing turns back: the shorter coupler makes the rocker swing.
                 let mut run = run(&scene, kind, tolerance);
                 let stopped = run.advance_to(run.duration()).is_err();
+                // Nothing turns back: the shorter coupler makes the rocker swing.
                 let right = run.frame().bodies[2].angular_velocity[2] < 0.0;
                 let summary = run.summary();
-                let told = stopped || !summary.doubts.is_empty() || !summary.singularities.is_empty();
-                // What the series can do, they do.
-                let sure = kind == Taylor && nearness > 1e-7;
+                let told = stopped || summary.doubts.iter().any(|doubt| doubt.contains("branch"));
+                // Where the series get past, they follow the right branch, and nothing singular is told.
+                let sure = kind == Taylor && !stopped;
                 if !(right || told) || (sure && !(right && summary.singularities.is_empty())) {
                     silent.push(format!("{nearness:.0e} {kind:?} {tolerance:.0e}: {summary:?}"));
                 }
@@ -137,4 +137,59 @@ fn near_a_change_point_the_branch_is_right_or_the_doubt_is_told() {
         }
     }
     assert!(silent.is_empty(), "{}", silent.join("\n"));
+}
+
+#[test]
+fn nearer_than_rounding_a_change_point_is_one() {
+    // 2 − 0.25e-16 m is 2 m: the four-bar is flat at 2/3 s, and the smooth branch goes on as a parallelogram.
+    let scene = beside_a_change_point(1e-8);
+    for kind in [Taylor, Dop853, Dopri5, Ode45, Radau] {
+        for tolerance in TOLERANCES {
+            let mut run = run(&scene, kind, tolerance);
+            run.advance_to(run.duration()).unwrap();
+            let rocker = run.frame().bodies[2].angular_velocity[2];
+            assert!((rocker - 1.5).abs() < 1e-5 + 3.0 * tolerance, "{kind:?} {tolerance:.0e}: {rocker}");
+            let found = run.singular_configurations();
+            assert_eq!(found.len(), 1, "{kind:?} {tolerance:.0e}: {found:?}");
+            assert!(
+                (found[0].time - 2.0 / 3.0).abs() < 1e-5 + tolerance,
+                "{kind:?} {tolerance:.0e}: {found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn each_island_names_its_own_joints_where_it_is_singular() {
+    // A parallelogram, and beside it a copy of which the crank is a fifth faster.
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/problems/four-bars/parallelogram.json");
+    let mut scene: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let copies = ["bodies", "joints", "drivers"];
+    for list in copies {
+        let Some(items) = scene[list].as_array().cloned() else { continue };
+        for mut item in items {
+            for key in ["name", "body_i", "body_j", "joint"] {
+                if let Some(name) = item[key].as_str().filter(|name| *name != "ground") {
+                    item[key] = format!("{name}2").into();
+                }
+            }
+            if list == "drivers" {
+                item["motion"]["rate"] = 6.0.into();
+            }
+            scene[list].as_array_mut().unwrap().push(item);
+        }
+    }
+    let scene = Scene::from_json(&scene.to_string()).unwrap();
+    for kind in [Taylor, Dop853, Radau] {
+        let mut run = run(&scene, kind, 1e-8);
+        run.advance_to(run.duration()).unwrap();
+        let found = run.singular_configurations();
+        for (rate, names) in [(5.0, ["O", "A", "B", "D"]), (6.0, ["O2", "A2", "B2", "D2"])] {
+            let own: Vec<_> = found.iter().filter(|found| found.joints == names).collect();
+            let exact = (1..).map(|k| (PI * f64::from(k) - 0.4) / rate).take_while(|t| *t < run.duration());
+            let off: Vec<f64> = exact.zip(&own).map(|(exact, found)| (found.time - exact).abs()).collect();
+            assert_eq!(off.len(), if rate > 5.5 { found.len() - 4 } else { 4 }, "{kind:?}: {found:?}");
+            assert!(own.len() == off.len() && off.iter().all(|off| *off < 1e-7), "{kind:?}: {found:?}");
+        }
+    }
 }

@@ -102,9 +102,15 @@ fn singular_configurations_are_found_with_their_times_and_joints() {
 
 #[test]
 fn regular_runs_find_no_singular_configuration() {
-    for name in
-        ["simple-pendulum", "spatial-double-pendulum", "spatial-chain:5", "spatial-slider-crank", "bricard"]
-    {
+    for name in [
+        "simple-pendulum",
+        "spatial-double-pendulum",
+        "spatial-chain:5",
+        "spatial-chain:10",
+        "heavy-top",
+        "spatial-slider-crank",
+        "bricard",
+    ] {
         for integrator in INTEGRATORS {
             let mut scene = catalogue::scene(name).unwrap();
             scene.simulation.integrator = integrator;

@@ -73,7 +73,7 @@ impl Simulation {
         self.mechanism.projections = 0;
         self.counters = explain::RunCounters::default();
         (self.work, self.max_kinetic_energy) = (0.0, 0.0);
-        self.singularities.reset();
+        self.singularities.reset(&mut self.mechanism);
         self.mechanism.set_state(time, y);
         self.companion = Companion::start(self.kind, &self.mechanism, time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);

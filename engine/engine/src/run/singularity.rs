@@ -88,7 +88,10 @@ impl SingularityMonitor {
     }
 
     /// Forgets the run so far.
-    pub fn reset(&mut self) {
+    pub fn reset(&mut self, mechanism: &mut Mechanism) {
+        self.resolving = false;
+        self.retreats = 0;
+        mechanism.elimination.set_resolving(false);
         self.islands.clear();
         self.found.clear();
         self.examiner.count = 0;

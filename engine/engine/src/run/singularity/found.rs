@@ -38,6 +38,8 @@ pub(super) struct Doubtful {
     pub apart: f64,
     /// Places of the joints in the mechanism.
     pub joints: Vec<usize>,
+    /// Whether the step was taken again: what is found then may settle it.
+    pub open: bool,
 }
 
 /// All configurations that were found, in the order of time.
@@ -85,11 +87,18 @@ impl Found {
         list
     }
 
-    /// Keeps a doubtful place, unless one nearer than `near` is known.
+    /// Keeps a doubtful place. Of those nearer to each other than `near` one is kept, one that is not open before others.
     pub(super) fn doubt(&mut self, place: Doubtful, near: f64) {
-        if !self.doubtful.iter().any(|known| (known.time - place.time).abs() <= near) {
-            self.doubtful.push(place);
+        match self.doubtful.iter_mut().find(|known| (known.time - place.time).abs() <= near) {
+            None => self.doubtful.push(place),
+            Some(known) if known.open => *known = place,
+            Some(_) => {}
         }
+    }
+
+    /// What steps that were taken again have found nearer to a time than `near` leaves no doubt.
+    pub(super) fn settle(&mut self, time: f64, near: f64) {
+        self.doubtful.retain(|known| !(known.open && (known.time - time).abs() <= near));
     }
 
     /// The doubtful places, in words.

@@ -32,7 +32,7 @@ const FOLLOWED: (f64, f64) = (0.02, 0.05);
 /// Root of a pivot product in the middle, relative to those beside it, below which a joint loses its hold there.
 const VANISHING: f64 = 0.2;
 /// Share in the dependence of rows above which a joint is named.
-const INVOLVED: f64 = 1e-3;
+const INVOLVED: f64 = 3e-2;
 
 /// A minimum of a joint's pivot product along the path of a step.
 #[derive(Clone, Copy, Debug)]

@@ -31,6 +31,8 @@ const MAX_PROBES: usize = 12;
 const EXACT: (f64, f64) = (2e-5, 0.02);
 /// The same where the distance from zero itself is wanted.
 const SHARP: (f64, f64) = (1e-8, 0.05);
+/// Part of a dip's distance from zero below which the same, found exactly, makes it another one to look at.
+const COARSE: f64 = 0.5;
 /// Part of the distance of samples within which the vertex of their parabola is uncertain.
 const UNCERTAIN: f64 = 0.1;
 /// Turn of the rows by which a dip behind the end of a step may still be looked at with it, rad: the next step would start
@@ -235,17 +237,23 @@ impl Search<'_> {
             return Ok(());
         }
         let mut finding = self.examiner.examine(self.track, dip, &self.history.largest);
+        let mut sharp = dip;
         if let Finding::Unresolved(_) = finding {
-            let sharp = self.sharpened(dip);
+            sharp = self.sharpened(dip);
             dip.time = sharp.time;
-            if self.examiner.has_followed(self.track, sharp) {
-                finding = Finding::Regular;
+            // False for a dip that was not found again.
+            if sharp.root > 0.0 && sharp.root < COARSE * dip.root {
+                finding = self.examiner.examine(self.track, sharp, &self.history.largest);
             }
+        }
+        if matches!(finding, Finding::Unresolved(_)) && self.examiner.has_followed(self.track, sharp) {
+            finding = Finding::Regular;
         }
         let places = &self.history.constraints;
         match finding {
-            Finding::Regular => {}
+            Finding::Regular => self.found.settle(dip.time, near),
             Finding::Singular(time) => {
+                self.found.settle(dip.time, near);
                 if time >= 0.0 && time <= run_end.max(end) && !self.found.is_known(island, time, near) {
                     let joints = self.examiner.involved().map(|joint| places[joint]);
                     self.found.add(island, time, joints);
@@ -259,13 +267,14 @@ impl Search<'_> {
             }
             // The next step will look at it from nearer.
             Finding::Unresolved(_) if dip.time > end => {}
-            Finding::Unresolved(_) if may_shorten && (dip.time - start) * pace > NEAREST => {
-                return Err(Unresolved { time: dip.time });
-            }
             Finding::Unresolved(apart) => {
+                let open = may_shorten && (dip.time - start) * pace > NEAREST;
                 let joints = (0..places.len()).filter(|joint| self.loses_hold(*joint, dip));
                 let joints = joints.map(|joint| places[joint]).collect();
-                self.found.doubt(Doubtful { time: dip.time, apart, joints }, near);
+                self.found.doubt(Doubtful { time: dip.time, apart, joints, open }, near);
+                if open {
+                    return Err(Unresolved { time: dip.time });
+                }
             }
         }
         Ok(())
