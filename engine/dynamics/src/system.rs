@@ -103,16 +103,6 @@ pub struct Row {
 /// Marks a feature of the ground, which meets no moving body.
 pub const NO_INCIDENCE: usize = usize::MAX;
 
-/// Principal moment of inertia, relative to m l² with l the longest arm of the body's own joints, below which the inertia is
-/// regularized: S would be too ill-conditioned to be factored.
-const LACKING: f64 = 1e-7;
-/// δ over m l² of a body that lacks inertia — eq. (7.8).
-const REGULARIZING_INERTIA: f64 = 1e-4;
-
-/// Arm, in lengths of the mechanism, below which none is taken for the radius of gyration in a measure of lengths: radii that
-/// differ by more would hide rows behind rounding, as masses do.
-const SHORT_ARM: f64 = 1e-2;
-
 /// The assembled system.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -243,27 +233,10 @@ impl System {
     fn add_bodies(&mut self) {
         let layouts = sharing::layouts(&self.model);
         let arms = self.arms();
-        for (index, body) in self.model.bodies.iter().enumerate() {
-            let j = body.principal;
-            let half = 0.5 * j.sum();
-            let ibar = j.map(|i| (half - i).max(0.0));
-            // A free body needs help only where a moment is missing.
-            let scale = body.mass * arms[index] * arms[index];
-            let lacks = j.min() < LACKING * scale || (j.min() == 0.0 && scale == 0.0);
-            let scale = if scale == 0.0 { j.max().max(body.mass * self.length * self.length) } else { scale };
-            let regularizing_inertia = if lacks { REGULARIZING_INERTIA * scale } else { 0.0 };
-            self.bodies.push(RigidBody {
-                mass: body.mass,
-                principal: j,
-                ibar,
-                regularizing_inertia,
-                coordinates: body.coordinates,
-                layout: layouts[index],
-                planar_pose: None,
-                pivot: None,
-            });
-            self.coordinates += layouts[index].size();
-            self.rigid_rows += layouts[index].rigid_rows().count();
+        for ((body, layout), arm) in self.model.bodies.iter().zip(layouts).zip(arms) {
+            self.bodies.push(RigidBody::new(body, layout, arm, self.length));
+            self.coordinates += layout.size();
+            self.rigid_rows += layout.rigid_rows().count();
         }
     }
 
@@ -273,15 +246,7 @@ impl System {
     pub fn in_lengths(&self) -> Self {
         let mut system = self.clone();
         for (body, arm) in system.bodies.iter_mut().zip(self.arms()) {
-            let radius = arm.max(SHORT_ARM * self.length);
-            let square = radius * radius;
-            body.mass = 1.0;
-            body.principal = Vector3::from_element(square);
-            body.ibar = match body.planar_pose {
-                None => Vector3::from_element(0.5 * square),
-                Some(_) => Vector3::new(square, 0.0, 0.0),
-            };
-            body.regularizing_inertia = 0.0;
+            body.measure_lengths(arm, self.length);
         }
         system
     }

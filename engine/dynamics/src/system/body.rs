@@ -1,8 +1,19 @@
 //! A body as the equations of motion see it, in space and in a plane.
 
+use crate::model::ModelBody;
 use crate::scene::Coordinates;
 use crate::system::natural::{Layout, NaturalCoordinates};
 use nalgebra::{Matrix3, Vector3};
+
+/// Principal moment of inertia, relative to m l² with l the longest arm of the body's own joints, below which the inertia is
+/// regularized: S would be too ill-conditioned to be factored.
+pub const LACKING: f64 = 1e-7;
+/// δ over m l² of a body that lacks inertia — eq. (7.8).
+const REGULARIZING_INERTIA: f64 = 1e-4;
+
+/// Arm, in lengths of the mechanism, below which none is taken for the radius of gyration in a measure of lengths: radii that
+/// differ by more would hide rows behind rounding, as masses do.
+const SHORT_ARM: f64 = 1e-2;
 
 /// A body as the equations of motion see it.
 #[derive(Clone, Debug)]
@@ -37,6 +48,39 @@ pub struct GroundPivot {
 }
 
 impl RigidBody {
+    /// A body of a model with its coordinates, the longest arm of its own joints and loads, m, and a length of the mechanism, m.
+    pub fn new(body: &ModelBody, layout: Layout, arm: f64, length: f64) -> Self {
+        let j = body.principal;
+        let half = 0.5 * j.sum();
+        // A free body needs help only where a moment is missing.
+        let scale = body.mass * arm * arm;
+        let lacks = j.min() < LACKING * scale || (j.min() == 0.0 && scale == 0.0);
+        let scale = if scale == 0.0 { j.max().max(body.mass * length * length) } else { scale };
+        Self {
+            mass: body.mass,
+            principal: j,
+            ibar: j.map(|i| (half - i).max(0.0)),
+            regularizing_inertia: if lacks { REGULARIZING_INERTIA * scale } else { 0.0 },
+            coordinates: body.coordinates,
+            layout,
+            planar_pose: None,
+            pivot: None,
+        }
+    }
+
+    /// Gives it mass one and its arm as radius of gyration about every axis — eq. (8.2).
+    pub fn measure_lengths(&mut self, arm: f64, length: f64) {
+        let radius = arm.max(SHORT_ARM * length);
+        let square = radius * radius;
+        self.mass = 1.0;
+        self.principal = Vector3::from_element(square);
+        self.ibar = match self.planar_pose {
+            None => Vector3::from_element(0.5 * square),
+            Some(_) => Vector3::new(square, 0.0, 0.0),
+        };
+        self.regularizing_inertia = 0.0;
+    }
+
     /// What a force at the centre of mass moves it by: nothing if it has a ground pivot, where the moment about the pivot
     /// says all.
     pub fn free_inverse_mass(&self) -> f64 {

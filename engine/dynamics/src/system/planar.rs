@@ -9,13 +9,13 @@
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
 use crate::scene::LoadFrame;
-use crate::system::body::{GroundPivot, PlanarPose, RigidBody};
+use crate::system::body::{GroundPivot, LACKING, PlanarPose, RigidBody};
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
-use crate::system::{LACKING, Row, System};
+use crate::system::{Row, System};
 use nalgebra::{Matrix3, Vector3};
 use triad_linalg::orthonormal_basis;
 
