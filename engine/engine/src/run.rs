@@ -84,6 +84,8 @@ pub struct Simulation {
     counters: explain::RunCounters,
     /// Searches steps for singular configurations.
     singularities: SingularityMonitor,
+    /// The run before the steps that are being taken again to tell two branches of the motion apart.
+    before_branching: Option<Box<Self>>,
 }
 
 impl Simulation {
@@ -142,6 +144,11 @@ impl Simulation {
     /// Singular configurations passed since the start — THEORY section 8.
     pub fn singular_configurations(&self) -> Vec<SingularConfiguration> {
         self.singularities.configurations(self.system())
+    }
+
+    /// Places up to now at which branches of the motion come so near each other that either may have been followed, in words.
+    pub fn branching(&self) -> Vec<String> {
+        self.singularities.doubts(self.system())
     }
 
     /// Evaluations inside steps in the search for singular configurations.
@@ -263,16 +270,37 @@ impl Simulation {
         Ok(())
     }
 
-    /// Takes a step of the integrator, not beyond `end`, shorter ones where branches of the motion come near each other.
+    /// Takes a step of the integrator, not beyond `end`, shorter ones where branches of the motion come near each other. Where no
+    /// step is short enough to tell them apart, the run goes back, passes them as it would have, and keeps the doubt.
     fn step_integrator(&mut self, end: f64) -> Result<(), StopReason> {
-        let Self { integrator, mechanism, singularities, .. } = self;
-        let mut end = end;
+        let mut until = end;
         loop {
-            integrator.step(mechanism, end)?;
-            let Some(shorter) = singularities.step(mechanism, integrator) else { return Ok(()) };
-            integrator.take_back(mechanism);
-            end = shorter;
+            let Self { integrator, mechanism, singularities, .. } = &mut *self;
+            if let Err(stop) = integrator.step(mechanism, until) {
+                let before = self.before_branching.take().ok_or(stop)?;
+                self.go_back(*before);
+                until = end;
+            } else if let Some(shorter) = singularities.step(mechanism, integrator) {
+                integrator.take_back(mechanism);
+                until = shorter;
+                if self.before_branching.is_none() {
+                    self.before_branching = Some(Box::new(self.clone()));
+                }
+            } else {
+                if self.before_branching.is_some() && !self.singularities.is_resolving() {
+                    self.before_branching = None;
+                }
+                return Ok(());
+            }
         }
+    }
+
+    /// Goes back to what the run was, where branches that cannot be told apart were not yet looked for; the current state stays.
+    fn go_back(&mut self, before: Self) {
+        let tried = std::mem::replace(self, before);
+        let Self { integrator, mechanism, singularities, .. } = self;
+        singularities.give_up(&tried.singularities, mechanism, integrator);
+        self.current = tried.current;
     }
 
     /// Measures the constraints at the end of the last step where the integrator has not proved that they hold.

@@ -36,6 +36,12 @@ pub struct Verification {
     pub turn: f64,
     /// Largest differences body by body.
     pub bodies: Vec<BodyError>,
+    /// Places at which the second solution may have followed another branch of the motion than the right one, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub branching: Vec<String>,
+    /// Why it could not go on, if so: what comes after is not compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
 }
 
 /// Part of the length of the mechanism that two solutions may be apart before the result is doubted: as for the estimate that a
@@ -44,15 +50,24 @@ const DOUBTFUL: f64 = 0.01;
 
 impl Verification {
     /// What the second solution speaks against in a run of the scene.
-    pub fn doubt(&self, run: &Simulation) -> Option<String> {
+    pub fn doubts(&self, run: &Simulation) -> Vec<String> {
         let length = run.system().length;
-        (self.position > DOUBTFUL * length).then(|| {
-            format!(
-                "a second solution, by {} at {:.0e}, is {:.1e} m away, more than a hundredth of the mechanism's length of \
-                 {length:.3} m; tighten the tolerance, or look at a shorter time",
-                self.integrator, self.tolerance, self.position
-            )
-        })
+        let second = format!("a second solution, by {} at {:.0e},", self.integrator, self.tolerance);
+        let mut doubts = Vec::new();
+        if self.position > DOUBTFUL * length {
+            doubts.push(format!(
+                "{second} is {:.1e} m away, more than a hundredth of the mechanism's length of {length:.3} m; tighten the \
+                 tolerance, or look at a shorter time",
+                self.position
+            ));
+        }
+        if let Some(place) = self.branching.first() {
+            doubts.push(format!("{second} does not verify the branch: there, too, {place}"));
+        }
+        if let Some(why) = &self.stopped {
+            doubts.push(format!("{second} could not go on, and what comes after is not verified: {why}"));
+        }
+        doubts
     }
 }
 
@@ -93,19 +108,25 @@ impl Verifier {
             position: 0.0,
             turn: 0.0,
             bodies: bodies.collect(),
+            branching: Vec::new(),
+            stopped: None,
         };
         Ok(Self { second, found })
     }
 
     /// Brings the second solution to the time that the first one shows, by at most `most_steps` steps, and compares. False
-    /// if it did not get there: call it again.
-    ///
-    /// # Errors
-    ///
-    /// [`EngineError`]: the second solution cannot go on.
-    pub fn compare(&mut self, first: &Simulation, most_steps: u64) -> Result<bool, EngineError> {
-        if !self.second.advance_towards(first.time(), most_steps)? {
-            return Ok(false);
+    /// if it did not get there: call it again. Where it cannot go on, nothing more is compared.
+    pub fn compare(&mut self, first: &Simulation, most_steps: u64) -> bool {
+        if self.found.stopped.is_some() {
+            return true;
+        }
+        match self.second.advance_towards(first.time(), most_steps) {
+            Ok(true) => {}
+            Ok(false) => return false,
+            Err(error) => {
+                self.found.stopped = Some(error.to_string());
+                return true;
+            }
         }
         let (here, there) = (first.frame(), self.second.frame());
         let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] - b[k]).map(|d| d * d).sum::<f64>().sqrt();
@@ -116,8 +137,9 @@ impl Verifier {
             self.found.position = self.found.position.max(error.position);
             self.found.turn = self.found.turn.max(error.turn);
         }
+        self.found.branching = self.second.branching();
         self.found.compared += 1;
-        Ok(true)
+        true
     }
 
     /// What was found so far.

@@ -74,6 +74,7 @@ impl Simulation {
         self.counters = explain::RunCounters::default();
         (self.work, self.max_kinetic_energy) = (0.0, 0.0);
         self.singularities.reset(&mut self.mechanism);
+        self.before_branching = None;
         self.mechanism.set_state(time, y);
         self.companion = Companion::start(self.kind, &self.mechanism, time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);

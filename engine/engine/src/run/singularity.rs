@@ -60,6 +60,10 @@ pub struct SingularityMonitor {
     /// Whether rows that hardly hold are kept on the way past a place that was not resolved, and steps taken again there.
     resolving: bool,
     retreats: usize,
+    /// The place that steps are being taken again for lies before this time, s.
+    unresolved: f64,
+    /// Up to when steps are not taken again, s: the branch could not be told there.
+    given_up: f64,
 }
 
 impl SingularityMonitor {
@@ -84,6 +88,8 @@ impl SingularityMonitor {
             examined: Vec::with_capacity(USUAL_DIPS),
             resolving: false,
             retreats: 0,
+            unresolved: f64::NEG_INFINITY,
+            given_up: f64::NEG_INFINITY,
         }
     }
 
@@ -91,6 +97,7 @@ impl SingularityMonitor {
     pub fn reset(&mut self, mechanism: &mut Mechanism) {
         self.resolving = false;
         self.retreats = 0;
+        self.given_up = f64::NEG_INFINITY;
         mechanism.elimination.set_resolving(false);
         self.islands.clear();
         self.found.clear();
@@ -119,6 +126,18 @@ impl SingularityMonitor {
         let shorter = self.search(&mut probe, mechanism, integrator);
         self.probe = Some(probe);
         shorter
+    }
+
+    /// Whether steps are being taken again on the way past a place that was not resolved.
+    pub fn is_resolving(&self) -> bool {
+        self.resolving
+    }
+
+    /// Goes on from before such a place, past which `tried` found no way: the step is not taken again for it, and its doubt
+    /// stays.
+    pub fn give_up(&mut self, tried: &Self, mechanism: &mut Mechanism, integrator: &mut Integrator) {
+        self.given_up = tried.unresolved;
+        self.resolve(false, mechanism, integrator);
     }
 
     fn search(
@@ -156,6 +175,7 @@ impl SingularityMonitor {
             zero: zero(self.tolerance, open),
             violated: self.violated,
             may_shorten: can_retreat && !self.violated && !self.fixed && self.retreats < MAX_RETREATS,
+            given_up: self.given_up,
         };
         let result = match integrator.track() {
             Some(track) => self.look(track, data, pace, known),
@@ -209,7 +229,7 @@ impl SingularityMonitor {
         mechanism: &mut Mechanism,
         integrator: &mut Integrator,
     ) -> Option<f64> {
-        let Err(Unresolved { time }) = result else {
+        let Err(Unresolved { time, until }) = result else {
             if self.resolving {
                 let largest = &self.islands[island].largest;
                 let least = (0..largest.len())
@@ -223,6 +243,7 @@ impl SingularityMonitor {
         };
         self.found.forget_after(island, start);
         self.retreats += 1;
+        self.unresolved = until;
         self.resolve(true, mechanism, integrator);
         Some(start + APPROACH * (time - start))
     }

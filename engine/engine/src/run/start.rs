@@ -100,6 +100,7 @@ impl Simulation {
             end,
             counters: explain::RunCounters::default(),
             singularities,
+            before_branching: None,
         };
         simulation.restart_events();
         Ok(simulation)

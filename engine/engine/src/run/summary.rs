@@ -145,7 +145,7 @@ impl Simulation {
 
     /// What speaks against the current state.
     fn doubts(&self, singularities: &[SingularConfiguration], drift: f64) -> Vec<String> {
-        let mut doubts = self.singularities.doubts(&self.mechanism.system);
+        let mut doubts = self.branching();
         // A Taylor series meets its tolerance or stops, and does not look at each step.
         if self.kind == IntegratorKind::Taylor {
             return doubts;

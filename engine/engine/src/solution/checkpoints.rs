@@ -65,6 +65,10 @@ impl Checkpoints {
     /// Takes note of a step that the run has taken, from time `from`.
     pub fn keep(&mut self, from: f64, run: &Simulation) {
         self.steps += 1;
+        // A run that went back shows what it then passes a second time from the steps that it took first.
+        if self.later.last().is_some_and(|last| from < last.from) {
+            return;
+        }
         if !self.steps.is_multiple_of(self.stride) {
             return;
         }

@@ -30,7 +30,7 @@ pub(super) fn report(
     json: bool,
 ) {
     let mut summary = simulation.summary();
-    summary.doubts.extend(verified.and_then(|verified| verified.doubt(simulation)));
+    summary.doubts.extend(verified.into_iter().flat_map(|verified| verified.doubts(simulation)));
     let reactions = simulation.reaction_errors();
     let mut notes = simulation.notes().to_vec();
     notes.extend(options.source.notes(scene, summary.integrator == IntegratorKind::Taylor));

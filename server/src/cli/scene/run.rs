@@ -168,7 +168,6 @@ fn advance(
     &Course { every, bounds, bar }: &Course,
     clock: &mut Clock,
 ) -> Result<(), Stop> {
-    let engine = |error: EngineError| Stop::Engine(error.into());
     outputs.write(simulation).map_err(Stop::Output)?;
     clock.lap("write");
     let mut index = 0_u64;
@@ -189,7 +188,7 @@ fn advance(
         }
         clock.lap("integrate");
         if let Some(verifier) = verifier.as_deref_mut() {
-            while !verifier.compare(simulation, PIECE).map_err(engine)? {
+            while !verifier.compare(simulation, PIECE) {
                 bounds.reached(simulation.time())?;
             }
             clock.lap("verify");

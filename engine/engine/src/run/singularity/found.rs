@@ -108,7 +108,7 @@ impl Found {
                 place.joints.iter().map(|&joint| system.constraints[joint].name.as_str()).collect();
             format!(
                 "at t = {:.6} s the motion passes within {:.0e} of a branching position of {}; either branch may be right: \
-                 compare with a tighter tolerance, with taylor or dop853 and projection",
+                 compare with taylor at a tighter tolerance, or change a length a little",
                 place.time,
                 place.apart,
                 joints.join(", ")

@@ -31,6 +31,8 @@ const MAX_PROBES: usize = 12;
 const EXACT: (f64, f64) = (2e-5, 0.02);
 /// The same where the distance from zero itself is wanted.
 const SHARP: (f64, f64) = (1e-8, 0.05);
+/// Root of a pivot product above which the distance of a dip from zero is known well enough.
+const KNOWN: f64 = 5e-3;
 /// Part of a dip's distance from zero below which the same, found exactly, makes it another one to look at.
 const COARSE: f64 = 0.5;
 /// Part of the distance of samples within which the vertex of their parabola is uncertain.
@@ -48,6 +50,8 @@ const NEAREST: f64 = 1e-8;
 pub(super) struct Unresolved {
     /// When, s.
     pub time: f64,
+    /// Up to when a dip is the same place, s.
+    pub until: f64,
 }
 
 /// What a search is given about the step.
@@ -66,6 +70,8 @@ pub(super) struct StepData {
     pub violated: bool,
     /// Whether the step can be taken again, shorter.
     pub may_shorten: bool,
+    /// Up to when that has led nowhere, s.
+    pub given_up: f64,
 }
 
 /// The search for dips of pivot products inside a step.
@@ -213,20 +219,23 @@ impl Search<'_> {
         None
     }
 
-    /// The same dip, exactly enough to tell its distance from none.
+    /// The same dip, exactly enough to tell its distance from none. Where it is not found again, that is zero if the samples so far
+    /// leave it open.
     fn sharpened(&mut self, dip: Dip) -> Dip {
-        let (beside, place) = (EXACT.0.max(dip.root) / dip.slope, self.samples.len() - 1);
+        let beside = (EXACT.0.max(dip.root) / dip.slope).min(FINEST / dip.pace);
+        let place = self.samples.len() - 1;
         let points = [-beside, 0.0, beside].map(|apart| {
             self.sample(dip.time + apart, place);
             (dip.time + apart, self.square(dip.joint, place))
         });
         let range = (dip.time - beside, dip.time + beside);
-        self.descend(dip.joint, points, range, SHARP).unwrap_or(Dip { root: 0.0, ..dip })
+        let root = if dip.root > KNOWN { dip.root } else { 0.0 };
+        self.descend(dip.joint, points, range, SHARP).unwrap_or(Dip { root, ..dip })
     }
 
     /// Finds out what a dip is, and keeps it if it is a singular configuration.
     fn judge(&mut self, mut dip: Dip) -> Result<(), Unresolved> {
-        let StepData { island, start, end, run_end, pace, zero, violated, may_shorten } = self.step;
+        let StepData { island, start, end, run_end, pace, zero, violated, may_shorten, given_up } = self.step;
         let near = SAME / pace;
         if self.is_examined(dip.time) {
             return Ok(());
@@ -241,7 +250,6 @@ impl Search<'_> {
         if let Finding::Unresolved(_) = finding {
             sharp = self.sharpened(dip);
             dip.time = sharp.time;
-            // False for a dip that was not found again.
             if sharp.root > 0.0 && sharp.root < COARSE * dip.root {
                 finding = self.examiner.examine(self.track, sharp, &self.history.largest);
             }
@@ -268,12 +276,13 @@ impl Search<'_> {
             // The next step will look at it from nearer.
             Finding::Unresolved(_) if dip.time > end => {}
             Finding::Unresolved(apart) => {
-                let open = may_shorten && (dip.time - start) * pace > NEAREST;
-                let joints = (0..places.len()).filter(|joint| self.loses_hold(*joint, dip));
+                let open = may_shorten && dip.time > given_up && (dip.time - start) * pace > NEAREST;
+                let lost = |joint: &usize| *joint == dip.joint || self.loses_hold(*joint, dip);
+                let joints = (0..places.len()).filter(lost);
                 let joints = joints.map(|joint| places[joint]).collect();
                 self.found.doubt(Doubtful { time: dip.time, apart, joints, open }, near);
                 if open {
-                    return Err(Unresolved { time: dip.time });
+                    return Err(Unresolved { time: dip.time, until: dip.time + near });
                 }
             }
         }
