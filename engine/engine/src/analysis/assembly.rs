@@ -2,12 +2,12 @@
 
 use super::AnalysisError;
 use crate::error::EngineError;
-use crate::scene::Scene;
+use crate::scene::{Body, Joint, Scene};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
-use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::constraints::{ConstraintError, quoted};
 use triad_dynamics::constraints::{rough, start};
 use triad_dynamics::model::{BodyRef, JointGeometry, Model, ModelJoint};
 use triad_dynamics::newton::{project_velocities, rules};
@@ -47,6 +47,8 @@ pub struct Assembly {
     pub violation: f64,
     /// Largest violation that is left, m.
     pub left: f64,
+    /// What has to be known of the result.
+    pub notes: Vec<String>,
 }
 
 /// Closes all joints with the least mass-weighted motion, however rough the start, and then makes the velocities fit.
@@ -86,7 +88,33 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
             EngineError::from(ConstraintError::Assembly { joint, with, pointer, violation, moved }).into()
         );
     }
-    Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, violation, left })
+    let notes = lengths_from_positions(scene).into_iter().collect();
+    Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, violation, left, notes })
+}
+
+/// Tells the joints whose points are given in the world, of bodies with two or more of them: between these nothing is ever open,
+/// and the distance is what the stated positions make it.
+fn lengths_from_positions(scene: &Scene) -> Option<String> {
+    let stated = |joint: &&Joint| joint.point.is_some() || joint.points.is_some();
+    let joints: Vec<&Joint> = scene.joints.iter().filter(stated).collect();
+    let meets = |joint: &Joint, body: &Body| joint.body_i == body.name || joint.body_j == body.name;
+    let links: Vec<&Body> = scene
+        .bodies
+        .iter()
+        .filter(|body| joints.iter().filter(|joint| meets(joint, body)).count() > 1)
+        .collect();
+    let names: Vec<String> = joints
+        .iter()
+        .filter(|joint| links.iter().any(|link| meets(joint, link)))
+        .map(|joint| joint.name.clone())
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "the points of {} are given in the world: links between them are as long as the stated positions make them, and \
+             rounded positions make wrong lengths; only point_i and point_j keep lengths",
+            quoted(&names)
+        )
+    })
 }
 
 /// A joint that fixes a body to the ground where it starts.

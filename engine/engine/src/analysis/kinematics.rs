@@ -17,7 +17,7 @@ mod path;
 use super::{AnalysisError, Stage};
 use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport, report};
-use crate::run::SingularConfiguration;
+use crate::run::{EventOccurrence, SingularConfiguration};
 use crate::scene::Scene;
 use idle::Idle;
 use inverse::Masses;
@@ -60,11 +60,13 @@ pub struct Kinematics {
     /// Singular positions passed, where other branches begin: the smooth one was taken.
     #[serde(rename = "passages")]
     pub singularities: Vec<SingularConfiguration>,
+    /// Events of the scene, in the order of time; one that stops a run ends the motion.
+    pub events: Vec<EventOccurrence>,
     /// What was corrected at the start, or has to be known of the result.
     pub notes: Vec<String>,
 }
 
-/// Follows the drivers of a scene over its duration, with a state at each interval of its settings.
+/// Follows the drivers of a scene over its duration, or to an event that stops it, with a state at each interval of its settings.
 ///
 /// # Errors
 ///
@@ -96,6 +98,7 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
     loop {
         let time = (states.len() as f64 * settings.every).min(settings.duration);
         path.go_to(time)?;
+        let time = path.stage.time;
         masses.take(&path.stage, &path.accelerations);
         for idle in &idle {
             idle.check(&path.stage, &masses)?;
@@ -110,7 +113,7 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
             ));
         }
         states.push(state(&mut path, &masses, convention)?);
-        if time >= settings.duration {
+        if path.has_ended() {
             break;
         }
     }
@@ -122,12 +125,14 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
                 .to_owned(),
         );
     }
+    notes.extend(path.doubts());
     Ok(Kinematics {
         states,
         iterations: path.iterations,
         steps: path.steps(),
         correction: path.correction,
         singularities,
+        events: path.events().to_vec(),
         notes,
     })
 }

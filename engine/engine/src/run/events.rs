@@ -6,6 +6,7 @@
 //! bisection.
 
 use super::Simulation;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::Arc;
 use triad_dynamics::system::event::EventFunction;
@@ -18,7 +19,7 @@ const AT_VALUE: f64 = 1e-10;
 const MAX_ITERATIONS: u32 = 80;
 
 /// An event that has happened.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct EventOccurrence {
     /// Name of the event.
     pub name: String,

@@ -71,6 +71,10 @@ impl Simulation {
         let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
         check_loads(&mechanism)?;
         let (kind, reason) = integrate::choose(&mut mechanism, &start);
+        let asked = mechanism.system.model.settings.integrator;
+        if asked != IntegratorKind::Auto && asked != kind {
+            notes.push(format!("runs by {kind}: {reason}"));
+        }
         mechanism.elimination.counters = Counters::default();
         let companion = Companion::start(kind, &mechanism, 0.0, &start);
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);

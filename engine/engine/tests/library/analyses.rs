@@ -271,3 +271,21 @@ fn a_start_that_is_rounded_is_turned_by_next_to_nothing() {
         }
     }
 }
+
+/// With points in the world nothing is open, and lengths are what rounded positions make them: that is told.
+#[test]
+fn assembly_tells_which_joints_do_not_keep_lengths() {
+    let notes = |scene: &Scene| assemble(scene, &[]).unwrap().notes;
+    let told = notes(&crate::loops::problem("squeezer/rounded"));
+    assert!(
+        told.len() == 1 && told[0].contains("\"O\"") && told[0].contains("only point_i and point_j"),
+        "{told:?}"
+    );
+    let mut local = catalogue::scene("crank-rocker").unwrap();
+    assert!(notes(&local)[0].contains("\"O\", \"A\", \"B\", \"D\""));
+    local.joints.retain(|joint| joint.name != "A" && joint.name != "B");
+    local.drivers.clear();
+    // One joint of a body leaves no length open.
+    assert_eq!(notes(&local), Vec::<String>::new());
+    assert_eq!(notes(&catalogue::scene("simple-pendulum").unwrap()), Vec::<String>::new());
+}

@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 use serde_json::json;
 use triad_engine::analysis::{AnalysisError, KinematicState, Kinematics, kinematics};
 use triad_engine::reactions::report::Convention;
-use triad_engine::scene::{Driver, Motion, Scene};
+use triad_engine::scene::{Driver, Event, Motion, Quantity, Scene};
 
 fn follow(scene: &Scene) -> Kinematics {
     kinematics(scene, Convention::default()).unwrap()
@@ -110,8 +110,9 @@ fn next_to_a_change_point_the_branch_is_kept_or_the_place_told() {
         let missed = (Vector2::new(last.bodies[2].position[0], last.bodies[2].position[1])
             - bar.at(last.time).bodies[2].place)
             .norm();
-        println!("{gap:e}: {missed:e} {:?}", found.singularities);
-        assert!(missed < 1e-8 || !found.singularities.is_empty(), "{gap:e}: {missed:e}");
+        println!("{gap:e}: {missed:e} {:?} {:?}", found.singularities, found.notes);
+        let doubted = found.notes.iter().any(|note| note.contains("either branch may be right"));
+        assert!(missed < 1e-8 || doubted || !found.singularities.is_empty(), "{gap:e}: {missed:e}");
         if gap > 1e-9 {
             assert!(missed < 1e-8, "{gap:e}: {missed:e}");
         }
@@ -149,6 +150,31 @@ fn a_parallelogram_passes_its_flat_positions() {
         (1..1000).map(|k| flat(f64::from(k))).take_while(|t| *t < 4.0 * flat(1.0)).collect();
     assert_eq!(times.len(), expected.len(), "{times:?}");
     assert!(times.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-6), "{times:?} {expected:?}");
+}
+
+/// Events are found on a driven motion as on a run, and one that stops ends it.
+#[test]
+fn a_driven_motion_finds_its_events() {
+    let bar = FourBar::new([1.0, 3.4, 1.65, 4.0]);
+    let mut scene = bar.scene(4.0, 0.05);
+    let of = |value: f64, stop: bool| -> Event {
+        let mut event =
+            Event::new(format!("turned by {value}"), Quantity::Angle { joint: "O".to_owned() }, value);
+        event.stop = stop;
+        event
+    };
+    // The crank turns at 5 rad/s, from 0.4 rad.
+    scene.events = vec![of(1.0, false), of(2.0, false), of(3.0, true)];
+    let found = follow(&scene);
+    let told: Vec<_> = found.events.iter().map(|event| (event.name.as_str(), event.stop)).collect();
+    assert_eq!(told, [("turned by 1", false), ("turned by 2", false), ("turned by 3", true)]);
+    for (event, angle) in found.events.iter().zip([1.0, 2.0, 3.0]) {
+        near(event.time, angle / 5.0, 1e-12, "time of an event");
+        near(event.rate, 5.0, 1e-9, "its rate");
+    }
+    let last = found.states.last().unwrap();
+    near(last.time, 0.6, 1e-12, "end of the motion");
+    assert_eq!(found.states.len(), 13);
 }
 
 /// A crank that cannot go round stops where coupler and rocker lie in one line.

@@ -5,7 +5,7 @@
 use serde_json::{Value, json};
 use triad_engine::prelude::*;
 use triad_engine::run::MarkerFrame;
-use triad_engine::scene::Scene;
+use triad_engine::scene::{ConstraintMethod, Scene};
 
 fn scene(value: &Value) -> Scene {
     Scene::from_json(&value.to_string()).unwrap()
@@ -240,6 +240,26 @@ fn lost_velocities_and_rates_are_told() {
     scene.joints[0] = scene.joints[0].clone().starting_at(0.1, 0.0);
     let error = Simulation::new(&scene).unwrap_err();
     assert_eq!(error.pointer().as_deref(), Some("/joints/0/start"));
+}
+
+/// An integrator that the scene's other settings rule out is replaced, and the run says so.
+#[test]
+fn an_integrator_that_cannot_run_is_replaced_in_words() {
+    let told = |integrator: IntegratorKind, method: ConstraintMethod, step: Option<f64>| {
+        let mut scene = catalogue::scene("simple-pendulum").unwrap();
+        let settings = &mut scene.simulation;
+        (settings.integrator, settings.constraint_method, settings.step) = (integrator, method, step);
+        let notes = Simulation::new(&scene).unwrap().notes().to_vec();
+        notes.into_iter().find(|note| note.starts_with("runs by"))
+    };
+    let penalty = ConstraintMethod::Penalty { alpha: 1e7, omega: 10.0, mu: 1.0 };
+    let replaced = told(IntegratorKind::Taylor, penalty, None).unwrap();
+    assert_eq!(replaced, "runs by dop853: taylor was asked for, but penalty belongs to Runge-Kutta methods");
+    assert!(told(IntegratorKind::Radau, penalty, None).is_some());
+    assert!(told(IntegratorKind::Taylor, ConstraintMethod::Projection, Some(0.01)).is_some());
+    assert_eq!(told(IntegratorKind::Dopri5, penalty, None), None);
+    assert_eq!(told(IntegratorKind::Auto, penalty, None), None);
+    assert_eq!(told(IntegratorKind::Taylor, ConstraintMethod::Projection, None), None);
 }
 
 /// An angle of more than a turn at the start counts its turns.

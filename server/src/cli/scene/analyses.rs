@@ -269,6 +269,13 @@ pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> 
             passed.time
         ));
     }
+    for event in &found.events {
+        let end = if event.stop { "; the motion ends there" } else { "" };
+        print_line(&format!(
+            "  event {} at t = {:.9} s, rate {:.9}{end}",
+            event.name, event.time, event.rate
+        ));
+    }
     for note in &found.notes {
         print_line(&format!("  note: {note}"));
     }
@@ -310,6 +317,9 @@ pub(in crate::cli) fn assemble(source: &Source, keep: &[String], json: bool) -> 
             body.moved,
             body.turned
         ));
+    }
+    for note in &found.notes {
+        print_line(&format!("  note: {note}"));
     }
     Ok(Outcome::Done)
 }

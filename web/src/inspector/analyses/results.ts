@@ -11,12 +11,14 @@ export interface AssemblyResult {
   iterations: number;
   opening: number;
   left: number;
+  notes: string[];
 }
 
 export interface KinematicsResult {
   states: { time: number; bodies: Placed[]; reactions: { reactions: Reaction[] } }[];
   steps: number;
   passages: { time: number; joints: string[] }[];
+  events: { name: string; time: number; stop: boolean }[];
   notes: string[];
 }
 
@@ -97,6 +99,7 @@ export function assemblyView(found: AssemblyResult): HTMLElement[] {
       ["Open at the start", `${sci(found.opening)} m`],
       ["Open now", `${sci(found.left)} m`],
     ]),
+    ...found.notes.map((note) => h("p", null, note)),
     table.root,
   ];
 }
@@ -128,6 +131,9 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
     h("p", null, `${plural(states.length, "position")}, ${plural(found.steps, "step")} between them.`),
     ...found.passages.map((passed) =>
       h("p", null, `Passes a singular position of ${passed.joints.join(", ")} at ${seconds(passed.time)}.`),
+    ),
+    ...found.events.map((event) =>
+      h("p", null, `${event.name} at ${seconds(event.time)}${event.stop ? ", where the motion ends" : ""}.`),
     ),
     ...found.notes.map((note) => h("p", null, note)),
     table.root,

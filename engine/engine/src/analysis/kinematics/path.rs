@@ -7,7 +7,7 @@
 use super::dead_point::Approach;
 use crate::analysis::{AnalysisError, Stage};
 use crate::error::EngineError;
-use crate::run::{Simulation, SingularConfiguration};
+use crate::run::{EventOccurrence, Simulation, SingularConfiguration};
 use crate::scene::{ConstraintMethod, IntegratorKind, Scene};
 use nalgebra::Vector3;
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -119,6 +119,21 @@ impl Path {
     /// Singular positions passed so far.
     pub(super) fn singularities(&self) -> Vec<SingularConfiguration> {
         self.run.singular_configurations()
+    }
+
+    /// Where either of two branches may have been followed, in words.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        self.run.branching()
+    }
+
+    /// Events so far.
+    pub(super) fn events(&self) -> &[EventOccurrence] {
+        self.run.events()
+    }
+
+    /// Whether the end is reached, or an event that stops the motion.
+    pub(super) fn has_ended(&self) -> bool {
+        self.run.finished()
     }
 
     /// Follows the motion to a time, and holds the mechanism there.
@@ -258,14 +273,13 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
-/// A model with its joints and drivers alone: bodies of one mass and one inertia, no weight, no loads and no events.
+/// A model with its joints and drivers alone: bodies of one mass and one inertia, no weight and no loads.
 fn bare(mut model: Model) -> Model {
     let length = System::new(model.clone()).length;
     for body in &mut model.bodies {
         (body.mass, body.principal) = (1.0, Vector3::repeat(length * length));
     }
     model.gravity = Vector3::zeros();
-    model.events.clear();
     // Springs about joints stay, without force: whole turns of their angles are counted, for their moments.
     model.loads.retain_mut(|load| match &mut load.kind {
         LoadKind::Torsion { law, .. } => {
