@@ -112,6 +112,8 @@ export interface components {
              * @description Largest violation that is left, m.
              */
             left: number;
+            /** @description What has to be known of the result. */
+            notes: string[];
             /**
              * Format: double
              * @description Largest violation of positions at the given start, m.
@@ -551,6 +553,23 @@ export interface components {
              * @description The value that it passes, m or rad.
              */
             value: number;
+        };
+        /** @description An event that has happened. */
+        EventOccurrence: {
+            /** @description Name of the event. */
+            name: string;
+            /**
+             * Format: double
+             * @description Rate of the quantity there, m/s or rad/s.
+             */
+            rate: number;
+            /** @description Whether the run ends there. */
+            stop: boolean;
+            /**
+             * Format: double
+             * @description Time, s.
+             */
+            time: number;
         };
         /** @description The questions as a student sees them. */
         Exercise: {
@@ -1118,6 +1137,8 @@ export interface components {
              *     a unit: their error. Another branch would be far beyond it.
              */
             correction: number;
+            /** @description Events of the scene, in the order of time; one that stops a run ends the motion. */
+            events: components["schemas"]["EventOccurrence"][];
             /**
              * Format: uint
              * @description Newton-Raphson steps at the outputs in all.
@@ -2601,7 +2622,7 @@ export interface components {
         Side: "i" | "j";
         /** @description A singular configuration that a run passed. */
         SingularConfiguration: {
-            /** @description Joints whose rows become dependent there. */
+            /** @description Joints and drivers that take part where rows become dependent on each other. */
             joints: string[];
             /**
              * Format: double

@@ -222,14 +222,16 @@ impl Search<'_> {
     /// The same dip, exactly enough to tell its distance from none. Where it is not found again, that is zero if the samples so far
     /// leave it open.
     fn sharpened(&mut self, dip: Dip) -> Dip {
+        let StepData { start, end, .. } = self.step;
         let beside = (EXACT.0.max(dip.root) / dip.slope).min(FINEST / dip.pace);
         let place = self.samples.len() - 1;
         let points = [-beside, 0.0, beside].map(|apart| {
             self.sample(dip.time + apart, place);
             (dip.time + apart, self.square(dip.joint, place))
         });
-        let range = (dip.time - beside, dip.time + beside);
-        let root = if dip.root > KNOWN { dip.root } else { 0.0 };
+        let range = (start.min(dip.time - beside), end.max(dip.time + beside));
+        let least = points[1].1 <= points[0].1.min(points[2].1);
+        let root = if least && dip.root > KNOWN { dip.root } else { 0.0 };
         self.descend(dip.joint, points, range, SHARP).unwrap_or(Dip { root, ..dip })
     }
 
