@@ -3,6 +3,7 @@
 use crate::answers::{Answer, table};
 use crate::exercise::Trajectory;
 use crate::tasks::trajectory::{Deviation, ReferenceMotion};
+use crate::tasks::wrong_motions::{self, Table};
 use crate::verdict::feedback::{Feedback, Judgement, MotionFinding};
 use crate::verdict::invalid::InvalidTrajectory;
 
@@ -71,8 +72,12 @@ fn kind(
     let negative = given.iter().map(|v| v.iter().map(|x| -x).collect()).collect::<Vec<Vec<f64>>>();
     let worst = task.bands.last().map_or(0.0, |b| b.error);
     let (late, factor) = (d.late, d.factor);
+    let table = Table::new(times, given);
+    let known = wrong_motions::recognise(task, motion, &table);
     if d.total > worst && motion.deviation(times, &negative).total <= worst {
         MotionFinding::OppositeSign
+    } else if let Some(mistake) = known {
+        MotionFinding::Usual(mistake)
     } else if d.without_phase <= EXPLAINED * d.total {
         MotionFinding::Phase { late }
     } else if d.without_factor <= EXPLAINED * d.total {
@@ -80,6 +85,6 @@ fn kind(
     } else if d.rest <= EXPLAINED * d.total && factor > 0.0 {
         MotionFinding::PhaseAndAmplitude { late, factor }
     } else {
-        MotionFinding::Unknown
+        wrong_motions::shape(motion, &table).map_or(MotionFinding::Unknown, MotionFinding::Usual)
     }
 }

@@ -4,6 +4,7 @@ use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::equations;
 use triad_engine::equations::augmented::AugmentedSystem;
 use triad_engine::scene::{Coordinates, Driver, Motion, Scene, VectorMotion};
+use triad_engine::system::body::RigidBody;
 use triad_engine::system::natural::NaturalCoordinates;
 
 /// The equations as they are first written, at a state.
@@ -17,16 +18,29 @@ pub(crate) fn gamma_parts(mechanism: &Mechanism) -> Vec<[f64; 2]> {
     equations::gamma_parts(&mechanism.system, &mechanism.state)
 }
 
-/// The equations at the state that is in place, with +M V̇q̇ of reduced bodies in the place of −M V̇q̇.
-pub(crate) fn wrong_sign(mechanism: &Mechanism, mut augmented: AugmentedSystem) -> AugmentedSystem {
+/// The equations at the state that is in place, with `part` of −M V̇q̇ of reduced bodies in the forces: 0 leaves it out, −1
+/// turns its sign.
+pub(crate) fn with_velocity_term(
+    mechanism: &Mechanism,
+    mut augmented: AugmentedSystem,
+    part: f64,
+) -> AugmentedSystem {
     for (body, state) in mechanism.system.bodies.iter().zip(mechanism.state.bodies()) {
         if body.coordinates == Coordinates::Reduced {
-            let mut twice = NaturalCoordinates::default();
-            twice.e[2] = state.q_dot.e[0].cross(&state.q_dot.e[1]) * (4.0 * body.ibar[2]);
-            body.layout.pull_back(&state.q, &twice, |column, value| augmented.force[column] += value);
+            let mut more = NaturalCoordinates::default();
+            let term = state.q_dot.e[0].cross(&state.q_dot.e[1]) * (2.0 * body.ibar[2]);
+            more.e[2] = term * (1.0 - part);
+            body.layout.pull_back(&state.q, &more, |column, value| augmented.force[column] += value);
         }
     }
     augmented
+}
+
+/// The equations at the state that is in place, of bodies whose Ī are others.
+pub(crate) fn with_ibar(mechanism: &Mechanism, other: impl Fn(&mut RigidBody)) -> AugmentedSystem {
+    let mut system = mechanism.system.clone();
+    system.bodies.iter_mut().for_each(other);
+    AugmentedSystem::new(&system, &mechanism.state)
 }
 
 /// The scene whose angles and angular velocities were taken for degrees.

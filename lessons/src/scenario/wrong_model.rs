@@ -9,7 +9,7 @@ use triad_engine::reactions;
 use triad_engine::scene::{Coordinates, Driver, GROUND, Motion, Scene, VectorMotion};
 use triad_engine::system::System;
 
-use super::equations::{augmented_at, in_degrees, wrong_sign};
+use super::equations::{augmented_at, in_degrees, with_velocity_term};
 use super::measure::{MeasureError, Observation, component, measure, run_to};
 use crate::answers::tolerance::norm;
 use crate::files::{Component, MeasuredFile, WrongModel, WrongModelFile};
@@ -171,7 +171,7 @@ fn with_wrong_sign(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, W
     let h = measured.time / steps;
     let mut rate = |t: f64, y: &[f64]| -> Result<Vec<f64>, WrongModelError> {
         let augmented = augmented_at(&mut mechanism, t, y);
-        let augmented = wrong_sign(&mechanism, augmented);
+        let augmented = with_velocity_term(&mechanism, augmented, -1.0);
         let solution = augmented.solve().ok_or(WrongModelError::Singular)?;
         Ok([&y[n..], solution.acceleration.as_slice()].concat())
     };

@@ -1,8 +1,8 @@
 //! Questions that are answered by work: what a program is given and what it sends, and motions as tables.
 //!
 //! `instances` are the states of a student, `instances_view` is what a program is given of them, `program_output`
-//! reads what it sends, `misconceptions` recognises what went wrong, [`starter`] is a program to begin with;
-//! `trajectory` is the reference of a table.
+//! reads what it sends, `misconceptions` recognises what went wrong (`wrong_parts` lists it), [`starter`] is a program to begin with;
+//! `trajectory` is the reference of a table, `wrong_motions` what usual mistakes make of it.
 
 pub(crate) mod grid;
 pub(crate) mod instances;
@@ -11,6 +11,8 @@ pub(crate) mod misconceptions;
 pub(crate) mod program_output;
 pub mod starter;
 pub(crate) mod trajectory;
+pub(crate) mod wrong_motions;
+mod wrong_parts;
 
 pub use instances::InstanceError;
 pub use instances_view::{

@@ -16,7 +16,8 @@ const MAX_SHIFT: f64 = 0.1;
 
 /// The reference on an even grid, column by column.
 pub(crate) struct ReferenceMotion {
-    end: f64,
+    /// The grid covers 0 to this time, s.
+    pub end: f64,
     /// For each column, values at the grid's points.
     values: Vec<Vec<f64>>,
     /// For each column, its mean.

@@ -9,6 +9,7 @@ mod refusals;
 mod tasks;
 mod typical_mistakes;
 mod ways_of_writing;
+mod wrong_tables;
 
 use std::collections::BTreeMap;
 

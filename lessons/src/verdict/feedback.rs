@@ -5,6 +5,7 @@ use super::sent::Mark;
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
 use crate::files::EquationPart;
+use crate::mistakes::Mistake;
 use crate::recognition::quantity::Recognised;
 use crate::scenario::measure::MeasureError;
 
@@ -262,6 +263,8 @@ impl Demand {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum MotionFinding {
     OppositeSign,
+    /// A mistake that every table can have.
+    Usual(&'static Mistake),
     /// Time by which it is late, s.
     Phase {
         late: f64,
@@ -282,6 +285,7 @@ impl MotionFinding {
     pub(crate) fn misconception(self) -> Option<&'static str> {
         match self {
             Self::OppositeSign => Some("opposite-sign"),
+            Self::Usual(mistake) => Some(mistake.code),
             Self::Phase { .. } => Some("phase"),
             Self::Amplitude { .. } => Some("amplitude"),
             Self::PhaseAndAmplitude { .. } => Some("phase-and-amplitude"),

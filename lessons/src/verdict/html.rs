@@ -234,6 +234,7 @@ fn motion(finding: MotionFinding) -> String {
         MotionFinding::OppositeSign => {
             "Every value has the opposite sign: the other direction, or the other side.".to_owned()
         }
+        MotionFinding::Usual(mistake) => mistake.words.to_owned(),
         MotionFinding::Phase { late } => format!(
             "The motion has the right form, but {}. An error that grows with time like this comes from the step or \
              the tolerance, a constant one from the start.",
