@@ -148,6 +148,8 @@ mistakes! {
         "Nothing moves in this table: is every step written after it was made?"
     OTHER_ORIGIN "other-origin"
         "The motion is right, but counts from another point: where is the origin?"
+    TABLE_SCALE "table-scale"
+        "The motion is right, but all its lengths are multiplied: look at the length that you took, and at the origin."
     SMALL_ANGLES "small-angles"
         "This is the harmonic motion of small angles; these angles are not small."
     GROWING "growing-swings"

@@ -12,6 +12,11 @@ mod tasks;
 mod texts;
 mod variants;
 
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
 use crate::lesson::{Course, Lesson};
 use findings::Findings;
 
@@ -20,12 +25,33 @@ pub use references::reference_submission;
 
 /// Checks a whole course. Empty means proven.
 pub fn check_course(course: &Course) -> Vec<Fault> {
+    let lessons: Vec<&Lesson> = course.lessons().iter().collect();
     let mut faults = check_course_files(course);
     faults.extend(guessing::longest(course));
-    for lesson in course.lessons() {
-        faults.extend(check_lesson(course, lesson));
-    }
+    faults.extend(check_lessons(course, &lessons).into_iter().flat_map(|(faults, _)| faults));
     faults
+}
+
+/// Checks some lessons of a course on all processors: the faults of each, in the order of the lessons, and how long it took.
+pub fn check_lessons(course: &Course, lessons: &[&Lesson]) -> Vec<(Vec<Fault>, Duration)> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some((at, lesson)) =
+            Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, lessons.get(k)?)))
+        {
+            let begin = Instant::now();
+            done.push((at, (check_lesson(course, lesson), begin.elapsed())));
+        }
+        done
+    };
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(lessons.len().max(1));
+    let mut found: Vec<(usize, (Vec<Fault>, Duration))> = thread::scope(|scope| {
+        let running: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        running.into_iter().flat_map(|one| one.join().unwrap_or_default()).collect()
+    });
+    found.sort_by_key(|(at, _)| *at);
+    found.into_iter().map(|(_, one)| one).collect()
 }
 
 /// Checks that every file of a course belongs to a lesson.

@@ -9,6 +9,7 @@ pub(crate) mod instances;
 pub(crate) mod instances_view;
 pub(crate) mod misconceptions;
 pub(crate) mod program_output;
+mod rows;
 pub mod starter;
 pub(crate) mod trajectory;
 pub(crate) mod wrong_motions;

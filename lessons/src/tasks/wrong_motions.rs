@@ -94,6 +94,9 @@ pub(crate) fn shape(motion: &ReferenceMotion, table: &Table) -> Option<&'static 
     if table.apart(&moved) <= SAME {
         return Some(mistakes::OTHER_ORIGIN);
     }
+    if table.apart(&stretched(table, &right)) <= SAME {
+        return Some(mistakes::TABLE_SCALE);
+    }
     let signals = |table: &Table| [table.columns.clone(), angles(table)].concat();
     let (own, wanted) = (signals(table), signals(&right));
     let harmonic = own.iter().zip(&wanted).any(|(own, wanted)| {
@@ -197,6 +200,16 @@ fn spread(values: &[f64]) -> f64 {
 fn offset(own: &[f64], right: &[f64]) -> Vec<f64> {
     let by = mean(own) - mean(right);
     right.iter().map(|x| x + by).collect()
+}
+
+/// The right columns times the factor that comes nearest.
+fn stretched(own: &Table, right: &Table) -> Vec<Vec<f64>> {
+    let product = |a: &[Vec<f64>]| {
+        a.iter().zip(&right.columns).flat_map(|(a, b)| a.iter().zip(b)).map(|(a, b)| a * b).sum::<f64>()
+    };
+    let size = product(&right.columns);
+    let factor = if size > 0.0 { product(&own.columns) / size } else { 1.0 };
+    right.columns.iter().map(|values| values.iter().map(|x| factor * x).collect()).collect()
 }
 
 /// Spread of the last third over that of the first.

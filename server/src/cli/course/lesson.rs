@@ -1,7 +1,7 @@
 //! `triad lesson`.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use clap::Args;
@@ -67,14 +67,13 @@ pub(in crate::cli) fn check(course: &Course, lesson: Option<&str>, json: bool) -
         None => course.lessons().iter().collect(),
     };
     let mut times = Vec::with_capacity(lessons.len());
-    for lesson in &lessons {
-        let begin = Instant::now();
-        faults.extend(triad_lessons::check_lesson(course, lesson));
-        times.push(json!({"lesson": lesson.slug, "seconds": rounded(begin)}));
+    for (lesson, (found, took)) in lessons.iter().zip(triad_lessons::check_lessons(course, &lessons)) {
+        faults.extend(found);
+        times.push(json!({"lesson": lesson.slug, "seconds": rounded(took)}));
     }
     if json {
         print_json(
-            &json!({"lessons": lessons.len(), "faults": faults, "seconds": rounded(start), "times": times}),
+            &json!({"lessons": lessons.len(), "faults": faults, "seconds": rounded(start.elapsed()), "times": times}),
         );
     } else {
         for fault in &faults {
@@ -87,7 +86,7 @@ pub(in crate::cli) fn check(course: &Course, lesson: Option<&str>, json: bool) -
                 time["lesson"].as_str().unwrap_or_default()
             ));
         }
-        let (n, seconds) = (lessons.len(), rounded(start));
+        let (n, seconds) = (lessons.len(), rounded(start.elapsed()));
         print_line(&format!(
             "{} checked in {seconds} s, {}",
             counted(n, "lesson"),
@@ -97,9 +96,9 @@ pub(in crate::cli) fn check(course: &Course, lesson: Option<&str>, json: bool) -
     Ok(if faults.is_empty() { Outcome::Done } else { Outcome::No })
 }
 
-/// Seconds since then, to hundredths.
-fn rounded(begin: Instant) -> f64 {
-    (begin.elapsed().as_secs_f64() * 100.0).round() / 100.0
+/// Seconds, to hundredths.
+fn rounded(took: Duration) -> f64 {
+    (took.as_secs_f64() * 100.0).round() / 100.0
 }
 
 /// Writes the skeleton of a lesson into a course.
