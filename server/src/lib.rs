@@ -12,6 +12,7 @@ pub mod limits;
 pub mod scenes;
 pub mod store;
 pub mod stream;
+pub mod table;
 pub mod variants;
 
 pub mod grading;

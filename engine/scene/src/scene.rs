@@ -174,10 +174,16 @@ impl Scene {
         if text.len() > MAX_TEXT {
             return Err(SceneError::TooLong { bytes: text.len() });
         }
+        // The place of every value is kept only to say where a text is wrong: it takes as long as reading.
+        let scene: Self = serde_json::from_str(text).or_else(|_| Self::from_json_with_places(text))?;
+        scene.check_sizes()?;
+        Ok(scene)
+    }
+
+    fn from_json_with_places(text: &str) -> Result<Self, SceneError> {
         let mut reader = serde_json::Deserializer::from_str(text);
         let scene: Self = serde_path_to_error::deserialize(&mut reader).map_err(|e| syntax_error(&e))?;
         reader.end().map_err(|e| plain_error(&e, "/"))?;
-        scene.check_sizes()?;
         Ok(scene)
     }
 

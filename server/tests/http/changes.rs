@@ -118,6 +118,37 @@ async fn reactions_say_which_of_their_numbers_are_unique() {
 }
 
 #[tokio::test]
+async fn a_run_is_written_as_a_table_with_the_chosen_outputs() {
+    let server = server();
+    let scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    let path = "/api/v1/analyses/table";
+    let asked = json!({"scene": scene, "outputs": ["joints:pin", "energy"], "every": 0.25, "until": 0.6});
+    let reply = post(&server, path, &asked).await;
+    assert!(reply.status == 200 && reply.media().starts_with("text/csv"), "{}", reply.media());
+    let text = String::from_utf8(reply.bytes.to_vec()).expect("text");
+    let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(rows[..2], ["time,pin.angle,pin.angle_rate,energy", "s,rad,rad/s,J"]);
+    let times: Vec<&str> = rows[2..].iter().filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(times, ["0", "0.25", "0.5", "0.6"]);
+    // The numbers are those of the run, to the last bit.
+    let mut scene = triad_engine::Scene::from_json(&scene.to_string()).expect("a scene").duration(0.6);
+    scene.simulation.outputs = vec!["joints:pin".parse().expect("an output")];
+    let mut run = triad_engine::run::Simulation::new(&scene).expect("runs");
+    run.advance_to(0.6).expect("runs");
+    let mut here = vec![0.6];
+    triad_engine::run::Outputs::new(&run).write(&run, &mut here);
+    let last: Vec<f64> = rows[5].split(',').map(|number| number.parse().expect("a number")).collect();
+    assert_eq!(last[..3], here);
+    for (key, value, code) in
+        [("every", json!(1e-6), "table-too-long"), ("outputs", json!(["joints:pan"]), "output-invalid")]
+    {
+        let mut wrong = asked.clone();
+        wrong[key] = value;
+        post(&server, path, &wrong).await.problem(422, code);
+    }
+}
+
+#[tokio::test]
 async fn analyses_answer_for_a_scene() {
     let server = server();
     let scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();

@@ -162,6 +162,9 @@ async fn scenes_and_analyses_are_as_described() {
         let path = format!("/api/v1/analyses/{analysis}");
         api.ask("POST", &path, &path, Some(json!({"scene": scene}))).await;
     }
+    let path = "/api/v1/analyses/table";
+    let asked = json!({"scene": scene, "outputs": ["joints"], "every": 0.1, "until": 1.0});
+    api.ask("POST", path, path, Some(asked)).await;
     let driven = get(&api.server, "/api/v1/scenes/slider-crank").await;
     let path = "/api/v1/analyses/kinematics";
     let scene = if driven.status == 200 { driven.json() } else { scene };

@@ -15,6 +15,7 @@ import type {
   LectureState,
   Lesson,
   LessonSummary,
+  ModesAbout,
   OpenedLecture,
   PresenterState,
   Problem,
@@ -24,6 +25,7 @@ import type {
   SessionScene,
   SessionState,
   SymmetricMatrix,
+  TableRequest,
   Understood,
 } from "./types";
 
@@ -89,6 +91,19 @@ async function call<T>(
   key?: string,
   more?: Record<string, string>,
 ): Promise<T> {
+  const response = await ask(method, path, body, signal, key, more);
+  if (response.status === 204) return undefined as T;
+  return (await response.json()) as T;
+}
+
+async function ask(
+  method: string,
+  path: string,
+  body?: unknown,
+  signal?: AbortSignal,
+  key?: string,
+  more?: Record<string, string>,
+): Promise<Response> {
   let response: Response;
   try {
     const headers: Record<string, string> = { accept: "application/json, application/problem+json", ...more };
@@ -110,8 +125,7 @@ async function call<T>(
     });
   }
   if (!response.ok) throw await failure(response);
-  if (response.status === 204) return undefined as T;
-  return (await response.json()) as T;
+  return response;
 }
 
 const id = encodeURIComponent;
@@ -161,8 +175,15 @@ export const api = {
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
-  analyse: <T>(kind: "assembly" | "kinematics" | "equilibrium" | "modes", query: { scene: unknown }) =>
-    call<T>("POST", `/analyses/${kind}`, query),
+  analyse: <T>(
+    kind: "assembly" | "kinematics" | "equilibrium" | "modes",
+    query: { scene: unknown; about?: ModesAbout },
+  ) => call<T>("POST", `/analyses/${kind}`, query),
+  /** A run from the start as a table: CSV. */
+  table: (query: TableRequest): Promise<Blob> =>
+    ask("POST", "/analyses/table", query, undefined, undefined, {
+      accept: "text/csv, application/problem+json",
+    }).then((response) => response.blob()),
   importUrdf: (urdf: string, side: unknown) =>
     call<ImportedRobot>("POST", "/import/urdf", side === undefined ? { urdf } : { urdf, with: side }),
   sceneSchema: () => call<unknown>("GET", "/schema/scene"),

@@ -2797,6 +2797,26 @@ export interface components {
             /** @description What it holds. */
             what: string;
         };
+        /** @description A scene to run, and what to write of it. */
+        TableRequest: {
+            /**
+             * Format: double
+             * @description Time between rows, s, instead of the scene's.
+             */
+            every?: number | null;
+            /**
+             * @description The columns, instead of those that the scene chooses.
+             * @default []
+             */
+            outputs?: components["schemas"]["Output"][];
+            /** @description The scene; its schema is at /api/v1/schema/scene. */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Format: double
+             * @description End of the run, s, instead of the scene's.
+             */
+            until?: number | null;
+        };
         /** @description How the answers stand. */
         Tally: {
             /** @description Answers for each choice. */

@@ -2,6 +2,7 @@
 
 pub(in crate::api) mod analyses;
 pub(in crate::api) mod import;
+pub(in crate::api) mod table;
 
 use axum::Json as Answer;
 use axum::extract::State;

@@ -13,6 +13,7 @@ use axum::http::StatusCode;
 use triad_engine::run::{Column, Outputs, Simulation};
 
 use crate::problem::Problem;
+use crate::table::{TextTable, all_columns, head};
 
 /// Endings of files that are written as Arrow.
 const ARROW: [&str; 2] = ["arrow", "feather"];
@@ -30,7 +31,7 @@ pub(super) struct Table {
 
 /// Where rows go.
 enum Sink {
-    Text { out: Box<dyn Write>, line: Vec<u8> },
+    Text(TextTable<Box<dyn Write>>),
     Arrow { writer: Box<FileWriter<BufWriter<File>>>, columns: Vec<Vec<f64>> },
 }
 
@@ -72,36 +73,15 @@ impl Table {
     }
 
     /// Writes what is still held back.
-    pub(super) fn finish(mut self) -> std::io::Result<()> {
+    pub(super) fn finish(self) -> std::io::Result<()> {
         self.sink.finish()
     }
 }
 
-/// The time, then what was chosen.
-fn all_columns(outputs: &Outputs) -> impl Iterator<Item = Column> {
-    let time = Column { name: "time".to_owned(), unit: "s" };
-    std::iter::once(time).chain(outputs.columns().iter().cloned())
-}
-
-/// What a table says before its columns.
-fn head(run: &Simulation) -> String {
-    let (version, scene) = (env!("CARGO_PKG_VERSION"), &run.model().name);
-    format!("triad {version}, scene {scene}. All components in the world frame.")
-}
-
 impl Sink {
-    /// A comment that states the conventions, a row of names and a row of units.
     fn text(out: Box<dyn Write>, run: &Simulation, outputs: &Outputs) -> std::io::Result<Self> {
-        let mut out: Box<dyn Write> = Box::new(BufWriter::with_capacity(1 << 16, out));
-        writeln!(out, "# {}", head(run))?;
-        for sentence in outputs.conventions() {
-            writeln!(out, "# {sentence}")?;
-        }
-        let names: Vec<String> = all_columns(outputs).map(|column| quoted(&column.name)).collect();
-        let units: Vec<&str> = all_columns(outputs).map(|column| column.unit).collect();
-        writeln!(out, "{}", names.join(","))?;
-        writeln!(out, "{}", units.join(","))?;
-        Ok(Self::Text { out, line: Vec::new() })
+        let out: Box<dyn Write> = Box::new(BufWriter::with_capacity(1 << 16, out));
+        TextTable::new(out, run, outputs).map(Self::Text)
     }
 
     /// Units stand in the metadata of the columns, conventions in that of the table.
@@ -123,19 +103,7 @@ impl Sink {
 
     fn row(&mut self, row: &[f64]) -> std::io::Result<()> {
         match self {
-            Self::Text { out, line } => {
-                line.clear();
-                let mut digits = zmij::Buffer::new();
-                for (index, number) in row.iter().enumerate() {
-                    if index > 0 {
-                        line.push(b',');
-                    }
-                    let text = digits.format(*number);
-                    line.extend(text.strip_suffix(".0").unwrap_or(text).as_bytes());
-                }
-                line.push(b'\n');
-                out.write_all(line)
-            }
+            Self::Text(table) => table.row(row),
             Self::Arrow { columns, .. } => {
                 for (column, number) in columns.iter_mut().zip(row) {
                     column.push(*number);
@@ -158,21 +126,12 @@ impl Sink {
         writer.write(&batch)
     }
 
-    fn finish(&mut self) -> std::io::Result<()> {
+    fn finish(mut self) -> std::io::Result<()> {
         self.write_batch().map_err(std::io::Error::other)?;
         match self {
-            Self::Text { out, .. } => out.flush(),
-            Self::Arrow { writer, .. } => writer.finish().map_err(std::io::Error::other),
+            Self::Text(table) => table.finish().map(drop),
+            Self::Arrow { mut writer, .. } => writer.finish().map_err(std::io::Error::other),
         }
-    }
-}
-
-/// A field, in quotation marks if it needs them.
-fn quoted(field: &str) -> String {
-    if field.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
     }
 }
 
@@ -221,10 +180,5 @@ mod tests {
             let expected: Vec<f64> = rows.iter().map(|row| row[index]).collect();
             assert_eq!(column.values().to_vec(), expected);
         }
-    }
-
-    #[test]
-    fn names_cannot_break_a_row() {
-        assert_eq!(quoted("a,\"b\""), "\"a,\"\"b\"\"\"");
     }
 }

@@ -1,5 +1,6 @@
 // Analyses of the scene as it is now, besides its run.
 import { api } from "../../api/client";
+import type { ModesAbout } from "../../api/types";
 import { announce, h } from "../../core/dom";
 import { reducedMotion } from "../../core/prefs";
 import { type Placed, placed, swung, visible } from "../../mechanics/pose";
@@ -22,6 +23,13 @@ import {
 /** Period at which a mode is shown, s: slow enough for the eye, whatever its frequency. */
 const SHOWN_PERIOD = 2;
 
+/** What vibrations are about. */
+const ABOUT: Record<ModesAbout, string> = {
+  equilibrium: "about the equilibrium near the start",
+  start: "about the start, at rest",
+  steady: "about the steady motion near the start",
+};
+
 export class AnalysesTab implements Panel {
   readonly root: HTMLElement;
   private readonly result = h("section", {
@@ -33,6 +41,12 @@ export class AnalysesTab implements Panel {
     "button",
     { type: "button", class: "button small", hidden: true, onclick: () => this.pose(undefined) },
     "Back to the run",
+  );
+
+  private readonly about = h(
+    "select",
+    { class: "field compact", "aria-label": "What small vibrations are about" },
+    ...Object.entries(ABOUT).map(([value, label]) => h("option", { value }, label)),
   );
 
   constructor(private readonly session: Session) {
@@ -55,9 +69,11 @@ export class AnalysesTab implements Panel {
           this.equilibrium(await api.analyse<EquilibriumResult>("equilibrium", scene(it))),
         ),
         this.button("Small vibrations", async (it) => {
-          const found = await api.analyse<ModesResult>("modes", scene(it));
-          return modesView(found, (mode) => this.swing(found.bodies, mode));
+          const about = this.about.value as ModesAbout;
+          const found = await api.analyse<ModesResult>("modes", { ...scene(it), about });
+          return modesView(found, ABOUT[about], (mode) => this.swing(found.bodies, mode));
         }),
+        this.about,
         this.back,
       ),
       this.result,

@@ -46,6 +46,8 @@ export interface ModesResult {
   /** Motions that have no inertia, and the bodies that turn in them. */
   left_out: number;
   without_inertia: { body: string; axes: Vec3[] }[];
+  /** The steady motion that the modes are about, if they are about one. */
+  steady?: { turning: Vec3; sliding: Vec3; spins: { body: string; rate: number }[] } | null;
   bodies: Placed[];
   notes: string[];
 }
@@ -173,18 +175,27 @@ export function equilibriumView(found: EquilibriumResult, names: string[]): HTML
   ];
 }
 
-export function modesView(found: ModesResult, show: (mode: Mode) => void): HTMLElement[] {
+export function modesView(found: ModesResult, about: string, show: (mode: Mode) => void): HTMLElement[] {
   return [
     h(
       "p",
       null,
-      `${plural(found.freedoms, "degree")} of freedom about the equilibrium near the start. ` +
-        "Choose a mode to see it swing in the sketch.",
+      `${plural(found.freedoms, "degree")} of freedom ${about}. Choose a mode to see it swing in the sketch.`,
     ),
+    ...steadyView(found.steady),
     modesTable(found.modes, show),
     ...leftOutView(found),
     ...found.notes.map((note) => h("p", { class: "help" }, note)),
   ];
+}
+
+/** The steady motion that modes are about: its frame, and the bodies that spin in it. */
+function steadyView(steady: ModesResult["steady"]): HTMLElement[] {
+  if (!steady) return [];
+  const vector = (of: Vec3, unit: string): string => `(${of.map((x) => num(x, 4)).join(", ")}) ${unit}`;
+  const spins = steady.spins.map((spin) => `${spin.body} spins with ${num(spin.rate, 4)} rad/s`);
+  const frame = `The frame of the motion turns with ${vector(steady.turning, "rad/s")} and slides with ${vector(steady.sliding, "m/s")}`;
+  return [h("p", null, `${[frame, ...spins].join("; ")}.`)];
 }
 
 function leftOutView(found: ModesResult): HTMLElement[] {

@@ -11,6 +11,7 @@ import { type LiveTable, liveTable } from "../../ui/table";
 import { type Chart, charts, errorOf } from "./charts";
 import { columnsOf } from "./compare";
 import { type Comparison, compare, keptRun, type Overlay, reference } from "./overlay";
+import { tableDialog } from "./run-table";
 import { plotSvg } from "./svg-file";
 
 /** About how many states the table of a plot shows. */
@@ -118,6 +119,7 @@ export class PlotsTab implements Panel {
           save("CSV", () => this.saveCsv()),
           save("SVG", () => this.saveSvg()),
           save("PNG", () => void this.savePng()),
+          save("Table of the run …", () => tableDialog(this.session)),
         ),
       ),
       this.canvas,

@@ -1,0 +1,78 @@
+//! Tables of a run as text: a remark that states the conventions, a row of names, a row of units, and a row for each state.
+
+use std::io::{self, Write};
+
+use triad_engine::run::{Column, Outputs, Simulation};
+
+/// The time, then what was chosen.
+pub fn all_columns(outputs: &Outputs) -> impl Iterator<Item = Column> {
+    let time = Column { name: "time".to_owned(), unit: "s" };
+    std::iter::once(time).chain(outputs.columns().iter().cloned())
+}
+
+/// What a table says before its columns.
+pub fn head(run: &Simulation) -> String {
+    let (version, scene) = (env!("CARGO_PKG_VERSION"), &run.model().name);
+    format!("triad {version}, scene {scene}. All components in the world frame.")
+}
+
+/// A table that is being written.
+pub struct TextTable<W> {
+    out: W,
+    line: Vec<u8>,
+}
+
+impl<W: Write> TextTable<W> {
+    /// Writes all that stands before the numbers.
+    pub fn new(mut out: W, run: &Simulation, outputs: &Outputs) -> io::Result<Self> {
+        writeln!(out, "# {}", head(run))?;
+        for sentence in outputs.conventions() {
+            writeln!(out, "# {sentence}")?;
+        }
+        let names: Vec<String> = all_columns(outputs).map(|column| quoted(&column.name)).collect();
+        let units: Vec<&str> = all_columns(outputs).map(|column| column.unit).collect();
+        writeln!(out, "{}", names.join(","))?;
+        writeln!(out, "{}", units.join(","))?;
+        Ok(Self { out, line: Vec::new() })
+    }
+
+    /// Writes a row: as few digits as give each number back exactly.
+    pub fn row(&mut self, row: &[f64]) -> io::Result<()> {
+        self.line.clear();
+        let mut digits = zmij::Buffer::new();
+        for (index, number) in row.iter().enumerate() {
+            if index > 0 {
+                self.line.push(b',');
+            }
+            let text = digits.format(*number);
+            self.line.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+        }
+        self.line.push(b'\n');
+        self.out.write_all(&self.line)
+    }
+
+    /// Writes what is still held back, and returns what was written to.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.out.flush()?;
+        Ok(self.out)
+    }
+}
+
+/// A field, in quotation marks if it needs them.
+fn quoted(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_cannot_break_a_row() {
+        assert_eq!(quoted("a,\"b\""), "\"a,\"\"b\"\"\"");
+    }
+}

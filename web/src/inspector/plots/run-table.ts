@@ -1,0 +1,89 @@
+// The run as a table: which outputs, and how often.
+
+import { api } from "../../api/client";
+import type { Output, Scene } from "../../api/types";
+import { h, saveFile } from "../../core/dom";
+import type { Session } from "../../session/session";
+import { dialog } from "../../ui/dialog";
+import { problemNotice } from "../../ui/notice";
+
+/** What may be chosen, in the order of the columns. */
+export const OUTPUTS: [Output, string][] = [
+  ["bodies", "Bodies: centre of mass, principal axes, velocities"],
+  ["frames", "Frames: reference point and axes as the scene writes them"],
+  ["accelerations", "Accelerations of bodies"],
+  ["reactions", "Reactions of joints and drivers"],
+  ["drivers", "Drivers: value, rate, effort, power"],
+  ["joints", "Joints: angles and slides with their rates"],
+  ["loads", "Loads: forces, lengths, powers"],
+  ["markers", "Markers: positions and velocities"],
+  ["energy", "Energy"],
+  ["balance", "Balance of energy"],
+  ["violations", "Violations of the constraints"],
+];
+/** What a table holds that nobody has chosen. */
+const USUAL: Output[] = ["bodies", "reactions", "energy", "violations"];
+
+/** The outputs of a request: what is checked, and what the scene chooses of single elements of the same kind. */
+export function chosen(checked: Output[], scene: Scene): Output[] {
+  const single = (scene.simulation?.outputs ?? []).filter((output) => output.includes(":"));
+  return checked.flatMap((kind) => {
+    const own = single.filter((output) => output.startsWith(`${kind}:`));
+    return own.length > 0 ? own : [kind];
+  });
+}
+
+/** Asks which numbers of the whole run are wanted, and saves them as CSV. */
+export function tableDialog(session: Session): void {
+  const scene = session.view?.scene as Scene | undefined;
+  if (!scene) return;
+  const before = (scene.simulation?.outputs ?? USUAL).map((output) => output.split(":")[0]);
+  const boxes = OUTPUTS.map(([kind]) =>
+    h("input", { type: "checkbox", value: kind, checked: before.includes(kind) }),
+  );
+  const every = h("input", {
+    type: "number",
+    class: "field compact",
+    min: "0",
+    step: "any",
+    value: String(scene.simulation?.every ?? 0.01),
+  });
+  const told = h("div", { "aria-live": "polite" });
+  const save = h("button", { type: "submit", class: "button primary" }, "Save as CSV");
+  const form = h(
+    "form",
+    { class: "stack" },
+    h("p", { class: "help" }, "The scene with the numbers that it has now is run from its start to its end."),
+    h(
+      "fieldset",
+      { class: "stack" },
+      h("legend", null, "Columns"),
+      ...OUTPUTS.map(([, label], k) =>
+        h("label", { class: "switch" }, boxes[k] ?? "", h("span", null, label)),
+      ),
+    ),
+    h("label", { class: "switch" }, h("span", null, "Time between rows, s"), every),
+    told,
+    save,
+  );
+  const box = dialog("Table of the run", form);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const checked = boxes.filter((one) => one.checked).map((one) => one.value);
+    if (checked.length === 0) {
+      told.replaceChildren(h("p", { class: "help" }, "Choose at least one group of columns."));
+      return;
+    }
+    save.disabled = true;
+    api
+      .table({ scene, outputs: chosen(checked, scene), every: Number(every.value) })
+      .then((table) => {
+        saveFile(table, `${scene.name}.csv`);
+        box.close();
+      })
+      .catch((error: unknown) => told.replaceChildren(problemNotice(error)))
+      .finally(() => {
+        save.disabled = false;
+      });
+  });
+}
