@@ -1,6 +1,9 @@
 //! Friction that the reaction of its own joint loads, against closed forms: far above the speed of smoothing tanh is 1 to the last
 //! bit. Slopes, pins, guides, the law of a rope on a drum, frictions that load each other, locking, and who refuses it.
 
+#![allow(clippy::disallowed_methods)] // closed forms, not bits
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
 use triad_engine::prelude::*;
 use triad_engine::scene::{ConstraintMethod, IntegratorKind};
 use triad_engine::{Cause, EngineError};
