@@ -1,5 +1,6 @@
 //! A run as a table: the outputs that are chosen, at equal intervals, as CSV.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axum::extract::State;
@@ -18,8 +19,8 @@ use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::Json;
 use crate::app::App;
 use crate::problem::Problem;
+use crate::session;
 use crate::table::TextTable;
-use crate::{blocking, session};
 
 /// Numbers that a table over HTTP may have: some 60 MB of text.
 const MAX_NUMBERS: f64 = 3e6;
@@ -55,7 +56,8 @@ async fn table(
     State(app): State<App>,
     Json(asked): Json<TableRequest>,
 ) -> Result<impl IntoResponse, Problem> {
-    let text = blocking(move || {
+    let work = Arc::clone(&app.work);
+    let job = move || {
         let mut scene = Scene::from_json(&asked.scene.to_string())?;
         session::bounded(&scene, &app.limits)?;
         let settings = &mut scene.simulation;
@@ -65,8 +67,8 @@ async fn table(
             settings.outputs = asked.outputs;
         }
         written(&scene, app.limits.command_time)
-    })
-    .await?;
+    };
+    let text = work.run(job).await?;
     Ok(([(header::CONTENT_TYPE, "text/csv; charset=utf-8")], text))
 }
 
