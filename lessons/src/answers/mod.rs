@@ -5,6 +5,7 @@
 //! numbers are right, and [`submission`] is the whole of it as JSON.
 
 pub(crate) mod array;
+pub mod diagram;
 mod dimension;
 pub mod number;
 pub mod submission;
@@ -12,4 +13,5 @@ pub(crate) mod table;
 pub mod tolerance;
 pub mod units;
 
+pub use diagram::Arrow;
 pub use submission::{Answer, RunSettings, Submission, SubmissionError, TypedValue};

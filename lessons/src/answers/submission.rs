@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::diagram::Arrow;
+
 /// Largest submission that is read, in bytes.
 const MAX_BYTES: usize = 4 << 20;
 /// Largest file in an answer, in bytes.
@@ -45,6 +47,9 @@ pub struct Answer {
     /// Settings of a run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<RunSettings>,
+    /// Forces and moments on bodies that are cut free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diagram: Option<Vec<Arrow>>,
 }
 
 /// Settings of a run, as chosen.
@@ -148,6 +153,7 @@ impl Answer {
         self.value.as_ref().is_none_or(TypedValue::is_blank)
             && no_text(&self.choice)
             && no_text(&self.file)
+            && self.diagram.as_ref().is_none_or(Vec::is_empty)
             && self.settings.as_ref().is_none_or(|s| s.tolerance.is_blank())
     }
 }

@@ -112,6 +112,7 @@ fn misconceptions(question: &Question) -> Vec<&str> {
         QuestionBody::Quantity(q) => q.misconceptions.iter().map(|m| m.id.as_str()).collect(),
         QuestionBody::Formula(f) => f.misconceptions.iter().map(|(id, ..)| id.as_str()).collect(),
         QuestionBody::Choice { .. }
+        | QuestionBody::Diagram(_)
         | QuestionBody::Implement(_)
         | QuestionBody::Trajectory(_)
         | QuestionBody::Model(_)

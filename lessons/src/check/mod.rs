@@ -1,6 +1,7 @@
 //! Proving a course: what an author promises is tried out, and every complaint names its place and a remedy.
 
 mod answers;
+mod diagram;
 mod findings;
 pub(crate) mod guessing;
 mod measured;
@@ -77,6 +78,7 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
     for question in &lesson.exercise.questions {
         question::itself(question, &mut found);
         tasks::task(question, &mut found);
+        diagram::agrees(question, &mut found);
     }
     guessing::share(&mut found);
     answers::blank_fails(&mut found);

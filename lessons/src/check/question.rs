@@ -32,7 +32,8 @@ pub(super) fn itself(question: &Question, found: &mut Findings) {
             }
         }
         QuestionBody::Formula(f) => formula(id, f, found),
-        QuestionBody::Implement(_)
+        QuestionBody::Diagram(_)
+        | QuestionBody::Implement(_)
         | QuestionBody::Trajectory(_)
         | QuestionBody::Model(_)
         | QuestionBody::Tuning(_) => {}

@@ -30,6 +30,7 @@ pub(super) fn reference_answer(lesson: &Lesson, question: &Question) -> Answer {
         QuestionBody::Formula(f) => {
             Answer { value: Some(TypedValue::Text(f.reference_text.clone())), ..Answer::default() }
         }
+        QuestionBody::Diagram(task) => Answer { diagram: Some(task.reference.clone()), ..Answer::default() },
         QuestionBody::Implement(task) => {
             let instances = Instances::new(task, &seed(lesson, &question.id));
             let parts = instances.and_then(|instances| instances.all_answers(&task.asks));

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::diagram;
 use super::findings::Findings;
 use super::programs::{self, TaskError};
 use super::references::{file, judged};
@@ -18,6 +19,10 @@ pub(super) fn task(question: &Question, found: &mut Findings) {
         QuestionBody::Implement(task) => programs::program(found, id, task),
         QuestionBody::Trajectory(task) => trajectory(found, id, task),
         QuestionBody::Tuning(task) => tuning(found, id, task),
+        QuestionBody::Diagram(task) => {
+            diagram::mistakes(found, id, task);
+            Ok(())
+        }
         QuestionBody::Model(task) => {
             model(found, id, task);
             Ok(())

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::findings::Findings;
-use super::measured;
 use super::references::{judged, quantity_answer, reference_answer};
+use super::{diagram, measured};
 use crate::answers::Submission;
 use crate::exercise::{Question, QuestionBody};
 use crate::grading::grade;
@@ -47,6 +47,9 @@ pub(super) fn all_fit(found: &mut Findings) {
         if k < RUN {
             let mut own = Findings::new(&lesson);
             measured::scene(&mut own);
+            for question in &lesson.exercise.questions {
+                diagram::agrees(question, &mut own);
+            }
             for mut fault in own.faults {
                 fault.what = format!("{} (with {numbers})", fault.what);
                 found.faults.push(fault);

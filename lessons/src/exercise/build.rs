@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::context::{BuildContext, BuildError, QuestionError, build_error, refuse};
 use super::question::{Exercise, QuantityQuestion, Question, QuestionBody};
-use super::{closed, quantity, tasks};
+use super::{closed, diagram, quantity, tasks};
 use crate::answers::tolerance::ValueShape;
 use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile, earlier_value};
 
@@ -75,6 +75,7 @@ fn build_question(
         QuestionKind::Matrix => quantity::quantity(&question, &reference, ValueShape::Matrix, context),
         QuestionKind::Choice => closed::choice(&question, &reference),
         QuestionKind::Formula => closed::formula(&question, &reference),
+        QuestionKind::Diagram => diagram::diagram(&question, &reference, context),
         QuestionKind::Implement => tasks::implement(&question, context),
         QuestionKind::Trajectory => tasks::trajectory(&question, context),
         QuestionKind::Model => tasks::model(&question, context),
@@ -129,6 +130,7 @@ fn foreign_tables(question: &QuestionFile) -> Result<(), BuildError> {
     let kind = question.kind;
     let name = format!("{kind:?}").to_lowercase();
     let quantity = matches!(kind, Kind::Number | Kind::Vector | Kind::Matrix);
+    refuse(question.diagram.is_some() && kind != Kind::Diagram, "the table diagram", &name)?;
     refuse(question.implement.is_some() && kind != Kind::Implement, "the table implement", &name)?;
     refuse(question.trajectory.is_some() && kind != Kind::Trajectory, "the table trajectory", &name)?;
     refuse(question.model.is_some() && kind != Kind::Model, "the table model", &name)?;

@@ -4,7 +4,9 @@
 mod build;
 mod closed;
 mod context;
+pub(crate) mod cut;
 pub mod derivation;
+mod diagram;
 pub mod parameters;
 mod quantity;
 pub mod question;
@@ -13,6 +15,7 @@ mod tasks;
 pub(crate) use build::build;
 pub(crate) use context::BuildContext;
 pub use context::QuestionError;
+pub use diagram::Diagram;
 pub use parameters::Parameters;
 pub(crate) use quantity::numbers;
 pub use question::{

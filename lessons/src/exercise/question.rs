@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use triad_engine::scene::{IntegratorKind, Scene};
 
 use super::derivation::Derivation;
+use super::diagram::Diagram;
 use crate::answers::RunSettings;
 use crate::answers::tolerance::{Tolerance, ValueShape};
 use crate::answers::units::Unit;
@@ -61,7 +62,10 @@ impl Question {
                 texts.extend(f.misconceptions.iter().map(|(.., feedback)| feedback.as_str()));
             }
             QuestionBody::Model(m) => texts.extend(m.watches().iter().map(|w| w.feedback.as_str())),
-            QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Tuning(_) => {}
+            QuestionBody::Diagram(_)
+            | QuestionBody::Implement(_)
+            | QuestionBody::Trajectory(_)
+            | QuestionBody::Tuning(_) => {}
         }
         texts
     }
@@ -83,6 +87,8 @@ pub enum QuestionBody {
     },
     /// An expression in named symbols.
     Formula(Formula),
+    /// A free-body diagram.
+    Diagram(Diagram),
     /// The equations at given states.
     Implement(Implement),
     /// A table of a motion.

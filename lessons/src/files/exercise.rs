@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::diagram::DiagramFile;
 use super::tasks::{FollowFile, ImplementFile, ModelFile, TrajectoryFile, TuningFile, WrongModelFile};
 use crate::answers::TypedValue;
 
@@ -63,6 +64,8 @@ pub enum QuestionKind {
     Choice,
     /// An expression in named symbols, compared at random points.
     Formula,
+    /// Forces and moments drawn on a body that is cut free.
+    Diagram,
     /// The equations at given states, from the student's own program.
     Implement,
     /// A table of a motion, from any program.
@@ -110,6 +113,8 @@ pub struct QuestionFile {
     pub symbols: BTreeMap<String, [f64; 2]>,
     /// A wrong earlier answer is carried through (number, vector, matrix).
     pub follows: Option<FollowFile>,
+    /// Which bodies are cut free (diagram).
+    pub diagram: Option<DiagramFile>,
     /// What the student's program evaluates (implement).
     pub implement: Option<ImplementFile>,
     /// What the table holds (trajectory).

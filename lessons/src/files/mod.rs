@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+pub mod diagram;
 pub mod exercise;
 pub mod lesson;
 pub mod measured;
@@ -14,6 +15,7 @@ pub mod schema;
 pub mod skeleton;
 pub mod tasks;
 
+pub use diagram::DiagramFile;
 pub use exercise::{
     ExerciseFile, MisconceptionFile, OptionFile, ParameterFile, PatchFile, QuestionFile, QuestionKind,
     ToleranceFile,

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::measured::MeasuredFile;
+use crate::answers::diagram::Arrow;
 use crate::answers::{Answer, RunSettings, TypedValue};
 
 /// `reference/answers.toml`: the answer to one question and where it comes from. Never leaves the server.
@@ -17,6 +18,8 @@ pub struct ReferenceFile {
     pub value: Option<TypedValue>,
     /// Settings that meet the demand (tuning).
     pub settings: Option<RunSettings>,
+    /// Forces and moments (diagram).
+    pub diagram: Option<Vec<Arrow>>,
     /// Bound on the reference's own error, in the question's unit. Needed for numbers.
     #[serde(default)]
     pub error: f64,

@@ -2,6 +2,7 @@
 //! of it in one place.
 
 pub(crate) mod closed;
+mod diagram;
 mod follow;
 pub(crate) mod formula;
 mod model;
@@ -135,6 +136,7 @@ fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer) -> Judgem
         QuestionBody::Quantity(body) => quantity::judge(body, note, answer).map_err(Into::into),
         QuestionBody::Choice { options, right } => closed::choice(options, right, answer).map_err(Into::into),
         QuestionBody::Formula(body) => formula::judge(body, &question.id, note, answer).map_err(Into::into),
+        QuestionBody::Diagram(task) => diagram::judge(task, note, answer).map_err(Into::into),
         QuestionBody::Implement(task) => {
             let seed = instances::seed(lesson, &question.id);
             program::judge(task, &seed, note, answer).map_err(Into::into)

@@ -6,7 +6,7 @@ use crate::exercise::{Question, QuestionBody};
 use triad_engine::scene::expression::Expression;
 
 /// Whether two answers to a question say the same: numbers within its tolerance, the same option, formulas of the same value,
-/// files with the same lines, equal settings. What cannot be read is like nothing else.
+/// the same arrows, files with the same lines, equal settings. What cannot be read is like nothing else.
 pub(crate) fn same(question: &Question, a: &Answer, b: &Answer) -> bool {
     match &question.body {
         QuestionBody::Quantity(q) => match (reading::read(q, a), reading::read(q, b)) {
@@ -24,6 +24,14 @@ pub(crate) fn same(question: &Question, a: &Answer, b: &Answer) -> bool {
                 _ => None,
             };
             read(a).zip(read(b)).is_some_and(|(a, b)| formula::same(&a, &b, &f.ranges, &question.id, 1.0))
+        }
+        QuestionBody::Diagram(_) => {
+            let arrows = |answer: &Answer| {
+                let mut arrows = answer.diagram.clone().unwrap_or_default();
+                arrows.sort();
+                arrows
+            };
+            arrows(a) == arrows(b)
         }
         QuestionBody::Tuning(_) => a.settings == b.settings,
         QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Model(_) => {

@@ -4,6 +4,7 @@ mod bundle;
 mod content;
 mod conventions;
 pub mod course;
+mod diagram_view;
 mod notions;
 mod numbering;
 mod reader;
@@ -13,6 +14,7 @@ mod view;
 
 pub use content::Lesson;
 pub use course::{Course, CourseError};
+pub use diagram_view::{CutBodyView, DiagramView, PlaceView};
 pub(crate) use notions::need;
 pub use notions::{Need, NotionGraph, NotionNode};
 pub use reader::LessonError;

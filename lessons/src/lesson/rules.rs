@@ -22,6 +22,11 @@ pub(super) fn rule(question: &Question) -> String {
             "Any form of the right formula counts; it is compared with ours at many points. Symbols: {}.",
             f.symbols.join(", ")
         ),
+        QuestionBody::Diagram(d) => format!(
+            "Draw every force and moment that acts on {}, each with its point and its sense. What is missing, what is too much \
+             and what points the wrong way counts. One arrow for each component; lengths do not matter.",
+            d.bodies.join(" and on ")
+        ),
         QuestionBody::Implement(i) => {
             let parts = i.asks.iter().map(|p| p.symbol()).collect::<Vec<_>>().join(", ");
             format!(

@@ -6,6 +6,7 @@ use triad_engine::scene::{IntegratorKind, Scene};
 
 use super::content::Lesson;
 use super::conventions::conventions;
+use super::diagram_view::DiagramView;
 use super::rules::{measurement, opens, rule};
 use crate::answers::tolerance::ValueShape;
 use crate::exercise::{ChoiceOption, Parameters, Question, QuestionBody};
@@ -160,6 +161,9 @@ pub struct QuestionView {
     /// What may be chosen (tuning).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tuning: Option<TuningView>,
+    /// What is cut free (diagram).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diagram: Option<DiagramView>,
     /// Earlier questions whose answer is carried through, right or wrong.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub follows: Vec<String>,
@@ -232,6 +236,7 @@ impl QuestionView {
             asks: Vec::new(),
             columns: Vec::new(),
             tuning: None,
+            diagram: None,
             follows: Vec::new(),
             hints_available: question.hints.len(),
         };
@@ -253,6 +258,7 @@ impl QuestionView {
                 view.options = Some(options.iter().map(shown).collect());
             }
             QuestionBody::Formula(f) => view.symbols.clone_from(&f.symbols),
+            QuestionBody::Diagram(d) => view.diagram = Some(DiagramView::new(d)),
             QuestionBody::Implement(i) => view.asks.clone_from(&i.asks),
             QuestionBody::Trajectory(t) => {
                 let column = |(name, m): (&String, &MeasuredFile)| ColumnView {

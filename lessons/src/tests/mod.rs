@@ -138,7 +138,10 @@ fn the_public_view_holds_no_answer() {
                     secrets.extend(f.misconceptions.iter().map(|(.., text)| text.clone()));
                 }
                 QuestionBody::Model(m) => secrets.extend(m.watches().iter().map(|w| w.feedback.clone())),
-                QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Tuning(_) => {}
+                QuestionBody::Diagram(_)
+                | QuestionBody::Implement(_)
+                | QuestionBody::Trajectory(_)
+                | QuestionBody::Tuning(_) => {}
             }
         }
         for secret in secrets.iter().filter(|s| s.len() > 8) {

@@ -1,7 +1,9 @@
 //! What is said about one answer, as data: numbers, names, and texts of the author in Markdown.
 
+pub(crate) use super::diagram::{DiagramFinding, DiagramSlip};
 use super::invalid::InvalidAnswer;
 use super::sent::Mark;
+use crate::answers::diagram::Arrow;
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
 use crate::files::EquationPart;
@@ -76,6 +78,16 @@ pub(crate) enum Feedback {
     /// A right step from the student's own wrong answers to these questions, counted from 1.
     FollowThrough {
         questions: Vec<usize>,
+    },
+    /// A right diagram, with the numbers of the run.
+    DiagramRight {
+        numbers: Vec<(Arrow, f64)>,
+        note: String,
+    },
+    /// What is wrong with a diagram.
+    Diagram {
+        slip: DiagramSlip,
+        findings: Vec<DiagramFinding>,
     },
     Program {
         parts: Vec<(EquationPart, PartFinding)>,

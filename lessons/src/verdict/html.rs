@@ -3,11 +3,13 @@
 use std::fmt::Write as _;
 
 use super::feedback::{
-    Demand, DemandResult, Discrepancy, Feedback, FormulaFinding, MotionFinding, NumberFinding, PartFinding,
-    QuantityFeedback, TuningFeedback, UnitFinding,
+    Demand, DemandResult, DiagramFinding, DiagramSlip, Discrepancy, Feedback, FormulaFinding, MotionFinding,
+    NumberFinding, PartFinding, QuantityFeedback, TuningFeedback, UnitFinding,
 };
+use crate::answers::diagram::{Arrow, CENTRE};
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
+use crate::exercise::cut::in_words;
 use crate::files::EquationPart;
 use crate::recognition::quantity::Recognised;
 use crate::rendering::html::escape;
@@ -34,6 +36,8 @@ pub(crate) fn message(feedback: &Feedback) -> String {
                  correct that one, correct this one too."
             ))
         }
+        Feedback::DiagramRight { numbers, note } => diagram_right(numbers, note),
+        Feedback::Diagram { slip, findings } => diagram(*slip, findings),
         Feedback::Program { parts } => program(parts),
         Feedback::Model { demands, note } => model(demands, note.as_deref()),
         Feedback::TrajectoryRight { error, note } => {
@@ -54,6 +58,29 @@ pub(crate) fn message(feedback: &Feedback) -> String {
 /// A sentence of our own, without anything that needs an escape.
 fn paragraph(text: &str) -> String {
     format!("<p>{text}</p>")
+}
+
+/// The numbers of a right diagram.
+fn diagram_right(numbers: &[(Arrow, f64)], note: &str) -> String {
+    let line = |(arrow, value): &(Arrow, f64)| format!("<li>{}</li>", escape(&in_words(arrow, Some(*value))));
+    let lines: String = numbers.iter().map(line).collect();
+    format!("<p>Right.</p>{}<p>The run fills in the numbers:</p><ul>{lines}</ul>", render_short(note))
+}
+
+/// What is wrong with a diagram: where something is missing, which arrows are wrong.
+fn diagram(slip: DiagramSlip, findings: &[DiagramFinding]) -> String {
+    let line = |finding: &DiagramFinding| match finding {
+        DiagramFinding::Missing(arrow) => {
+            let at = if arrow.at == CENTRE { "the centre of mass" } else { arrow.at.as_str() };
+            format!("<li>Missing: something at {} on {}.</li>", escape(at), escape(&arrow.on))
+        }
+        DiagramFinding::Opposite(arrow) => {
+            format!("<li>Points the wrong way: {}.</li>", escape(&in_words(arrow, None)))
+        }
+        DiagramFinding::TooMuch(arrow) => format!("<li>Too much: {}.</li>", escape(&in_words(arrow, None))),
+    };
+    let lines: String = findings.iter().map(line).collect();
+    format!("<p>Not right.</p>{}<ul>{lines}</ul>", render_short(slip.advice()))
 }
 
 fn formula(finding: &FormulaFinding) -> String {

@@ -21,6 +21,8 @@ pub(crate) enum InvalidAnswer {
     #[error(transparent)]
     Closed(#[from] InvalidClosed),
     #[error(transparent)]
+    Diagram(#[from] InvalidDiagram),
+    #[error(transparent)]
     Program(#[from] InvalidProgram),
     #[error(transparent)]
     Trajectory(#[from] InvalidTrajectory),
@@ -92,6 +94,27 @@ pub(crate) enum InvalidClosed {
     NoFormula,
     #[error("The formula cannot be read: {0}.")]
     Formula(#[from] ExpressionError),
+}
+
+/// Free-body diagrams.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum InvalidDiagram {
+    #[error("This question asks for a diagram: a list of forces and moments.")]
+    NoDiagram,
+    #[error("There is no body \u{201c}{name}\u{201d} in the picture; the bodies are {known}.")]
+    Body { name: String, known: String },
+    #[error("There is no point \u{201c}{name}\u{201d} on {on}; its points are {known}.")]
+    Place { name: String, on: String, known: String },
+    #[error(
+        "Forces lie in the plane of the picture, moments turn about the axis out of it; {along} does not fit."
+    )]
+    OutOfPicture { along: &'static str },
+    #[error("At {at} on {on} there are two arrows on one line; keep one.")]
+    Twice { at: String, on: String },
+    #[error("There are more arrows than a diagram can hold.")]
+    TooMany,
+    #[error("The scene could not be run: {0}.")]
+    Reference(MeasureError),
 }
 
 /// What a program sends.

@@ -2,6 +2,7 @@
 //! `html` alone turns it into HTML. [`sent`] is the verdict that leaves the server, [`mod@reference`] adds the right
 //! answers where the author opens them.
 
+pub(crate) mod diagram;
 pub(crate) mod feedback;
 pub(crate) mod html;
 pub(crate) mod invalid;

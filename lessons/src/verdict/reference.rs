@@ -1,6 +1,8 @@
 //! The right answers in words, shown where they are open.
 
+use crate::answers::diagram::Arrow;
 use crate::answers::tolerance::ValueShape;
+use crate::exercise::cut::in_words;
 use crate::exercise::{QuantityQuestion, Question, QuestionBody};
 use crate::rendering::html::escape;
 use crate::rendering::markdown::render_short;
@@ -14,6 +16,10 @@ pub(crate) fn reference(question: &Question) -> Option<String> {
             render_short(&options.iter().find(|o| o.id == *right)?.text)
         }
         QuestionBody::Formula(f) => format!("<p><code>{}</code></p>", escape(&f.reference_text)),
+        QuestionBody::Diagram(d) => {
+            let line = |arrow: &Arrow| format!("<li>{}</li>", escape(&in_words(arrow, None)));
+            format!("<ul>{}</ul>", d.reference.iter().map(line).collect::<String>())
+        }
         QuestionBody::Implement(_)
         | QuestionBody::Trajectory(_)
         | QuestionBody::Model(_)

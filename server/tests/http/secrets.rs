@@ -67,7 +67,8 @@ fn secrets(lesson: &Lesson) -> Secrets {
             Question::Choice { options, .. } => options.iter().for_each(|o| text(&o.reason)),
             Question::Formula(f) => f.misconceptions.iter().for_each(|(.., feedback)| text(feedback)),
             Question::Model(m) => m.watches().iter().for_each(|w| text(&w.feedback)),
-            Question::Implement(_) | Question::Trajectory(_) | Question::Tuning(_) => {}
+            Question::Diagram(_) | Question::Implement(_) | Question::Trajectory(_) | Question::Tuning(_) => {
+            }
         }
         if let Question::Quantity(q) = &question.body {
             for x in q.reference.iter().chain(q.misconceptions.iter().flat_map(|m| &m.value)) {
@@ -152,6 +153,7 @@ fn wrong(lesson: &Lesson) -> Value {
             Question::Formula(f) => {
                 Answer { value: text(&format!("12345*{}", f.symbols[0])), ..Answer::default() }
             }
+            Question::Diagram(d) => Answer { diagram: Some(d.reference[..1].to_vec()), ..Answer::default() },
             Question::Implement(_) | Question::Model(_) | Question::Trajectory(_) => {
                 Answer { file: Some("{\"states\": []}".to_owned()), ..Answer::default() }
             }

@@ -66,6 +66,8 @@ export interface components {
         Answer: {
             /** @description The id of the option that was chosen. */
             choice?: string | null;
+            /** @description Forces and moments on bodies that are cut free. */
+            diagram?: components["schemas"]["Arrow"][] | null;
             /** @description The text of a file: JSON or CSV of a program, a table, a scene. */
             file?: string | null;
             /** @description Settings of a run. */
@@ -75,6 +77,19 @@ export interface components {
             /** @description A number, a list of numbers, or a formula, as typed. */
             value?: components["schemas"]["TypedValue"] | null;
         };
+        /** @description A force or a moment in a diagram. */
+        Arrow: {
+            /** @description Along or about which axis of the ground frame, and in which sense. */
+            along: components["schemas"]["Sense"];
+            /** @description Where: a joint or driver, `centre` for the centre of mass, or another point of the picture. */
+            at: string;
+            /** @description Force or moment. */
+            kind: components["schemas"]["ArrowKind"];
+            /** @description The body on which it acts. */
+            on: string;
+        };
+        /** @description What an arrow stands for. */
+        ArrowKind: "force" | "moment";
         /** @description Which forces are drawn, and by which convention. */
         Arrows: {
             /**
@@ -136,6 +151,8 @@ export interface components {
                 number
             ];
         };
+        /** @description An axis of the ground frame. */
+        Axis: "x" | "y" | "z";
         /** @description How the axis of a revolute joint is written. */
         AxisRows: "cp-2car" | "cp-cv" | "shared";
         /** @description A rigid body. */
@@ -335,6 +352,50 @@ export interface components {
         };
         /** @description Which generalized coordinates describe a body. */
         Coordinates: "full" | "reduced" | "shared";
+        /** @description A body that is cut free. */
+        CutBody: {
+            /** @description Its name. */
+            name: string;
+            /** @description Where arrows may be put. */
+            places: components["schemas"]["CutPlace"][];
+        };
+        /** @description A point of a body. */
+        CutPlace: {
+            /** @description Its place in the picture, px from the left and from above. */
+            at: [
+                number,
+                number
+            ];
+            /** @description Name to send. */
+            id: string;
+            /** @description Name for people. */
+            label: string;
+        };
+        /** @description Bodies cut free: their picture and the points where arrows may be put. */
+        DiagramChoices: {
+            /** @description Whether a positive moment turns anticlockwise in the picture. */
+            anticlockwise: boolean;
+            /** @description Axes of the ground frame to the right, up, and out of the picture. */
+            axes: [
+                components["schemas"]["Axis"],
+                components["schemas"]["Axis"],
+                components["schemas"]["Axis"]
+            ];
+            /** @description The bodies, each with its points. */
+            bodies: components["schemas"]["CutBody"][];
+            /** @description The picture without arrows, as SVG that the grader drew; empty if the scene does not run so far. */
+            picture_svg: string;
+            /** @description Width and height of the picture, px. */
+            size: [
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description The moment that is shown, s.
+             */
+            time: number;
+        };
         /** @description A spring from a point of a body to a place in the world. */
         Drag: {
             /** @description The body. */
@@ -2013,6 +2074,8 @@ export interface components {
             columns?: components["schemas"]["TableColumn"][];
             /** @description Names of a vector's components in the frame that is asked for. */
             components?: string[];
+            /** @description What is cut free (diagram). */
+            diagram?: components["schemas"]["DiagramChoices"] | null;
             /** @description Earlier questions whose answer is carried through, right or wrong. */
             follows?: string[];
             /**
@@ -2048,7 +2111,7 @@ export interface components {
             unit?: string | null;
         };
         /** @description Kind of a question. */
-        QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "implement" | "trajectory" | "model" | "tuning";
+        QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "diagram" | "implement" | "trajectory" | "model" | "tuning";
         /** @description Where a student stands with one question after all submissions so far. */
         QuestionStanding: {
             /**
@@ -2344,6 +2407,8 @@ export interface components {
         } | {
             scene: string;
         };
+        /** @description An axis with its sense. */
+        Sense: "+x" | "-x" | "+y" | "-y" | "+z" | "-z";
         /** @description The text messages to a watcher. */
         SessionMessage: components["schemas"]["SessionState"] | {
             /** @constant */

@@ -3,6 +3,7 @@
 import { api } from "../api/client";
 import type { Answer, Question } from "../api/types";
 import { authored, h } from "../core/dom";
+import { diagramInput } from "./diagram";
 import { type Inputs, type QuestionContext, textInput } from "./field";
 import { fileInput } from "./file";
 import { tuningInput } from "./tuning";
@@ -15,6 +16,8 @@ export function inputsOf(question: Question, place: QuestionContext, draft: stri
       return grid(question, place, draft);
     case "matrix":
       return grid(question, place, draft);
+    case "diagram":
+      return diagramInput(question, place, draft);
     case "implement":
     case "trajectory":
     case "model":

@@ -1,0 +1,201 @@
+// A free-body diagram: forces are dragged out of the points of a body that is cut free, moments are clicked there; or all
+// is chosen from lists, by keyboard and with a screen reader.
+
+import type { Question } from "../api/types";
+import { announce, authored, h, svg } from "../core/dom";
+import {
+  type Arrow,
+  choicesOf,
+  type Diagram,
+  drafted,
+  dragged,
+  drawn,
+  inWords,
+  labelledSelect,
+  sameLine,
+} from "./arrows";
+import type { Inputs, QuestionContext } from "./field";
+
+/** Radius within which a point is taken, px of the picture. */
+const REACH = 18;
+
+export function diagramInput(
+  question: Question,
+  context: QuestionContext,
+  draft: string[] | undefined,
+): Inputs {
+  const { diagram } = question;
+  if (!diagram) return { root: h("div"), answer: () => ({ diagram: [] }), draft: () => [] };
+  const field = new DiagramField(diagram, context, drafted(diagram, draft));
+  return { root: field.root, answer: () => ({ diagram: field.arrows }), draft: () => field.draft() };
+}
+
+class DiagramField {
+  arrows: Arrow[];
+  readonly root: HTMLElement;
+  private readonly layer: SVGGElement;
+  private readonly trail = svg("path", { class: "drawn-trail", d: "" });
+  private readonly overlay: SVGSVGElement;
+  private readonly list = h("ul", { class: "arrow-list" });
+  private readonly body: HTMLSelectElement;
+  private readonly place: HTMLSelectElement;
+  private readonly what: HTMLSelectElement;
+
+  constructor(
+    private readonly diagram: Diagram,
+    { base, described }: QuestionContext,
+    before: Arrow[],
+  ) {
+    this.arrows = before;
+    const [width, height] = diagram.size as [number, number];
+    this.layer = svg("g", {});
+    this.overlay = svg(
+      "svg",
+      { viewBox: `0 0 ${width} ${height}`, class: "cut-layer", "aria-hidden": "true" },
+      this.layer,
+      this.trail,
+      ...this.points(),
+    );
+    const body = labelledSelect(`${base}-body`, "Body", described);
+    const place = labelledSelect(`${base}-place`, "Point", described);
+    const what = labelledSelect(`${base}-what`, "Force or moment", described);
+    [this.body, this.place, this.what] = [body.select, place.select, what.select];
+    this.body.append(...diagram.bodies.map((one) => h("option", { value: one.name }, one.name)));
+    this.what.append(...choicesOf(diagram).map((one, at) => h("option", { value: String(at) }, one.label)));
+    this.body.addEventListener("change", () => this.offerPlaces());
+    const add = h(
+      "button",
+      { type: "button", class: "button small", onclick: () => this.addChosen() },
+      "Add",
+    );
+    this.root = h(
+      "div",
+      { class: "answer is-diagram" },
+      h("div", { class: "cut-picture" }, authored(h("div"), diagram.picture_svg), this.overlay),
+      h(
+        "p",
+        { class: "rule" },
+        "Drag a force out of a point. Click a point for a moment, again for the other sense, again to take it away. Or choose:",
+      ),
+      h("div", { class: "settings" }, body.root, place.root, what.root, add),
+      this.list,
+    );
+    this.offerPlaces();
+    this.paint();
+  }
+
+  draft(): string[] {
+    return this.arrows.map((arrow) => JSON.stringify(arrow));
+  }
+
+  /** A hinge and its motor stand at one point: there a force is the hinge's, a moment the motor's. */
+  private points(): SVGElement[] {
+    return this.diagram.bodies.flatMap((body) => {
+      const spots = new Map<string, typeof body.places>();
+      for (const place of body.places) spots.set(`${place.at}`, [...(spots.get(`${place.at}`) ?? []), place]);
+      return [...spots.values()].map((places, row) => {
+        const [x, y] = (places[0]?.at ?? [0, 0]) as [number, number];
+        const point = svg("circle", { cx: x, cy: y, r: REACH, class: "cut-point" });
+        const words = places.map((place) => place.label).join(", ");
+        const name = svg("text", { x: x + 8, y: y + 28 + 16 * (row % 2), class: "cut-name" }, words);
+        const ids = { force: places[0]?.id ?? "", moment: places.at(-1)?.id ?? "" };
+        point.addEventListener("pointerdown", (event) => this.drag(event, body.name, ids, [x, y]));
+        return svg("g", {}, point, name);
+      });
+    });
+  }
+
+  /** Follows the pointer from a point of the body to where it is let go. */
+  private drag(
+    start: PointerEvent,
+    on: string,
+    at: Record<Arrow["kind"], string>,
+    [x, y]: [number, number],
+  ): void {
+    start.preventDefault();
+    const inPicture = (event: PointerEvent): [number, number] => {
+      const box = this.overlay.getBoundingClientRect();
+      const scale = (this.diagram.size[0] ?? 1) / Math.max(box.width, 1);
+      return [(event.clientX - box.left) * scale - x, (event.clientY - box.top) * scale - y];
+    };
+    const target = start.currentTarget as SVGElement;
+    target.setPointerCapture(start.pointerId);
+    const move = (event: PointerEvent): void => {
+      const [dx, dy] = inPicture(event);
+      this.trail.setAttribute("d", `M${x} ${y}l${dx} ${dy}`);
+    };
+    const stop = (): void => {
+      this.trail.setAttribute("d", "");
+      target.removeEventListener("pointermove", move);
+      target.removeEventListener("pointerup", up);
+      target.removeEventListener("pointercancel", stop);
+    };
+    const up = (event: PointerEvent): void => {
+      stop();
+      const along = dragged(this.diagram, ...inPicture(event));
+      if (along) this.put({ kind: "force", at: at.force, on, along });
+      else this.turnMoment(on, at.moment);
+    };
+    target.addEventListener("pointermove", move);
+    target.addEventListener("pointerup", up);
+    target.addEventListener("pointercancel", stop);
+  }
+
+  /** None, anticlockwise, clockwise, none. */
+  private turnMoment(on: string, at: string): void {
+    const [anticlockwise, clockwise] = choicesOf(this.diagram).filter((one) => one.kind === "moment");
+    if (!anticlockwise || !clockwise) return;
+    const there = this.arrows.find((arrow) => arrow.kind === "moment" && arrow.on === on && arrow.at === at);
+    if (!there) this.put({ kind: "moment", at, on, along: anticlockwise.along });
+    else if (there.along === anticlockwise.along) this.put({ ...there, along: clockwise.along });
+    else this.remove(there);
+  }
+
+  private addChosen(): void {
+    const choice = choicesOf(this.diagram)[Number(this.what.value)];
+    if (choice)
+      this.put({ kind: choice.kind, at: this.place.value, on: this.body.value, along: choice.along });
+  }
+
+  private put(arrow: Arrow): void {
+    this.arrows = [...this.arrows.filter((other) => !sameLine(other, arrow)), arrow];
+    this.changed(`Added: ${inWords(this.diagram, arrow)}`);
+  }
+
+  private remove(arrow: Arrow): void {
+    this.arrows = this.arrows.filter((other) => other !== arrow);
+    this.changed(`Removed: ${inWords(this.diagram, arrow)}`);
+  }
+
+  private changed(said: string): void {
+    this.paint();
+    announce(said);
+    this.root.dispatchEvent(new Event("input", { bubbles: true }));
+  }
+
+  private offerPlaces(): void {
+    const places = this.diagram.bodies.find((body) => body.name === this.body.value)?.places ?? [];
+    this.place.replaceChildren(...places.map((place) => h("option", { value: place.id }, place.label)));
+  }
+
+  private paint(): void {
+    const shapes = this.arrows.map((arrow) => drawn(this.diagram, arrow));
+    this.layer.replaceChildren(...shapes.filter((shape) => shape !== undefined));
+    this.list.replaceChildren(
+      ...this.arrows.map((arrow) => {
+        const words = inWords(this.diagram, arrow);
+        const remove = h(
+          "button",
+          {
+            type: "button",
+            class: "button quiet small",
+            "aria-label": `Remove ${words}`,
+            onclick: () => this.remove(arrow),
+          },
+          "Remove",
+        );
+        return h("li", null, words, " ", remove);
+      }),
+    );
+  }
+}
