@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use triad_lessons::Course;
 
+use crate::access::Access;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
 use crate::session::Registry;
@@ -30,6 +31,8 @@ pub struct App {
     pub lectures: Arc<Lectures>,
     /// Places for what is computed on request.
     pub work: Arc<Work>,
+    /// Who may do what.
+    pub access: Arc<Access>,
     /// What this server allows.
     pub limits: Arc<Limits>,
     /// The folder with the reports of commands.
@@ -46,9 +49,16 @@ impl App {
             sessions: Arc::default(),
             lectures: Arc::default(),
             work: Arc::default(),
+            access: Arc::new(Access::home(false, [])),
             limits: Arc::new(limits),
             reports: Path::new(REPORTS).into(),
         }
+    }
+
+    /// The same server, used in another way than at home.
+    #[must_use]
+    pub fn with_access(self, access: Access) -> Self {
+        Self { access: Arc::new(access), ..self }
     }
 
     /// The same server, with reports in another folder.

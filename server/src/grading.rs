@@ -40,12 +40,18 @@ impl From<GradeError> for Problem {
 }
 
 /// Reads a submission and grades it with the numbers that it is about: those of its seed if it names one, else the
-/// student's own.
+/// student's own. A class gives the seed, whatever the submission says.
 ///
 /// Errors if it cannot be read, or its seed or the lesson's numbers are refused.
-pub fn grade(lesson: &Lesson, variants: &Variants, text: &str) -> Result<(Submission, Verdict), Problem> {
+pub fn grade(
+    lesson: &Lesson,
+    variants: &Variants,
+    text: &str,
+    given: Option<&str>,
+) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
-    let lesson = variants.of(lesson, seed(&submission))?;
+    let own = submission.seed.as_deref().or(submission.student.as_deref()).unwrap_or_default();
+    let lesson = variants.of(lesson, given.unwrap_or(own))?;
     let verdict = triad_lessons::grade(&lesson, &submission)?;
     Ok((submission, verdict))
 }
@@ -70,22 +76,4 @@ pub fn settle(
         earlier.iter().map(|(answers, verdict)| Attempt { answers, verdict }).collect();
     triad_lessons::settle(lesson, &earlier, &submission.answers, verdict);
     Ok(())
-}
-
-/// Adds the right answers of the questions that are open to a verdict that is settled.
-///
-/// Errors if the lesson has no numbers for the submission's seed.
-pub fn open(
-    lesson: &Lesson,
-    variants: &Variants,
-    submission: &Submission,
-    verdict: &mut Verdict,
-) -> Result<(), Problem> {
-    let lesson = variants.of(lesson, seed(submission))?;
-    triad_lessons::open(&lesson, verdict);
-    Ok(())
-}
-
-fn seed(submission: &Submission) -> &str {
-    submission.seed.as_deref().or(submission.student.as_deref()).unwrap_or_default()
 }

@@ -23,6 +23,11 @@ pub mod lecture;
 
 pub mod work;
 
+pub mod access;
+pub mod grades;
+
+pub mod regrade;
+
 pub mod app;
 
 pub mod guide;

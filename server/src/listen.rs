@@ -8,6 +8,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use axum::Router;
+use axum::extract::ConnectInfo;
+use axum::http::Request;
+use hyper::body::Incoming;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
@@ -15,6 +18,7 @@ use tokio::io::AsyncWriteExt;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{mpsc, watch};
 use tokio::time::{sleep, timeout};
+use tower::ServiceExt;
 
 /// Connections at a time, if the system allows as many files; the default of most systems, 1024, is less than a class.
 const CONNECTIONS: usize = 4096;
@@ -75,14 +79,18 @@ async fn accept(
         let held = (place, alive.clone());
         let (app, stopped) = (app.clone(), stopped.clone());
         tokio::spawn(async move {
-            connection(socket, app, stopped).await;
+            connection(socket, from, app, stopped).await;
             drop(held);
         });
     }
 }
 
 /// Serves one connection to its end; what it is about to answer when the server stops is answered.
-async fn connection(socket: TcpStream, app: Router, mut stopped: watch::Receiver<()>) {
+async fn connection(socket: TcpStream, from: SocketAddr, app: Router, mut stopped: watch::Receiver<()>) {
+    let app = app.map_request(move |mut request: Request<Incoming>| {
+        request.extensions_mut().insert(ConnectInfo(from));
+        request
+    });
     let mut protocol = http1::Builder::new();
     protocol.timer(TokioTimer::new()).header_read_timeout(SILENCE);
     let served = protocol.serve_connection(io(socket), TowerToHyperService::new(app)).with_upgrades();

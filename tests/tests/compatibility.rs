@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use triad_engine::Scene;
 use triad_engine::analysis::check::check;
-use triad_tests::program::Server;
+use triad_tests::program::{Server, run_json};
 use triad_tests::root;
 
 /// Relative difference of numbers that count as equal: what different C libraries leave of a sine.
@@ -211,5 +211,18 @@ fn gradebooks_of_each_version_open_with_all_their_rows() {
         let rows = server.get("/api/v1/submissions?student=Ada%20Lovelace").json();
         assert_eq!(rows.as_array().unwrap().len(), 3);
         server.stop();
+        // Its records can be looked at, and what this version graded is rebuilt.
+        let database = home.path().join("grades.db").display().to_string();
+        let ask = |words: &[&str]| run_json(&[words, &["--database", &database]].concat());
+        assert_eq!(ask(&["grades", "--check"]), (0, json!([])));
+        let (code, rebuilt) = ask(&["regrade", "--check"]);
+        assert_eq!((code, &rebuilt["changed"]), (0, &json!([])), "{rebuilt}");
+        let (_, table) = ask(&["grades"]);
+        let ada =
+            table["students"].as_array().unwrap().iter().find(|row| row["name"] == "Ada Lovelace").unwrap();
+        let reached = &ada["lessons"]["simple-pendulum"];
+        assert_eq!((&reached["points"], &reached["attempts"]), (&json!(5.0), &json!(3)), "{table}");
+        let csv = triad_tests::program::run(&["grades", "--csv", "--for", "moodle", "--database", &database]);
+        assert!(String::from_utf8(csv.stdout).unwrap().contains("\"Ada Lovelace\",\"\","));
     }
 }

@@ -1,3 +1,4 @@
+import { loadMe } from "./api/identity";
 import { loadMaths } from "./core/maths";
 import { applyTheme } from "./core/prefs";
 import { startRouter } from "./core/router";
@@ -13,6 +14,10 @@ if (location.pathname.startsWith("/lessons/")) void loadMaths();
 const head = document.getElementById("header");
 const main = document.getElementById("main");
 if (head && main) {
+  void loadMe().finally(() => start(head, main));
+}
+
+function start(head: HTMLElement, main: HTMLElement): void {
   header(head);
   startRouter(
     main,
@@ -30,6 +35,18 @@ if (head && main) {
       {
         pattern: /^\/room\/([^/]+)$/,
         open: lazily("Lecture", () => import("./pages/lecture").then((page) => page.lecturePage)),
+      },
+      {
+        pattern: /^\/(join|setup|return)$/,
+        open: lazily("Your class", () => import("./pages/join").then((page) => page.joinClassPage)),
+      },
+      {
+        pattern: /^\/class$/,
+        open: lazily("Class", () => import("./pages/class").then((page) => page.classPage)),
+      },
+      {
+        pattern: /^\/class\/([^/]+)$/,
+        open: lazily("Student", () => import("./pages/student").then((page) => page.studentPage)),
       },
       {
         pattern: /^\/scenes$/,

@@ -17,7 +17,8 @@ impl Lesson {
         };
         let files: Map<String, Value> =
             self.files.iter().map(|(path, bytes)| (path.clone(), content(bytes))).collect();
-        json!({ "folder": self.folder, "files": files }).to_string()
+        // The place in its course is not in the files, and their fingerprint is that of the folder before it got its place.
+        json!({ "folder": self.folder, "number": self.number, "hash": self.hash, "files": files }).to_string()
     }
 
     /// The lesson of a bundle, with the numbers that everybody sees.
@@ -41,7 +42,10 @@ impl Lesson {
             files
                 .insert(path.clone(), bytes.ok_or_else(|| broken("a file is neither text nor hexadecimal"))?);
         }
-        Self::from_files(folder, files)
+        let number = bundle["number"].as_u64().and_then(|number| u32::try_from(number).ok());
+        let hash = bundle["hash"].as_str().ok_or_else(|| broken("it has no fingerprint"))?;
+        let lesson = Self::from_files(folder, files)?;
+        Ok(Self { number: number.unwrap_or(lesson.number), hash: hash.to_owned(), ..lesson })
     }
 }
 

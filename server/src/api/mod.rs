@@ -1,8 +1,10 @@
 //! The HTTP interface under `/api/v1`, and the one router of the server.
 
 mod bounds;
+mod class;
 mod describe;
 mod extract;
+mod guard;
 mod health;
 mod lectures;
 mod lessons;
@@ -44,6 +46,7 @@ pub(crate) use lessons::{instances, starter_of, unknown as unknown_lesson};
     tags(
         (name = "lessons", description = "What is taught; answers never leave the server"),
         (name = "submissions", description = "What was handed in, and what it earned"),
+        (name = "class", description = "Accounts, people and grades of a class: `triad serve --class`"),
         (name = "scenes", description = "Built-in scenes, and what a scene amounts to"),
         (name = "sessions", description = "Live simulations"),
         (name = "rooms", description = "Lectures: one session that many follow"),
@@ -60,6 +63,9 @@ fn described() -> (Router<App>, Value) {
         .nest(
             "/api/v1",
             OpenApiRouter::new()
+                .merge(class::sign_in::routes(&mut schemas))
+                .merge(class::people::routes(&mut schemas))
+                .merge(class::grades::routes(&mut schemas))
                 .merge(lessons::routes(&mut schemas))
                 .merge(lessons::submissions::routes(&mut schemas))
                 .merge(scenes::routes(&mut schemas))
@@ -103,6 +109,7 @@ pub fn router(app: App) -> Router {
         .layer(DefaultBodyLimit::max(limit))
         .layer(middleware::from_fn_with_state(app.clone(), bounds::refuse_large_bodies))
         .layer(middleware::from_fn(uncached_interface))
+        .layer(middleware::from_fn_with_state(app.clone(), guard::admit))
         .with_state(app)
 }
 
@@ -133,5 +140,6 @@ pub async fn keep_house(app: App) {
         often.tick().await;
         app.sessions.expire(&app.limits);
         app.lectures.expire(&app.limits);
+        app.access.forget();
     }
 }

@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 use triad_engine::analysis::ModesAbout;
 
 use crate::problem::Problem;
-use course::{grade, graph, lesson, preview};
+use course::{grade, grades, graph, lesson, preview, regrade};
 use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
@@ -63,7 +63,7 @@ struct Arguments {
 enum Command {
     /// Serve the workbench: page, HTTP API and live streams on one port.
     #[command(after_help = "Examples:\n  triad serve --port 9000\n  \
-        triad serve --host 0.0.0.0 --database /srv/triad/grades.db   (for a class on one network)")]
+        triad serve --class --host 0.0.0.0 --database /srv/triad/grades.db   (for a class on one network)")]
     Serve(Serve),
     /// Run a scene; tells energy drift, constraint violation, work and events.
     ///
@@ -165,6 +165,13 @@ enum Command {
         /// The file with the answers.
         submission: PathBuf,
     },
+    /// What everybody has reached, from the gradebook: as a table, as CSV for Canvas or Moodle, or checked for damage.
+    #[command(after_help = "Examples:\n  triad grades\n  triad grades --csv > grades.csv\n  \
+        triad grades --csv --for canvas --database /srv/triad/grades.db\n  triad grades --check")]
+    Grades(grades::Grades),
+    /// Rebuild every verdict of a gradebook: with the same lesson, seed and answers each must come out byte for byte.
+    #[command(after_help = "Example:\n  triad regrade --check --database /srv/triad/grades.db")]
+    Regrade(regrade::Regrade),
     /// The lessons of the course.
     #[command(subcommand)]
     Lesson(Lesson),
@@ -291,6 +298,8 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Scenes { name: None, guide: true, .. } => Ok(check::guide(json)),
         Command::Scenes { name: None, .. } => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
+        Command::Grades(options) => grades::grades(&options, &course()?, json),
+        Command::Regrade(options) => regrade::regrade(&options, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),

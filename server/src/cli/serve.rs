@@ -1,6 +1,6 @@
 //! `triad serve`.
 
-use std::net::{IpAddr, SocketAddr};
+use std::net::{IpAddr, SocketAddr, UdpSocket};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -10,17 +10,18 @@ use tokio::net::TcpListener;
 use triad_lessons::Course;
 
 use super::terminal::{Outcome, print_line};
+use crate::access::Access;
 use crate::app::{App, REPORTS};
 use crate::limits::Limits;
 use crate::problem::Problem;
-use crate::store::Store;
+use crate::store::{CLASS, Role, Store};
 
 /// How long the end of the program waits for the gradebook.
 const CLOSING: Duration = Duration::from_secs(5);
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Serve {
-    /// Address to listen at; 0.0.0.0 lets the whole network in.
+    /// Address to listen at; 0.0.0.0 lets the whole network in, which takes --class or --open.
     #[arg(long, default_value = "127.0.0.1")]
     pub(in crate::cli) host: IpAddr,
     /// Port to listen at; 0 takes any free one.
@@ -44,6 +45,22 @@ pub(in crate::cli) struct Serve {
     /// Followers of one lecture.
     #[arg(long, default_value_t = 500, value_name = "N")]
     pub(in crate::cli) max_followers: usize,
+    /// With accounts: students join with a code, and what is kept or secret belongs to who is signed in. Prints a link for
+    /// the teacher until there is one.
+    #[arg(long, conflicts_with = "open")]
+    pub(in crate::cli) class: bool,
+    /// Let others in without accounts: whoever reaches the server reads everybody's submissions and hands in under any name.
+    #[arg(long)]
+    pub(in crate::cli) open: bool,
+    /// With --class: print a link that makes whoever follows it an owner of the class.
+    #[arg(long, requires = "class")]
+    pub(in crate::cli) new_owner: bool,
+    /// Where the class finds the server, as https://triad.example.org behind a proxy that encrypts.
+    #[arg(long, value_name = "URL", requires = "class")]
+    pub(in crate::cli) url: Option<String>,
+    /// Another name by which the server may be asked for without --class; may be given more than once.
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) allow_host: Vec<String>,
 }
 
 impl Default for Serve {
@@ -57,12 +74,28 @@ impl Default for Serve {
             reports: REPORTS.into(),
             max_rooms: 16,
             max_followers: 500,
+            class: false,
+            open: false,
+            new_owner: false,
+            url: None,
+            allow_host: Vec::new(),
         }
     }
 }
 
 /// Serves until it is stopped.
 pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
+    if !(options.host.is_loopback() || options.class || options.open) {
+        return Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "open-to-all",
+            format!(
+                "{} is reached from other machines, and without accounts everybody there could do everything",
+                options.host
+            ),
+            "add --class for accounts; --open lets everybody in: they read all submissions and hand in under any name",
+        ));
+    }
     let limits = Limits {
         sessions: options.max_sessions,
         bodies: options.max_bodies,
@@ -74,7 +107,15 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
     let served = runtime.block_on(async {
         let store = Store::open(&options.database).await?;
-        listen(options, App::new(course, store, limits).with_reports(&options.reports)).await
+        let access = match options.class {
+            true => {
+                let class = store.ensure_course(CLASS, &course.title).await?;
+                Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
+            }
+            false => Access::home(options.open, options.allow_host.iter().cloned()),
+        };
+        let app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
+        listen(options, app).await
     });
     // What still computes for callers that are gone is not waited for.
     runtime.shutdown_background();
@@ -97,6 +138,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         app.course.lessons().len()
     ));
     print_line(&format!("Submissions are kept in {}", options.database.display()));
+    tell_use(options, &app, address).await?;
     tokio::spawn(crate::api::keep_house(app.clone()));
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
     // Open streams end with their sessions; otherwise they would keep the server up.
@@ -109,6 +151,50 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     // What is being written is finished; whoever hangs beyond that has not been answered.
     drop(tokio::time::timeout(CLOSING, store.close()).await);
     Ok(())
+}
+
+/// Says how the server is used, and how a teacher comes in.
+async fn tell_use(options: &Serve, app: &App, address: SocketAddr) -> Result<(), Problem> {
+    if options.open {
+        print_line(
+            "Open to all: whoever reaches this address reads every submission and hands in under any name.",
+        );
+        return Ok(());
+    }
+    if !options.class {
+        print_line(
+            "Without accounts: grades are for yourself. For a class: triad serve --class --host 0.0.0.0",
+        );
+        return Ok(());
+    }
+    let reached =
+        options.url.as_ref().map_or_else(|| format!("http://{}", reached_at(address)), Clone::clone);
+    let reached = reached.trim_end_matches('/');
+    if options.new_owner || !app.store.has_owner(CLASS).await? {
+        let token = app.store.invite(CLASS, "triad", Role::Owner).await?;
+        print_line(&format!("Teacher: open {reached}/setup#{token}  (good for a week, once)"));
+    }
+    let class = app.store.course(CLASS).await?;
+    print_line(&format!("Students: {reached}/join with the code {}", class.join_code));
+    if !reached.starts_with("https://") && !address.ip().is_loopback() {
+        print_line(
+            "Not encrypted: on a network you do not trust put a proxy with TLS before it, and name it with --url.",
+        );
+    }
+    Ok(())
+}
+
+/// The address that other machines find: where all are listened at, the one towards the network.
+fn reached_at(address: SocketAddr) -> SocketAddr {
+    if !address.ip().is_unspecified() {
+        return address;
+    }
+    // Nothing is sent: the system only says from where it would send to an address that nobody has (RFC 5737).
+    let own = UdpSocket::bind("0.0.0.0:0").and_then(|socket| {
+        socket.connect("192.0.2.1:9")?;
+        socket.local_addr()
+    });
+    own.map_or(address, |own| SocketAddr::new(own.ip(), address.port()))
 }
 
 /// Waits for Ctrl-C, or for the system's request to end.

@@ -49,6 +49,9 @@ pub enum StoreError {
     /// Another person of the course has the name.
     #[error("the name {0} is taken in this course")]
     NameTaken(String),
+    /// A course would be left without anybody who may name others.
+    #[error("the class would be without an owner")]
+    LastOwner,
     /// A person, a submission or a course that is not there.
     #[error("there is no such {0}")]
     Unknown(&'static str),
@@ -131,6 +134,9 @@ impl From<StoreError> for Problem {
                 "name-taken",
                 "if it is you, come back with your four words; else add a letter to the name",
             ),
+            StoreError::LastOwner => {
+                (StatusCode::CONFLICT, "last-owner", "name another owner first, then give up the role")
+            }
             StoreError::Unknown(_) => {
                 (StatusCode::NOT_FOUND, "unknown-entry", "reload the list; it may have changed")
             }

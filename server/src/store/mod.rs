@@ -5,9 +5,11 @@
 
 mod error;
 mod file;
+mod grades;
 pub mod hash;
 mod log;
 pub mod names;
+mod people;
 mod random;
 mod records;
 mod schema;
@@ -25,7 +27,9 @@ use sqlx::sqlite::{SqliteConnectOptions, SqlitePoolOptions, SqliteSynchronous};
 
 pub use error::StoreError;
 use file::Place;
-pub use submissions::{HandIn, Kept, Query, StoredSubmission, Whose};
+pub use grades::{Decision, Standing};
+pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
+pub use submissions::{HandIn, Kept, Query, Recorded, StoredSubmission, Whose};
 use transaction::Transaction;
 
 /// The course of those who use the workbench without accounts.
@@ -100,6 +104,16 @@ impl Store {
     pub async fn ready(&self) -> Result<(), StoreError> {
         self.place_is_right()?;
         self.write().await?.rollback().await
+    }
+
+    /// Writes into the log of a course what somebody did that changed nothing: that they looked, or took a copy.
+    ///
+    /// Errors if it cannot be written.
+    pub async fn note(&self, course: &str, actor: &str, what: &str, subject: &str) -> Result<(), StoreError> {
+        let mut transaction = self.write().await?;
+        log::append(&mut transaction, course, now(), &log::Event { actor, what, subject, detail: "" })
+            .await?;
+        transaction.commit().await
     }
 
     /// Faults of the records of all courses, as sentences; empty if everything is as it was written.

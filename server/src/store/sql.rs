@@ -105,8 +105,45 @@ statements! {
         WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
         AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) \
         ORDER BY s.n DESC LIMIT $4";
+    REBUILDABLE = "SELECT s.id, s.person, a.slug, s.answers, v.body, v.lesson_sha256, v.seed, v.build FROM verdict v \
+        JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 \
+        ORDER BY s.n, v.run";
     // Whether what stands there is what was written.
     RECORDED = "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n";
     VERDICTS = "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission \
         JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n, v.run";
+
+    COURSE = "SELECT title, join_code, join_open, secret FROM course WHERE id = $1";
+    SET_COURSE = "UPDATE course SET title = $2, join_code = $3, join_open = $4 WHERE id = $1";
+    OWNERS = "SELECT COUNT(*) FROM membership WHERE course = $1 AND role = 'owner'";
+    ADD_INVITATION = "INSERT INTO invitation (token_sha256, course, role, ends_at) VALUES ($1, $2, $3, $4)";
+    INVITATION = "SELECT course, role FROM invitation WHERE token_sha256 = $1 AND ends_at > $2";
+    REMOVE_INVITATION = "DELETE FROM invitation WHERE token_sha256 = $1";
+    ADD_IDENTITY = "INSERT INTO identity (kind, subject, person, secret) VALUES ($1, $2, $3, $4)";
+    REMOVE_IDENTITIES = "DELETE FROM identity WHERE person = $1";
+    PHRASE = "SELECT i.person, i.secret FROM identity i JOIN membership m ON m.person = i.person \
+        WHERE i.kind = 'phrase' AND m.course = $1 AND m.name_key = $2";
+    LINK = "SELECT person FROM identity WHERE kind = 'link' AND subject = $1";
+    ADD_SESSION = "INSERT INTO session (token_sha256, person, created_at, seen_at, ends_at) VALUES ($1, $2, $3, $4, $5)";
+    SESSION = "SELECT p.id, p.name, m.role, m.seed, m.joined_at, s.seen_at FROM session s JOIN person p ON p.id = s.person \
+        JOIN membership m ON m.person = p.id WHERE s.token_sha256 = $1 AND m.course = $2 AND s.ends_at > $3 \
+        AND s.seen_at > $4";
+    SEE_SESSION = "UPDATE session SET seen_at = $2 WHERE token_sha256 = $1";
+    END_SESSION = "DELETE FROM session WHERE token_sha256 = $1";
+    REMOVE_SESSIONS = "DELETE FROM session WHERE person = $1";
+    PEOPLE = "SELECT p.id, p.name, m.role, m.seed, m.joined_at FROM membership m JOIN person p ON p.id = m.person \
+        WHERE m.course = $1 ORDER BY m.name_key";
+    MEMBER = "SELECT person FROM membership WHERE course = $1 AND person = $2";
+    SET_ROLE = "UPDATE membership SET role = $3 WHERE course = $1 AND person = $2";
+
+    // What could not be read earned nothing and is no attempt, but the lesson is begun.
+    STANDINGS = "SELECT s.person, a.slug, CAST(SUM(s.counted) AS BIGINT), \
+        MAX(CASE WHEN s.counted = 1 THEN v.earned ELSE CAST(0 AS DOUBLE PRECISION) END), MAX(v.possible), MAX(v.passed), \
+        MAX(s.received_at) FROM submission s JOIN assignment a ON a.id = s.assignment \
+        JOIN verdict v ON v.submission = s.id WHERE a.course = $1 \
+        AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) GROUP BY s.person, a.slug";
+    ADD_DECISION = "INSERT INTO decision (id, course, n, kind, person, assignment, amount, reason, decided_by, decided_at) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)";
+    DECISIONS = "SELECT d.person, a.slug, d.amount, d.reason, p.name, d.decided_at FROM decision d \
+        JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 ORDER BY d.n";
 }

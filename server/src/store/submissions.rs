@@ -65,12 +65,35 @@ pub struct HandIn {
     pub answers: String,
     /// The verdict as it is to be kept.
     pub verdict: Value,
+    /// What the numbers were drawn from: not always what the verdict tells.
+    pub seed: String,
     /// Whether it counts as an attempt: not if an answer could not be read.
     pub counted: bool,
     /// What the sender calls this request: the same name again is the same submission.
     pub key: Option<String>,
     /// The lesson that graded it, as [`triad_lessons::Lesson::bundle`] writes it.
     pub bundle: String,
+}
+
+/// What is needed to judge a submission again, and what was said of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// The submission.
+    pub id: String,
+    /// Who handed it in, by id.
+    pub person: String,
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// What was handed in, as JSON.
+    pub answers: String,
+    /// The verdict as it is kept.
+    pub body: String,
+    /// SHA-256 of the lesson that graded it; empty where it was not kept.
+    pub lesson_sha256: String,
+    /// What its numbers were drawn from.
+    pub seed: String,
+    /// The program that graded it.
+    pub build: String,
 }
 
 /// What was kept.
@@ -107,10 +130,14 @@ impl Store {
     pub async fn set_most_attempts(
         &self,
         course: &str,
+        actor: &str,
         lesson: &str,
         most: Option<i64>,
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
+        let detail = most.map_or("any number of attempts".to_owned(), |most| format!("{most} attempts"));
+        let event = Event { actor, what: "bounded", subject: lesson, detail: &detail };
+        log::append(&mut transaction, course, now(), &event).await?;
         assignment(&mut transaction, course, lesson).await?;
         let set = sqlx::query(sql::SET_MOST_ATTEMPTS).bind(course).bind(lesson).bind(most);
         set.execute(&mut *transaction).await?;
@@ -145,6 +172,25 @@ impl Store {
         Ok(rows.into_iter().filter_map(read).collect())
     }
 
+    /// Every verdict of a course with what it is about, in the order in which the submissions came.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn recorded(&self, course: &str) -> Result<Vec<Recorded>, StoreError> {
+        let rows: Vec<(String, String, String, String, String, String, String, String)> =
+            sqlx::query_as(sql::REBUILDABLE).bind(course).fetch_all(&self.readers).await?;
+        let recorded = |(id, person, lesson, answers, body, lesson_sha256, seed, build)| Recorded {
+            id,
+            person,
+            lesson,
+            answers,
+            body,
+            lesson_sha256,
+            seed,
+            build,
+        };
+        Ok(rows.into_iter().map(recorded).collect())
+    }
+
     /// The lesson of that SHA-256, as it was when it graded something.
     ///
     /// Errors if it is not kept or the file cannot be read.
@@ -172,7 +218,9 @@ async fn keep(connection: &mut SqliteConnection, new: &HandIn) -> Result<(Kept, 
         counted: i64::from(new.counted),
     };
     let lesson = sha256(&new.bundle);
-    let verdict = VerdictRow::first(&new.id, new.verdict.to_string(), lesson.clone(), crate::BUILD, now());
+    let mut verdict =
+        VerdictRow::first(&new.id, new.verdict.to_string(), lesson.clone(), crate::BUILD, now());
+    verdict.seed.clone_from(&new.seed);
     let detail = records::seal(&submission, &verdict);
     let event = Event { actor: &person, what: "submitted", subject: &new.id, detail: &detail };
     let n = log::append(connection, &new.course, new.received_at, &event).await?;

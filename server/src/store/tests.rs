@@ -20,6 +20,7 @@ fn new(student: &str) -> HandIn {
         received_at: now(),
         answers: json!({"q": {"value": "0.1"}}).to_string(),
         verdict: json!({"id": id, "earned": 0.1, "passed": false, "provenance": {"seed": student}}),
+        seed: student.into(),
         counted: true,
         key: None,
         bundle: "the lesson".into(),
@@ -106,7 +107,7 @@ async fn every_statement_is_understood() {
 async fn of_two_hundred_at_once_three_attempts_are_three() {
     let (_folder, path) = place();
     let store = Arc::new(open(&path).await);
-    store.set_most_attempts(HOME, "pendulum", Some(3)).await.expect("sets");
+    store.set_most_attempts(HOME, "triad", "pendulum", Some(3)).await.expect("sets");
     let sent: Vec<_> = (0..200)
         .map(|_| {
             let store = store.clone();

@@ -5,6 +5,7 @@
 
 mod bad_input;
 mod changes;
+mod class;
 mod described;
 mod document;
 mod lessons;

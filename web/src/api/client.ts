@@ -1,20 +1,25 @@
 // HTTP client of /api/v1. Every failure becomes an ApiError that carries a Problem.
+import { student as who } from "../core/prefs";
 import type { Numbers } from "./numbers";
 import type {
   AfterChange,
   Answer,
   Camera,
   CheckReport,
+  ClassView,
   Drag,
   Drawing,
   GradedSubmission,
+  GradeTable,
   Hint,
   ImportedRobot,
   Jacobian,
   JointMultipliers,
+  KeptSubmission,
   LectureState,
   Lesson,
   LessonSummary,
+  Me,
   ModesAbout,
   OpenedLecture,
   PresenterState,
@@ -24,9 +29,11 @@ import type {
   SceneEntry,
   SessionScene,
   SessionState,
+  Somebody,
   SymmetricMatrix,
   TableRequest,
   Understood,
+  Welcome,
 } from "./types";
 
 const BASE = "/api/v1";
@@ -92,8 +99,8 @@ async function call<T>(
   more?: Record<string, string>,
 ): Promise<T> {
   const response = await ask(method, path, body, signal, key, more);
-  if (response.status === 204) return undefined as T;
-  return (await response.json()) as T;
+  const text = await response.text();
+  return (text === "" ? undefined : JSON.parse(text)) as T;
 }
 
 async function ask(
@@ -132,7 +139,16 @@ const id = encodeURIComponent;
 const when = (at: number | undefined): string => (at === undefined ? "" : `?at=${at}`);
 
 /** Whose numbers: a student's name, or another seed. */
-const whose = (seed?: string): string => (seed ? `?${new URLSearchParams({ seed })}` : "");
+const whose = (seed?: string): string => (seed && !who.known() ? `?${new URLSearchParams({ seed })}` : "");
+
+/** The same without what an account says by itself. */
+function own<T extends object>(body: T): T {
+  if (!who.known()) return body;
+  const rest: T & { student?: unknown; seed?: unknown } = { ...body };
+  delete rest.student;
+  delete rest.seed;
+  return rest;
+}
 
 /** What is handed in. */
 export interface Handed {
@@ -144,6 +160,23 @@ export interface Handed {
 export type SessionSource = { lesson: string; seed?: string } | { builtin: string } | { scene: unknown };
 
 export const api = {
+  me: () => call<Me>("GET", "/me"),
+  setUp: (body: { token: string; name: string; title?: string }) => call<Welcome>("POST", "/setup", body),
+  join: (body: { code: string; name: string }) => call<Welcome>("POST", "/join", body),
+  comeBack: (body: { name: string; words: string } | { link: string }) => call<Me>("POST", "/return", body),
+  signOut: () => call<void>("POST", "/sign-out"),
+  class: () => call<ClassView>("GET", "/course"),
+  changeClass: (change: { title?: string; join_open?: boolean; new_code?: boolean }) =>
+    call<ClassView>("PUT", "/course", change),
+  standings: () => call<GradeTable>("GET", "/standings"),
+  standingsUrl: (format: "plain" | "canvas" | "moodle"): string => `${BASE}/standings.csv?for=${format}`,
+  people: () => call<Somebody[]>("GET", "/people"),
+  invite: (role: string) => call<{ token: string }>("POST", "/invitations", { role }),
+  newWords: (person: string) => call<{ words: string; link: string }>("POST", `/people/${id(person)}/words`),
+  submissionsOf: (person: string) => call<KeptSubmission[]>("GET", `/people/${id(person)}/submissions`),
+  decide: (person: string, decision: { lesson: string; points: number | null; reason: string }) =>
+    call<void>("POST", `/people/${id(person)}/decisions`, decision),
+
   lessons: (signal?: AbortSignal) => call<LessonSummary[]>("GET", "/lessons", undefined, signal),
   lesson: (slug: string, seed: string, signal?: AbortSignal) =>
     call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
@@ -161,11 +194,11 @@ export const api = {
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
   /** A request that is sent again under the same name is one submission. */
   submit: (slug: string, body: Handed, name: string) =>
-    call<GradedSubmission>("POST", `/lessons/${id(slug)}/submissions`, body, undefined, undefined, {
+    call<GradedSubmission>("POST", `/lessons/${id(slug)}/submissions`, own(body), undefined, undefined, {
       "idempotency-key": name,
     }),
   submissions: (query: { student: string; lesson?: string; limit?: number }, signal?: AbortSignal) => {
-    const search = new URLSearchParams({ student: query.student });
+    const search = new URLSearchParams(who.known() ? {} : { student: query.student });
     if (query.lesson) search.set("lesson", query.lesson);
     search.set("limit", String(query.limit ?? 50));
     return call<GradedSubmission[]>("GET", `/submissions?${search}`, undefined, signal);
@@ -190,7 +223,7 @@ export const api = {
 
   // The address of a run is that of its session, or of the lecture that follows it.
   createSession: (source: SessionSource, change?: Numbers) =>
-    call<SessionState>("POST", "/sessions", change ? { ...source, change } : source),
+    call<SessionState>("POST", "/sessions", own(change ? { ...source, change } : source)),
   state: (run: string) => call<SessionState>("GET", run),
   sceneOf: (run: string) => call<SessionScene>("GET", `${run}/scene`),
   jacobian: (run: string, at?: number) => call<Jacobian>("GET", `${run}/jacobian${when(at)}`),

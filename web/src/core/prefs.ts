@@ -71,9 +71,20 @@ export function onTheme(listener: (theme: Theme) => void): () => void {
 
 systemDark.addEventListener("change", applyTheme);
 
+/** The name of who is signed in, empty for nobody; undefined where there are no accounts and a name is typed. */
+let account: string | undefined;
+
 export const student = {
-  get: (): string => recall("student") ?? "",
-  set: (name: string): void => remember("student", name.trim() || null),
+  get: (): string => account ?? recall("student") ?? "",
+  set: (name: string): void => {
+    if (account === undefined) remember("student", name.trim() || null);
+  },
+  /** From now on the name is that of an account. */
+  signedIn: (name: string): void => {
+    account = name;
+  },
+  /** Whether names belong to accounts. */
+  known: (): boolean => account !== undefined,
 };
 
 export const reducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -93,7 +93,9 @@ class ExerciseSection {
       h(
         "div",
         { class: "send" },
-        h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
+        student.known()
+          ? account()
+          : h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
         this.send,
       ),
       this.lesson.exercise.opens ? h("p", { class: "opens" }, this.lesson.exercise.opens) : null,
@@ -104,7 +106,8 @@ class ExerciseSection {
   private async submit(): Promise<void> {
     const who = this.name.value.trim();
     const { has_variants: hasVariants, seed } = this.lesson;
-    if (!who) this.demandName();
+    if (student.known() && !who) location.assign("/join");
+    else if (!who) this.demandName();
     else if (hasVariants && seed !== who) this.changeVariant(who);
     else {
       setStudent(who);
@@ -165,6 +168,12 @@ class ExerciseSection {
   }
 }
 
+/** Who hands in, where the server knows. */
+function account(): HTMLElement {
+  const name = student.get();
+  return h("p", { class: "send-name" }, name ? `Handed in by ${name}` : "Join your class to hand in");
+}
+
 /** A name that no other request has. Browsers make UUIDs only where the connection is encrypted. */
 function requestName(): string {
   return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
@@ -190,6 +199,13 @@ function whose(lesson: Lesson): HTMLElement | null {
       "These are the numbers of ",
       h("b", null, lesson.seed),
       ". Everybody has their own.",
+    );
+  if (student.known())
+    return h(
+      "p",
+      { class: "whose" },
+      h("a", { href: "/join" }, "Join your class"),
+      " to see your own numbers.",
     );
   const name = h("input", { id: "whose", class: "field", autocomplete: "name", maxlength: "80" });
   const form = h(

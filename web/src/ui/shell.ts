@@ -1,4 +1,6 @@
 // The header that stays: name, places, the student's name, theme, help.
+import { api } from "../api/client";
+import { inClass, me, teaches } from "../api/identity";
 import { h } from "../core/dom";
 import { bind, shortcuts } from "../core/keys";
 import { onTheme, projector, student, theme, toggleProjector, toggleTheme } from "../core/prefs";
@@ -22,6 +24,7 @@ export function header(root: HTMLElement): void {
       h("a", { href: "/" }, "Lessons"),
       h("a", { href: "/scenes" }, "Scenes"),
       h("a", { href: "/room" }, "Join"),
+      classLink(),
     ),
     h("span", { class: "header-space" }),
     nameButton(),
@@ -45,8 +48,24 @@ export function header(root: HTMLElement): void {
   ]);
 }
 
+/** The way to the class, for those who teach it. */
+function classLink(): HTMLElement {
+  const link = h("a", { href: "/class" }, "Class");
+  const paint = (): void => {
+    link.hidden = !teaches();
+  };
+  addEventListener("triad:student", paint);
+  paint();
+  return link;
+}
+
 function nameButton(): HTMLElement {
-  const button = h("button", { type: "button", class: "header-button", id: "who", onclick: askName });
+  const press = (): void => {
+    if (!inClass()) askName();
+    else if (me().person) account();
+    else location.assign("/join");
+  };
+  const button = h("button", { type: "button", class: "header-button", id: "who", onclick: press });
   paintName(button);
   addEventListener("triad:student", () => paintName(button));
   return button;
@@ -90,8 +109,24 @@ function themeButton(): HTMLElement {
 
 function paintName(button: HTMLButtonElement): void {
   const who = student.get();
-  button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, "Your name"));
-  button.setAttribute("aria-label", who ? `${who}, change the name` : "Your name");
+  const nobody = inClass() ? "Sign in" : "Your name";
+  button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, nobody));
+  button.setAttribute(
+    "aria-label",
+    who ? `${who}, ${inClass() ? "your account" : "change the name"}` : nobody,
+  );
+}
+
+function account(): void {
+  const { course, person } = me();
+  const leave = h("button", { type: "button", class: "button" }, "Sign out of this browser");
+  leave.addEventListener("click", () => void api.signOut().then(() => location.assign("/")));
+  dialog(
+    person?.name ?? "",
+    h("p", null, `You are signed in as ${person?.role ?? ""} of “${course ?? ""}”.`),
+    h("p", { class: "help" }, "To come back you need your four words, or the link that you kept with them."),
+    h("div", { class: "row" }, leave),
+  );
 }
 
 export function setStudent(name: string): void {
@@ -116,7 +151,8 @@ function askName(): void {
     h(
       "p",
       { class: "help" },
-      "Your answers are stored under this name on the server that runs Triad. This browser remembers it.",
+      "Your answers are stored under this name on the server that runs Triad, which asks for no proof: its grades are " +
+        "for yourself. This browser remembers the name.",
     ),
     h("div", { class: "row" }, h("button", { class: "button primary" }, "Save")),
   );

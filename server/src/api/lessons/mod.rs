@@ -23,9 +23,11 @@ use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters, QueryParameters};
+use crate::api::guard::Caller;
 use crate::app::App;
 use crate::blocking;
 use crate::problem::{Problem, suggest};
+use crate::store::Role;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonList>();
@@ -97,9 +99,39 @@ impl Whose {
     }
 }
 
-/// The lesson of that name with the numbers of a seed.
-pub(in crate::api) fn variant(app: &App, name: &str, seed: Option<&str>) -> Result<Arc<Lesson>, Problem> {
-    app.variants.of(find(app, name)?, seed.unwrap_or_default())
+/// The lesson of that name with the numbers of who asks: at home those of the name or seed that is asked for, in a class
+/// the caller's own. Those who grade may look at any.
+///
+/// Errors if somebody else's are asked for.
+pub(in crate::api) fn variant(
+    app: &App,
+    name: &str,
+    asked: Option<&str>,
+    caller: &Caller,
+) -> Result<Arc<Lesson>, Problem> {
+    let lesson = find(app, name)?;
+    if !app.access.is_class() {
+        return app.variants.of(lesson, asked.unwrap_or_default());
+    }
+    let member = caller.0.as_ref();
+    match (asked.filter(|asked| !asked.is_empty()), member) {
+        (None, None) => app.variants.of(lesson, ""),
+        (None, Some(member)) => app.variants.of(lesson, &app.access.seed_of(member)),
+        (Some(asked), Some(member)) if member.role > Role::Student => app.variants.of(lesson, asked),
+        (Some(_), _) => Err(Problem::new(
+            StatusCode::FORBIDDEN,
+            "not-your-numbers",
+            "in a class everybody has their own numbers, and they are not chosen",
+            "leave out `seed` and `student`",
+        )),
+    }
+}
+
+/// Whose numbers a student is told that they see: in a class the name, since the seed would let others compute them.
+fn told_seed(app: &App, caller: &Caller, seed: &mut String) {
+    if app.access.is_class() && !seed.is_empty() {
+        *seed = caller.0.as_ref().map_or_else(String::new, |member| member.name.clone());
+    }
 }
 
 /// A lesson: its text, its scenario and its exercise, without the answers.
@@ -109,9 +141,15 @@ pub(in crate::api) fn variant(app: &App, name: &str, seed: Option<&str>) -> Resu
 async fn show(
     State(app): State<App>,
     PathParameters(slug): PathParameters<String>,
+    caller: Caller,
     QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<LessonView>, Problem> {
-    blocking(move || Ok(Answer(variant(&app, &slug, whose.seed())?.public_view()))).await
+    blocking(move || {
+        let mut view = variant(&app, &slug, whose.seed(), &caller)?.public_view();
+        told_seed(&app, &caller, &mut view.seed);
+        Ok(Answer(view))
+    })
+    .await
 }
 
 /// One hint.
@@ -129,9 +167,10 @@ struct Hint {
 async fn hint(
     State(app): State<App>,
     PathParameters((slug, id, k)): PathParameters<(String, String, usize)>,
+    caller: Caller,
     QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<Hint>, Problem> {
-    let lesson = blocking(move || variant(&app, &slug, whose.seed())).await?;
+    let lesson = blocking(move || variant(&app, &slug, whose.seed(), &caller)).await?;
     let question = lesson.question(&id).ok_or_else(|| unknown_question(&lesson, &id))?;
     let html = lesson.hint_html(&id, k).ok_or_else(|| {
         Problem::new(
@@ -190,11 +229,14 @@ async fn reading(
 async fn states(
     State(app): State<App>,
     PathParameters((slug, id)): PathParameters<(String, String)>,
+    caller: Caller,
     QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<InstancesView>, Problem> {
     let instances = blocking(move || {
-        let lesson = variant(&app, &slug, whose.seed())?;
-        instances(&lesson, &id)
+        let lesson = variant(&app, &slug, whose.seed(), &caller)?;
+        let mut view = instances(&lesson, &id)?;
+        told_seed(&app, &caller, &mut view.seed);
+        Ok(view)
     });
     Ok(Answer(instances.await?))
 }

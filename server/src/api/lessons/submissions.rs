@@ -20,10 +20,11 @@ use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters, QueryParameters};
+use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::{HOME, HandIn, Query, StoredSubmission, Whose, identifier, names};
+use crate::store::{CLASS, HOME, HandIn, Query, StoredSubmission, Whose, identifier, names};
 use crate::{blocking, grading};
 
 /// Where a client names its request: a request that is repeated under the same name is one submission.
@@ -71,21 +72,23 @@ async fn submit(
     State(app): State<App>,
     PathParameters(slug): PathParameters<String>,
     headers: HeaderMap,
+    caller: Caller,
     Json(body): Json<Value>,
 ) -> Result<impl IntoResponse, Problem> {
     let key = request_key(&headers)?;
     let lesson = lessons::find(&app, &slug)?.slug.clone();
-    let student = student(body.get("student").and_then(Value::as_str))?;
-    let earlier = earlier(&app, &student, &lesson).await?;
+    let who = who(&app, caller, &body)?;
+    let earlier = earlier(&app, &who, &lesson).await?;
     let grading = app.clone();
-    let (submission, new) = blocking(move || graded(&grading, &lesson, student, &body, key, earlier)).await?;
+    let new = blocking(move || graded(&grading, &lesson, &body, &who, key, earlier)).await?;
     let kept = app.store.hand_in(&new).await?;
     let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
     let document = blocking(move || {
         let mut told: GradedSubmission = serde_json::from_value(kept.verdict).map_err(Problem::internal)?;
         if told.verdict.gradable {
             let lesson = lessons::find(&app, &new.lesson)?;
-            grading::open(lesson, &app.variants, &submission, &mut told.verdict)?;
+            let own = app.variants.of(lesson, &new.seed)?;
+            triad_lessons::open(&own, &mut told.verdict);
         }
         Ok(told)
     });
@@ -102,15 +105,46 @@ fn request_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     })
 }
 
+/// Who hands in.
+struct Who {
+    course: &'static str,
+    whose: Whose,
+    student: String,
+    /// The class decides whose numbers these are; at home the submission says it.
+    seed: Option<String>,
+}
+
+/// At home whoever the submission names, in a class the caller: there a submission names nobody.
+fn who(app: &App, caller: Caller, body: &Value) -> Result<Who, Problem> {
+    if !app.access.is_class() {
+        let student = student(body.get("student").and_then(Value::as_str))?;
+        return Ok(Who { course: HOME, whose: Whose::Named, student, seed: None });
+    }
+    if body.get("seed").is_some() || body.get("student").is_some() {
+        return Err(Problem::new(
+            StatusCode::FORBIDDEN,
+            "not-your-numbers",
+            "in a class a submission names neither a student nor a seed: both are known",
+            "leave out `seed` and `student`",
+        ));
+    }
+    let member = caller.member()?;
+    app.access.check_submissions(&member.id)?;
+    let seed = Some(app.access.seed_of(&member));
+    Ok(Who { course: CLASS, whose: Whose::Person(member.id), student: member.name, seed })
+}
+
 /// What a student has handed in to a lesson, the oldest first.
-async fn earlier(app: &App, student: &str, lesson: &str) -> Result<Vec<StoredSubmission>, Problem> {
-    let Some(person) = app.store.person_named(HOME, student).await? else { return Ok(Vec::new()) };
-    let query = Query {
-        course: HOME.to_owned(),
-        person: Some(person),
-        lesson: Some(lesson.to_owned()),
-        limit: usize::MAX,
+async fn earlier(app: &App, who: &Who, lesson: &str) -> Result<Vec<StoredSubmission>, Problem> {
+    let person = match &who.whose {
+        Whose::Person(id) => Some(id.clone()),
+        Whose::Named => app.store.person_named(HOME, &who.student).await?,
     };
+    if person.is_none() {
+        return Ok(Vec::new());
+    }
+    let query =
+        Query { course: who.course.to_owned(), person, lesson: Some(lesson.to_owned()), limit: usize::MAX };
     let mut found = app.store.list(&query).await?;
     found.reverse();
     Ok(found)
@@ -120,24 +154,32 @@ async fn earlier(app: &App, student: &str, lesson: &str) -> Result<Vec<StoredSub
 fn graded(
     app: &App,
     slug: &str,
-    student: String,
     body: &Value,
+    who: &Who,
     key: Option<String>,
     earlier: Vec<StoredSubmission>,
-) -> Result<(triad_lessons::Submission, HandIn), Problem> {
+) -> Result<HandIn, Problem> {
     let lesson = lessons::find(app, slug)?;
-    let (submission, mut verdict) = grading::grade(lesson, &app.variants, &body.to_string())?;
-    grading::settle(lesson, earlier, &submission, &mut verdict)?;
+    let (submission, mut verdict) =
+        grading::grade(lesson, &app.variants, &body.to_string(), who.seed.as_deref())?;
+    let student = who.student.clone();
     verdict.student = Some(student.clone());
+    let seed = verdict.provenance.seed.clone();
+    if who.seed.is_some() {
+        // It would let others compute these numbers.
+        verdict.provenance.seed.clear();
+    }
+    grading::settle(lesson, earlier, &submission, &mut verdict)?;
     let received = jiff::Timestamp::now();
     let counted = verdict.gradable;
     let told = GradedSubmission { id: identifier(), submitted_at: format!("{received:.3}"), verdict };
     let new = HandIn {
         id: told.id.clone(),
-        course: HOME.to_owned(),
+        course: who.course.to_owned(),
         lesson: lesson.slug.clone(),
-        whose: Whose::Named,
+        whose: who.whose.clone(),
         student,
+        seed,
         received_at: received.as_millisecond(),
         answers: serde_json::to_string(&submission.answers).map_err(Problem::internal)?,
         verdict: serde_json::to_value(told).map_err(Problem::internal)?,
@@ -145,7 +187,7 @@ fn graded(
         key,
         bundle: lesson.bundle(),
     };
-    Ok((submission, new))
+    Ok(new)
 }
 
 /// Who hands in: a name of reasonable length, without control characters.
@@ -171,7 +213,7 @@ fn student(name: Option<&str>) -> Result<String, Problem> {
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 struct Filter {
-    /// Only this student's.
+    /// Only this student's, at home; in a class everybody sees their own.
     student: Option<String>,
     /// Only for this lesson.
     lesson: Option<String>,
@@ -230,16 +272,22 @@ struct KeptFile {
 
 /// Submissions, newest first.
 #[derive(Debug, Serialize, JsonSchema)]
-struct SubmissionList(Vec<KeptSubmission>);
+pub(in crate::api) struct SubmissionList(Vec<KeptSubmission>);
 
 /// Submissions with their verdicts, newest first.
 #[utoipa::path(get, path = "/submissions", operation_id = "list_submissions", tag = "submissions", params(Filter), responses(
     (status = 200, description = "The verdicts, and the answers they are about", body = ref(of::<SubmissionList>()))))]
 async fn list(
     State(app): State<App>,
+    caller: Caller,
     QueryParameters(filter): QueryParameters<Filter>,
 ) -> Result<Answer<SubmissionList>, Problem> {
     let limit = filter.limit.unwrap_or(100).min(app.limits.submissions);
+    if app.access.is_class() {
+        let person = Some(caller.member()?.id);
+        let query = Query { course: CLASS.to_owned(), person, lesson: filter.lesson, limit };
+        return Ok(Answer(listed(app.store.list(&query).await?)));
+    }
     let person = match filter.student {
         None => None,
         Some(name) => match app.store.person_named(HOME, &name).await? {
@@ -248,10 +296,14 @@ async fn list(
         },
     };
     let query = Query { course: HOME.to_owned(), person, lesson: filter.lesson, limit };
-    let found = app.store.list(&query).await?;
+    Ok(Answer(listed(app.store.list(&query).await?)))
+}
+
+/// Submissions as they are shown: files by their lengths.
+pub(in crate::api) fn listed(found: Vec<StoredSubmission>) -> SubmissionList {
     let kept = found.into_iter().map(|submission| KeptSubmission {
         answers: without_files(submission.answers),
         verdict: submission.verdict,
     });
-    Ok(Answer(SubmissionList(kept.collect())))
+    SubmissionList(kept.collect())
 }

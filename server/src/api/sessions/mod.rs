@@ -18,6 +18,7 @@ use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters};
+use crate::api::guard::Caller;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{SceneChange, SceneSource, SessionState};
@@ -96,11 +97,12 @@ impl Overrides {
     (status = 503, description = "All sessions are in use", body = ref(PROBLEM))))]
 async fn create(
     State(app): State<App>,
+    caller: Caller,
     Json(wanted): Json<NewSession>,
 ) -> Result<impl IntoResponse, Problem> {
     let session = blocking(move || {
         let (mut scene, source) =
-            choose(&app, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
+            choose(&app, &caller, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
         let written_here = matches!(source, SceneSource::Scene(_));
         let started = app.sessions.start(scene, &wanted.change, source, &app.limits);
@@ -117,6 +119,7 @@ async fn create(
 
 fn choose(
     app: &App,
+    caller: &Caller,
     lesson: Option<String>,
     seed: Option<&str>,
     builtin: Option<String>,
@@ -124,7 +127,7 @@ fn choose(
 ) -> Result<(Scene, SceneSource), Problem> {
     match (lesson, builtin, scene) {
         (Some(slug), None, None) => {
-            let lesson = crate::api::lessons::variant(app, &slug, seed)?;
+            let lesson = crate::api::lessons::variant(app, &slug, seed, caller)?;
             let scene = Scene::from_json(&lesson.scene.to_string())?;
             Ok((scene, SceneSource::Lesson(slug)))
         }

@@ -22,7 +22,7 @@ pub(in crate::cli) fn grade(
 ) -> Result<Outcome, Problem> {
     let lesson = find(course, lesson)?;
     let text = scenes::read(file, LARGEST)?;
-    let (_, verdict) = grading::grade(lesson, &Variants::default(), &text)?;
+    let (_, verdict) = grading::grade(lesson, &Variants::default(), &text, None)?;
     if json {
         print_json(&verdict);
     } else {

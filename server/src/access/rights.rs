@@ -1,0 +1,145 @@
+//! The table of rights: for every operation of the interface, who may.
+
+use axum::http::StatusCode;
+
+use crate::problem::Problem;
+use crate::store::{Member, Role};
+
+/// What an operation asks of who calls it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Right {
+    /// Nothing. It tells no secret, or takes one itself: a join code, words, a room's code or key.
+    Anyone,
+    /// The long random name of a live session, which only who began it knows.
+    Key,
+    /// To be of the class in this role, or one that may more. At home all who come are students, and there are no classes.
+    Role(Role),
+}
+
+use Right::{Anyone, Key};
+const STUDENT: Right = Right::Role(Role::Student);
+const GRADER: Right = Right::Role(Role::Grader);
+const INSTRUCTOR: Right = Right::Role(Role::Instructor);
+const OWNER: Right = Right::Role(Role::Owner);
+
+/// Method, address and right of every operation. What does not stand here nobody may.
+pub const RIGHTS: &[(&str, &str, Right)] = &[
+    ("GET", "/api/v1/health", Anyone),
+    // Who one is, and coming in.
+    ("GET", "/api/v1/me", Anyone),
+    ("POST", "/api/v1/setup", Anyone),
+    ("POST", "/api/v1/join", Anyone),
+    ("POST", "/api/v1/return", Anyone),
+    ("POST", "/api/v1/sign-out", Anyone),
+    // The class.
+    ("GET", "/api/v1/course", GRADER),
+    ("PUT", "/api/v1/course", INSTRUCTOR),
+    ("PUT", "/api/v1/assignments/{slug}", INSTRUCTOR),
+    ("GET", "/api/v1/people", GRADER),
+    ("PUT", "/api/v1/people/{person}/role", OWNER),
+    ("POST", "/api/v1/people/{person}/words", INSTRUCTOR),
+    ("POST", "/api/v1/invitations", OWNER),
+    ("GET", "/api/v1/standings", GRADER),
+    ("GET", "/api/v1/standings.csv", GRADER),
+    ("GET", "/api/v1/people/{person}/submissions", GRADER),
+    ("POST", "/api/v1/people/{person}/decisions", GRADER),
+    // Lessons are read by all; the numbers are those of who asks.
+    ("GET", "/api/v1/lessons", Anyone),
+    ("GET", "/api/v1/lessons/{slug}", Anyone),
+    ("GET", "/api/v1/lessons/{slug}/questions/{id}/hints/{k}", Anyone),
+    ("POST", "/api/v1/lessons/{slug}/questions/{id}/reading", Anyone),
+    ("GET", "/api/v1/lessons/{slug}/questions/{id}/states", Anyone),
+    ("GET", "/api/v1/lessons/{slug}/questions/{id}/starters/{language}", Anyone),
+    ("POST", "/api/v1/lessons/{slug}/submissions", STUDENT),
+    ("GET", "/api/v1/submissions", STUDENT),
+    // What computes belongs to the class.
+    ("GET", "/api/v1/scenes", Anyone),
+    ("GET", "/api/v1/scenes/{name}", Anyone),
+    ("GET", "/api/v1/schema/scene", Anyone),
+    ("POST", "/api/v1/check", STUDENT),
+    ("POST", "/api/v1/import/urdf", STUDENT),
+    ("POST", "/api/v1/analyses/assembly", STUDENT),
+    ("POST", "/api/v1/analyses/kinematics", STUDENT),
+    ("POST", "/api/v1/analyses/equilibrium", STUDENT),
+    ("POST", "/api/v1/analyses/modes", STUDENT),
+    ("POST", "/api/v1/sessions", STUDENT),
+    ("GET", "/api/v1/sessions/{id}", Key),
+    ("DELETE", "/api/v1/sessions/{id}", Key),
+    ("GET", "/api/v1/sessions/{id}/scene", Key),
+    ("GET", "/api/v1/sessions/{id}/stream", Key),
+    ("GET", "/api/v1/sessions/{id}/jacobian", Key),
+    ("GET", "/api/v1/sessions/{id}/augmented", Key),
+    ("GET", "/api/v1/sessions/{id}/schur", Key),
+    ("GET", "/api/v1/sessions/{id}/reactions", Key),
+    ("GET", "/api/v1/sessions/{id}/multipliers", Key),
+    ("POST", "/api/v1/sessions/{id}/step", Key),
+    ("POST", "/api/v1/sessions/{id}/play", Key),
+    ("POST", "/api/v1/sessions/{id}/pause", Key),
+    ("POST", "/api/v1/sessions/{id}/reset", Key),
+    ("POST", "/api/v1/sessions/{id}/parameters", Key),
+    ("PUT", "/api/v1/sessions/{id}/drawing", Key),
+    ("PUT", "/api/v1/sessions/{id}/camera", Key),
+    ("PUT", "/api/v1/sessions/{id}/pull", Key),
+    ("DELETE", "/api/v1/sessions/{id}/pull", Key),
+    // A lecture is followed with its code; who opened it has its key.
+    ("POST", "/api/v1/rooms", GRADER),
+    ("GET", "/api/v1/rooms/{code}", Anyone),
+    ("DELETE", "/api/v1/rooms/{code}", Anyone),
+    ("PUT", "/api/v1/rooms/{code}/view", Anyone),
+    ("GET", "/api/v1/rooms/{code}/desk", Anyone),
+    ("PUT", "/api/v1/rooms/{code}/question", Anyone),
+    ("DELETE", "/api/v1/rooms/{code}/question", Anyone),
+    ("POST", "/api/v1/rooms/{code}/reveal", Anyone),
+    ("POST", "/api/v1/rooms/{code}/answers", Anyone),
+    ("GET", "/api/v1/rooms/{code}/stream", Anyone),
+    ("GET", "/api/v1/rooms/{code}/scene", Anyone),
+    ("GET", "/api/v1/rooms/{code}/jacobian", Anyone),
+    ("GET", "/api/v1/rooms/{code}/augmented", Anyone),
+    ("GET", "/api/v1/rooms/{code}/schur", Anyone),
+    ("GET", "/api/v1/rooms/{code}/multipliers", Anyone),
+    ("GET", "/api/v1/rooms/{code}/reactions", Anyone),
+];
+
+/// Errors if who asks may not do this in a class.
+pub fn check(method: &str, address: &str, member: Option<&Member>) -> Result<(), Problem> {
+    // Looking at a head is looking.
+    let method = if method == "HEAD" { "GET" } else { method };
+    let listed = RIGHTS.iter().find(|(listed, at, _)| *listed == method && *at == address);
+    let needed = match listed {
+        Some((.., Anyone | Key)) => return Ok(()),
+        Some((.., Right::Role(role))) => *role,
+        None => Role::Owner,
+    };
+    match member {
+        None => Err(Problem::new(
+            StatusCode::UNAUTHORIZED,
+            "sign-in-needed",
+            "this belongs to the class, and nobody is signed in here",
+            "join with the code of your class, or come back with your four words: /join",
+        )),
+        Some(member) if listed.is_none() || member.role < needed => Err(Problem::new(
+            StatusCode::FORBIDDEN,
+            "not-yours",
+            format!("a {} may not do this", member.role.name()),
+            format!("it takes a {} of this class: ask one", needed.name()),
+        )),
+        Some(_) => Ok(()),
+    }
+}
+
+/// Errors if an operation is about classes, at home.
+pub fn check_home(method: &str, address: &str) -> Result<(), Problem> {
+    let listed = RIGHTS.iter().find(|(listed, at, _)| *listed == method && *at == address);
+    let is_of_class = matches!(listed, Some((.., Right::Role(role))) if *role > Role::Student);
+    let room = address == "/api/v1/rooms";
+    let comes_in = ["/api/v1/setup", "/api/v1/join", "/api/v1/return", "/api/v1/sign-out"].contains(&address);
+    if !comes_in && (!is_of_class || room) {
+        return Ok(());
+    }
+    Err(Problem::new(
+        StatusCode::NOT_FOUND,
+        "no-class",
+        "this server runs without accounts: its grades are for yourself",
+        "for a class start it with `triad serve --class`",
+    ))
+}

@@ -1,0 +1,144 @@
+//! What everybody has reached, and decisions about it.
+
+// The documentation macro writes out paths of its own.
+#![allow(unused_qualifications)]
+
+use axum::Json as Answer;
+use axum::extract::State;
+use axum::http::{StatusCode, header};
+use axum::response::IntoResponse;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use utoipa::IntoParams;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use crate::api::describe::{PROBLEM, Schemas, of};
+use crate::api::extract::{Json, PathParameters, QueryParameters};
+use crate::api::guard::Caller;
+use crate::api::lessons;
+use crate::api::lessons::submissions::{SubmissionList, listed};
+use crate::app::App;
+use crate::grades::{Format, GradeTable, csv, table};
+use crate::problem::Problem;
+use crate::store::{CLASS, Query};
+
+/// Longest reason, in characters.
+const LONGEST_REASON: usize = 2000;
+
+pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
+    schemas.answer::<GradeTable>();
+    schemas.request::<NewDecision>();
+    OpenApiRouter::new()
+        .routes(routes!(standings))
+        .routes(routes!(standings_csv))
+        .routes(routes!(of_person))
+        .routes(routes!(decide))
+}
+
+/// What everybody has reached: students by lessons.
+#[utoipa::path(get, path = "/standings", operation_id = "get_standings", tag = "class", responses(
+    (status = 200, description = "The table", body = ref(of::<GradeTable>()))))]
+async fn standings(State(app): State<App>) -> Result<Answer<GradeTable>, Problem> {
+    Ok(Answer(table(&app.store, CLASS, &app.course).await?))
+}
+
+/// For which program.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+struct For {
+    /// `plain`, `canvas` or `moodle`; `plain` if it is not given.
+    #[serde(default, rename = "for")]
+    #[param(value_type = Option<String>)]
+    format: Format,
+}
+
+/// The same table as CSV.
+#[utoipa::path(get, path = "/standings.csv", operation_id = "get_standings_csv", tag = "class", params(For), responses(
+    (status = 200, description = "The table", body = String, content_type = "text/csv"),
+    (status = 400, description = "No such format", body = ref(PROBLEM))))]
+async fn standings_csv(
+    State(app): State<App>,
+    caller: Caller,
+    QueryParameters(wanted): QueryParameters<For>,
+) -> Result<impl IntoResponse, Problem> {
+    let course = app.store.course(CLASS).await?;
+    let grades = table(&app.store, CLASS, &app.course).await?;
+    let text = csv(&grades, wanted.format, &course.title)?;
+    app.store.note(CLASS, &caller.member()?.id, "exported", "grades").await?;
+    let headers = [
+        (header::CONTENT_TYPE, "text/csv; charset=utf-8"),
+        (header::CONTENT_DISPOSITION, "attachment; filename=\"grades.csv\""),
+    ];
+    Ok((headers, text))
+}
+
+/// Which submissions of a person.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+struct Wanted {
+    /// Only for this lesson.
+    lesson: Option<String>,
+}
+
+/// What somebody handed in, newest first.
+#[utoipa::path(get, path = "/people/{person}/submissions", operation_id = "list_submissions_of", tag = "class",
+    params(("person" = String, Path), Wanted), responses(
+    (status = 200, description = "Submissions with their verdicts", body = ref(of::<SubmissionList>()))))]
+async fn of_person(
+    State(app): State<App>,
+    PathParameters(person): PathParameters<String>,
+    QueryParameters(wanted): QueryParameters<Wanted>,
+) -> Result<Answer<SubmissionList>, Problem> {
+    let limit = app.limits.submissions;
+    let query = Query { course: CLASS.to_owned(), person: Some(person), lesson: wanted.lesson, limit };
+    Ok(Answer(listed(app.store.list(&query).await?)))
+}
+
+/// A decision about a grade.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct NewDecision {
+    /// Slug of the lesson.
+    lesson: String,
+    /// The points that count from now on; null: those that were earned.
+    points: Option<f64>,
+    /// Why: the student sees it, and so does whoever looks later.
+    reason: String,
+}
+
+/// Decide which points count, with a reason. Nothing that was handed in or judged is changed.
+#[utoipa::path(post, path = "/people/{person}/decisions", operation_id = "decide", tag = "class", params(("person" = String, Path)),
+    request_body(content = ref(of::<NewDecision>()), example = json!({"lesson": "screw", "points": 10, "reason": "right, in another frame"})), responses(
+    (status = 201, description = "It counts"),
+    (status = 404, description = "No such person or lesson", body = ref(PROBLEM)),
+    (status = 422, description = "No reason, or points that cannot be", body = ref(PROBLEM))))]
+async fn decide(
+    State(app): State<App>,
+    PathParameters(person): PathParameters<String>,
+    caller: Caller,
+    Json(new): Json<NewDecision>,
+) -> Result<StatusCode, Problem> {
+    let lesson = lessons::find(&app, &new.lesson)?;
+    let refused = |pointer: &str, wrong: String, hint: &str| {
+        let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-decision", wrong.clone(), hint);
+        Err(problem.at(pointer, wrong))
+    };
+    let reason = new.reason.trim();
+    if reason.is_empty() || reason.chars().count() > LONGEST_REASON {
+        let wrong = format!("the reason is empty or has more than {LONGEST_REASON} characters");
+        return refused("/reason", wrong, "say in a sentence why these points count");
+    }
+    let possible: f64 = lesson.exercise.questions.iter().map(|question| question.points).sum();
+    if new.points.is_some_and(|points| !(0.0..=possible).contains(&points)) {
+        return refused(
+            "/points",
+            format!("points go from 0 to {possible} here"),
+            "give points within that range",
+        );
+    }
+    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, new.points, reason).await?;
+    Ok(StatusCode::CREATED)
+}

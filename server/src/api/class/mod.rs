@@ -1,0 +1,5 @@
+//! The class: who is in it, coming in, and what everybody has reached.
+
+pub(in crate::api) mod grades;
+pub(in crate::api) mod people;
+pub(in crate::api) mod sign_in;

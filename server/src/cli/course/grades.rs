@@ -1,0 +1,88 @@
+//! `triad grades`.
+
+use std::path::{Path, PathBuf};
+
+use axum::http::StatusCode;
+use clap::Args;
+use tokio::runtime::Builder;
+use triad_lessons::Course;
+
+use crate::cli::terminal::{Outcome, counted, print_json, print_line};
+use crate::grades::{Format, GradeTable, csv, table};
+use crate::problem::Problem;
+use crate::store::{CLASS, HOME, Store};
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Grades {
+    /// The gradebook.
+    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
+    pub(in crate::cli) database: PathBuf,
+    /// Print the table as CSV.
+    #[arg(long)]
+    pub(in crate::cli) csv: bool,
+    /// For which program the CSV is.
+    #[arg(long = "for", value_enum, default_value_t, requires = "csv")]
+    pub(in crate::cli) format: Format,
+    /// Look whether every record is as it was written, instead.
+    #[arg(long, conflicts_with = "csv")]
+    pub(in crate::cli) check: bool,
+}
+
+/// Prints what everybody has reached, while a server runs or not.
+pub(in crate::cli) fn grades(options: &Grades, course: &Course, json: bool) -> Result<Outcome, Problem> {
+    let runtime = Builder::new_current_thread().enable_all().build().map_err(Problem::internal)?;
+    runtime.block_on(async {
+        let store = Store::open(existing(&options.database)?).await?;
+        if options.check {
+            return check(&store, json).await;
+        }
+        let (id, title) = kept_course(&store).await;
+        let grades = table(&store, id, course).await?;
+        match (json, options.csv) {
+            (true, _) => print_json(&grades),
+            (_, true) => print_line(csv(&grades, options.format, &title)?.trim_end()),
+            _ => print(&grades),
+        }
+        Ok(Outcome::Done)
+    })
+}
+
+/// A path at which there is something: looking makes no gradebook.
+pub(super) fn existing(path: &Path) -> Result<&Path, Problem> {
+    if path.exists() {
+        return Ok(path);
+    }
+    Err(Problem::new(
+        StatusCode::NOT_FOUND,
+        "no-such-file",
+        format!("there is no gradebook {}", path.display()),
+        "name it with --database; the server says where it keeps submissions when it starts",
+    ))
+}
+
+/// The course of a gradebook and its title: the class's where there is one.
+pub(super) async fn kept_course(store: &Store) -> (&'static str, String) {
+    let class = store.course(CLASS).await;
+    class.map_or((HOME, String::new()), |class| (CLASS, class.title))
+}
+
+async fn check(store: &Store, json: bool) -> Result<Outcome, Problem> {
+    let faults = store.faults().await?;
+    if json {
+        print_json(&faults);
+    } else {
+        faults.iter().for_each(|fault| print_line(fault));
+        print_line(&counted(faults.len(), "fault"));
+    }
+    Ok(if faults.is_empty() { Outcome::Done } else { Outcome::No })
+}
+
+fn print(grades: &GradeTable) {
+    for student in &grades.students {
+        let passed = student.lessons.values().filter(|one| one.passed).count();
+        let points: f64 = student.lessons.values().map(|one| one.points).sum();
+        let begun = student.lessons.len();
+        print_line(&format!("{:<32} {points:>7} points  {begun:>3} begun  {passed:>3} passed", student.name));
+    }
+    print_line(&counted(grades.students.len(), "student"));
+}

@@ -1,0 +1,199 @@
+// One student, for those who teach: every attempt with its verdict, and decisions about what counts.
+import { api } from "../api/client";
+import type { GradeTable, KeptSubmission, Reached } from "../api/types";
+import { h } from "../core/dom";
+import { dateTime, plural, points } from "../core/format";
+import { setMaths } from "../core/maths";
+import type { Page } from "../core/router";
+import { verdictLine } from "../exercise/verdict";
+import { dialog } from "../ui/dialog";
+import { empty, problemNotice, skeleton } from "../ui/notice";
+
+export function studentPage(outlet: HTMLElement, params: string[]): Page {
+  const id = params[0] ?? "";
+  const root = h("div", { class: "page" }, skeleton(6));
+  outlet.append(root);
+  const load = async (): Promise<void> => {
+    try {
+      const [grades, submissions] = await Promise.all([api.standings(), api.submissionsOf(id)]);
+      paint(root, id, grades, submissions, () => void load());
+      await setMaths(root);
+    } catch (error) {
+      root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+    }
+  };
+  void load();
+  return { title: "Student" };
+}
+
+function paint(
+  root: HTMLElement,
+  id: string,
+  grades: GradeTable,
+  submissions: KeptSubmission[],
+  again: () => void,
+): void {
+  const student = grades.students.find((row) => row.id === id);
+  const words = h("button", { type: "button", class: "button small" }, "New words");
+  words.addEventListener("click", () => renew(id, student?.name ?? ""));
+  const touched = grades.lessons.filter(
+    (lesson) => student?.lessons[lesson.slug] || submissions.some((one) => one.lesson === lesson.slug),
+  );
+  root.replaceChildren(
+    h("p", null, h("a", { href: "/class" }, "← Class")),
+    h(
+      "header",
+      { class: "page-head row between" },
+      h("h1", null, student?.name ?? "Somebody of the class"),
+      words,
+    ),
+    touched.length === 0
+      ? empty("Nothing handed in yet", "Attempts appear here as soon as there are any.")
+      : h("div"),
+    ...touched.map((lesson) => {
+      const reached = student?.lessons[lesson.slug];
+      const change = h("button", { type: "button", class: "button small" }, "Change what counts");
+      change.addEventListener("click", () => decide(id, lesson, reached, again));
+      const own = submissions.filter((one) => one.lesson === lesson.slug);
+      return h(
+        "section",
+        { class: "student-lesson" },
+        h(
+          "div",
+          { class: "section-head" },
+          h("h2", null, `${lesson.number} ${lesson.title}`),
+          h("p", null, standing(reached, lesson.possible), " ", change),
+        ),
+        reached?.decided
+          ? h(
+              "p",
+              { class: "help" },
+              `${reached.decided.by}, ${dateTime(reached.decided.at)}: ${reached.decided.reason}`,
+            )
+          : null,
+        h("ol", { class: "history-list", reversed: true }, ...own.map(attempt)),
+      );
+    }),
+  );
+}
+
+const standing = (reached: Reached | undefined, possible: number): string =>
+  reached
+    ? `${points(reached.points)} of ${points(possible)}${reached.decided ? ` (earned ${points(reached.earned)})` : ""}, ${plural(reached.attempts, "attempt")}`
+    : "nothing counts yet";
+
+function attempt(one: KeptSubmission): HTMLElement {
+  const head = one.gradable ? `${points(one.earned)} of ${points(one.possible)}` : "Kept, not judged";
+  return h(
+    "li",
+    null,
+    h(
+      "details",
+      { class: "history-entry" },
+      h(
+        "summary",
+        null,
+        h("span", { class: "standing" }, head),
+        h("time", { datetime: one.submitted_at }, dateTime(one.submitted_at)),
+      ),
+      ...one.questions.map((question) =>
+        h(
+          "div",
+          { class: "history-question" },
+          h("p", { class: "history-label" }, question.id),
+          h("p", { class: "help" }, `Answer: ${shown(one.answers[question.id])}`),
+          verdictLine(question),
+        ),
+      ),
+    ),
+  );
+}
+
+function shown(answer: KeptSubmission["answers"][string] | undefined): string {
+  if (!answer) return "none";
+  if (answer.file) return `a file of ${answer.file.bytes} bytes`;
+  if (answer.settings) return JSON.stringify(answer.settings);
+  const value =
+    answer.choice ?? (typeof answer.value === "object" ? JSON.stringify(answer.value) : answer.value);
+  return [value, answer.unit].filter((part) => part !== undefined && part !== null).join(" ") || "none";
+}
+
+function decide(
+  id: string,
+  lesson: GradeTable["lessons"][number],
+  reached: Reached | undefined,
+  again: () => void,
+): void {
+  const amount = h("input", {
+    id: "decide-points",
+    class: "field number",
+    type: "number",
+    min: "0",
+    max: String(lesson.possible),
+    step: "any",
+    value: String(reached?.points ?? 0),
+  });
+  const reason = h("textarea", {
+    id: "decide-reason",
+    class: "field",
+    required: true,
+    maxlength: "2000",
+    rows: "3",
+  });
+  const wrong = h("div", { "aria-live": "polite" });
+  const send = (value: number | null): void => {
+    api
+      .decide(id, { lesson: lesson.slug, points: value, reason: reason.value })
+      .then(() => {
+        box.close();
+        again();
+      })
+      .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
+  };
+  const back = h("button", { type: "button", class: "button" }, "Count what was earned");
+  back.addEventListener("click", () => send(null));
+  const form = h(
+    "form",
+    { class: "stack" },
+    h("label", { for: "decide-points" }, `Points that count, of ${points(lesson.possible)}`),
+    amount,
+    h("label", { for: "decide-reason" }, "Why"),
+    reason,
+    wrong,
+    h(
+      "div",
+      { class: "row" },
+      h("button", { class: "button primary" }, "Save"),
+      reached?.decided ? back : null,
+    ),
+  );
+  const box = dialog(lesson.title, form);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    send(Number(amount.value));
+  });
+}
+
+function renew(id: string, name: string): void {
+  const told = h("p", { class: "four-words", "aria-live": "polite" });
+  const button = h("button", { type: "button", class: "button primary" }, "Make new words");
+  button.addEventListener("click", () => {
+    api
+      .newWords(id)
+      .then((fresh) => {
+        told.textContent = fresh.words;
+        button.remove();
+      })
+      .catch((error: unknown) => told.replaceChildren(problemNotice(error)));
+  });
+  dialog(
+    `New words for ${name}`,
+    h(
+      "p",
+      null,
+      "The words and the link of before are worth nothing then, and their browsers are signed out.",
+    ),
+    told,
+    h("div", { class: "row" }, button),
+  );
+}
