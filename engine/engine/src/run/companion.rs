@@ -63,12 +63,14 @@ impl Companion {
             None => (tighter * settings.tolerance).max(TIGHTEST),
             Some(_) => TIGHTEST,
         };
+        // Other methods would resolve what the first one leaves out.
+        let stiff = kind == IntegratorKind::Radau && !mechanism.system.loads.is_empty();
         let mut mechanism = mechanism.clone();
         let settings = &mut mechanism.system.model.settings;
         settings.tolerance = tolerance;
         settings.step = None;
         settings.constraint_method = ConstraintMethod::Projection;
-        settings.integrator = IntegratorKind::Auto;
+        settings.integrator = if stiff { IntegratorKind::Radau } else { IntegratorKind::Auto };
         settings.error_estimate = false;
         let (kind, _) = integrate::choose(&mut mechanism, y);
         mechanism.set_state(t, y);

@@ -9,6 +9,7 @@ use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
+use pulp::{Arch, Simd, WithSimd};
 
 /// A term of the series that is smaller than this part of the largest one, divided by its order, no longer matters to the error.
 /// Estimates hardly change with a tenth of it.
@@ -17,14 +18,18 @@ const NEGLIGIBLE_TERM: f64 = 1e-3;
 const LOST: f64 = 0.05;
 /// Part of that length by which the state is disturbed where only small disturbances behave: near singular positions.
 const DISTURBANCE: f64 = 1e-5;
-/// Part of that length below which a correction needs no other after it: its square is rounding.
+/// Part of that length below which an error is hardly more than rounding.
 const NEAR: f64 = 1e-6;
+/// Part of an error that its next correction may leave: a correction c of a mechanism of length l leaves about c²/l.
+const LEFT_OVER: f64 = 1e-3;
 /// Part of a correction below which the next one shows that Newton's method converges.
 const CONVERGES: f64 = 0.25;
 /// Growth of an error in one step from which on its series are looked at.
 const GROWTH: f64 = 4.0;
 /// Part of the error that the last terms make from which on its series do not converge.
 const DIVERGES: f64 = 0.1;
+/// The same from which on more terms are wanted: of stiff mechanisms the motion may be smooth and its error not.
+const UNFINISHED: f64 = 0.01;
 
 /// The error of the motion, and how it changes within the last step.
 #[derive(Clone, Debug)]
@@ -35,8 +40,11 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     error: Vec<[B::Natural; 2]>,
     /// Coefficients of what the last step has carried, as many for each bundle as the twin keeps.
     carried: Vec<B::Natural>,
-    /// The highest order of these.
+    /// What that is at the end of the step.
+    arrived: Vec<[B::Natural; 2]>,
+    /// The highest order of these, and the least that steps before have shown to be needed.
     order: usize,
+    least: usize,
     /// What the last step has added to that at its end.
     added: Vec<[B::Natural; 2]>,
     /// The order and size, s, of the last step.
@@ -60,6 +68,7 @@ struct Kept<const L: usize, B: Bodies<L>> {
 }
 
 /// x + s y.
+#[inline(always)]
 fn moved<const L: usize, B: Bodies<L>>(x: &B::Natural, s: f64, y: &B::Natural) -> B::Natural {
     let mut sum = *x;
     for (x, y) in B::lanes_mut(&mut sum).as_flattened_mut().iter_mut().zip(B::lanes(y).as_flattened()) {
@@ -75,6 +84,45 @@ fn moved_both<const L: usize, B: Bodies<L>>(
     y: &[B::Natural; 2],
 ) -> [B::Natural; 2] {
     [0, 1].map(|k| moved::<L, B>(&x[k], s, &y[k]))
+}
+
+/// Value and derivative of a polynomial.
+#[inline(always)]
+fn value<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> [B::Natural; 2] {
+    let nothing = [B::zero(); 2];
+    coefficients
+        .iter()
+        .rev()
+        .fold(nothing, |[x, v], c| [moved::<L, B>(c, tau, &x), moved::<L, B>(&x, tau, &v)])
+}
+
+/// The s-th part of the difference of two series, and its value after h, to be compiled for each set of vector instructions.
+struct Differ<'a, const L: usize, B: Bodies<L>> {
+    of: [&'a [B::Natural]; 2],
+    stride: usize,
+    order: usize,
+    s: f64,
+    h: f64,
+    carried: &'a mut [B::Natural],
+    arrived: &'a mut [[B::Natural; 2]],
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { of: [here, there], stride, order, s, h, carried, arrived } = self;
+        for (b, arrived) in arrived.iter_mut().enumerate() {
+            let range = b * stride..=b * stride + order;
+            let carried = &mut carried[range.clone()];
+            for ((carried, here), there) in carried.iter_mut().zip(&here[range.clone()]).zip(&there[range]) {
+                let difference = moved::<L, B>(here, -1.0, there);
+                *carried = if s < 1.0 { moved::<L, B>(&B::zero(), 1.0 / s, &difference) } else { difference };
+            }
+            *arrived = value::<L, B>(carried, h);
+        }
+    }
 }
 
 /// Size of an error, m: of positions, of directors for a mechanism of this length, and of what their rates make in a time h.
@@ -156,7 +204,9 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             twin,
             error: nothing.clone(),
             carried: vec![B::zero(); count * series.stride],
+            arrived: nothing.clone(),
             order: 0,
+            least: 0,
             added: nothing,
             step: (0, 0.0),
             factored: [positions.clone(), positions],
@@ -196,27 +246,23 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     /// What the last step has carried up to τ, of bundle b.
     fn at(&self, b: usize, tau: f64) -> [B::Natural; 2] {
         let first = b * self.twin.stride;
-        self.carried[first..=first + self.order]
-            .iter()
-            .rev()
-            .fold([B::zero(); 2], |[x, v], c| [moved::<L, B>(c, tau, &x), moved::<L, B>(&x, tau, &v)])
-    }
-
-    /// The error that the last step has carried to its end.
-    fn carried_to_end(&mut self, length: f64) -> f64 {
-        for b in 0..self.error.len() {
-            self.kept.state[b] = self.at(b, self.step.1);
-        }
-        size::<L, B>(&self.kept.state, self.step.1, length)
+        value::<L, B>(&self.carried[first..=first + self.order], tau)
     }
 
     /// Carries the error over the step: the difference of the series about x and about x − e.
     fn carry(&mut self, series: &Series<L, B>, start: f64, length: f64) {
         let h = self.step.1;
-        self.order = self.terms(series);
+        let most = self.step.0;
+        self.order = self.terms(series).max(self.least).min(most);
         let before = size::<L, B>(&self.error, h, length);
         self.expand(series, start, 1.0);
-        let after = self.carried_to_end(length);
+        let mut after = size::<L, B>(&self.arrived, h, length);
+        self.least = self.least.saturating_sub(1);
+        if self.order < most && (after.is_nan() || self.last_terms() > UNFINISHED * after) {
+            (self.order, self.least) = (most, most);
+            self.expand(series, start, 1.0);
+            after = size::<L, B>(&self.arrived, h, length);
+        }
         let grows = after.is_nan() || after > GROWTH * before.max(NEAR * length);
         if grows && before > DISTURBANCE * length && (self.last_terms() > DIVERGES * after || after.is_nan())
         {
@@ -275,12 +321,17 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             twin.call(Part::Settle);
         }
         twin.expand_to(self.order);
-        for first in (0..error.len()).map(|b| b * stride) {
-            for at in first..=first + self.order {
-                let difference = moved::<L, B>(&series.q[at], -1.0, &twin.q[at]);
-                self.carried[at] = moved::<L, B>(&B::zero(), 1.0 / s, &difference);
-            }
-        }
+        let (order, h) = (self.order, self.step.1);
+        let Self { twin, carried, arrived, .. } = self;
+        Arch::new().dispatch(Differ::<L, B> {
+            of: [&series.q, &twin.q],
+            stride,
+            order,
+            s,
+            h,
+            carried,
+            arrived,
+        });
     }
 
     /// Finds the error that the step itself makes: with terms up to order p, the accelerations at its end are off by
@@ -334,16 +385,16 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     /// Makes the error at the end of the step one that the constraints allow: x − e is moved onto them.
     fn project(&mut self, series: &mut Series<L, B>, length: f64) {
         let h = self.step.1;
-        for b in 0..self.error.len() {
-            let carried = self.at(b, h);
-            self.error[b] = moved_both::<L, B>(&carried, 1.0, &self.added[b]);
+        for ((error, arrived), added) in self.error.iter_mut().zip(&self.arrived).zip(&self.added) {
+            *error = moved_both::<L, B>(arrived, 1.0, added);
         }
         let whole = size::<L, B>(&self.error, h, length);
         self.kept.state.copy_from_slice(&series.state);
         let mut s = 1.0;
-        if !self.close(series, s, length) && DISTURBANCE * length < whole {
+        let negligible = (LEFT_OVER * whole * length).sqrt().max(NEAR * length);
+        if !self.close(series, s, negligible) && DISTURBANCE * length < whole {
             s = DISTURBANCE * length / whole;
-            self.close(series, s, length);
+            self.close(series, s, NEAR * length);
         }
         series.call(Part::Correct(1));
         self.kept.changed.copy_from_slice(&series.state);
@@ -353,17 +404,18 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             let difference = moved_both::<L, B>(here, -1.0, there);
             self.error[b] = moved_both::<L, B>(&[B::zero(); 2], 1.0 / s, &difference);
         }
-        for b in 0..self.error.len() {
-            self.added[b] = moved_both::<L, B>(&self.error[b], -1.0, &self.at(b, h));
+        for ((added, error), arrived) in self.added.iter_mut().zip(&self.error).zip(&self.arrived) {
+            *added = moved_both::<L, B>(error, -1.0, arrived);
         }
     }
 
-    /// Moves to x − s e and corrects the positions there. Returns whether Newton's method converges.
-    fn close(&self, series: &mut Series<L, B>, s: f64, length: f64) -> bool {
+    /// Moves to x − s e and corrects the positions there. Returns whether Newton's method converges, or need not: a correction is
+    /// negligible, m.
+    fn close(&self, series: &mut Series<L, B>, s: f64, negligible: f64) -> bool {
         for ((state, here), error) in series.state.iter_mut().zip(&self.kept.state).zip(&self.error) {
             *state = moved_both::<L, B>(here, -s, error);
         }
         let first = series.call(Part::Correct(0));
-        first < NEAR * length || series.call(Part::Correct(0)) < CONVERGES * first
+        first < negligible || series.call(Part::Correct(0)) < CONVERGES * first
     }
 }
