@@ -9,8 +9,9 @@ use triad_dynamics::system::System;
 /// Tolerance of the second solution over that of the first: its own error then spoils the estimate by a few parts in a hundred
 /// (measured: docs/ACCURACY.md).
 const TIGHTER: f64 = 1e-2;
-/// The same beside ode45, whose absolute tolerance is a thousandth of the relative one.
-const TIGHTER_THAN_ODE45: f64 = 1e-4;
+/// The same beside ode45, whose absolute tolerance is a thousandth of the relative one, and beside radau, whose errors lie far below
+/// its tolerance where nothing is stiff.
+const MUCH_TIGHTER: f64 = 1e-4;
 /// The least tolerance of the second solution: rounding is near. That of a run with steps of one size, whose error has nothing to
 /// do with its tolerance.
 const TIGHTEST: f64 = 1e-12;
@@ -58,7 +59,8 @@ impl Companion {
         if kind == IntegratorKind::Taylor || !settings.error_estimate {
             return None;
         }
-        let tighter = if kind == IntegratorKind::Ode45 { TIGHTER_THAN_ODE45 } else { TIGHTER };
+        let much = matches!(kind, IntegratorKind::Ode45 | IntegratorKind::Radau);
+        let tighter = if much { MUCH_TIGHTER } else { TIGHTER };
         let tolerance = match settings.step {
             None => (tighter * settings.tolerance).max(TIGHTEST),
             Some(_) => TIGHTEST,
