@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::content::Lesson;
 use super::reader::LessonError;
-use crate::files::Files;
+use crate::files::{Files, OpensFile};
 
 impl Lesson {
     /// All files of the lesson as one JSON text; the same files always give the same text.
@@ -17,8 +17,10 @@ impl Lesson {
         };
         let files: Map<String, Value> =
             self.files.iter().map(|(path, bytes)| (path.clone(), content(bytes))).collect();
-        // The place in its course is not in the files, and their fingerprint is that of the folder before it got its place.
-        json!({ "folder": self.folder, "number": self.number, "hash": self.hash, "files": files }).to_string()
+        // Its place in the course and what opens its answers are not in the files, and their fingerprint is that of the folder
+        // before it got its place.
+        json!({ "folder": self.folder, "number": self.number, "hash": self.hash, "opens": self.opens, "files": files })
+            .to_string()
     }
 
     /// The lesson of a bundle, with the numbers that everybody sees.
@@ -44,8 +46,15 @@ impl Lesson {
         }
         let number = bundle["number"].as_u64().and_then(|number| u32::try_from(number).ok());
         let hash = bundle["hash"].as_str().ok_or_else(|| broken("it has no fingerprint"))?;
+        // Bundles of before courses had rules open as a course without any does.
+        let opens = match bundle.get("opens") {
+            Some(opens) => {
+                serde_json::from_value(opens.clone()).map_err(|error| broken(&error.to_string()))?
+            }
+            None => OpensFile::default(),
+        };
         let lesson = Self::from_files(folder, files)?;
-        Ok(Self { number: number.unwrap_or(lesson.number), hash: hash.to_owned(), ..lesson })
+        Ok(Self { number: number.unwrap_or(lesson.number), hash: hash.to_owned(), opens, ..lesson })
     }
 }
 
@@ -74,6 +83,7 @@ mod tests {
         for lesson in Course::embedded().unwrap().lessons() {
             let again = Lesson::from_bundle(&lesson.bundle()).unwrap();
             assert_eq!((&again.hash, again.bundle()), (&lesson.hash, lesson.bundle()), "{}", lesson.slug);
+            assert_eq!((again.number, again.opens), (lesson.number, lesson.opens), "{}", lesson.slug);
         }
     }
 
