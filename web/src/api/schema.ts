@@ -135,6 +135,14 @@ export interface components {
              */
             opening: number;
         };
+        /** @description How a lesson is assigned. */
+        AssignmentChange: {
+            /**
+             * Format: uint32
+             * @description Attempts that each student has; null: as many as they like.
+             */
+            most_attempts?: number | null;
+        };
         /** @description A mass that is part of a body. */
         AttachedMass: {
             /** @description Its inertia about its own centre, along the axes of the body's frame; without it a point mass. */
@@ -350,6 +358,51 @@ export interface components {
             /** @description Id to send. */
             id: string;
         };
+        /** @description What is to change; what is left out stays. */
+        ClassChange: {
+            /**
+             * @description Whether students may join.
+             * @default null
+             */
+            join_open?: boolean | null;
+            /**
+             * @description Another code; the one of before opens nothing any more.
+             * @default false
+             */
+            new_code?: boolean;
+            /**
+             * @description The title.
+             * @default null
+             */
+            title?: string | null;
+        };
+        /** @description The class. */
+        ClassView: {
+            /** @description What students type to join. */
+            join_code: string;
+            /** @description Whether they may. */
+            join_open: boolean;
+            /** @description Its title. */
+            title: string;
+        };
+        /** @description Somebody who comes back: by name and words, or by a link. */
+        ComeBack: {
+            /**
+             * @description The secret of a link, instead of both.
+             * @default null
+             */
+            link?: string | null;
+            /**
+             * @description The name.
+             * @default
+             */
+            name?: string;
+            /**
+             * @description The four words.
+             * @default
+             */
+            words?: string;
+        };
         /** @description Which generalized coordinates describe a body. */
         Coordinates: "full" | "reduced" | "shared";
         /** @description A body that is cut free. */
@@ -370,6 +423,20 @@ export interface components {
             id: string;
             /** @description Name for people. */
             label: string;
+        };
+        /** @description A decision about a grade. */
+        Decided: {
+            /** @description When, RFC 3339. */
+            at: string;
+            /** @description Who decided. */
+            by: string;
+            /**
+             * Format: double
+             * @description The points that count.
+             */
+            points: number;
+            /** @description Why. */
+            reason: string;
         };
         /** @description Bodies cut free: their picture and the points where arrows may be put. */
         DiagramChoices: {
@@ -696,6 +763,30 @@ export interface components {
              */
             viscous?: number;
         };
+        /** @description Students by lessons. */
+        GradeTable: {
+            /** @description The lessons, in the order of the course. */
+            lessons: components["schemas"]["GradedLesson"][];
+            /** @description Everybody who hands in, by name. */
+            students: components["schemas"]["StudentRow"][];
+        };
+        /** @description A lesson of the table. */
+        GradedLesson: {
+            /**
+             * Format: uint32
+             * @description Its place in the course.
+             */
+            number: number;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description Its slug. */
+            slug: string;
+            /** @description Its title. */
+            title: string;
+        };
         /** @description The verdict of a submission. */
         GradedSubmission: {
             /**
@@ -895,6 +986,11 @@ export interface components {
         };
         /** @description Integrators by name. */
         IntegratorKind: "auto" | "taylor" | "dop853" | "dopri5" | "ode45" | "radau" | "rattle" | "trapezoidal";
+        /** @description An invitation. */
+        Invitation: {
+            /** @description The secret of the link `/setup#…`, good for one person and a week. */
+            token: string;
+        };
         /** @description The Jacobian of the constraints: a sparse matrix whose rows and columns have names. */
         Jacobian: {
             /** @description What each column is: its body, and the coordinate. */
@@ -920,6 +1016,13 @@ export interface components {
              * @description Time, s.
              */
             time: number;
+        };
+        /** @description Somebody who joins. */
+        Join: {
+            /** @description The code on the board. */
+            code: string;
+            /** @description The name that the teacher knows. */
+            name: string;
         };
         /**
          * @description A joint between two bodies, or between a body and the ground.
@@ -1510,6 +1613,17 @@ export interface components {
         };
         /** @description What stands at a place of a symmetric matrix. */
         MatrixPart: "own" | "constant" | "changing" | "fill";
+        /** @description How this server is used, and by whom. */
+        Me: {
+            /** @description Title of the class. */
+            course?: string | null;
+            /** @description Whether students may join now. */
+            join_open: boolean;
+            /** @description `home`: no accounts, grades are for oneself; `class`: with accounts. */
+            mode: string;
+            /** @description Who is signed in. */
+            person?: components["schemas"]["Somebody"] | null;
+        };
         /** @description One mode, moving as e^(λt). */
         Mode: {
             /**
@@ -1698,6 +1812,18 @@ export interface components {
             /** @description From where the mechanism is looked at. */
             from: components["schemas"]["Camera"];
         };
+        /** @description A decision about a grade. */
+        NewDecision: {
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /**
+             * Format: double
+             * @description The points that count from now on; null: those that were earned.
+             */
+            points?: number | null;
+            /** @description Why: the student sees it, and so does whoever looks later. */
+            reason: string;
+        };
         /** @description How forces are to be drawn; what is not given stays. */
         NewDrawing: {
             /** @description Which, on which body, about which point. */
@@ -1736,6 +1862,11 @@ export interface components {
              */
             text: string;
         };
+        /** @description A role. */
+        NewRole: {
+            /** @description `student`, `grader`, `instructor` or `owner`. */
+            role: string;
+        };
         /** @description What to simulate: exactly one of `lesson`, `builtin` and `scene`. */
         NewSession: {
             /**
@@ -1753,6 +1884,13 @@ export interface components {
             scene?: components["schemas"]["Scene"] | null;
             /** @description With `lesson`: whose numbers, a student's name or another seed; without it, those that everybody sees. */
             seed?: string | null;
+        };
+        /** @description Words and link of somebody who lost theirs. */
+        NewWords: {
+            /** @description The secret of the link `/return#…`. */
+            link: string;
+            /** @description Four words. */
+            words: string;
         };
         /** @description What stands at a place of a scene that may be changed. */
         NumberOrWord: number | string;
@@ -1867,6 +2005,8 @@ export interface components {
         };
         /** @description In which direction a number passes a value. */
         Passing: "either" | "upwards" | "downwards";
+        /** @description People of the class, by name. */
+        PeopleList: components["schemas"]["Somebody"][];
         /** @description A place in the scene. */
         Place: string | {
             /**
@@ -2158,6 +2298,30 @@ export interface components {
             standing?: components["schemas"]["QuestionStanding"] | null;
             /** @description Right, wrong, blank, invalid, or waiting for an answer that is invalid. */
             verdict: components["schemas"]["Mark"];
+        };
+        /** @description What a student has reached in a lesson. */
+        Reached: {
+            /**
+             * Format: int64
+             * @description Attempts; 0 where nothing could be judged yet.
+             */
+            attempts: number;
+            /** @description What somebody decided. */
+            decided?: components["schemas"]["Decided"] | null;
+            /**
+             * Format: double
+             * @description Most points of an attempt.
+             */
+            earned: number;
+            /** @description When the last submission came, RFC 3339; left out where nothing was handed in. */
+            last?: string | null;
+            /** @description Whether it is enough to pass. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description The points that count: those that were decided, else the most of an attempt.
+             */
+            points: number;
         };
         /** @description The reaction of a joint or driver: what body `by` does to body `on` through it — eq. (9.1). */
         Reaction: {
@@ -2632,6 +2796,18 @@ export interface components {
              */
             tolerance?: number;
         };
+        /** @description An invitation that is followed. */
+        Setup: {
+            /** @description The name that others see. */
+            name: string;
+            /**
+             * @description Title of the class, if it is to be named now.
+             * @default null
+             */
+            title?: string | null;
+            /** @description The secret of the link `/setup#…`. */
+            token: string;
+        };
         /** @description A primitive drawn in a body's frame, lengths in m. */
         Shape: {
             /** @description One end. */
@@ -2736,6 +2912,15 @@ export interface components {
              */
             reports?: boolean;
         };
+        /** @description Somebody of the class. */
+        Somebody: {
+            /** @description The person's id. */
+            id: string;
+            /** @description The name. */
+            name: string;
+            /** @description `student`, `grader`, `instructor` or `owner`. */
+            role: string;
+        };
         /** @description What keeps the constraints satisfied during a run. */
         Stabilization: {
             /** @constant */
@@ -2819,6 +3004,17 @@ export interface components {
              * @description Integrator steps, 1 to 100000.
              */
             steps?: number | null;
+        };
+        /** @description A student's row. */
+        StudentRow: {
+            /** @description The person's id. */
+            id: string;
+            /** @description What they reached, by slug; a lesson in which nothing was handed in or decided is left out. */
+            lessons: {
+                [key: string]: components["schemas"]["Reached"];
+            };
+            /** @description The name. */
+            name: string;
         };
         /** @description A student's answers to the questions of one lesson. */
         Submission: {
@@ -3068,6 +3264,15 @@ export interface components {
             question: number;
             /** @description A name that the follower's browser made up: the same voter votes anew, not twice. */
             voter: string;
+        };
+        /** @description What somebody needs to come back on another device; it is told once. */
+        Welcome: {
+            /** @description The secret of the link `/return#…`, for whoever prefers a bookmark. */
+            link: string;
+            /** @description Who came in. */
+            person: components["schemas"]["Somebody"];
+            /** @description Four words, to be written down. */
+            words: string;
         };
     };
     responses: never;

@@ -11,7 +11,7 @@ export function trouble(session: Session): HTMLElement {
   const clear = (): void => root.replaceChildren();
   session.on("problem", (error) => {
     const problem: Problem = problemOf(error);
-    root.replaceChildren(problemNotice(problem, ways(session, problem, clear)));
+    root.replaceChildren(problemNotice(problem, ways(session, clear)));
   });
   // The way out was taken elsewhere, or by itself.
   session.on("shown", () => {
@@ -21,7 +21,7 @@ export function trouble(session: Session): HTMLElement {
   return root;
 }
 
-function ways(session: Session, problem: Problem, clear: () => void): Action[] {
+function ways(session: Session, clear: () => void): Action[] {
   const state = session.latest;
   if (!state)
     return [
