@@ -64,7 +64,7 @@ pub const WAYS: [&str; 11] = [
     "dopri5 partitioning",
     "dop853 penalty",
     "trapezoidal augmented-lagrangian",
-    "dop853 projection 2000",
+    "dop853 projection 120",
 ];
 
 /// A scene that runs in one of the [`WAYS`]; `None` for a word that is not known.

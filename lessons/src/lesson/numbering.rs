@@ -79,12 +79,12 @@ mod tests {
     #[test]
     fn equations_are_numbered_by_the_place_of_their_lesson() {
         let mut places = Places::default();
-        places.put("here", 2, 12);
-        places.put("there", 12, 2);
-        let text = "\\tag{2.1} [eq. (2.1)](#eq-2.1), [eq. (12.3)](/lessons/there#eq-12.3), (2.1) m, Eq. (2.4), $f(12.5)$";
+        places.put("here", 2, 11);
+        places.put("there", 11, 2);
+        let text = "\\tag{2.1} [eq. (2.1)](#eq-2.1), [eq. (11.3)](/lessons/there#eq-11.3), (2.1) m, Eq. (2.4), $f(11.5)$";
         assert_eq!(
             places.renumbered("here", text),
-            "\\tag{12.1} [eq. (12.1)](#eq-12.1), [eq. (2.3)](/lessons/there#eq-2.3), (2.1) m, Eq. (12.4), $f(12.5)$"
+            "\\tag{11.1} [eq. (11.1)](#eq-11.1), [eq. (2.3)](/lessons/there#eq-2.3), (2.1) m, Eq. (11.4), $f(11.5)$"
         );
     }
 }

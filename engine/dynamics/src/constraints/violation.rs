@@ -8,7 +8,6 @@ use crate::scene::{ConstraintMethod, Settings};
 use crate::state::State;
 use crate::system::feature::Difference;
 use crate::system::index::ConstraintId;
-use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::{Row, System};
 
@@ -124,19 +123,7 @@ pub fn worst(numbers: &[f64]) -> Vec<(ConstraintId, f64)> {
 
 /// Largest violation of a rigid-body row.
 fn rigid_violation(at: &State) -> f64 {
-    at.bodies().iter().fold(0.0, |largest, body| larger(largest, stretched(&body.q)))
-}
-
-/// Largest violation of the rigid-body rows of one body.
-pub fn stretched(q: &NaturalCoordinates) -> f64 {
-    let mut largest = 0.0;
-    for k in 0..3 {
-        for l in 0..=k {
-            let unit = if k == l { 1.0 } else { 0.0 };
-            largest = larger(largest, (q.e[k].dot(&q.e[l]) - unit).abs());
-        }
-    }
-    largest
+    at.bodies().iter().fold(0.0, |largest, body| larger(largest, body.q.stretch()))
 }
 
 /// What a row's Φ is measured in: m for each point in it.

@@ -28,6 +28,21 @@ impl NaturalCoordinates {
         self.r.dot(&other.r) + (0..3).map(|k| self.e[k].dot(&other.e[k])).sum::<f64>()
     }
 
+    /// Largest violation of the rigid-body rows; not a number if one of them is none.
+    pub fn stretch(&self) -> f64 {
+        let mut largest = 0.0;
+        for k in 0..3 {
+            for l in 0..=k {
+                let unit = if k == l { 1.0 } else { 0.0 };
+                let violation = (self.e[k].dot(&self.e[l]) - unit).abs();
+                if violation.is_nan() || violation > largest {
+                    largest = violation;
+                }
+            }
+        }
+        largest
+    }
+
     /// C Q for local coordinates (ξ, η, ζ), without the part of r: ξ u + η v + ζ w — eq. (2.3).
     pub fn arm(&self, local: &Vector3<f64>) -> Vector3<f64> {
         self.e[0] * local[0] + self.e[1] * local[1] + self.e[2] * local[2]

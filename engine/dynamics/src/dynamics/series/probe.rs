@@ -3,7 +3,6 @@
 
 use super::expand::Value;
 use super::{Bodies, Series};
-use crate::constraints::violation;
 use crate::newton::{Movable, Projectable, project_positions, project_velocities, rules};
 use crate::state;
 use crate::system::System;
@@ -106,7 +105,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let mut most = rows.fold(0.0f64, |most, (extra, size)| most.max(extra.abs() / size));
         for (bundle, [q, _]) in self.bundles.iter().zip(&self.state) {
             for lane in 0..bundle.bodies().len() {
-                most = most.max(violation::stretched(&bundle.write(lane, q, false)));
+                most = most.max(bundle.write(lane, q, false).stretch());
             }
         }
         most

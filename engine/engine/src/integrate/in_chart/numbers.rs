@@ -125,7 +125,12 @@ impl Numbers {
         match self {
             Self::Coordinates => elimination.last_accelerations(system, state).write(out.as_mut_slice()),
             Self::Joints { tree, .. } => {
-                let of = |body: usize| elimination.bodies()[body].twist;
+                // ω̇ = ½ Σ e_k × ë_k: what was solved is the part of ω̇ beyond the particular acceleration, which for a reduced
+                // body has one of its own.
+                let of = |body: usize| {
+                    let (q, a) = (&state.bodies()[body].q, elimination.solution(state, body));
+                    [a.r, (0..3).map(|k| q.e[k].cross(&a.e[k])).sum::<Vector3<f64>>() * 0.5]
+                };
                 tree.second_derivatives(of, p_dot.as_slice(), out.as_mut_slice());
             }
         }
