@@ -75,7 +75,7 @@ fn build_question(
         QuestionKind::Matrix => quantity::quantity(&question, &reference, ValueShape::Matrix, context),
         QuestionKind::Choice => closed::choice(&question, &reference),
         QuestionKind::Formula => closed::formula(&question, &reference),
-        QuestionKind::Diagram => diagram::diagram(&question, &reference, context),
+        QuestionKind::Diagram => diagram::diagram(&question, &reference, context).map(QuestionBody::Diagram),
         QuestionKind::Implement => tasks::implement(&question, context),
         QuestionKind::Trajectory => tasks::trajectory(&question, context),
         QuestionKind::Model => tasks::model(&question, context),

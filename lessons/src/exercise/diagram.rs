@@ -3,7 +3,6 @@
 use triad_engine::scene::{Driver, Scene};
 
 use super::context::{BuildContext, BuildError, build_error, refuse};
-use super::question::QuestionBody;
 use crate::answers::diagram::{Arrow, ArrowKind, Axis, CENTRE};
 use crate::files::diagram::{AllowedArrowFile, EmptyPointFile};
 use crate::files::{QuestionFile, ReferenceFile};
@@ -73,7 +72,7 @@ pub(super) fn diagram(
     question: &QuestionFile,
     reference: &ReferenceFile,
     context: &BuildContext,
-) -> Result<QuestionBody, BuildError> {
+) -> Result<Diagram, BuildError> {
     refuse(question.unit.is_some(), "a unit", "diagram")?;
     refuse(question.tolerance.is_some(), "a tolerance", "diagram")?;
     refuse(!question.misconceptions.is_empty(), "a misconception (they are known)", "diagram")?;
@@ -118,5 +117,5 @@ pub(super) fn diagram(
             build_error(problem, "name a body, one of its places, and an axis that is seen").in_reference()
         );
     }
-    Ok(QuestionBody::Diagram(diagram))
+    Ok(diagram)
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use triad_engine::scene::{Scene, SceneError};
 
 use super::numbering::Places;
+use super::personal::{describe, shuffle_options};
 use super::reader::{LessonError, LessonReader, fingerprint, line_of, named};
-use super::variant;
 use crate::exercise::{self, BuildContext, Exercise, Parameters, Question};
 use crate::files::{ExerciseFile, Files, LessonFile, OpensFile, ReferenceFile, WrongFile};
 use crate::rendering::markdown::{self, Rendered};
@@ -99,9 +99,9 @@ impl Lesson {
             description: scene["description"].as_str().unwrap_or_default().to_owned(),
         };
         let parameters = Parameters::defaults(&sources.exercise.parameters);
-        variant::describe(&mut scene, &sources.description, &parameters);
+        describe(&mut scene, &sources.description, &parameters);
         let mut exercise = questions(&reader, &sources, &parameters, &scene)?;
-        variant::shuffle_options(&mut exercise, slug, "");
+        shuffle_options(&mut exercise, slug, "");
         let mut wrong = BTreeMap::new();
         let mut wrong_files = BTreeSet::new();
         for name in named(&files, "wrong/", "toml") {

@@ -7,6 +7,7 @@ pub mod course;
 mod diagram_view;
 mod notions;
 mod numbering;
+mod personal;
 mod reader;
 mod rules;
 mod variant;

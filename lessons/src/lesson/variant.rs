@@ -6,8 +6,9 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::{Scene, SceneError};
 
 use super::content::Lesson;
+use super::personal::{describe, shuffle_options};
 use crate::answers::tolerance::{distance, norm};
-use crate::exercise::{self, BuildContext, ChoiceOption, Exercise, Parameters, QuestionBody};
+use crate::exercise::{self, BuildContext, Exercise, Parameters, QuestionBody};
 use crate::files::ParameterFile;
 use crate::random::SeededRandom;
 use crate::seed::seed;
@@ -132,26 +133,6 @@ impl Lesson {
             exercise::build(file, references, &context).map_err(|error| unusable(error.to_string()))?;
         lesson.parameters = parameters;
         Ok(lesson)
-    }
-}
-
-/// Puts the student's numbers into the description of the scene.
-pub(super) fn describe(scene: &mut serde_json::Value, description: &str, parameters: &Parameters) {
-    if let Some(place) = scene.get_mut("description") {
-        *place = parameters.fill(description).into();
-    }
-}
-
-/// Puts the options of each choice into an order of the student's own; their ids stay.
-pub(super) fn shuffle_options(exercise: &mut Exercise, lesson: &str, drawn_from: &str) {
-    for question in &mut exercise.questions {
-        let QuestionBody::Choice { options, .. } = &mut question.body else { continue };
-        // From the author's order, whatever order they were put into before.
-        options.sort_by(|a, b| a.id.cmp(&b.id));
-        let mut random = SeededRandom::new(&format!("{lesson}/{}/options/{drawn_from}", question.id));
-        let mut drawn: Vec<(f64, ChoiceOption)> = options.drain(..).map(|o| (random.unit(), o)).collect();
-        drawn.sort_by(|a, b| a.0.total_cmp(&b.0));
-        options.extend(drawn.into_iter().map(|(_, option)| option));
     }
 }
 
