@@ -7,6 +7,7 @@ import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import { pendulum } from "./pendulum.mjs";
 
 const [address, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -82,21 +83,23 @@ async function byKeyboard() {
   await noSeriousFaults(page, "the help");
   await page.keyboard.press("Escape");
   await noSeriousFaults(page, "lesson 2");
-  await tabTo(page, "#student");
+  await tabTo(page, "#whose");
   await page.keyboard.type("Grace Hopper");
+  await page.keyboard.press("Enter");
+  const right = await pendulum(page, "Grace Hopper");
   const unit = async (id, value) => {
     if (await page.locator(`#q-${id}-unit`).count() === 0) return;
     await tabTo(page, `#q-${id}-unit`);
     await page.keyboard.type(value);
   };
-  for (const [id, value, in_] of [["independent-rows", "11", ""], ["tension-bottom", "29.43", "N"], ["period", "2.368", "s"]]) {
+  for (const [id, value, in_] of [["independent-rows", "11", ""], ["tension-bottom", right.tension, "N"], ["period", right.period, "s"]]) {
     await tabTo(page, `#q-${id}-value`);
     await page.keyboard.type(value);
     if (in_) await unit(id, in_);
   }
-  for (const [axis, value] of [["x", "-14.21"], ["y", "-10.90"], ["z", "0"]]) {
+  for (const [at, axis] of ["x", "y", "z"].entries()) {
     await tabTo(page, `#q-force-on-ground-${axis}`);
-    await page.keyboard.type(value);
+    await page.keyboard.type(right.force[at]);
   }
   await unit("force-on-ground", "N");
   await tabTo(page, "input[type=radio]");

@@ -62,6 +62,7 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("POST", "/api/v1/analyses/kinematics", STUDENT),
     ("POST", "/api/v1/analyses/equilibrium", STUDENT),
     ("POST", "/api/v1/analyses/modes", STUDENT),
+    ("POST", "/api/v1/analyses/table", STUDENT),
     ("POST", "/api/v1/sessions", STUDENT),
     ("GET", "/api/v1/sessions/{id}", Key),
     ("DELETE", "/api/v1/sessions/{id}", Key),

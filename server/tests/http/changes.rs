@@ -140,7 +140,7 @@ async fn a_run_is_written_as_a_table_with_the_chosen_outputs() {
     let last: Vec<f64> = rows[5].split(',').map(|number| number.parse().expect("a number")).collect();
     assert_eq!(last[..3], here);
     for (key, value, code) in
-        [("every", json!(1e-6), "table-too-long"), ("outputs", json!(["joints:pan"]), "output-invalid")]
+        [("until", json!(1e6), "table-too-long"), ("outputs", json!(["joints:pan"]), "output-invalid")]
     {
         let mut wrong = asked.clone();
         wrong[key] = value;

@@ -253,7 +253,11 @@ async fn a_teacher_sees_decides_and_takes_the_table_along() {
     let id = told["person"]["id"].as_str().expect("an id");
     let submit = "/api/v1/lessons/simple-pendulum/submissions";
     let answers = |value: &str| json!({"answers": {"tension-bottom": {"value": value, "unit": "N"}}});
-    for value in ["29.43", "1.000", "not a number"] {
+    // Three times the weight of her own bob.
+    let lesson = class.ask("GET", "/api/v1/lessons/simple-pendulum", &ada, None).await.json();
+    let mass = lesson["scene"]["bodies"][0]["mass"].as_f64().expect("a mass");
+    let right = format!("{:.4}", 3.0 * 9.81 * mass);
+    for value in [right.as_str(), "1.000", "not a number"] {
         class.ask("POST", submit, &ada, Some(answers(value))).await;
     }
     let table = async || class.ask("GET", "/api/v1/standings", &owner, None).await.json();
@@ -292,7 +296,7 @@ async fn a_teacher_sees_decides_and_takes_the_table_along() {
         .ask("PUT", "/api/v1/assignments/simple-pendulum", &owner, Some(json!({"most_attempts": 2})))
         .await;
     assert_eq!(bound.status, 204);
-    class.ask("POST", submit, &ada, Some(answers("29.43"))).await.problem(409, "attempts-used");
+    class.ask("POST", submit, &ada, Some(answers(&right))).await.problem(409, "attempts-used");
 }
 
 #[tokio::test]
