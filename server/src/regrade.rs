@@ -63,7 +63,7 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
         }
         let lesson = lessons.get(&record.lesson_sha256).and_then(Option::as_ref);
         match again(&record, lesson, &variants, earlier) {
-            Ok(now) if now.to_string() == record.body => rebuilt.same += 1,
+            Ok(now) if now == record.body => rebuilt.same += 1,
             now => rebuilt.changed.push(change(&record, now)),
         }
     }
@@ -111,7 +111,7 @@ fn stored(record: &Recorded) -> StoredSubmission {
 fn change(record: &Recorded, now: Result<Value, String>) -> Change {
     let before: Value = serde_json::from_str(&record.body).unwrap_or_default();
     let (points, difference) = match now {
-        Ok(now) => (now["earned"].as_f64(), first_difference(&before, &now, String::new())),
+        Ok(now) => (now["earned"].as_f64(), first_difference(&before, &now, "")),
         Err(why) => (None, Some(why)),
     };
     Change {
@@ -125,19 +125,19 @@ fn change(record: &Recorded, now: Result<Value, String>) -> Change {
 }
 
 /// Where two documents differ first, with what stands there.
-fn first_difference(before: &Value, now: &Value, place: String) -> Option<String> {
+fn first_difference(before: &Value, now: &Value, place: &str) -> Option<String> {
     match (before, now) {
         (Value::Object(a), Value::Object(b)) => {
             let names = a.keys().chain(b.keys().filter(|name| !a.contains_key(*name)));
             let none = json!(null);
             names.into_iter().find_map(|name| {
                 let (a, b) = (a.get(name).unwrap_or(&none), b.get(name).unwrap_or(&none));
-                first_difference(a, b, format!("{place}/{name}"))
+                first_difference(a, b, &format!("{place}/{name}"))
             })
         }
         (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
             let mut pairs = a.iter().zip(b).enumerate();
-            pairs.find_map(|(k, (a, b))| first_difference(a, b, format!("{place}/{k}")))
+            pairs.find_map(|(k, (a, b))| first_difference(a, b, &format!("{place}/{k}")))
         }
         (a, b) if a == b => None,
         (a, b) => Some(format!("{place}: {b} instead of {a}")),

@@ -73,7 +73,7 @@ fn what_is_wrong_is_named_with_its_line() {
     };
     let (status, good) = import(arm.clone(), json!({}));
     assert_eq!(status, 200, "{good:#}");
-    let many: String = (0..200).map(|k| format!(" a{k}=\"1\"")).collect();
+    let many = (0..200).map(|k| format!(" a{k}=\"1\"")).collect::<Vec<_>>().concat();
     let ruler = format!("<!-- {} -->\n<robot", "=".repeat(300));
     assert_eq!(import(arm.replacen("<robot", &ruler, 1), json!({})).0, 200);
     let cases = [

@@ -3,6 +3,7 @@
 //! For each way to run a scene and each tolerance: how many estimates are within a factor of three of the error, how many below a
 //! tenth of it, and the worst. `time` instead of seeds: what estimates cost, the time of a run with over that without.
 
+use std::fmt::Write;
 use std::time::Instant;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
@@ -38,7 +39,7 @@ fn read(path: &str) -> Option<Scene> {
         eprintln!("{path} is no scene");
     }
     let mut scene = found?;
-    scene.name = path.to_owned();
+    path.clone_into(&mut scene.name);
     Some(scene)
 }
 
@@ -78,7 +79,7 @@ fn costs(all: &[Scene], ways: &[&str], tolerances: &[f64]) {
                 let mut without = with.clone();
                 without.simulation.error_estimate = false;
                 if let (Ok(with), Ok(without)) = (seconds(&with), seconds(&without)) {
-                    line.push_str(&format!(" {} {:.2}", scene.name, with / without));
+                    let _ = write!(line, " {} {:.2}", scene.name, with / without);
                 }
             }
             println!("{line}");

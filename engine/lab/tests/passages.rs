@@ -77,10 +77,10 @@ fn the_linkage_of_sarrus_passes_its_flat_positions() {
 /// t = 2/3 s, it is `nearness` away from that.
 fn beside_a_change_point(nearness: f64) -> Scene {
     let coupler = 2.0 - 0.25 * nearness * nearness;
-    let crank = (f64::cos(-1.0), f64::sin(-1.0));
+    let crank = (libm::cos(-1.0), libm::sin(-1.0));
     // The rocker's end is 1 from (2, 0) and `coupler` from the crank's end.
     let (dx, dy) = (2.0 - crank.0, -crank.1);
-    let apart = dx.hypot(dy);
+    let apart = libm::hypot(dx, dy);
     let along = (coupler * coupler - 1.0 + apart * apart) / (2.0 * apart);
     let across = (coupler * coupler - along * along).sqrt();
     let (ux, uy) = (dx / apart, dy / apart);

@@ -60,7 +60,7 @@ impl<'a> Cut<'a> {
             }
             bodies.push((outlines(&task.scene, body, frame), places));
         }
-        let (shapes, places) = laid_out(task.view, bodies);
+        let (shapes, places) = laid_out(task.view, &bodies);
         Ok(Self { task, places, values, shapes })
     }
 
@@ -238,13 +238,13 @@ fn outlines(scene: &Scene, body: &ModelBody, frame: &BodyFrame) -> Vec<Outline> 
 type Measured = (Vec<Outline>, Vec<(String, [f64; 3])>);
 
 /// Bodies side by side in the picture: their shapes as SVG, and their places, px.
-fn laid_out(view: Axis, bodies: Vec<Measured>) -> (String, Vec<Vec<Place>>) {
+fn laid_out(view: Axis, bodies: &[Measured]) -> (String, Vec<Vec<Place>>) {
     let [right, up, _] = view.picture();
     let flat = |p: &[f64; 3]| [p[right.index()], p[up.index()]];
     // Each body is moved aside until it lies to the right of the one before.
     let mut aside = Vec::with_capacity(bodies.len());
     let (mut end, mut low, mut high, mut widths) = (0.0, f64::INFINITY, f64::NEG_INFINITY, 0.0);
-    for (outlines, places) in &bodies {
+    for (outlines, places) in bodies {
         let shape = outlines.iter().flat_map(|o| o.points.iter().map(|p| (flat(p), o.radius)));
         let all: Vec<([f64; 2], f64)> = shape.chain(places.iter().map(|(_, p)| (flat(p), 0.0))).collect();
         let left = all.iter().map(|(p, r)| p[0] - r).fold(f64::INFINITY, f64::min);

@@ -66,7 +66,7 @@ fn findings(task: &Diagram, arrows: &[Arrow]) -> Vec<DiagramFinding> {
         match arrows.iter().find(|arrow| same_line(arrow, right)) {
             None => findings.push(DiagramFinding::Missing(right.clone())),
             Some(given) if given.along != right.along => {
-                findings.push(DiagramFinding::Opposite(given.clone()))
+                findings.push(DiagramFinding::Opposite(given.clone()));
             }
             Some(_) => {}
         }

@@ -66,7 +66,9 @@ fn linked(text: &str, from: &str, to: &str, folder: u32, place: u32) -> String {
         let opens = before.rfind('[').unwrap_or(0);
         done.push_str(&before[..opens]);
         done.push_str(&before[opens..].replace(&format!("({folder}."), &format!("({DONE}{place}.")));
-        done.push_str(&format!("{to}{DONE}{place}."));
+        done.push_str(to);
+        done.push(DONE);
+        done.extend([&*place.to_string(), "."]);
         rest = after;
     }
     done + rest

@@ -52,10 +52,10 @@ fn answers(scene: &Scene, measured: &MeasuredFile) -> Answers {
         return counts(&scene).unwrap_or_default();
     }
     let mut list = Answers::new();
-    if let Ok(run) = run(&scene, measured.time) {
-        if !measured.energy {
-            read_elsewhere(&scene, &run, measured, &mut list);
-        }
+    if let Ok(run) = run(&scene, measured.time)
+        && !measured.energy
+    {
+        read_elsewhere(&scene, &run, measured, &mut list);
     }
     if scene.gravity != [0.0; 3] {
         let up = scene.gravity.map(|g| -g);

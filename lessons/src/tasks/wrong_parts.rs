@@ -119,6 +119,12 @@ fn jacobian() -> Vec<Row> {
 }
 
 fn gamma() -> Vec<Row> {
+    let mut rows = gamma_of_joints();
+    rows.extend(gamma_of_drivers());
+    rows
+}
+
+fn gamma_of_joints() -> Vec<Row> {
     vec![
         row(
             "gamma-sign",
@@ -157,6 +163,11 @@ fn gamma() -> Vec<Row> {
         row("velocity-term-half", HALF_TERM, |m, _| {
             Ok(Grid::column(gamma_parts(m).into_iter().map(|[own, reduced]| own + 0.5 * reduced).collect()))
         }),
+    ]
+}
+
+fn gamma_of_drivers() -> Vec<Row> {
+    vec![
         driver("driver-sign", "The part of the driver has the wrong sign in γ.", |[_, _, c2], _, own| {
             own - 2.0 * c2
         }),

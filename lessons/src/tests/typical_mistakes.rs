@@ -207,7 +207,7 @@ fn random_numbers_are_seldom_taken_for_a_mistake() {
             }
             let mut random = SeededRandom::new(&question.id);
             for _ in 0..DRAWS {
-                let value = norm(&body.reference) * libm::exp(2.0 * (random.unit() - 0.5) * 4f64.ln());
+                let value = norm(&body.reference) * libm::exp(2.0 * (random.unit() - 0.5) * libm::log(4.0));
                 let Ok(judgement) = judge_values(body, &[value]) else { continue };
                 if judgement.mark == Mark::Wrong {
                     all += 1;

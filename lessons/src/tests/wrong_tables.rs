@@ -123,6 +123,7 @@ fn wrong_tables() -> Vec<(&'static str, String)> {
 }
 
 /// The motion that begins later.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a whole number from 0 to ROWS
 fn right_late(by: f64) -> Vec<Angle> {
     let fine = motion(runge_kutta, G, [-FRAC_PI_2, 0.0], 20);
     let rows = (by / END * f64::from(ROWS)).round();

@@ -107,12 +107,11 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
     let served = runtime.block_on(async {
         let store = Store::open(&options.database).await?;
-        let access = match options.class {
-            true => {
-                let class = store.ensure_course(CLASS, &course.title).await?;
-                Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
-            }
-            false => Access::home(options.open, options.allow_host.iter().cloned()),
+        let access = if options.class {
+            let class = store.ensure_course(CLASS, &course.title).await?;
+            Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
+        } else {
+            Access::home(options.open, options.allow_host.iter().cloned())
         };
         let app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
         listen(options, app).await

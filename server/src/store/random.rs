@@ -19,7 +19,7 @@ pub(super) fn bytes<const N: usize>() -> Result<[u8; N], StoreError> {
 
 /// A secret of 256 bits, hexadecimal.
 pub(super) fn token() -> Result<String, StoreError> {
-    Ok(bytes::<32>()?.iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(super::hash::hexadecimal(&bytes::<32>()?))
 }
 
 /// A code for the board.

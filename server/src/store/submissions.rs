@@ -176,8 +176,8 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn recorded(&self, course: &str) -> Result<Vec<Recorded>, StoreError> {
-        let rows: Vec<(String, String, String, String, String, String, String, String)> =
-            sqlx::query_as(sql::REBUILDABLE).bind(course).fetch_all(&self.readers).await?;
+        type Row = (String, String, String, String, String, String, String, String);
+        let rows: Vec<Row> = sqlx::query_as(sql::REBUILDABLE).bind(course).fetch_all(&self.readers).await?;
         let recorded = |(id, person, lesson, answers, body, lesson_sha256, seed, build)| Recorded {
             id,
             person,

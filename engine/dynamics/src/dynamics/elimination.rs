@@ -72,6 +72,7 @@ pub struct BodySolve {
 
 /// The linear solve: its matrices at the positions that were linearized last, and its last solution.
 #[derive(Clone, Debug)]
+#[allow(clippy::struct_excessive_bools)] // each is a fact of its own, in any combination
 pub struct Elimination {
     bodies: Vec<BodySolve>,
     /// C Q̈ᵖ of each feature.

@@ -181,21 +181,7 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
         }
         Group::Angle(angle) => row.extend([state.angles()[angle].value, state.angles()[angle].rate]),
         Group::Slide(joint) => row.extend(slide(&model.joints[joint], state)),
-        Group::Load(load) => {
-            let dry = system.frictions.iter().find(|dry| dry.load == load);
-            let load = &system.loads[load];
-            if let Some(vector) = load.given(state) {
-                push(row, &[vector]);
-                row.push(load.power(state));
-            } else {
-                // A spring of no length has no direction to act in.
-                let [x, rate, mut value] = load.acting(state).unwrap_or_default();
-                if let Some(dry) = dry {
-                    value += run.state().solved().multipliers.dry_friction(dry)[0];
-                }
-                row.extend([x, rate, value, value * rate]);
-            }
-        }
+        Group::Load(load) => write_load(run, load, row),
         Group::Marker(marker) => {
             let marker = &model.markers[marker];
             push(row, &state.point(marker.body, &marker.local));
@@ -207,15 +193,34 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
             row.extend([kinetic, energy - kinetic, work, energy - run.start_energy - work]);
         }
         Group::Violations => row.extend([state.position_violation(system), state.velocity_violation(system)]),
-        Group::Errors { reactions } => {
-            let of = |error: ErrorEstimate| {
-                [error.position, error.turn, error.velocity, error.angular_velocity, error.energy]
-            };
-            row.extend(run.error_estimate().map_or([f64::NAN; 5], of));
-            if reactions {
-                row.extend(run.reaction_errors().map_or([f64::NAN; 2], |error| [error.force, error.moment]));
-            }
+        Group::Errors { reactions } => write_errors(run, reactions, row),
+    }
+}
+
+fn write_load(run: &Simulation, load: usize, row: &mut Vec<f64>) {
+    let (system, state) = (run.system(), run.current.state());
+    let dry = system.frictions.iter().find(|dry| dry.load == load);
+    let load = &system.loads[load];
+    if let Some(vector) = load.given(state) {
+        push(row, &[vector]);
+        row.push(load.power(state));
+    } else {
+        // A spring of no length has no direction to act in.
+        let [x, rate, mut value] = load.acting(state).unwrap_or_default();
+        if let Some(dry) = dry {
+            value += run.state().solved().multipliers.dry_friction(dry)[0];
         }
+        row.extend([x, rate, value, value * rate]);
+    }
+}
+
+fn write_errors(run: &Simulation, reactions: bool, row: &mut Vec<f64>) {
+    let of = |error: ErrorEstimate| {
+        [error.position, error.turn, error.velocity, error.angular_velocity, error.energy]
+    };
+    row.extend(run.error_estimate().map_or([f64::NAN; 5], of));
+    if reactions {
+        row.extend(run.reaction_errors().map_or([f64::NAN; 2], |error| [error.force, error.moment]));
     }
 }
 

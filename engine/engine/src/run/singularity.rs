@@ -84,7 +84,7 @@ impl SingularityMonitor {
             islands: Vec::new(),
             found: Found::new(constraints),
             examiner: Examiner::default(),
-            samples: vec![Vec::with_capacity(constraints); SAMPLES],
+            samples: (0..SAMPLES).map(|_| Vec::with_capacity(constraints)).collect(),
             examined: Vec::with_capacity(USUAL_DIPS),
             resolving: false,
             retreats: 0,

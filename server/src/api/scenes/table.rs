@@ -9,7 +9,6 @@ use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
-use triad_engine::EngineError;
 use triad_engine::run::{Outputs, Simulation};
 use triad_engine::scene::{Output, Scene};
 use utoipa_axum::router::OpenApiRouter;
@@ -92,7 +91,7 @@ fn written(scene: &Scene, time: Duration) -> Result<Vec<u8>, Problem> {
     let mut index = 0_u64;
     loop {
         let next = (index as f64 * every).min(run.duration());
-        while !run.advance_towards(next, PIECE).map_err(EngineError::from)? {
+        while !run.advance_towards(next, PIECE)? {
             if began.elapsed() > time {
                 return Err(too_slow(run.reached()));
             }

@@ -71,7 +71,9 @@ async fn check(store: &Store, json: bool) -> Result<Outcome, Problem> {
     if json {
         print_json(&faults);
     } else {
-        faults.iter().for_each(|fault| print_line(fault));
+        for fault in &faults {
+            print_line(fault);
+        }
         print_line(&counted(faults.len(), "fault"));
     }
     Ok(if faults.is_empty() { Outcome::Done } else { Outcome::No })

@@ -166,7 +166,7 @@ impl IslandSeries {
 
     /// Largest |Φ| of the joints' rows at the copy's state, each relative to its size.
     pub fn probe_open(&mut self) -> f64 {
-        with!(&mut self.0, s => s.probe().map_or(0.0, |probe| probe.open()))
+        with!(&mut self.0, s => s.probe().map_or(0.0, Series::open))
     }
 
     /// Pivot products of the joints at the copy's state.

@@ -80,7 +80,9 @@ impl Tree {
             if let Some(parent) = edge.parent {
                 let parent = self.placements[parent];
                 at = parent.after(&at);
-                twists.iter_mut().for_each(|twist| *twist = parent.carry(twist));
+                for twist in twists.iter_mut() {
+                    *twist = parent.carry(twist);
+                }
             }
             self.placements[edge.body] = at;
             let e = [0, 1, 2].map(|k| at.turn.column(k).into_owned());
@@ -192,25 +194,23 @@ fn span(system: &System, places: &[Placement]) -> Vec<Edge> {
         let first = edges.last().map_or(0, |edge| edge.range().end);
         let reaching = system.model.joints.iter().filter_map(|joint| {
             let [i, j] = joint.bodies.map(|body| known(&reached, body));
-            let side = if i { 0 } else { 1 };
+            let side = usize::from(!i);
             screws_of(joint).filter(|_| i != j).map(|screws| (screws, joint, side))
         });
         let nearest = reaching.min_by_key(|(screws, ..)| *screws);
-        let edge =
-            match nearest.map(|(_, joint, side)| (joint, side, joint.bodies[side], joint.bodies[1 - side])) {
-                Some((joint, side, parent, BodyRef::Moving(body))) => {
-                    let parent = match parent {
-                        BodyRef::Ground => None,
-                        BodyRef::Moving(parent) => Some(parent),
-                    };
-                    let from = parent.map_or_else(Placement::identity, |parent| places[parent]);
-                    Edge::by_joint(joint, side, [body, first], parent, places[body].seen_from(&from))
-                }
-                _ => {
-                    let body = reached.iter().position(|reached| !reached).unwrap_or(0);
-                    Edge::free([body, first], places[body])
-                }
+        let edge = if let Some((joint, side, parent, BodyRef::Moving(body))) =
+            nearest.map(|(_, joint, side)| (joint, side, joint.bodies[side], joint.bodies[1 - side]))
+        {
+            let parent = match parent {
+                BodyRef::Ground => None,
+                BodyRef::Moving(parent) => Some(parent),
             };
+            let from = parent.map_or_else(Placement::identity, |parent| places[parent]);
+            Edge::by_joint(joint, side, [body, first], parent, places[body].seen_from(&from))
+        } else {
+            let body = reached.iter().position(|reached| !reached).unwrap_or(0);
+            Edge::free([body, first], places[body])
+        };
         reached[edge.body] = true;
         edges.push(edge);
     }

@@ -55,7 +55,9 @@ impl Updates {
         if let (Some(last), Some(square)) = (before.last(), self.squares.last()) {
             let part = product(last, step) / square;
             if part.abs() < REPEATED {
-                step.iter_mut().for_each(|x| *x /= 1.0 - part);
+                for x in step.iter_mut() {
+                    *x /= 1.0 - part;
+                }
             }
         }
         let square = product(step, step);

@@ -95,7 +95,8 @@ impl Examiner {
         let mut last: Option<(f64, f64, f64)> = None;
         for _ in 0..ROUNDS {
             // False for NaN as well.
-            if !(dip.slope * tau <= WIDEST) {
+            let beside = dip.slope * tau <= WIDEST;
+            if !beside {
                 return Finding::Unresolved(dip.root);
             }
             let Some((open, left)) = self.straddle(track, dip, time, tau, last.map(|(t, tau, _)| (t, tau)))
@@ -161,7 +162,8 @@ impl Examiner {
                 Some(before) => self.write(track, 1, before, at),
             }
             let moved = track.project()?;
-            if !(moved <= MAX_MOVED * dip.slope * tau * track.length()) {
+            let near = moved <= MAX_MOVED * dip.slope * tau * track.length();
+            if !near {
                 return None;
             }
             open = open.max(track.open());

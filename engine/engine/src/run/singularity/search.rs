@@ -211,7 +211,8 @@ impl Search<'_> {
             self.sample(time, place);
             let square = self.square(joint, place);
             let worst = (0..3).fold(0, |worst, k| if points[k].1 > points[worst].1 { k } else { worst });
-            if !(square < points[worst].1) {
+            let better = square < points[worst].1;
+            if !better {
                 return None;
             }
             points[worst] = (time, square);
