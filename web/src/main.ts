@@ -1,7 +1,7 @@
 import { loadMe } from "./api/identity";
 import { loadMaths } from "./core/maths";
-import { applyTheme } from "./core/prefs";
 import { startRouter } from "./core/router";
+import { applyTheme } from "./core/theme";
 import { homePage } from "./pages/home";
 import { lessonPage } from "./pages/lesson";
 import { notFoundPage } from "./pages/not-found";

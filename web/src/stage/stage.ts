@@ -2,7 +2,8 @@
 
 import type { Scene } from "../api/types";
 import { h } from "../core/dom";
-import { onTheme, recall, reducedMotion, remember } from "../core/prefs";
+import { recall, reducedMotion, remember } from "../core/prefs";
+import { onTheme } from "../core/theme";
 import type { Session } from "../session/session";
 import { icon } from "../ui/icons";
 import { cameras } from "./cameras";

@@ -1,6 +1,6 @@
 // The rerun viewer, fetched when it is wanted, kept alive between pages, fed by our own socket.
 import type { LogChannel, WebViewer } from "@rerun-io/web-viewer";
-import { theme } from "../core/prefs";
+import { theme } from "../core/theme";
 import { requireWebGl } from "./unavailable";
 
 const TIMELINE = "time";

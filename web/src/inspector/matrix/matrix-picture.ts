@@ -1,6 +1,6 @@
 // A sparse matrix as a picture that is pointed at, or walked through by arrow keys.
 import { h } from "../../core/dom";
-import { onTheme } from "../../core/prefs";
+import { onTheme } from "../../core/theme";
 import { cellAt, type Layout, layout, type Matrix } from "./matrix";
 import { type Cell, Painter } from "./painter";
 

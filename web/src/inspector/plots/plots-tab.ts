@@ -3,7 +3,7 @@
 import type { SessionState } from "../../api/types";
 import { h, saveFile, setText } from "../../core/dom";
 import { num, sci, seconds } from "../../core/format";
-import { onTheme } from "../../core/prefs";
+import { onTheme } from "../../core/theme";
 import type { Session } from "../../session/session";
 import { empty } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
