@@ -105,7 +105,7 @@ pub async fn table(store: &Store, id: &str, course: &Course) -> Result<GradeTabl
             slug: lesson.slug.clone(),
             number: lesson.number,
             title: lesson.about.title.clone(),
-            possible: lesson.exercise.questions.iter().map(|question| question.points).sum(),
+            possible: lesson.exercise.possible(),
         })
         .collect();
     let mut reached: HashMap<String, HashMap<String, Reached>> = HashMap::new();
@@ -116,10 +116,9 @@ pub async fn table(store: &Store, id: &str, course: &Course) -> Result<GradeTabl
         reached.entry(person).or_default().insert(lesson, one);
     }
     for decision in store.decisions(id).await? {
-        let pass = course.lesson(&decision.lesson).map(|lesson| {
-            let possible: f64 = lesson.exercise.questions.iter().map(|question| question.points).sum();
-            lesson.exercise.pass_mark * possible * (1.0 - 1e-12)
-        });
+        let pass = course
+            .lesson(&decision.lesson)
+            .map(|lesson| lesson.exercise.pass_mark * lesson.exercise.possible() * (1.0 - 1e-12));
         apply(&mut reached, decision, pass.unwrap_or(f64::INFINITY));
     }
     let students =

@@ -30,9 +30,8 @@ const OF_OTHERS: [&str; 12] = [
 
 /// Whether choices and counts alone pass the lesson, or come near to it.
 pub(super) fn share(found: &mut Findings) {
-    let questions = &found.lesson.exercise.questions;
-    let all: f64 = questions.iter().map(|q| q.points).sum();
-    let guessed: f64 = questions.iter().filter(|q| can_be_guessed(q)).map(|q| q.points).sum();
+    let all = found.lesson.exercise.possible();
+    let guessed = found.lesson.exercise.at_most(can_be_guessed);
     if guessed > MOST_GUESSED * all {
         let what = format!("choices and counts have {guessed} of {all} points");
         let remedy = "give at least half of the points to what has to be worked out";

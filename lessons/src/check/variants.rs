@@ -18,12 +18,19 @@ const RUN: usize = 2;
 /// Share of the variants in which a misconception must be recognised as itself.
 const RECOGNISED: f64 = 0.95;
 
+/// How often a misconception was recognised as itself, of the variants that ask its question.
+#[derive(Default)]
+struct Recognised {
+    as_itself: usize,
+    of: usize,
+}
+
 /// Every variant must be answerable, and its wrong answers must be recognised.
 pub(super) fn all_fit(found: &mut Findings) {
-    if found.lesson.parameters.is_empty() {
+    if found.lesson.parameters.is_empty() && found.lesson.exercise.draw.is_empty() {
         return;
     }
-    let mut recognised: BTreeMap<(String, String), usize> = BTreeMap::new();
+    let mut recognised: BTreeMap<(String, String), Recognised> = BTreeMap::new();
     for k in 0..GRADED {
         let lesson = match found.lesson.variant(&format!("check-{k}")) {
             Ok(lesson) => lesson,
@@ -56,9 +63,9 @@ pub(super) fn all_fit(found: &mut Findings) {
             }
         }
     }
-    for ((id, name), n) in recognised {
-        if (n as f64) < RECOGNISED * GRADED as f64 {
-            let what = format!("the misconception {name} is recognised in {n} of {GRADED} variants");
+    for ((id, name), Recognised { as_itself, of }) in recognised {
+        if (as_itself as f64) < RECOGNISED * of as f64 {
+            let what = format!("the misconception {name} is recognised in {as_itself} of {of} variants");
             found.question(&id, what, "change its value or the ranges of the parameters");
         }
     }
@@ -75,14 +82,15 @@ fn reference(lesson: &Lesson, with_work: bool) -> Submission {
 }
 
 /// Sends every misconception's own answer and counts which are recognised as themselves.
-fn count(lesson: &Lesson, recognised: &mut BTreeMap<(String, String), usize>) {
+fn count(lesson: &Lesson, recognised: &mut BTreeMap<(String, String), Recognised>) {
     for question in &lesson.exercise.questions {
         let QuestionBody::Quantity(q) = &question.body else { continue };
         for m in &q.misconceptions {
             let given = judged(lesson, &question.id, quantity_answer(q, &m.value));
             let same = given.is_some_and(|given| given.misconception.as_ref() == Some(&m.id));
             let key = (question.id.clone(), m.id.clone());
-            *recognised.entry(key).or_default() += usize::from(same);
+            let count = recognised.entry(key).or_default();
+            (count.as_itself, count.of) = (count.as_itself + usize::from(same), count.of + 1);
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::context::{BuildContext, BuildError, QuestionError, build_error, refuse};
 use super::question::{Exercise, QuantityQuestion, Question, QuestionBody};
-use super::{closed, diagram, quantity, tasks};
+use super::{closed, diagram, pools, quantity, tasks};
 use crate::answers::tolerance::ValueShape;
 use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile, earlier_value};
 
@@ -28,6 +28,7 @@ pub(crate) fn build(
         })?);
     }
     follows_earlier(&questions)?;
+    pools::usable(&file.draw, &questions)?;
     if let Some(id) = references.keys().next() {
         return Err(QuestionError {
             question: id.clone(),
@@ -36,7 +37,7 @@ pub(crate) fn build(
             remedy: "remove it from reference/answers.toml or ask it".to_owned(),
         });
     }
-    Ok(Exercise { pass_mark: file.pass_mark, questions })
+    Ok(Exercise { pass_mark: file.pass_mark, draw: file.draw, questions })
 }
 
 /// An id that can be used and is used once, and points that count.
@@ -87,6 +88,7 @@ fn build_question(
         kind: question.kind,
         prompt: fill(&question.prompt),
         points: question.points,
+        pool: question.pool,
         hints: question.hints.iter().map(fill).collect(),
         right: fill(&question.right),
         id: question.id,

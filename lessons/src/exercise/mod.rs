@@ -8,6 +8,7 @@ pub(crate) mod cut;
 pub mod derivation;
 mod diagram;
 pub mod parameters;
+mod pools;
 mod quantity;
 pub mod question;
 mod tasks;

@@ -19,7 +19,9 @@ use triad_engine::scene::expression::Expression;
 pub struct Exercise {
     /// Share of the points that passes the lesson.
     pub pass_mark: f64,
-    /// The questions in order.
+    /// How many questions of each pool a student gets.
+    pub draw: BTreeMap<String, usize>,
+    /// The questions in order: of a lesson all, of a student's own those that were drawn.
     pub questions: Vec<Question>,
 }
 
@@ -34,6 +36,8 @@ pub struct Question {
     pub prompt: String,
     /// Points.
     pub points: f64,
+    /// The pool that it is drawn from.
+    pub pool: Option<String>,
     /// Hints (Markdown), one at a time.
     pub hints: Vec<String>,
     /// Said when the answer is right (Markdown).

@@ -21,6 +21,9 @@ pub struct ExerciseFile {
     /// Where the drawn numbers enter the scenario.
     #[serde(default)]
     pub scene: Vec<PatchFile>,
+    /// How many questions of each pool every student gets.
+    #[serde(default)]
+    pub draw: BTreeMap<String, usize>,
     /// The questions, in order.
     #[serde(rename = "question")]
     pub questions: Vec<QuestionFile>,
@@ -88,6 +91,8 @@ pub struct QuestionFile {
     pub prompt: String,
     /// Points.
     pub points: f64,
+    /// The pool that it is drawn from; without one, everybody gets it.
+    pub pool: Option<String>,
     /// Hints, given one at a time.
     pub hints: Vec<String>,
     /// Said when the answer is right: why it is so.

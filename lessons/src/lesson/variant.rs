@@ -65,8 +65,17 @@ impl Lesson {
     pub fn variant_in(&self, student: &str, secret: &str) -> Result<Self, VariantError> {
         let drawn_from = seed(student, &self.slug, secret);
         let mut lesson = self.drawn(&drawn_from)?;
+        lesson.exercise.deal(&self.slug, &drawn_from);
         shuffle_options(&mut lesson.exercise, &self.slug, &drawn_from);
         Ok(Self { seed: student.to_owned(), drawn_from, ..lesson })
+    }
+
+    /// The lesson for whoever has no name: the numbers of the text, and of each pool the questions that an empty name draws.
+    #[must_use]
+    pub fn for_nobody(&self) -> Self {
+        let mut lesson = self.clone();
+        lesson.exercise.deal(&self.slug, "");
+        lesson
     }
 
     /// The lesson with numbers drawn from a text.
@@ -105,9 +114,10 @@ impl Lesson {
         Err(VariantError::NoneFits { reason })
     }
 
-    /// Whether each student gets numbers, or states, of their own.
+    /// Whether each student gets numbers, states or questions of their own.
     pub fn has_variants(&self) -> bool {
         !self.parameters.is_empty()
+            || !self.exercise.draw.is_empty()
             || self.exercise.questions.iter().any(|q| matches!(q.body, QuestionBody::Implement(_)))
     }
 

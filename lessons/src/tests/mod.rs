@@ -4,6 +4,7 @@ mod fairness;
 mod golden_variants;
 mod kinds;
 mod order;
+mod pools;
 mod properties;
 mod refusals;
 mod tasks;

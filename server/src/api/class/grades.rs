@@ -131,7 +131,7 @@ async fn decide(
         let wrong = format!("the reason is empty or has more than {LONGEST_REASON} characters");
         return refused("/reason", wrong, "say in a sentence why these points count");
     }
-    let possible: f64 = lesson.exercise.questions.iter().map(|question| question.points).sum();
+    let possible = lesson.exercise.possible();
     if new.points.is_some_and(|points| !(0.0..=possible).contains(&points)) {
         return refused(
             "/points",
