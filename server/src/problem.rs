@@ -58,6 +58,12 @@ pub struct ProblemDocument {
 }
 
 impl Problem {
+    /// The same problem, told as one that may pass (503).
+    #[must_use]
+    pub fn unavailable(self) -> Self {
+        Self { status: StatusCode::SERVICE_UNAVAILABLE, ..self }
+    }
+
     /// A problem with its HTTP `status`, stable kebab-case `code`, this occurrence's `detail` and the remedy.
     pub fn new(
         status: StatusCode,

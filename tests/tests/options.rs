@@ -22,7 +22,7 @@ const UNTIL: &str = "0.01";
 const MOST_STEPS: &str = "40";
 
 /// Options that have their cases in other tests, or open a port: the command, and where.
-const ELSEWHERE: [(&str, &str); 12] = [
+const ELSEWHERE: [(&str, &str); 18] = [
     ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
     ("lesson preview", "it serves a page"),
     ("lesson list", "commands.rs"),
@@ -33,6 +33,12 @@ const ELSEWHERE: [(&str, &str); 12] = [
     ("grade", "workbench.rs and bad_input.rs"),
     ("grades", "compatibility.rs; it takes no scene"),
     ("regrade", "compatibility.rs; it takes no scene"),
+    ("backup", "gradebook.rs; it takes no scene"),
+    ("restore", "gradebook.rs; it takes no scene"),
+    ("class export", "gradebook.rs; it takes no scene"),
+    ("class import", "gradebook.rs; it takes no scene"),
+    ("class copy", "gradebook.rs; it takes no scene"),
+    ("class erase", "gradebook.rs; it takes no scene"),
     ("paper", "engine/lab/tests/paper.rs"),
     ("stress", "engine/lab/tests/stress.rs"),
 ];

@@ -32,6 +32,8 @@ pub struct Access {
     /// Whether any name of the server is taken for its own.
     any_host: bool,
     hosts: BTreeSet<String>,
+    /// Proxies that say for whom they ask.
+    proxies: BTreeSet<IpAddr>,
     tries: Limiter<IpAddr>,
     words: Limiter<(IpAddr, String)>,
     submissions: Limiter<String>,
@@ -65,12 +67,33 @@ impl Access {
             class,
             any_host,
             hosts,
+            proxies: BTreeSet::new(),
             tries: RateLimiter::hashmap(quota(TRIES)),
             words: RateLimiter::hashmap(Quota::per_minute(positive(1)).allow_burst(positive(WORDS))),
             submissions: RateLimiter::hashmap(
                 Quota::per_minute(positive(20)).allow_burst(positive(SUBMISSIONS)),
             ),
         }
+    }
+
+    /// The same, believing these proxies for whom they ask.
+    #[must_use]
+    pub fn behind(self, proxies: impl IntoIterator<Item = IpAddr>) -> Self {
+        Self { proxies: proxies.into_iter().collect(), ..self }
+    }
+
+    /// Who asks, by address: `peer` itself, or, where that is a proxy of ours, the last address that it forwards for and that
+    /// is no proxy of ours. What anybody else says of itself is not believed.
+    pub fn client(&self, peer: IpAddr, forwarded_for: &str) -> IpAddr {
+        let mut client = peer;
+        for address in forwarded_for.rsplit(',') {
+            if !self.proxies.contains(&client) {
+                break;
+            }
+            let Ok(before) = address.trim().parse() else { break };
+            client = before;
+        }
+        client
     }
 
     /// Whether there are accounts.
@@ -174,6 +197,24 @@ mod tests {
             assert!(home.check_host(other).is_err(), "{other}");
         }
         assert!(Access::home(true, []).check_host("any.example").is_ok());
+    }
+
+    #[test]
+    fn only_a_proxy_of_ours_says_for_whom_it_asks() {
+        let ip = |text: &str| text.parse::<IpAddr>().expect("an address");
+        let (near, far) = (ip("127.0.0.1"), ip("10.0.0.9"));
+        let behind = Access::home(false, []).behind([near, ip("10.0.0.2")]);
+        for (peer, forwarded, client) in [
+            (near, "", near),
+            (near, "10.0.0.9", far),
+            (near, "6.6.6.6, 10.0.0.9", far),
+            (near, "10.0.0.9, 10.0.0.2", far),
+            (near, "nonsense", near),
+            (far, "127.0.0.1", far),
+        ] {
+            assert_eq!(behind.client(peer, forwarded), client, "{peer} for {forwarded}");
+        }
+        assert_eq!(Access::home(false, []).client(near, "10.0.0.9"), near);
     }
 
     #[test]

@@ -40,12 +40,14 @@ impl Caller {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::api) struct Peer(pub(in crate::api) IpAddr);
 
-impl<S: Send + Sync> FromRequestParts<S> for Peer {
+impl FromRequestParts<App> for Peer {
     type Rejection = Infallible;
 
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
+    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Infallible> {
         let peer = parts.extensions.get::<ConnectInfo<SocketAddr>>();
-        Ok(Self(peer.map_or(IpAddr::V4(Ipv4Addr::LOCALHOST), |ConnectInfo(address)| address.ip())))
+        let peer = peer.map_or(IpAddr::V4(Ipv4Addr::LOCALHOST), |ConnectInfo(address)| address.ip());
+        let lists = parts.headers.get_all("x-forwarded-for").iter().filter_map(|value| value.to_str().ok());
+        Ok(Self(app.access.client(peer, &lists.collect::<Vec<_>>().join(","))))
     }
 }
 
@@ -121,6 +123,8 @@ fn same_origin(headers: &HeaderMap, host: Option<&str>) -> Result<(), Problem> {
 fn secured(mut response: Response) -> Response {
     let headers = response.headers_mut();
     for (name, value) in [
+        // What is no page of ours runs and loads nothing.
+        (header::CONTENT_SECURITY_POLICY, "default-src 'none'; frame-ancestors 'none'"),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "same-origin"),
         (header::X_FRAME_OPTIONS, "SAMEORIGIN"),

@@ -1,14 +1,22 @@
 //! Whether the server is well.
 
+use std::time::Duration;
+
 use axum::Json as Answer;
 use axum::extract::State;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tokio::time::timeout;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::describe::{Schemas, of};
 use crate::app::App;
+use crate::problem::Problem;
+use crate::store::StoreError;
+
+/// How long the gradebook may take to say that it is ready.
+const PATIENCE: Duration = Duration::from_secs(2);
 
 pub(super) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<Health>();
@@ -41,4 +49,18 @@ async fn health(State(app): State<App>) -> Answer<Health> {
         most_sessions: app.limits.sessions,
         lessons: app.course.lessons().len(),
     })
+}
+
+/// For whoever watches over the process: it answers.
+pub(super) async fn alive() -> &'static str {
+    "alive\n"
+}
+
+/// For whoever sends requests here: something could be handed in now.
+///
+/// Errors with what is in the way.
+pub(super) async fn ready(State(app): State<App>) -> Result<&'static str, Problem> {
+    let waiting = timeout(PATIENCE, app.store.ready()).await.unwrap_or(Err(StoreError::Busy));
+    // Whatever it is: others are to ask elsewhere, or later.
+    waiting.map(|()| "ready\n").map_err(|error| Problem::from(error).unavailable())
 }

@@ -66,6 +66,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(class::sign_in::routes(&mut schemas))
                 .merge(class::people::routes(&mut schemas))
                 .merge(class::grades::routes(&mut schemas))
+                .merge(class::records::routes(&mut schemas))
                 .merge(lessons::routes(&mut schemas))
                 .merge(lessons::submissions::routes(&mut schemas))
                 .merge(scenes::routes(&mut schemas))
@@ -101,6 +102,8 @@ pub fn router(app: App) -> Router {
             get(move || async move { ([(header::CONTENT_TYPE, "application/json")], document) }),
         )
         .route("/api/{*rest}", axum::routing::any(unknown_address))
+        .route("/livez", get(health::alive))
+        .route("/readyz", get(health::ready))
         .route("/bench", get(reports::bench))
         .route("/stress", get(reports::stress))
         .route("/guide", get(guide::show))

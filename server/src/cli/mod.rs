@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 use triad_engine::analysis::ModesAbout;
 
 use crate::problem::Problem;
-use course::{grade, grades, graph, lesson, preview, regrade};
+use course::{grade, grades, graph, lesson, preview, records, regrade};
 use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
@@ -172,6 +172,26 @@ enum Command {
     /// Rebuild every verdict of a gradebook: with the same lesson, seed and answers each must come out byte for byte.
     #[command(after_help = "Example:\n  triad regrade --check --database /srv/triad/grades.db")]
     Regrade(regrade::Regrade),
+    /// Copy the whole gradebook into a new file while the server runs, and look at every record of the copy.
+    ///
+    /// The copy is the gradebook as of one moment: people, submissions, verdicts, decisions, and the log with its chain of
+    /// hashes, which is followed to its end before the copy counts. It is readable by you alone, as it holds names and
+    /// grades. Copying the file by other means misses what stands in its -wal.
+    #[command(after_help = "Examples:\n  triad backup monday.db\n  \
+        triad backup \"/backup/triad-$(date +%F).db\" --database /srv/triad/grades.db      (each night, by cron)\n\n\
+        Nothing is overwritten. To bring it back: triad restore monday.db")]
+    Backup(records::Backup),
+    /// Make a gradebook of a backup, after looking at every record of it.
+    ///
+    /// Nothing is overwritten: stop the server, move the gradebook that is there away with its -wal and -shm, restore, start
+    /// the server. A server that still runs finds that its file was moved, and keeps nothing in it.
+    #[command(
+        after_help = "Example:\n  mv triad.db broken.db\n  triad restore monday.db\n  triad serve --class"
+    )]
+    Restore(records::Restore),
+    /// A class as one file, from one gradebook to another; and one person's data.
+    #[command(subcommand)]
+    Class(records::Class),
     /// The lessons of the course.
     #[command(subcommand)]
     Lesson(Lesson),
@@ -299,6 +319,9 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Scenes { name: None, .. } => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Grades(options) => grades::grades(&options, &course()?, json),
+        Command::Backup(options) => records::backup(&options, json),
+        Command::Restore(options) => records::restore(&options, json),
+        Command::Class(options) => records::class(options, json),
         Command::Regrade(options) => regrade::regrade(&options, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),

@@ -14,7 +14,7 @@ use crate::access::Access;
 use crate::app::{App, REPORTS};
 use crate::limits::Limits;
 use crate::problem::Problem;
-use crate::store::{CLASS, Role, Store};
+use crate::store::{CLASS, Quotas, Role, Store};
 
 /// How long the end of the program waits for the gradebook.
 const CLOSING: Duration = Duration::from_secs(5);
@@ -22,10 +22,10 @@ const CLOSING: Duration = Duration::from_secs(5);
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Serve {
     /// Address to listen at; 0.0.0.0 lets the whole network in, which takes --class or --open.
-    #[arg(long, default_value = "127.0.0.1")]
+    #[arg(long, default_value = "127.0.0.1", env = "TRIAD_HOST")]
     pub(in crate::cli) host: IpAddr,
     /// Port to listen at; 0 takes any free one.
-    #[arg(long, default_value_t = 8080)]
+    #[arg(long, default_value_t = 8080, env = "TRIAD_PORT")]
     pub(in crate::cli) port: u16,
     /// The gradebook; made if it is not there.
     #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
@@ -36,6 +36,12 @@ pub(in crate::cli) struct Serve {
     /// Bodies that a live simulation may have.
     #[arg(long, default_value_t = 500, value_name = "N")]
     pub(in crate::cli) max_bodies: usize,
+    /// Megabytes of answers and files that are kept of one person.
+    #[arg(long, default_value_t = 64, value_name = "MB")]
+    pub(in crate::cli) person_quota: u64,
+    /// Megabytes that the whole gradebook may have.
+    #[arg(long, default_value_t = 16_384, value_name = "MB")]
+    pub(in crate::cli) quota: u64,
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
     #[arg(long, default_value = REPORTS, value_name = "DIR")]
     pub(in crate::cli) reports: PathBuf,
@@ -58,6 +64,9 @@ pub(in crate::cli) struct Serve {
     /// Where the class finds the server, as https://triad.example.org behind a proxy that encrypts.
     #[arg(long, value_name = "URL", requires = "class")]
     pub(in crate::cli) url: Option<String>,
+    /// Address of a proxy that says for whom it asks (X-Forwarded-For); may be given more than once.
+    #[arg(long, value_name = "ADDRESS")]
+    pub(in crate::cli) proxy: Vec<IpAddr>,
     /// Another name by which the server may be asked for without --class; may be given more than once.
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) allow_host: Vec<String>,
@@ -71,6 +80,8 @@ impl Default for Serve {
             database: "triad.db".into(),
             max_sessions: 64,
             max_bodies: 500,
+            person_quota: 64,
+            quota: 16_384,
             reports: REPORTS.into(),
             max_rooms: 16,
             max_followers: 500,
@@ -78,6 +89,7 @@ impl Default for Serve {
             open: false,
             new_owner: false,
             url: None,
+            proxy: Vec::new(),
             allow_host: Vec::new(),
         }
     }
@@ -106,13 +118,19 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
     let runtime =
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
     let served = runtime.block_on(async {
-        let store = Store::open(&options.database).await?;
+        let quotas = Quotas {
+            person_bytes: options.person_quota.saturating_mul(1 << 20),
+            file_bytes: options.quota.saturating_mul(1 << 20),
+            ..Quotas::default()
+        };
+        let store = Store::open(&options.database).await?.with_quotas(quotas);
         let access = if options.class {
             let class = store.ensure_course(CLASS, &course.title).await?;
             Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
         } else {
             Access::home(options.open, options.allow_host.iter().cloned())
         };
+        let access = access.behind(options.proxy.iter().copied());
         let app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
         listen(options, app).await
     });

@@ -13,10 +13,26 @@ use axum::response::{IntoResponse, Response};
 use crate::problem::Problem;
 use asset::{Asset, find};
 
-/// What may run and load in the page: only what this server sent.
-const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; \
-    style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; \
-    connect-src 'self' ws: wss: data: blob:; frame-ancestors 'self'; base-uri 'self'; form-action 'self'";
+/// First words of the addresses that the page has a view for: those of `web/src/main.ts`.
+const VIEWS: [&str; 7] = ["lessons", "room", "join", "setup", "return", "class", "scenes"];
+
+/// What may run and load in the page: only what this server sent. The viewer is WebAssembly in a worker. Not every browser
+/// takes 'self' for WebSockets: they are named by the server's own name.
+fn policy(request: &HeaderMap) -> HeaderValue {
+    let host = request.get(header::HOST).and_then(|host| host.to_str().ok()).filter(|host| is_host(host));
+    let streams = host.map_or(String::new(), |host| format!(" ws://{host} wss://{host}"));
+    let policy = format!(
+        "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' \
+         'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'{streams} data: blob:; \
+         object-src 'none'; frame-ancestors 'self'; base-uri 'self'; form-action 'self'"
+    );
+    HeaderValue::try_from(policy).unwrap_or(HeaderValue::from_static("default-src 'none'"))
+}
+
+/// Whether it has no character that would end a source in a policy.
+fn is_host(host: &str) -> bool {
+    host.chars().all(|c| c.is_ascii_alphanumeric() || "-._:[]".contains(c))
+}
 
 /// Answers every request that is not for the API: a file of the page, or the page itself.
 pub async fn serve(request: Request) -> Response {
@@ -24,15 +40,21 @@ pub async fn serve(request: Request) -> Response {
         return method_not_allowed();
     }
     let path = request.uri().path().trim_start_matches('/');
-    let found = find(if path.is_empty() { "index.html" } else { path }).or_else(|| {
-        // Addresses without a file name belong to the page's own router.
-        let last = path.rsplit('/').next().unwrap_or(path);
-        let is_view =
-            path != "api" && !path.starts_with("api/") && !path.starts_with("assets/") && !last.contains('.');
-        is_view.then(|| find("index.html")).flatten()
-    });
-    match found {
-        Some(asset) => respond(asset, request.headers()).await,
+    if let Some(asset) = find(if path.is_empty() { "index.html" } else { path }) {
+        return respond(asset, request.headers()).await;
+    }
+    let first = path.split('/').next().unwrap_or(path);
+    // Addresses without a file name belong to the page, which says of most that there is nothing.
+    let last = path.rsplit('/').next().unwrap_or(path);
+    let is_page = !["api", "assets"].contains(&first) && !last.contains('.');
+    match find("index.html").filter(|_| is_page) {
+        Some(page) => {
+            let mut response = respond(page, request.headers()).await;
+            if !VIEWS.contains(&first) && response.status() == StatusCode::OK {
+                *response.status_mut() = StatusCode::NOT_FOUND;
+            }
+            response
+        }
         None => Problem::new(
             StatusCode::NOT_FOUND,
             "not-found",
@@ -64,9 +86,8 @@ async fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
     set(header::ETAG, asset.tag);
     set(header::VARY, "accept-encoding");
     set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
-    if media_type(asset.path).starts_with("text/html") {
-        set(header::CONTENT_SECURITY_POLICY, POLICY);
-    }
+    // Scripts too: a worker is bound by the policy of its own file.
+    headers.insert(header::CONTENT_SECURITY_POLICY, policy(request));
     let known = request.get(header::IF_NONE_MATCH).and_then(|value| value.to_str().ok());
     if known.is_some_and(|known| known.split(',').any(|tag| tag.trim().trim_start_matches("W/") == asset.tag))
     {
@@ -111,6 +132,34 @@ fn media_type(path: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_address_of_the_page_is_known_here() {
+        let routes = include_str!("../../../web/src/main.ts").split("pattern: /^\\/").skip(1);
+        let mut seen = 0;
+        for route in routes {
+            let words = route.split(['$', '\\']).next().unwrap_or_default().trim_matches(['(', ')']);
+            for word in words.split('|').filter(|word| !word.is_empty()) {
+                assert!(VIEWS.contains(&word), "{word}");
+                seen += 1;
+            }
+        }
+        assert!(seen > 8, "{seen}");
+    }
+
+    #[test]
+    fn a_name_cannot_add_to_the_policy() {
+        let of = |host: &'static str| {
+            let mut headers = HeaderMap::new();
+            headers.insert(header::HOST, HeaderValue::from_static(host));
+            policy(&headers).to_str().expect("text").to_owned()
+        };
+        assert!(of("[::1]:8080").contains(" ws://[::1]:8080 wss://[::1]:8080 "));
+        for host in ["a; script-src *", "a, b", "a b"] {
+            assert!(!of(host).contains(host), "{host}");
+            assert!(!of(host).contains("ws:"));
+        }
+    }
 
     #[test]
     fn a_weight_of_zero_refuses_an_encoding() {

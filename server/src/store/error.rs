@@ -43,6 +43,18 @@ pub enum StoreError {
     /// Another statement failed.
     #[error("the database refused: {0}")]
     Sql(String),
+    /// There is a file where one was to be made.
+    #[error("there is {} already", .0.display())]
+    Exists(PathBuf),
+    /// A file that is not what it should be: no copy of a gradebook, or of another course.
+    #[error("{0}")]
+    Foreign(String),
+    /// Another submission of the same person to the lesson came first: the verdict does not know of it.
+    #[error("another submission of the same person came first")]
+    Overtaken,
+    /// Somebody, or everybody together, has handed in as much as is kept.
+    #[error("{0}")]
+    QuotaUsed(String),
     /// All attempts at an assignment are used.
     #[error("all {0} attempts at this exercise are used")]
     AttemptsUsed(i64),
@@ -77,7 +89,7 @@ impl StoreError {
     /// The same, told of the file that was to be opened.
     pub(super) fn opening(self, path: &std::path::Path) -> Self {
         match self {
-            Self::Newer { .. } | Self::Open { .. } | Self::Moved(_) => self,
+            Self::Newer { .. } | Self::Open { .. } | Self::Moved(_) | Self::Foreign(_) => self,
             other => Self::Open { path: path.to_owned(), cause: other.to_string() },
         }
     }
@@ -124,6 +136,26 @@ impl From<StoreError> for Problem {
             StoreError::Sql(_) => {
                 (FAILED, "database-failed", "nothing was kept: try again, and report it if it comes back")
             }
+            StoreError::Exists(_) => (
+                StatusCode::CONFLICT,
+                "file-exists",
+                "nothing is overwritten: give another name, or move the file away first, with its -wal and -shm",
+            ),
+            StoreError::Foreign(_) => (
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "foreign-file",
+                "nothing was changed: give a file of `triad backup` to `triad restore`, one of `triad class export` to \
+                 `triad class import`",
+            ),
+            StoreError::Overtaken => {
+                (StatusCode::SERVICE_UNAVAILABLE, "overtaken", "nothing was kept: send it again in a moment")
+            }
+            StoreError::QuotaUsed(_) => (
+                StatusCode::INSUFFICIENT_STORAGE,
+                "quota-used",
+                "nothing was kept: hand in smaller files, or let the teacher start the server with larger --person-quota \
+                 and --quota",
+            ),
             StoreError::AttemptsUsed(_) => (
                 StatusCode::CONFLICT,
                 "attempts-used",

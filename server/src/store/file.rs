@@ -43,6 +43,11 @@ impl Place {
         Self { path, files: files.to_vec() }
     }
 
+    /// Bytes of the database, what is still in its log among them.
+    pub(super) fn bytes(&self) -> u64 {
+        self.files.iter().filter_map(|(file, _)| file.metadata().ok()).map(|about| about.len()).sum()
+    }
+
     /// Errors if a file is no longer the one that was opened.
     pub(super) fn check(&self) -> Result<(), StoreError> {
         let same = self.files.iter().all(|(file, before)| identity(file) == *before);

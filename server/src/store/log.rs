@@ -2,12 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sqlx::{SqliteConnection, SqlitePool};
+use sqlx::SqliteConnection;
 
 use super::error::StoreError;
 use super::hash::sha256;
 use super::records::{self, SubmissionRow, VerdictRow};
 use super::sql;
+
+/// What the log says where somebody's data were erased.
+pub(super) const ERASED: &str = "erased";
 
 /// Something that somebody did.
 #[derive(Debug, Clone, Copy)]
@@ -52,11 +55,14 @@ type Row = (i64, i64, String, String, String, String, String);
 /// those that were logged. Empty if everything is as it was written.
 ///
 /// Errors if the file cannot be read.
-pub(super) async fn faults(pool: &SqlitePool, course: &str) -> Result<Vec<String>, StoreError> {
+pub(super) async fn faults(
+    connection: &mut SqliteConnection,
+    course: &str,
+) -> Result<Vec<String>, StoreError> {
     let mut found = Vec::new();
     let mut before = String::new();
-    let mut sealed = BTreeSet::new();
-    let rows: Vec<Row> = sqlx::query_as(sql::EVENTS).bind(course).fetch_all(pool).await?;
+    let (mut sealed, mut erased) = (BTreeSet::new(), BTreeSet::new());
+    let rows: Vec<Row> = sqlx::query_as(sql::EVENTS).bind(course).fetch_all(&mut *connection).await?;
     for ((n, at, actor, what, subject, detail, hash), place) in rows.iter().zip(1..) {
         let event = Event { actor, what, subject, detail };
         if *n != place || link(&before, course, *n, *at, &event) != *hash {
@@ -66,17 +72,34 @@ pub(super) async fn faults(pool: &SqlitePool, course: &str) -> Result<Vec<String
         if matches!(what.as_str(), "submitted" | "regraded") {
             sealed.insert((subject.clone(), detail.clone()));
         }
+        if what == ERASED {
+            erased.insert(subject.clone());
+        }
     }
-    let end: (i64, String) = sqlx::query_as(sql::END_OF_CHAIN).bind(course).fetch_one(pool).await?;
+    let end: (i64, String) =
+        sqlx::query_as(sql::END_OF_CHAIN).bind(course).fetch_one(&mut *connection).await?;
     if end != (rows.last().map_or(0, |row| row.0), before) {
         found.push(format!("entries are missing at the end of the log: {} are known", end.0));
     }
-    let submissions: Vec<SubmissionRow> = sqlx::query_as(sql::RECORDED).bind(course).fetch_all(pool).await?;
-    let verdicts: Vec<VerdictRow> = sqlx::query_as(sql::VERDICTS).bind(course).fetch_all(pool).await?;
+    let submissions: Vec<SubmissionRow> =
+        sqlx::query_as(sql::RECORDED).bind(course).fetch_all(&mut *connection).await?;
+    let verdicts: Vec<VerdictRow> =
+        sqlx::query_as(sql::VERDICTS).bind(course).fetch_all(&mut *connection).await?;
     let by_id: BTreeMap<&str, &SubmissionRow> =
         submissions.iter().map(|row| (row.id.as_str(), row)).collect();
+    // Of whom was erased only what a grade needs is left, and nobody's name.
+    for gone in submissions.iter().filter(|row| erased.contains(&row.person)) {
+        sealed.retain(|(id, _)| *id != gone.id);
+        if !gone.student.is_empty() {
+            found.push(format!("submission {}: a name stands there again", gone.id));
+        }
+    }
+    let is_erased = |row: &&SubmissionRow| erased.contains(&row.person);
     for verdict in &verdicts {
         let id = &verdict.submission;
+        if by_id.get(id.as_str()).is_some_and(is_erased) {
+            continue;
+        }
         let seal = by_id.get(id.as_str()).map(|submission| (id.clone(), records::seal(submission, verdict)));
         if !seal.is_some_and(|seal| sealed.remove(&seal)) {
             found.push(format!(

@@ -3,6 +3,7 @@
 //! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: each
 //! submission is one transaction, written through before it returns.
 
+mod copies;
 mod error;
 mod file;
 mod grades;
@@ -10,6 +11,7 @@ pub mod hash;
 mod log;
 pub mod names;
 mod people;
+mod quotas;
 mod random;
 mod records;
 mod schema;
@@ -25,10 +27,14 @@ use std::time::Duration;
 use sqlx::SqlitePool;
 use sqlx::sqlite::{SqliteConnectOptions, SqlitePoolOptions, SqliteSynchronous};
 
+pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};
+#[cfg(test)]
+use copies::{LEFT, OF_COURSE};
 pub use error::StoreError;
 use file::Place;
 pub use grades::{Decision, Standing};
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
+pub use quotas::Quotas;
 pub use submissions::{HandIn, Kept, Query, Recorded, StoredSubmission, Whose};
 use transaction::Transaction;
 
@@ -45,6 +51,7 @@ pub struct Store {
     writer: SqlitePool,
     readers: SqlitePool,
     place: Option<Place>,
+    quotas: Quotas,
 }
 
 impl Store {
@@ -61,7 +68,9 @@ impl Store {
             .filename(file)
             .busy_timeout(PATIENCE)
             .synchronous(SqliteSynchronous::Full)
-            .foreign_keys(true);
+            .foreign_keys(true)
+            // What is erased is overwritten, not only forgotten.
+            .pragma("secure_delete", "ON");
         let writer = pool(1).connect_lazy_with(options.clone());
         write_ahead(&writer).await?;
         let (whole,): (String,) = sqlx::query_as("PRAGMA quick_check(1)").fetch_one(&writer).await?;
@@ -72,7 +81,7 @@ impl Store {
         schema::migrate(&mut transaction).await?;
         transaction.commit().await?;
         let readers = pool(READERS).connect_lazy_with(options.read_only(true));
-        Ok(Self { writer, readers, place: Some(Place::remember(file.to_owned())) })
+        Ok(Self { writer, readers, place: Some(Place::remember(file.to_owned())), quotas: Quotas::default() })
     }
 
     /// A gradebook that is forgotten when it is dropped.
@@ -85,7 +94,13 @@ impl Store {
             })
         });
         let writer = first.connect_lazy_with(options);
-        Self { readers: writer.clone(), writer, place: None }
+        Self { readers: writer.clone(), writer, place: None, quotas: Quotas::default() }
+    }
+
+    /// The same gradebook, keeping so much.
+    #[must_use]
+    pub fn with_quotas(self, quotas: Quotas) -> Self {
+        Self { quotas, ..self }
     }
 
     /// Begins a transaction that writes.
@@ -122,8 +137,9 @@ impl Store {
     pub async fn faults(&self) -> Result<Vec<String>, StoreError> {
         let courses: Vec<(String,)> = sqlx::query_as(sql::COURSES).fetch_all(&self.readers).await?;
         let mut found = Vec::new();
+        let mut connection = self.readers.acquire().await?;
         for (course,) in courses {
-            found.extend(log::faults(&self.readers, &course).await?);
+            found.extend(log::faults(&mut connection, &course).await?);
         }
         Ok(found)
     }

@@ -8,7 +8,7 @@ use super::records::{self, SubmissionRow, VerdictRow};
 use super::{HOME, now, sql};
 
 /// Format of the database that this program writes.
-const FORMAT: i64 = 2;
+pub(super) const FORMAT: i64 = 2;
 
 /// Makes the tables, or carries those of format 1 over, within a transaction: another program that opens the
 /// same file meanwhile waits.

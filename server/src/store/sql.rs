@@ -80,6 +80,10 @@ statements! {
     EVENTS = "SELECT n, at, actor, what, subject, detail, sha256 FROM event WHERE course = $1 ORDER BY n";
     END_OF_CHAIN = "SELECT events, chain FROM course WHERE id = $1";
     COURSES = "SELECT id FROM course ORDER BY id";
+    REMOVE_COURSE = "DELETE FROM course WHERE id = $1";
+    HASH_OF_EVENT = "SELECT sha256 FROM event WHERE course = $1 AND n = $2";
+    EVENTS_OF = "SELECT at, actor, what FROM event WHERE course = $1 AND (actor = $2 OR subject = $2) ORDER BY n";
+    SIZES = "SELECT (SELECT COUNT(*) FROM submission), (SELECT COUNT(*) FROM event)";
 
     MEMBER_BY_NAME = "SELECT person FROM membership WHERE course = $1 AND name_key = $2";
     ADD_PERSON = "INSERT INTO person (id, name, created_at) VALUES ($1, $2, $3)";
@@ -99,6 +103,9 @@ statements! {
         counted) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9)";
     ADD_VERDICT = "INSERT INTO verdict (submission, run, body, lesson_sha256, build, seed, parameters, earned, \
         possible, passed, made_at) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
+    LAST_SUBMISSION = "SELECT COALESCE(MAX(s.n), 0) FROM submission s JOIN assignment a ON a.id = s.assignment \
+        WHERE a.course = $1 AND a.slug = $2 AND s.person = $3";
+    KEPT_OF_PERSON = "SELECT COUNT(*), COALESCE(SUM(OCTET_LENGTH(answers)), 0) FROM submission WHERE person = $1";
     LATEST_VERDICT = "SELECT body FROM verdict WHERE submission = $1 ORDER BY run DESC LIMIT 1";
     SUBMISSIONS = "SELECT s.id, a.slug, s.student, s.answers, v.body FROM submission s \
         JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
@@ -135,6 +142,17 @@ statements! {
         WHERE m.course = $1 ORDER BY m.name_key";
     MEMBER = "SELECT person FROM membership WHERE course = $1 AND person = $2";
     SET_ROLE = "UPDATE membership SET role = $3 WHERE course = $1 AND person = $2";
+
+    // Erasing a person; see `copies/person.rs`.
+    OTHER_OWNERS = "SELECT COUNT(*) FROM membership WHERE course = $1 AND role = 'owner' AND person <> $2";
+    RENAME_PERSON = "UPDATE person SET name = $2 WHERE id = $1";
+    SET_NAME_KEY = "UPDATE membership SET name_key = $3, role = 'student' WHERE course = $1 AND person = $2";
+    UNSEED = "UPDATE membership SET seed = '' WHERE course = $1 AND person = $2";
+    UNNAME_SUBMISSIONS = "UPDATE submission SET student = '', request_key = NULL WHERE person = $1";
+    EMPTY_SUBMISSIONS = "UPDATE submission SET answers = '{}' WHERE person = $1";
+    VERDICTS_OF = "SELECT v.submission, v.run, v.body, v.seed FROM verdict v JOIN submission s ON s.id = v.submission \
+        WHERE s.person = $1";
+    REPLACE_VERDICT = "UPDATE verdict SET body = $3, seed = $4 WHERE submission = $1 AND run = $2";
 
     // What could not be read earned nothing and is no attempt, but the lesson is begun.
     STANDINGS = "SELECT s.person, a.slug, CAST(SUM(s.counted) AS BIGINT), \

@@ -6,6 +6,7 @@ use sqlx::SqliteConnection;
 use super::error::StoreError;
 use super::hash::sha256;
 use super::log::{self, Event};
+use super::quotas::Quotas;
 use super::records::{self, SubmissionRow, VerdictRow};
 use super::{Store, identifier, names, now, sql};
 
@@ -69,6 +70,8 @@ pub struct HandIn {
     pub seed: String,
     /// Whether it counts as an attempt: not if an answer could not be read.
     pub counted: bool,
+    /// The entry in the log of the person's last submission to the lesson that the verdict knows of; 0 if of none.
+    pub after: i64,
     /// What the sender calls this request: the same name again is the same submission.
     pub key: Option<String>,
     /// The lesson that graded it, as [`triad_lessons::Lesson::bundle`] writes it.
@@ -109,11 +112,13 @@ impl Store {
     /// Keeps a submission with its verdict, or finds the one that an earlier request of the same key kept. Attempts are
     /// counted in the same transaction.
     ///
-    /// Errors if all attempts are used, or it cannot be written: then nothing is kept.
+    /// Errors if all attempts are used, the verdict does not know of all submissions before it, a quota is used, or it cannot
+    /// be written: then nothing is kept.
     pub async fn hand_in(&self, new: &HandIn) -> Result<Kept, StoreError> {
         self.place_is_right()?;
+        self.quotas.check_file(self.place.as_ref())?;
         let mut transaction = self.write().await?;
-        let (kept, is_new) = keep(&mut transaction, new).await?;
+        let (kept, is_new) = keep(&mut transaction, new, &self.quotas).await?;
         if is_new {
             transaction.commit().await?;
         } else {
@@ -122,6 +127,31 @@ impl Store {
         // A file that was moved away meanwhile has taken the submission with it.
         self.place_is_right()?;
         Ok(kept)
+    }
+
+    /// What a person has handed in to a lesson, the oldest first, and the entry of the last of them in the log.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn earlier(
+        &self,
+        course: &str,
+        person: &str,
+        lesson: &str,
+    ) -> Result<(Vec<StoredSubmission>, i64), StoreError> {
+        self.place_is_right()?;
+        // Asked for first: what comes between the two is then found out as the next submission is kept.
+        let last = sqlx::query_as(sql::LAST_SUBMISSION).bind(course).bind(lesson).bind(person);
+        let (last,): (i64,) = last.fetch_one(&self.readers).await?;
+        let mut found = self
+            .list(&Query {
+                course: course.to_owned(),
+                person: Some(person.to_owned()),
+                lesson: Some(lesson.to_owned()),
+                limit: usize::MAX,
+            })
+            .await?;
+        found.reverse();
+        Ok((found, last))
     }
 
     /// Bounds the attempts at a lesson; `None`: as many as one likes.
@@ -201,7 +231,11 @@ impl Store {
 }
 
 /// Keeps it, unless an earlier request of the same key did: then nothing of this transaction is wanted.
-async fn keep(connection: &mut SqliteConnection, new: &HandIn) -> Result<(Kept, bool), StoreError> {
+async fn keep(
+    connection: &mut SqliteConnection,
+    new: &HandIn,
+    quotas: &Quotas,
+) -> Result<(Kept, bool), StoreError> {
     let person = match &new.whose {
         Whose::Person(id) => id.clone(),
         Whose::Named => person_of(connection, &new.course, &new.student, new.received_at).await?,
@@ -235,6 +269,12 @@ async fn keep(connection: &mut SqliteConnection, new: &HandIn) -> Result<(Kept, 
     let (used,): (i64,) = count.fetch_one(&mut *connection).await?;
     if let Some(most) = most.filter(|most| new.counted && used >= *most) {
         return Err(StoreError::AttemptsUsed(most));
+    }
+    quotas.check_person(connection, &person, new.answers.len()).await?;
+    let last = sqlx::query_as(sql::LAST_SUBMISSION).bind(&new.course).bind(&new.lesson).bind(&person);
+    let (last,): (i64,) = last.fetch_one(&mut *connection).await?;
+    if last != new.after {
+        return Err(StoreError::Overtaken);
     }
     let add = sqlx::query(sql::ADD_LESSON).bind(lesson).bind(&new.lesson).bind(&new.bundle);
     add.bind(now()).execute(&mut *connection).await?;

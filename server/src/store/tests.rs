@@ -22,6 +22,7 @@ fn new(student: &str) -> HandIn {
         verdict: json!({"id": id, "earned": 0.1, "passed": false, "provenance": {"seed": student}}),
         seed: student.into(),
         counted: true,
+        after: 0,
         key: None,
         bundle: "the lesson".into(),
     }
@@ -29,6 +30,18 @@ fn new(student: &str) -> HandIn {
 
 fn all() -> Query {
     Query { course: HOME.into(), limit: 1000, ..Query::default() }
+}
+
+/// Hands in as the server does: what came before is looked at first, and again where it was overtaken.
+async fn hand_in(store: &Store, new: &HandIn) -> Result<Kept, StoreError> {
+    loop {
+        let person = store.person_named(HOME, &new.student).await?.unwrap_or_default();
+        let (_, after) = store.earlier(HOME, &person, &new.lesson).await?;
+        match store.hand_in(&HandIn { after, ..new.clone() }).await {
+            Err(StoreError::Overtaken) => {}
+            other => return other,
+        }
+    }
 }
 
 async fn ids(store: &Store) -> Vec<String> {
@@ -51,8 +64,8 @@ async fn what_was_handed_in_survives_a_restart_unchanged() {
     let (_folder, path) = place();
     let store = open(&path).await;
     let (ada, emmy) = (new("Ada"), new("Emmy"));
-    assert_eq!(store.hand_in(&ada).await.expect("keeps").attempts, 1);
-    store.hand_in(&emmy).await.expect("keeps");
+    assert_eq!(hand_in(&store, &ada).await.expect("keeps").attempts, 1);
+    hand_in(&store, &emmy).await.expect("keeps");
     store.close().await;
 
     let store = open(&path).await;
@@ -71,8 +84,8 @@ async fn what_was_handed_in_survives_a_restart_unchanged() {
 async fn records_can_be_neither_changed_nor_removed() {
     let store = Store::in_memory();
     let one = new("ada");
-    store.hand_in(&one).await.expect("keeps");
-    assert!(store.hand_in(&one).await.is_err(), "an id is used once");
+    hand_in(&store, &one).await.expect("keeps");
+    assert!(hand_in(&store, &one).await.is_err(), "an id is used once");
     for table in ["submission", "verdict", "event"] {
         let mut transaction = store.write().await.expect("begins");
         let change = match table {
@@ -96,7 +109,7 @@ async fn every_statement_is_understood() {
     let store = Store::in_memory();
     let mut transaction = store.write().await.expect("begins");
     assert!(sql::ALL.len() > 15);
-    for (name, text) in sql::ALL {
+    for (name, text) in sql::ALL.iter().chain(OF_COURSE) {
         let prepared = transaction.prepare(sqlx::SqlStr::from_static(text)).await;
         assert!(prepared.is_ok(), "{name}: {prepared:?}");
         assert!(!text.contains('?') && !text.contains("rowid"), "{name} is in SQLite's words");
@@ -111,7 +124,7 @@ async fn of_two_hundred_at_once_three_attempts_are_three() {
     let sent: Vec<_> = (0..200)
         .map(|_| {
             let store = store.clone();
-            tokio::spawn(async move { store.hand_in(&new("ada")).await })
+            tokio::spawn(async move { hand_in(&store, &new("ada")).await })
         })
         .collect();
     let (mut kept, mut refused) = (BTreeSet::new(), 0);
@@ -126,7 +139,7 @@ async fn of_two_hundred_at_once_three_attempts_are_three() {
     assert_eq!(ids(&store).await.len(), 3);
     // What cannot be read is kept, uses no attempt and is not refused.
     let unread = HandIn { counted: false, ..new("ada") };
-    assert_eq!(store.hand_in(&unread).await.expect("keeps").attempts, 3);
+    assert_eq!(hand_in(&store, &unread).await.expect("keeps").attempts, 3);
     assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
 }
 
@@ -137,7 +150,9 @@ async fn a_request_that_is_repeated_is_one_submission() {
     let sent: Vec<_> = (0..20)
         .map(|_| {
             let store = store.clone();
-            tokio::spawn(async move { store.hand_in(&HandIn { key: Some("k".into()), ..new("ada") }).await })
+            tokio::spawn(
+                async move { hand_in(&store, &HandIn { key: Some("k".into()), ..new("ada") }).await },
+            )
         })
         .collect();
     let mut told = BTreeSet::new();
@@ -147,8 +162,8 @@ async fn a_request_that_is_repeated_is_one_submission() {
         told.insert(one.verdict["id"].to_string());
     }
     assert_eq!((told.len(), ids(&store).await.len()), (1, 1));
-    store.hand_in(&HandIn { key: Some("k".into()), ..new("emmy") }).await.expect("a key is one person's");
-    store.hand_in(&HandIn { key: Some("l".into()), ..new("ada") }).await.expect("another");
+    hand_in(&store, &HandIn { key: Some("k".into()), ..new("emmy") }).await.expect("a key is one person's");
+    hand_in(&store, &HandIn { key: Some("l".into()), ..new("ada") }).await.expect("another");
     assert_eq!(ids(&store).await.len(), 3);
     assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
 }
@@ -162,7 +177,7 @@ async fn several_programs_make_and_share_one_file() {
             tokio::spawn(async move {
                 let store = open(&path).await;
                 for _ in 0..10 {
-                    store.hand_in(&new("ada")).await.expect("keeps");
+                    hand_in(&store, &new("ada")).await.expect("keeps");
                 }
                 store
             })
@@ -182,17 +197,17 @@ async fn a_file_that_is_taken_away_takes_no_submissions() {
     for (file, replaced) in [("grades.db", false), ("grades.db", true), ("grades.db-wal", false)] {
         let (folder, path) = place();
         let store = open(&path).await;
-        store.hand_in(&new("ada")).await.expect("keeps");
+        hand_in(&store, &new("ada")).await.expect("keeps");
         let away = folder.path().join("away");
         fs::rename(folder.path().join(file), &away).expect("moves");
         if replaced {
             fs::copy(&away, folder.path().join(file)).expect("copies");
         }
-        let refused = store.hand_in(&new("ada")).await;
+        let refused = hand_in(&store, &new("ada")).await;
         assert!(matches!(refused, Err(StoreError::Moved(_))), "{file}: {refused:?}");
         assert!(matches!(store.ready().await, Err(StoreError::Moved(_))));
         fs::rename(&away, folder.path().join(file)).expect("moves back");
-        store.hand_in(&new("ada")).await.expect("keeps again");
+        hand_in(&store, &new("ada")).await.expect("keeps again");
         store.close().await;
         assert_eq!(ids(&open(&path).await).await.len(), 2, "{file}");
     }
@@ -202,16 +217,16 @@ async fn a_file_that_is_taken_away_takes_no_submissions() {
 async fn a_full_disk_keeps_nothing_halfway_and_recovers() {
     let (_folder, path) = place();
     let store = open(&path).await;
-    store.hand_in(&new("ada")).await.expect("keeps");
+    hand_in(&store, &new("ada")).await.expect("keeps");
     let bound = |pages: &'static str| sqlx::query(pages).execute(&store.writer);
     // As many pages as there are: what a disk without room does.
     bound("PRAGMA max_page_count = 1").await.expect("bounds");
     let large = HandIn { answers: "\"long\"".to_owned() + &" ".repeat(1 << 20), ..new("emmy") };
-    let refused = store.hand_in(&large).await;
+    let refused = hand_in(&store, &large).await;
     assert!(matches!(refused, Err(StoreError::Full)), "{refused:?}");
     assert_eq!(ids(&store).await.len(), 1);
     bound("PRAGMA max_page_count = 1000000").await.expect("bounds");
-    store.hand_in(&large).await.expect("keeps");
+    hand_in(&store, &large).await.expect("keeps");
     assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
 }
 
@@ -220,10 +235,10 @@ async fn a_program_that_holds_the_file_is_waited_for_and_then_named() {
     let (_folder, path) = place();
     let (store, other) = (open(&path).await, open(&path).await);
     let held = other.write().await.expect("begins");
-    let refused = store.hand_in(&new("ada")).await;
+    let refused = hand_in(&store, &new("ada")).await;
     assert!(matches!(refused, Err(StoreError::Busy)), "{refused:?}");
     held.rollback().await.expect("ends");
-    store.hand_in(&new("ada")).await.expect("keeps");
+    hand_in(&store, &new("ada")).await.expect("keeps");
     assert_eq!(ids(&store).await.len(), 1);
 }
 
@@ -234,7 +249,7 @@ async fn a_flipped_byte_is_found() {
     let store = open(&path).await;
     for k in 0..20 {
         let answers = json!({"file": "0123456789".repeat(800)}).to_string();
-        store.hand_in(&HandIn { answers, ..new(&format!("student {k}")) }).await.expect("keeps");
+        hand_in(&store, &HandIn { answers, ..new(&format!("student {k}")) }).await.expect("keeps");
     }
     let before = store.list(&all()).await.expect("lists");
     store.close().await;
@@ -276,4 +291,55 @@ async fn a_file_that_is_no_database_is_refused_by_name() {
     fs::write(&path, "not a database, but long enough to be read as one".repeat(40)).expect("writes");
     let error = Store::open(&path).await.expect_err("refused");
     assert!(error.to_string().contains("notes.txt"), "{error}");
+}
+
+/// What comes between settling and keeping is known to the verdict that is kept, or it is not kept.
+#[tokio::test]
+async fn a_verdict_that_does_not_know_what_came_before_is_not_kept() {
+    let store = Store::in_memory();
+    store.hand_in(&new("ada")).await.expect("keeps");
+    let refused = store.hand_in(&new("ada")).await;
+    assert!(matches!(refused, Err(StoreError::Overtaken)), "{refused:?}");
+    assert_eq!(ids(&store).await.len(), 1);
+    store.hand_in(&HandIn { lesson: "another".into(), ..new("ada") }).await.expect("another lesson");
+    hand_in(&store, &new("ada")).await.expect("keeps what knows");
+    assert_eq!(ids(&store).await.len(), 3);
+}
+
+/// PostgreSQL prepares each statement too, where it is installed: in a cluster of its own that is thrown away.
+#[test]
+fn every_statement_is_understood_by_postgresql() {
+    use std::fmt::Write;
+
+    let mut script = String::new();
+    for text in sql::TABLES {
+        let _ = writeln!(script, "{text};");
+    }
+    for (k, (name, text)) in sql::ALL.iter().chain(OF_COURSE).enumerate() {
+        let _ = writeln!(script, "PREPARE p{k}_{name} AS {text};");
+    }
+    // It refuses to be run by root; whoever is root makes it run as nobody.
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = r#"set -e
+        export LC_ALL=C; cd "$1"
+        as() { if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi; }
+        command -v initdb pg_ctl psql > missing || exit 77
+        if [ "$(id -u)" = 0 ]; then chown 65534:65534 "$1"; fi
+        as initdb --pgdata="$1/data" --auth=trust --username=triad > initdb.log 2>&1 || exit 77
+        as pg_ctl --pgdata="$1/data" --log="$1/server.log" --wait \
+            --options="-c listen_addresses='' -c unix_socket_directories='$1' -c fsync=off" start > start.log 2>&1 || exit 77
+        psql --host="$1" --username=triad --dbname=postgres --set=ON_ERROR_STOP=1 --quiet --file=statements.sql && told=0 || told=1
+        as pg_ctl --pgdata="$1/data" --mode=immediate stop > stop.log 2>&1
+        exit $told"#;
+    fs::write(folder.path().join("statements.sql"), &script).expect("writes");
+    let ran = std::process::Command::new("sh").args(["-c", run, "sh"]).arg(folder.path()).output();
+    let Ok(ran) = ran.map(|ran| (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned()))
+    else {
+        return;
+    };
+    if ran.0 == Some(77) {
+        println!("skipped: PostgreSQL is not installed here (Debian: apt-get install postgresql)");
+        return;
+    }
+    assert_eq!(ran.0, Some(0), "{}", ran.1);
 }

@@ -152,7 +152,13 @@ async fn addresses_and_methods_that_do_not_exist() {
     get(&server, "/api/v1/nothing").await.problem(404, "not-found");
     get(&server, "/api").await.problem(404, "not-found");
     get(&server, "/assets/nothing.js").await.problem(404, "not-found");
-    get(&server, "/api/v1/scenes/nothing").await;
+    get(&server, "/api/v1/scenes/nothing").await.problem(404, "unknown-scene");
+    // What is no page of ours is told as such, in the page's own words, and no probe takes it for an answer.
+    for path in ["/healthz", "/metrics", "/admin/", "/lesson/simple-pendulum"] {
+        let reply = get(&server, path).await;
+        assert_eq!((reply.status.as_u16(), reply.media()), (404, "text/html; charset=utf-8"), "{path}");
+    }
+    get(&server, "/robots.txt").await.problem(404, "not-found");
     let put = |path: &str| Request::put(path).body(Body::empty()).expect("a request");
     send(&server, put("/api/v1/health")).await.problem(405, "method-not-allowed");
     send(&server, put("/")).await.problem(405, "method-not-allowed");

@@ -329,6 +329,24 @@ async fn other_sites_and_other_names_are_refused() {
     }
     let reply = ask("GET", lessons, &[here]).await;
     assert_eq!(reply.headers["x-content-type-options"], "nosniff");
+    // Everything that is sent says what may run and load in it.
+    for (path, policy) in [
+        ("/", "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:;"),
+        ("/lessons/screw", "connect-src 'self' ws://localhost:8080 wss://localhost:8080 data: blob:;"),
+        ("/nowhere", "script-src 'self'"),
+        ("/guide", "default-src 'none'; style-src 'unsafe-inline';"),
+        ("/stress", "default-src 'none'; style-src 'unsafe-inline';"),
+        (lessons, "default-src 'none'; frame-ancestors 'none'"),
+        ("/api/openapi.json", "default-src 'none'"),
+        ("/livez", "default-src 'none'"),
+        ("/assets/none.js", "default-src 'none'"),
+    ] {
+        let reply = ask("GET", path, &[here]).await;
+        let told = reply.headers["content-security-policy"].to_str().expect("text");
+        assert!(told.contains(policy), "{path}: {told}");
+        let scripts = told.split(';').find(|part| part.trim().starts_with("script-src")).unwrap_or_default();
+        assert!(!scripts.contains("unsafe-inline") && !scripts.contains("'unsafe-eval'"), "{path}: {told}");
+    }
     // At home there is no class to come into.
     ask("POST", "/api/v1/join", &[here]).await.problem(404, "no-class");
     assert_eq!(get(&home, "/api/v1/me").await.json()["mode"], "home");

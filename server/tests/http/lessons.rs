@@ -4,6 +4,11 @@ use axum::body::Body;
 use axum::http::Request;
 use serde_json::{Value, json};
 
+use triad::app::App;
+use triad::limits::Limits;
+use triad::store::Store;
+use triad_lessons::Course;
+
 use crate::{get, post, send, server};
 
 #[tokio::test]
@@ -54,7 +59,7 @@ async fn what_does_not_exist_is_answered_with_what_does() {
 
 /// The answer that passes, as the lessons' own check makes it.
 fn reference() -> Value {
-    let course = triad_lessons::Course::embedded().expect("a course");
+    let course = Course::embedded().expect("a course");
     let lesson = course.lesson("simple-pendulum").expect("the lesson");
     let mut submission = triad_lessons::reference_submission(lesson);
     submission.student = Some("ada".into());
@@ -178,4 +183,26 @@ async fn a_submission_must_say_whose_it_is_and_what_it_answers() {
     assert_eq!(problem["errors"][0]["pointer"], "#/answers/period/vlaue");
     let problem = post(&server, path, json!({"student": "a", "answers": {"zzz": {"value": "1"}}})).await;
     assert_eq!(problem.problem(422, "unknown-question")["errors"][0]["pointer"], "#/answers/zzz");
+}
+
+/// Whatever comes at once, each verdict knows of all submissions before it: it comes out again when all are graded in turn.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn submissions_at_once_are_settled_one_after_the_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = Store::open(&folder.path().join("grades.db")).await.expect("opens");
+    let app = App::new(Course::embedded().expect("a course"), store, Limits::default());
+    let server = triad::app(app.clone());
+    let sent: Vec<_> = (0..24)
+        .map(|k| {
+            let server = server.clone();
+            let value = if k % 3 == 0 { "29.43".to_owned() } else { format!("{k}.5") };
+            let body = json!({"student": "ada", "seed": "", "answers": {"tension-bottom": {"value": value, "unit": "N"}}});
+            tokio::spawn(async move { post(&server, "/api/v1/lessons/simple-pendulum/submissions", body).await.status })
+        })
+        .collect();
+    for one in sent {
+        assert_eq!(one.await.expect("answers"), 201);
+    }
+    let rebuilt = triad::regrade::check(&app.store, triad::store::HOME).await.expect("rebuilds");
+    assert_eq!((rebuilt.same, &rebuilt.changed), (24, &Vec::new()));
 }

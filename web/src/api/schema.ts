@@ -660,6 +660,16 @@ export interface components {
             /** @description Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness. */
             stable: boolean | null;
         };
+        /** @description Whom to erase, and why. */
+        Erasure: {
+            /**
+             * @description Keep what was handed in, without the name: where law wants examinations kept.
+             * @default false
+             */
+            answers_stay?: boolean;
+            /** @description Why: who asked for it, or which rule says so. It stays in the log. */
+            reason: string;
+        };
         /** @description A moment at which a number of the mechanism passes a value. A run tells when, as exactly as it knows the motion. */
         Event: {
             /** @description Unique name. */
@@ -1971,6 +1981,60 @@ export interface components {
              * @default null
              */
             tolerance?: number | null;
+        };
+        /** @description Everything that is kept of who asks. */
+        OwnData: {
+            /** @description The class. */
+            course: string;
+            /** @description What was decided about their grades, and why. */
+            decisions: components["schemas"]["OwnDecision"][];
+            /**
+             * Format: int64
+             * @description When they joined, in milliseconds since 1970.
+             */
+            joined_at: number;
+            /** @description What the log knows of them. */
+            log: components["schemas"]["OwnEvent"][];
+            /** @description Who. */
+            person: components["schemas"]["Somebody"];
+            /** @description What they handed in, files included, with the verdicts, newest first. */
+            submissions: components["schemas"]["OwnSubmission"][];
+        };
+        /** @description A decision about a grade. */
+        OwnDecision: {
+            /**
+             * Format: int64
+             * @description When, in milliseconds since 1970.
+             */
+            at: number;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /**
+             * Format: double
+             * @description The points that count; null: those that were earned.
+             */
+            points: number | null;
+            /** @description Why. */
+            reason: string;
+        };
+        /** @description An entry of the log that somebody made, or that is about them. */
+        OwnEvent: {
+            /**
+             * Format: int64
+             * @description When, in milliseconds since 1970.
+             */
+            at: number;
+            /** @description Whether they did it themselves. */
+            own: boolean;
+            /** @description A verb in the past tense. */
+            what: string;
+        };
+        /** @description A submission with its verdict. */
+        OwnSubmission: {
+            /** @description What was handed in. */
+            answers: unknown;
+            /** @description What was told of it. */
+            verdict: unknown;
         };
         /** @description A number of the scene that the author offers to be changed while it runs. */
         Parameter: {

@@ -2,4 +2,5 @@
 
 pub(in crate::api) mod grades;
 pub(in crate::api) mod people;
+pub(in crate::api) mod records;
 pub(in crate::api) mod sign_in;

@@ -4,6 +4,7 @@
 #![allow(unused_qualifications)]
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use axum::Json as Answer;
 use axum::extract::State;
@@ -12,8 +13,8 @@ use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use triad_lessons::Verdict;
 use triad_lessons::answers::{RunSettings, TypedValue};
+use triad_lessons::{Submission, Verdict};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -24,7 +25,9 @@ use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::{CLASS, HOME, HandIn, Query, StoredSubmission, Whose, identifier, names};
+use crate::store::{
+    CLASS, HOME, HandIn, Kept, Query, StoreError, StoredSubmission, Whose, identifier, names,
+};
 use crate::{blocking, grading};
 
 /// Where a client names its request: a request that is repeated under the same name is one submission.
@@ -33,7 +36,7 @@ const KEY: &str = "idempotency-key";
 const LONGEST_KEY: usize = 200;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
-    schemas.request::<triad_lessons::Submission>();
+    schemas.request::<Submission>();
     schemas.answer::<GradedSubmission>();
     schemas.answer::<SubmissionList>();
     OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list))
@@ -78,10 +81,9 @@ async fn submit(
     let key = request_key(&headers)?;
     let lesson = lessons::find(&app, &slug)?.slug.clone();
     let who = who(&app, caller, &body)?;
-    let earlier = earlier(&app, &who, &lesson).await?;
     let grading = app.clone();
-    let new = blocking(move || graded(&grading, &lesson, &body, &who, key, earlier)).await?;
-    let kept = app.store.hand_in(&new).await?;
+    let judged = Arc::new(blocking(move || judged(&grading, &lesson, &body, who, key)).await?);
+    let (new, kept) = keep(&app, &judged).await?;
     let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
     let document = blocking(move || {
         let mut told: GradedSubmission = serde_json::from_value(kept.verdict).map_err(Problem::internal)?;
@@ -93,6 +95,22 @@ async fn submit(
         Ok(told)
     });
     Ok((status, Answer(document.await?)))
+}
+
+/// Settles what was judged with what its author handed in before, and keeps it. Where another submission of theirs comes
+/// between the two, it is settled again with that one.
+async fn keep(app: &App, judged: &Arc<Judged>) -> Result<(HandIn, Kept), Problem> {
+    loop {
+        let (earlier, after) = earlier(app, judged).await?;
+        let (app, settling) = (app.clone(), Arc::clone(judged));
+        let lessons = app.clone();
+        let new = blocking(move || settled(&lessons, &settling, earlier, after)).await?;
+        match app.store.hand_in(&new).await {
+            // Each time around, one more of theirs is kept.
+            Err(StoreError::Overtaken) => {}
+            other => return Ok((new, other?)),
+        }
+    }
 }
 
 /// The name that the client gave to the request.
@@ -134,60 +152,70 @@ fn who(app: &App, caller: Caller, body: &Value) -> Result<Who, Problem> {
     Ok(Who { course: CLASS, whose: Whose::Person(member.id), student: member.name, seed })
 }
 
-/// What a student has handed in to a lesson, the oldest first.
-async fn earlier(app: &App, who: &Who, lesson: &str) -> Result<Vec<StoredSubmission>, Problem> {
+/// What a student has handed in to the lesson, the oldest first, and the last entry of it in the log.
+async fn earlier(app: &App, judged: &Judged) -> Result<(Vec<StoredSubmission>, i64), Problem> {
+    let who = &judged.who;
     let person = match &who.whose {
         Whose::Person(id) => Some(id.clone()),
         Whose::Named => app.store.person_named(HOME, &who.student).await?,
     };
-    if person.is_none() {
-        return Ok(Vec::new());
-    }
-    let query =
-        Query { course: who.course.to_owned(), person, lesson: Some(lesson.to_owned()), limit: usize::MAX };
-    let mut found = app.store.list(&query).await?;
-    found.reverse();
-    Ok(found)
+    let Some(person) = person else { return Ok((Vec::new(), 0)) };
+    Ok(app.store.earlier(who.course, &person, &judged.lesson).await?)
 }
 
-/// What is handed in, with its verdict as it is to be kept: without the right answers.
-fn graded(
-    app: &App,
-    slug: &str,
-    body: &Value,
-    who: &Who,
+/// What is handed in, judged for itself.
+struct Judged {
+    lesson: String,
+    who: Who,
     key: Option<String>,
-    earlier: Vec<StoredSubmission>,
-) -> Result<HandIn, Problem> {
+    submission: Submission,
+    verdict: Verdict,
+    seed: String,
+}
+
+/// Judges what is handed in: without what came before, and without the right answers.
+fn judged(app: &App, slug: &str, body: &Value, who: Who, key: Option<String>) -> Result<Judged, Problem> {
     let lesson = lessons::find(app, slug)?;
     let (submission, mut verdict) =
         grading::grade(lesson, &app.variants, &body.to_string(), who.seed.as_deref())?;
-    let student = who.student.clone();
-    verdict.student = Some(student.clone());
+    verdict.student = Some(who.student.clone());
     let seed = verdict.provenance.seed.clone();
     if who.seed.is_some() {
         // It would let others compute these numbers.
         verdict.provenance.seed.clear();
     }
-    grading::settle(lesson, earlier, &submission, &mut verdict)?;
+    Ok(Judged { lesson: lesson.slug.clone(), who, key, submission, verdict, seed })
+}
+
+/// What is kept of it, after what came before: up to the entry `after` of the log.
+fn settled(
+    app: &App,
+    judged: &Judged,
+    earlier: Vec<StoredSubmission>,
+    after: i64,
+) -> Result<HandIn, Problem> {
+    let lesson = lessons::find(app, &judged.lesson)?;
+    let Judged { who, key, submission, seed, .. } = judged;
+    let mut verdict = judged.verdict.clone();
+    grading::settle(lesson, earlier, submission, &mut verdict)?;
     let received = jiff::Timestamp::now();
     let counted = verdict.gradable;
     let told = GradedSubmission { id: identifier(), submitted_at: format!("{received:.3}"), verdict };
-    let new = HandIn {
+    Ok(HandIn {
         id: told.id.clone(),
         course: who.course.to_owned(),
         lesson: lesson.slug.clone(),
         whose: who.whose.clone(),
-        student,
-        seed,
+        student: who.student.clone(),
+        seed: seed.clone(),
         received_at: received.as_millisecond(),
         answers: serde_json::to_string(&submission.answers).map_err(Problem::internal)?,
         verdict: serde_json::to_value(told).map_err(Problem::internal)?,
         counted,
-        key,
+        after,
+        key: key.clone(),
         bundle: lesson.bundle(),
-    };
-    Ok(new)
+    })
 }
 
 /// Who hands in: a name of reasonable length, without control characters.

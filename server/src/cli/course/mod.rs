@@ -5,4 +5,5 @@ pub(in crate::cli) mod grades;
 pub(in crate::cli) mod graph;
 pub(in crate::cli) mod lesson;
 pub(in crate::cli) mod preview;
+pub(in crate::cli) mod records;
 pub(in crate::cli) mod regrade;

@@ -1,0 +1,66 @@
+//! What belongs to a course, table by table.
+
+use serde_json::{Map, Value};
+use sqlx::sqlite::SqliteRow;
+use sqlx::{Column, Row, TypeInfo, ValueRef};
+
+use super::super::error::StoreError;
+
+/// Tables with their rows that belong to the course `$1`, in the order in which they refer to each other: `$2` rows after
+/// the first `$3`.
+pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
+    ("course", "SELECT * FROM course WHERE id = $1 LIMIT $2 OFFSET $3"),
+    (
+        "person",
+        "SELECT p.* FROM person p JOIN membership m ON m.person = p.id WHERE m.course = $1 ORDER BY p.id LIMIT $2 OFFSET $3",
+    ),
+    ("membership", "SELECT * FROM membership WHERE course = $1 ORDER BY person LIMIT $2 OFFSET $3"),
+    (
+        "identity",
+        "SELECT i.* FROM identity i JOIN membership m ON m.person = i.person WHERE m.course = $1 \
+         ORDER BY i.kind, i.subject LIMIT $2 OFFSET $3",
+    ),
+    (
+        "lesson_version",
+        "SELECT * FROM lesson_version WHERE sha256 IN (SELECT v.lesson_sha256 FROM verdict v \
+         JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment WHERE a.course = $1) \
+         ORDER BY sha256 LIMIT $2 OFFSET $3",
+    ),
+    ("assignment", "SELECT * FROM assignment WHERE course = $1 ORDER BY id LIMIT $2 OFFSET $3"),
+    (
+        "submission",
+        "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 \
+         ORDER BY s.n LIMIT $2 OFFSET $3",
+    ),
+    (
+        "verdict",
+        "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment \
+         WHERE a.course = $1 ORDER BY s.n, v.run LIMIT $2 OFFSET $3",
+    ),
+    ("decision", "SELECT * FROM decision WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+    ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+];
+
+/// Tables that are not taken along: sessions are for one server, invitations for one place.
+#[cfg(test)]
+pub(in crate::store) const LEFT: &[&str] = &["session", "invitation"];
+
+/// A row as JSON, by the names of its columns.
+///
+/// Errors if something stands in it that no column of ours has.
+pub(super) fn as_json(row: &SqliteRow) -> Result<Map<String, Value>, StoreError> {
+    let value = |index: usize| -> Result<Value, sqlx::Error> {
+        let raw = row.try_get_raw(index)?;
+        if raw.is_null() {
+            return Ok(Value::Null);
+        }
+        Ok(match raw.type_info().name() {
+            "INTEGER" => Value::from(row.try_get_unchecked::<i64, _>(index)?),
+            "REAL" => Value::from(row.try_get_unchecked::<f64, _>(index)?),
+            _ => Value::from(row.try_get_unchecked::<String, _>(index)?),
+        })
+    };
+    let named =
+        |column: &sqlx::sqlite::SqliteColumn| Ok((column.name().to_owned(), value(column.ordinal())?));
+    row.columns().iter().map(named).collect::<Result<_, sqlx::Error>>().map_err(StoreError::from)
+}
