@@ -57,6 +57,6 @@ pub use lesson::{
     Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, NotionGraph, VariantError,
 };
 pub use seed::seed;
-pub use standing::{Attempt, open, settle, standing};
+pub use standing::{Attempt, open, right_answer, settle, standing};
 pub use tasks::InstancesView;
 pub use verdict::{Mark, QuestionVerdict, Verdict};

@@ -67,17 +67,22 @@ pub fn settle(
     answers: &BTreeMap<String, Answer>,
     verdict: &mut Verdict,
 ) {
+    // A verdict is on the questions that were dealt: not all of those that the lesson has.
+    let ids: Vec<&str> = lesson.exercise.questions.iter().map(|question| question.id.as_str()).collect();
+    let place = |id: &str| ids.iter().position(|other| *other == id);
     let before = standing(lesson, earlier);
-    for (question, before) in verdict.questions.iter_mut().zip(&before).filter(|(_, before)| before.open) {
-        question.earned = before.best;
+    for question in &mut verdict.questions {
+        if let Some(before) = place(&question.id).map(|at| before[at]).filter(|before| before.open) {
+            question.earned = before.best;
+        }
     }
     verdict.sum(lesson.exercise.pass_mark);
     let now = {
         let last = Attempt { answers, verdict };
         standing(lesson, &earlier.iter().copied().chain([last]).collect::<Vec<_>>())
     };
-    for (question, now) in verdict.questions.iter_mut().zip(now) {
-        question.standing = Some(now);
+    for question in &mut verdict.questions {
+        question.standing = place(&question.id).map(|at| now[at]);
     }
 }
 
@@ -89,6 +94,11 @@ pub fn open(lesson: &Lesson, verdict: &mut Verdict) {
     for question in verdict.questions.iter_mut().filter(|q| q.standing.is_some_and(|s| s.open)) {
         question.reference_html = lesson.question(&question.id).and_then(reference);
     }
+}
+
+/// The right answer to a question and its source, as safe HTML: for whoever may be told it.
+pub fn right_answer(lesson: &Lesson, question: &str) -> Option<String> {
+    lesson.question(question).and_then(reference)
 }
 
 #[cfg(test)]

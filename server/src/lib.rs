@@ -9,6 +9,8 @@ pub mod problem;
 
 pub mod limits;
 
+pub mod policy;
+
 pub mod scenes;
 pub mod store;
 pub mod stream;

@@ -47,12 +47,16 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
     let mut rebuilt = Rebuilt::default();
     let mut lessons: HashMap<String, Option<Lesson>> = HashMap::new();
     let variants = Variants::default();
-    // Earlier submissions decide what a later one can still earn.
-    let mut earlier: HashMap<(String, String), Vec<StoredSubmission>> = HashMap::new();
-    for record in store.recorded(course).await? {
-        let before = earlier.entry((record.person.clone(), record.lesson.clone())).or_default();
-        let earlier = before.clone();
-        before.push(stored(&record));
+    // Earlier submissions decide what a later one can still earn, by the verdicts that were in force when it was judged.
+    let mut known: HashMap<(String, String), Vec<StoredSubmission>> = HashMap::new();
+    for record in store.recorded(course, None).await? {
+        let all = known.entry((record.person.clone(), record.lesson.clone())).or_default();
+        let place = all.iter().position(|other| other.id == record.id).unwrap_or(all.len());
+        let earlier = all[..place].to_vec();
+        match all.get_mut(place) {
+            Some(before) => *before = stored(&record),
+            None => all.push(stored(&record)),
+        }
         if record.lesson_sha256.is_empty() {
             rebuilt.without_lesson += 1;
             continue;

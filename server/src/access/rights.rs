@@ -34,7 +34,12 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     // The class.
     ("GET", "/api/v1/course", GRADER),
     ("PUT", "/api/v1/course", INSTRUCTOR),
+    ("GET", "/api/v1/assignments", GRADER),
     ("PUT", "/api/v1/assignments/{slug}", INSTRUCTOR),
+    ("PUT", "/api/v1/assignments/{slug}/release", INSTRUCTOR),
+    ("PUT", "/api/v1/assignments/{slug}/extensions/{person}", INSTRUCTOR),
+    ("DELETE", "/api/v1/assignments/{slug}/extensions/{person}", INSTRUCTOR),
+    ("POST", "/api/v1/assignments/{slug}/preview", GRADER),
     ("GET", "/api/v1/people", GRADER),
     ("PUT", "/api/v1/people/{person}/role", OWNER),
     ("POST", "/api/v1/people/{person}/words", INSTRUCTOR),
@@ -47,6 +52,13 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/course/export", OWNER),
     ("GET", "/api/v1/me/data", STUDENT),
     ("POST", "/api/v1/people/{person}/erase", OWNER),
+    ("POST", "/api/v1/people/{person}/comments", GRADER),
+    ("GET", "/api/v1/people/{person}/record", GRADER),
+    // What is one's own.
+    ("GET", "/api/v1/record", STUDENT),
+    ("POST", "/api/v1/record/requests", STUDENT),
+    ("GET", "/api/v1/submissions/{id}/verdicts", STUDENT),
+    ("GET", "/api/v1/submissions/{id}/files/{question}", STUDENT),
     // Lessons are read by all; the numbers are those of who asks.
     ("GET", "/api/v1/lessons", Anyone),
     ("GET", "/api/v1/lessons/{slug}", Anyone),
@@ -142,10 +154,15 @@ pub fn check_home(method: &str, address: &str) -> Result<(), Problem> {
     if !takes_account.contains(&address) && (!is_of_class || room) {
         return Ok(());
     }
-    Err(Problem::new(
+    Err(no_class())
+}
+
+/// The answer to what exists in classes alone, at home.
+pub fn no_class() -> Problem {
+    Problem::new(
         StatusCode::NOT_FOUND,
         "no-class",
         "this server runs without accounts: its grades are for yourself",
         "for a class start it with `triad serve --class`",
-    ))
+    )
 }

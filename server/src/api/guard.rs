@@ -36,6 +36,15 @@ impl Caller {
     }
 }
 
+impl Caller {
+    /// Somebody of the class, where there may be none: what is asked for exists in classes alone.
+    ///
+    /// Errors at home.
+    pub(in crate::api) fn class_member(self) -> Result<Member, Problem> {
+        self.0.ok_or_else(rights::no_class)
+    }
+}
+
 /// From where somebody asks.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::api) struct Peer(pub(in crate::api) IpAddr);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use axum::http::StatusCode;
 
+use crate::policy::Refusal;
 use crate::problem::Problem;
 
 /// Why the gradebook could not be opened, read or written.
@@ -55,9 +56,15 @@ pub enum StoreError {
     /// Somebody, or everybody together, has handed in as much as is kept.
     #[error("{0}")]
     QuotaUsed(String),
-    /// All attempts at an assignment are used.
-    #[error("all {0} attempts at this exercise are used")]
-    AttemptsUsed(i64),
+    /// The exercise cannot be handed in now.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// Something was handed in or regraded since a preview was computed.
+    #[error("something was handed in or regraded since this preview was made")]
+    OutOfDate,
+    /// A later regrade of the same lesson is in force.
+    #[error("a later regrade of this lesson is in force")]
+    NotLast,
     /// Another person of the course has the name.
     #[error("the name {0} is taken in this course")]
     NameTaken(String),
@@ -93,6 +100,19 @@ impl StoreError {
             other => Self::Open { path: path.to_owned(), cause: other.to_string() },
         }
     }
+}
+
+/// Status, code and hint of a submission that is refused.
+fn refused(refusal: Refusal) -> (StatusCode, &'static str, &'static str) {
+    let (code, hint) = match refusal {
+        Refusal::NotOpen(_) => ("not-open", "your answers stay in this browser: hand them in then"),
+        Refusal::Closed(_) => ("closed", "what you handed in before counts; ask your teacher for more time"),
+        Refusal::AttemptsUsed(_) => {
+            ("attempts-used", "what you handed in before counts; ask your teacher for another attempt")
+        }
+        Refusal::TooSoon(_) => ("too-soon", "look through your answers meanwhile: they stay in this browser"),
+    };
+    (StatusCode::CONFLICT, code, hint)
 }
 
 impl From<StoreError> for Problem {
@@ -156,11 +176,13 @@ impl From<StoreError> for Problem {
                 "nothing was kept: hand in smaller files, or let the teacher start the server with larger --person-quota \
                  and --quota",
             ),
-            StoreError::AttemptsUsed(_) => (
+            StoreError::Refused(refusal) => refused(*refusal),
+            StoreError::OutOfDate => (
                 StatusCode::CONFLICT,
-                "attempts-used",
-                "what you handed in before counts; ask your teacher for another attempt",
+                "out-of-date",
+                "nothing was changed: make the preview anew, then apply it",
             ),
+            StoreError::NotLast => (StatusCode::CONFLICT, "not-the-last", "take the later one back first"),
             StoreError::NameTaken(_) => (
                 StatusCode::CONFLICT,
                 "name-taken",

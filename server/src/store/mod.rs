@@ -3,10 +3,10 @@
 //! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: each
 //! submission is one transaction, written through before it returns.
 
+mod class;
 mod copies;
 mod error;
 mod file;
-mod grades;
 pub mod hash;
 mod log;
 pub mod names;
@@ -27,12 +27,15 @@ use std::time::Duration;
 use sqlx::SqlitePool;
 use sqlx::sqlite::{SqliteConnectOptions, SqlitePoolOptions, SqliteSynchronous};
 
+pub use class::{
+    Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded,
+    VerdictHistory,
+};
 pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};
 #[cfg(test)]
 use copies::{LEFT, OF_COURSE};
 pub use error::StoreError;
 use file::Place;
-pub use grades::{Decision, Standing};
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
 pub use quotas::Quotas;
 pub use submissions::{HandIn, Kept, Query, Recorded, StoredSubmission, Whose};

@@ -2,6 +2,7 @@
 
 use sqlx::SqliteConnection;
 
+use super::class::members::known;
 use super::error::StoreError;
 use super::hash::sha256;
 use super::log::{self, Event};
@@ -301,17 +302,6 @@ impl Store {
         }
         transaction.commit().await
     }
-}
-
-/// Errors if the person is not in the course.
-pub(super) async fn known(
-    connection: &mut SqliteConnection,
-    course: &str,
-    person: &str,
-) -> Result<(), StoreError> {
-    let find = sqlx::query_as(sql::MEMBER).bind(course).bind(person).fetch_optional(connection).await?;
-    let found: Option<(String,)> = find;
-    found.map(drop).ok_or(StoreError::Unknown("person in this course"))
 }
 
 async fn enrol(

@@ -74,6 +74,10 @@ pub(super) struct VerdictRow {
     /// 1 if it was enough to pass.
     pub(super) passed: i64,
     pub(super) made_at: i64,
+    /// Its place in the log where it is not the submission's, else 0.
+    pub(super) n: i64,
+    /// 1 if the submission counts as an attempt by this verdict; `None` where the submission itself says it.
+    pub(super) counted: Option<i64>,
 }
 
 impl FromRow<'_, SqliteRow> for VerdictRow {
@@ -90,6 +94,8 @@ impl FromRow<'_, SqliteRow> for VerdictRow {
             possible: row.try_get("possible")?,
             passed: row.try_get("passed")?,
             made_at: row.try_get("made_at")?,
+            n: row.try_get("n")?,
+            counted: row.try_get("counted")?,
         })
     }
 }
@@ -117,15 +123,21 @@ impl VerdictRow {
             passed: i64::from(told["passed"] == true),
             made_at,
             body,
+            n: 0,
+            counted: None,
         }
     }
 
-    /// A hash over all of it.
+    /// A hash over all of it but its place in the log.
     pub(super) fn hash(&self) -> String {
         let Self { submission, run, body, lesson_sha256, build, seed, parameters, .. } = self;
-        let Self { earned, possible, passed, made_at, .. } = self;
+        let Self { earned, possible, passed, made_at, counted, .. } = self;
         let who = [submission, body, lesson_sha256, build, seed, parameters];
-        sha256(&json!([who, run, earned, possible, passed, made_at]).to_string())
+        let all = match counted {
+            None => json!([who, run, earned, possible, passed, made_at]),
+            Some(counted) => json!([who, run, earned, possible, passed, made_at, counted]),
+        };
+        sha256(&all.to_string())
     }
 
     /// Adds it.
@@ -133,6 +145,7 @@ impl VerdictRow {
         let add = sqlx::query(sql::ADD_VERDICT).bind(&self.submission).bind(self.run).bind(&self.body);
         let add = add.bind(&self.lesson_sha256).bind(&self.build).bind(&self.seed).bind(&self.parameters);
         let add = add.bind(self.earned).bind(self.possible).bind(self.passed).bind(self.made_at);
+        let add = add.bind(self.n).bind(self.counted);
         add.execute(connection).await?;
         Ok(())
     }

@@ -8,9 +8,9 @@ use super::records::{self, SubmissionRow, VerdictRow};
 use super::{HOME, now, sql};
 
 /// Format of the database that this program writes.
-pub(super) const FORMAT: i64 = 2;
+pub(super) const FORMAT: i64 = 3;
 
-/// Makes the tables, or carries those of format 1 over, within a transaction: another program that opens the
+/// Makes the tables, or carries those of earlier formats over, within a transaction: another program that opens the
 /// same file meanwhile waits.
 pub(super) async fn migrate(transaction: &mut SqliteConnection) -> Result<(), StoreError> {
     let (found,): (i64,) = sqlx::query_as("PRAGMA user_version").fetch_one(&mut *transaction).await?;
@@ -22,18 +22,23 @@ pub(super) async fn migrate(transaction: &mut SqliteConnection) -> Result<(), St
             sqlx::query(statement).execute(&mut *transaction).await?;
         }
     }
-    if found < FORMAT {
+    if found < 2 {
         for statement in sql::TABLES.iter().chain(sql::RECORDS) {
             sqlx::query(*statement).execute(&mut *transaction).await?;
         }
         add_course(transaction, HOME, "At home").await?;
+    }
+    if found < 3 {
+        for statement in sql::ADDED {
+            sqlx::query(*statement).execute(&mut *transaction).await?;
+        }
     }
     if found == 1 {
         carry_over(transaction).await?;
         sqlx::query("DROP TABLE submission_1").execute(&mut *transaction).await?;
     }
     // Written each time: a file that cannot be written is found out before anybody hands in.
-    sqlx::query("PRAGMA user_version = 2").execute(&mut *transaction).await?;
+    sqlx::query("PRAGMA user_version = 3").execute(&mut *transaction).await?;
     Ok(())
 }
 
@@ -68,7 +73,7 @@ async fn carry_over(connection: &mut SqliteConnection) -> Result<(), StoreError>
             (row.try_get(3)?, row.try_get(4)?, row.try_get(5)?);
         let received: i64 = at.parse::<jiff::Timestamp>().map_or(0, jiff::Timestamp::as_millisecond);
         let person = super::submissions::person_of(connection, HOME, &student, received).await?;
-        let (assignment, _) = super::submissions::assignment(connection, HOME, &slug).await?;
+        let assignment = super::class::assignments::ensured(connection, HOME, &slug).await?.id;
         let submission = SubmissionRow {
             id,
             assignment,

@@ -40,6 +40,27 @@ pub(super) const TABLES: &[&str] = &[
      PRIMARY KEY (course, n))",
 ];
 
+/// What format 3 adds to the tables of format 2.
+pub(super) const ADDED: &[&str] = &[
+    "ALTER TABLE assignment ADD COLUMN policy TEXT NOT NULL DEFAULT '{}'",
+    "UPDATE assignment SET policy = '{\"most_attempts\":' || CAST(most_attempts AS TEXT) || '}' \
+     WHERE most_attempts IS NOT NULL",
+    "ALTER TABLE assignment DROP COLUMN most_attempts",
+    "ALTER TABLE assignment ADD COLUMN released_at BIGINT",
+    // Its place in the log where it is not the submission's, and whether the submission counts as an attempt by it.
+    "ALTER TABLE verdict ADD COLUMN n BIGINT NOT NULL DEFAULT 0",
+    "ALTER TABLE verdict ADD COLUMN counted BIGINT",
+    "CREATE TABLE extension (assignment TEXT NOT NULL REFERENCES assignment(id), person TEXT NOT NULL REFERENCES person(id), \
+     until BIGINT, attempts BIGINT NOT NULL, reason TEXT NOT NULL, given_by TEXT NOT NULL REFERENCES person(id), \
+     given_at BIGINT NOT NULL, PRIMARY KEY (assignment, person))",
+    "CREATE TABLE regrade (id TEXT PRIMARY KEY NOT NULL, course TEXT NOT NULL REFERENCES course(id), n BIGINT NOT NULL, \
+     assignment TEXT NOT NULL REFERENCES assignment(id), choice TEXT NOT NULL, reason TEXT NOT NULL, \
+     lesson_sha256 TEXT NOT NULL, made_by TEXT NOT NULL REFERENCES person(id), made_at BIGINT NOT NULL, \
+     verdicts BIGINT NOT NULL, undone_by TEXT REFERENCES person(id), undone_at BIGINT)",
+    "CREATE TABLE regraded (regrade TEXT NOT NULL REFERENCES regrade(id), person TEXT NOT NULL REFERENCES person(id), \
+     before_points DOUBLE PRECISION NOT NULL, after_points DOUBLE PRECISION NOT NULL, PRIMARY KEY (regrade, person))",
+];
+
 /// What is a record is added to and never changed. In SQLite's words; PostgreSQL says it by rights of the role.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
@@ -93,17 +114,32 @@ statements! {
         ON CONFLICT (sha256) DO NOTHING";
     LESSON = "SELECT bundle FROM lesson_version WHERE sha256 = $1";
     ADD_ASSIGNMENT = "INSERT INTO assignment (id, course, slug) VALUES ($1, $2, $3) ON CONFLICT (course, slug) DO NOTHING";
-    ASSIGNMENT = "SELECT id, most_attempts FROM assignment WHERE course = $1 AND slug = $2";
-    SET_MOST_ATTEMPTS = "UPDATE assignment SET most_attempts = $3 WHERE course = $1 AND slug = $2";
+    ASSIGNMENT = "SELECT id, slug, policy, released_at FROM assignment WHERE course = $1 AND slug = $2";
+    ASSIGNMENTS = "SELECT id, slug, policy, released_at FROM assignment WHERE course = $1 ORDER BY slug";
+    SET_POLICY = "UPDATE assignment SET policy = $2 WHERE id = $1";
+    SET_RELEASED = "UPDATE assignment SET released_at = $2 WHERE id = $1";
+    EXTENSION = "SELECT until, attempts, reason, given_by, given_at FROM extension WHERE assignment = $1 AND person = $2";
+    EXTENSIONS = "SELECT e.person, a.slug, e.until, e.attempts, e.reason, p.name, e.given_at FROM extension e \
+        JOIN assignment a ON a.id = e.assignment JOIN person p ON p.id = e.given_by WHERE a.course = $1";
+    ADD_EXTENSION = "INSERT INTO extension (assignment, person, until, attempts, reason, given_by, given_at) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7)";
+    REMOVE_EXTENSION = "DELETE FROM extension WHERE assignment = $1 AND person = $2";
 
-    ATTEMPTS = "SELECT COUNT(*) FROM submission WHERE assignment = $1 AND person = $2 AND counted = 1";
+    ATTEMPTS = "SELECT s.received_at FROM submission s JOIN verdict v ON v.submission = s.id \
+        WHERE s.assignment = $1 AND s.person = $2 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
+        AND COALESCE(v.counted, s.counted) = 1";
     BY_KEY = "SELECT id, n FROM submission WHERE assignment = $1 AND person = $2 AND request_key = $3";
     ATTEMPTS_UNTIL = "SELECT COUNT(*) FROM submission WHERE assignment = $1 AND person = $2 AND counted = 1 AND n <= $3";
     ADD_SUBMISSION = "INSERT INTO submission (id, assignment, person, n, received_at, student, answers, request_key, \
         counted) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9)";
     ADD_VERDICT = "INSERT INTO verdict (submission, run, body, lesson_sha256, build, seed, parameters, earned, \
-        possible, passed, made_at) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
-    LAST_SUBMISSION = "SELECT COALESCE(MAX(s.n), 0) FROM submission s JOIN assignment a ON a.id = s.assignment \
+        possible, passed, made_at, n, counted) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13)";
+    VERDICT_IN_FORCE = "SELECT * FROM verdict WHERE submission = $1 ORDER BY run DESC LIMIT 1";
+    VERDICT_OF_RUN = "SELECT * FROM verdict WHERE submission = $1 AND run = $2";
+    SUBMISSION = "SELECT * FROM submission WHERE id = $1";
+    // The last that was handed in or judged again.
+    LAST_SUBMISSION = "SELECT COALESCE(MAX(CASE WHEN v.n > s.n THEN v.n ELSE s.n END), 0) FROM submission s \
+        JOIN verdict v ON v.submission = s.id JOIN assignment a ON a.id = s.assignment \
         WHERE a.course = $1 AND a.slug = $2 AND s.person = $3";
     KEPT_OF_PERSON = "SELECT COUNT(*), COALESCE(SUM(OCTET_LENGTH(answers)), 0) FROM submission WHERE person = $1";
     LATEST_VERDICT = "SELECT body FROM verdict WHERE submission = $1 ORDER BY run DESC LIMIT 1";
@@ -112,9 +148,10 @@ statements! {
         WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
         AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) \
         ORDER BY s.n DESC LIMIT $4";
-    REBUILDABLE = "SELECT s.id, s.person, a.slug, s.answers, v.body, v.lesson_sha256, v.seed, v.build FROM verdict v \
-        JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 \
-        ORDER BY s.n, v.run";
+    REBUILDABLE = "SELECT s.id, s.person, a.slug, s.answers, v.body, v.lesson_sha256, v.seed, v.build, s.received_at \
+        FROM verdict v JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment \
+        WHERE a.course = $1 AND (CAST($2 AS TEXT) IS NULL OR a.slug = $2) \
+        ORDER BY CASE WHEN v.run = 0 THEN s.n ELSE v.n END";
     // Whether what stands there is what was written.
     RECORDED = "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n";
     VERDICTS = "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission \
@@ -154,14 +191,31 @@ statements! {
         WHERE s.person = $1";
     REPLACE_VERDICT = "UPDATE verdict SET body = $3, seed = $4 WHERE submission = $1 AND run = $2";
 
-    // What could not be read earned nothing and is no attempt, but the lesson is begun.
-    STANDINGS = "SELECT s.person, a.slug, CAST(SUM(s.counted) AS BIGINT), \
-        MAX(CASE WHEN s.counted = 1 THEN v.earned ELSE CAST(0 AS DOUBLE PRECISION) END), MAX(v.possible), MAX(v.passed), \
-        MAX(s.received_at) FROM submission s JOIN assignment a ON a.id = s.assignment \
-        JOIN verdict v ON v.submission = s.id WHERE a.course = $1 \
-        AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) GROUP BY s.person, a.slug";
+    HANDED = "SELECT s.person, a.slug, s.id, s.n, s.received_at, COALESCE(v.counted, s.counted), v.earned \
+        FROM submission s JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
+        WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
+        AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3)";
     ADD_DECISION = "INSERT INTO decision (id, course, n, kind, person, assignment, amount, reason, decided_by, decided_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)";
-    DECISIONS = "SELECT d.person, a.slug, d.amount, d.reason, p.name, d.decided_at FROM decision d \
+    DECISIONS = "SELECT d.person, a.slug, d.kind, d.amount, d.reason, p.name, d.decided_at FROM decision d \
         JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 ORDER BY d.n";
+
+    VERDICT_COUNT = "SELECT COUNT(*) FROM verdict v JOIN submission s ON s.id = v.submission WHERE s.assignment = $1";
+    ADD_REGRADE = "INSERT INTO regrade (id, course, n, assignment, choice, reason, lesson_sha256, made_by, made_at, \
+        verdicts) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)";
+    ADD_REGRADED = "INSERT INTO regraded (regrade, person, before_points, after_points) VALUES ($1, $2, $3, $4)";
+    REGRADES = "SELECT r.id, a.slug, r.choice, r.reason, p.name, r.made_at, r.undone_at FROM regrade r \
+        JOIN assignment a ON a.id = r.assignment JOIN person p ON p.id = r.made_by WHERE r.course = $1 ORDER BY r.n DESC";
+    REGRADED = "SELECT d.regrade, d.person, d.before_points, d.after_points FROM regraded d \
+        JOIN regrade r ON r.id = d.regrade WHERE r.course = $1 AND (CAST($2 AS TEXT) IS NULL OR d.person = $2)";
+    // The last regrade in force of the same lesson.
+    LAST_REGRADE = "SELECT r.n, r.verdicts, (SELECT o.id FROM regrade o WHERE o.assignment = r.assignment AND o.undone_at IS NULL \
+        ORDER BY o.n DESC LIMIT 1) FROM regrade r WHERE r.course = $1 AND r.id = $2 AND r.undone_at IS NULL";
+    // The verdicts of a regrade are the entries of the log that follow its own.
+    VERDICTS_OF_REGRADE = "SELECT v.submission, v.run FROM verdict v JOIN submission s ON s.id = v.submission \
+        JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 AND v.run > 0 AND v.n > $2 AND v.n <= $2 + $3 \
+        ORDER BY v.n";
+    SET_UNDONE = "UPDATE regrade SET undone_by = $2, undone_at = $3 WHERE id = $1";
+    VERDICTS_GIVEN = "SELECT s.person, a.slug, v.run, v.made_at, v.body FROM verdict v JOIN submission s ON s.id = v.submission \
+        JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 AND s.id = $2 ORDER BY v.run";
 }

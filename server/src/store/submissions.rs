@@ -3,12 +3,15 @@
 use serde_json::Value;
 use sqlx::SqliteConnection;
 
+use super::class::Assignment;
+use super::class::assignments::{ensured, extension_of};
 use super::error::StoreError;
 use super::hash::sha256;
 use super::log::{self, Event};
 use super::quotas::Quotas;
 use super::records::{self, SubmissionRow, VerdictRow};
 use super::{Store, identifier, names, now, sql};
+use crate::policy::{Moment, admit};
 
 /// A submission as it is kept.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,6 +100,8 @@ pub struct Recorded {
     pub seed: String,
     /// The program that graded it.
     pub build: String,
+    /// When it was handed in.
+    pub at: Moment,
 }
 
 /// What was kept.
@@ -154,26 +159,6 @@ impl Store {
         Ok((found, last))
     }
 
-    /// Bounds the attempts at a lesson; `None`: as many as one likes.
-    ///
-    /// Errors if it cannot be written.
-    pub async fn set_most_attempts(
-        &self,
-        course: &str,
-        actor: &str,
-        lesson: &str,
-        most: Option<i64>,
-    ) -> Result<(), StoreError> {
-        let mut transaction = self.write().await?;
-        let detail = most.map_or("any number of attempts".to_owned(), |most| format!("{most} attempts"));
-        let event = Event { actor, what: "bounded", subject: lesson, detail: &detail };
-        log::append(&mut transaction, course, now(), &event).await?;
-        assignment(&mut transaction, course, lesson).await?;
-        let set = sqlx::query(sql::SET_MOST_ATTEMPTS).bind(course).bind(lesson).bind(most);
-        set.execute(&mut *transaction).await?;
-        transaction.commit().await
-    }
-
     /// The id of the person of that name, if there is one.
     ///
     /// Errors if the file cannot be read.
@@ -202,13 +187,14 @@ impl Store {
         Ok(rows.into_iter().filter_map(read).collect())
     }
 
-    /// Every verdict of a course with what it is about, in the order in which the submissions came.
+    /// Every verdict of a course, or of one lesson, with what it is about, in the order in which they were given.
     ///
     /// Errors if the file cannot be read.
-    pub async fn recorded(&self, course: &str) -> Result<Vec<Recorded>, StoreError> {
-        type Row = (String, String, String, String, String, String, String, String);
-        let rows: Vec<Row> = sqlx::query_as(sql::REBUILDABLE).bind(course).fetch_all(&self.readers).await?;
-        let recorded = |(id, person, lesson, answers, body, lesson_sha256, seed, build)| Recorded {
+    pub async fn recorded(&self, course: &str, lesson: Option<&str>) -> Result<Vec<Recorded>, StoreError> {
+        type Row = (String, String, String, String, String, String, String, String, i64);
+        let list = sqlx::query_as(sql::REBUILDABLE).bind(course).bind(lesson);
+        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
+        let recorded = |(id, person, lesson, answers, body, lesson_sha256, seed, build, at)| Recorded {
             id,
             person,
             lesson,
@@ -217,6 +203,7 @@ impl Store {
             lesson_sha256,
             seed,
             build,
+            at: Moment(at),
         };
         Ok(rows.into_iter().map(recorded).collect())
     }
@@ -240,7 +227,7 @@ async fn keep(
         Whose::Person(id) => id.clone(),
         Whose::Named => person_of(connection, &new.course, &new.student, new.received_at).await?,
     };
-    let (assignment, most) = assignment(connection, &new.course, &new.lesson).await?;
+    let Assignment { id: assignment, policy, .. } = ensured(connection, &new.course, &new.lesson).await?;
     let submission = SubmissionRow {
         id: new.id.clone(),
         assignment: assignment.clone(),
@@ -265,11 +252,11 @@ async fn keep(
             return Ok((repeated(connection, &assignment, &person, &id, n).await?, false));
         }
     }
-    let count = sqlx::query_as(sql::ATTEMPTS).bind(&assignment).bind(&person);
-    let (used,): (i64,) = count.fetch_one(&mut *connection).await?;
-    if let Some(most) = most.filter(|most| new.counted && used >= *most) {
-        return Err(StoreError::AttemptsUsed(most));
-    }
+    let list = sqlx::query_as(sql::ATTEMPTS).bind(&assignment).bind(&person);
+    let made: Vec<(i64,)> = list.fetch_all(&mut *connection).await?;
+    let made: Vec<Moment> = made.into_iter().map(|(at,)| Moment(at)).collect();
+    let extension = extension_of(connection, &assignment, &person).await?;
+    admit(&policy, extension.as_ref(), &made, new.counted, Moment(new.received_at))?;
     quotas.check_person(connection, &person, new.answers.len()).await?;
     let last = sqlx::query_as(sql::LAST_SUBMISSION).bind(&new.course).bind(&new.lesson).bind(&person);
     let (last,): (i64,) = last.fetch_one(&mut *connection).await?;
@@ -280,7 +267,7 @@ async fn keep(
     add.bind(now()).execute(&mut *connection).await?;
     submission.add(connection, n).await?;
     verdict.add(connection).await?;
-    let attempts = usize::try_from(used).unwrap_or_default() + usize::from(new.counted);
+    let attempts = made.len() + usize::from(new.counted);
     Ok((Kept { attempts, verdict: new.verdict.clone() }, true))
 }
 
@@ -297,18 +284,6 @@ async fn repeated(
     let (body,): (String,) = sqlx::query_as(sql::LATEST_VERDICT).bind(id).fetch_one(&mut *connection).await?;
     let verdict = serde_json::from_str(&body).map_err(|cause| StoreError::Damaged(cause.to_string()))?;
     Ok(Kept { attempts: usize::try_from(used).unwrap_or_default(), verdict })
-}
-
-/// The assignment of a lesson, with the most attempts it allows; made when it is first needed.
-pub(super) async fn assignment(
-    connection: &mut SqliteConnection,
-    course: &str,
-    slug: &str,
-) -> Result<(String, Option<i64>), StoreError> {
-    let add = sqlx::query(sql::ADD_ASSIGNMENT).bind(identifier()).bind(course).bind(slug);
-    add.execute(&mut *connection).await?;
-    let find = sqlx::query_as(sql::ASSIGNMENT).bind(course).bind(slug);
-    Ok(find.fetch_one(&mut *connection).await?)
 }
 
 /// The person of that name; at home whoever types a name is known by it from then on.

@@ -8,6 +8,7 @@ use sqlx::Executor;
 use tempfile::TempDir;
 
 use super::*;
+use crate::policy::{Policy, Refusal};
 
 fn new(student: &str) -> HandIn {
     let id = identifier();
@@ -120,7 +121,8 @@ async fn every_statement_is_understood() {
 async fn of_two_hundred_at_once_three_attempts_are_three() {
     let (_folder, path) = place();
     let store = Arc::new(open(&path).await);
-    store.set_most_attempts(HOME, "triad", "pendulum", Some(3)).await.expect("sets");
+    let three = Policy { most_attempts: Some(3), ..Policy::default() };
+    store.set_policy(HOME, "triad", "pendulum", &three).await.expect("sets");
     let sent: Vec<_> = (0..200)
         .map(|_| {
             let store = store.clone();
@@ -131,7 +133,7 @@ async fn of_two_hundred_at_once_three_attempts_are_three() {
     for one in sent {
         match one.await.expect("ends") {
             Ok(one) => assert!(kept.insert(one.attempts)),
-            Err(StoreError::AttemptsUsed(3)) => refused += 1,
+            Err(StoreError::Refused(Refusal::AttemptsUsed(3))) => refused += 1,
             Err(other) => panic!("{other}"),
         }
     }
@@ -281,7 +283,7 @@ async fn a_database_of_a_later_version_is_refused() {
     let store = open(&path).await;
     sqlx::query("PRAGMA user_version = 99").execute(&store.writer).await.expect("writes");
     store.close().await;
-    assert!(matches!(Store::open(&path).await, Err(StoreError::Newer { found: 99, known: 2 })));
+    assert!(matches!(Store::open(&path).await, Err(StoreError::Newer { found: 99, known: 3 })));
 }
 
 #[tokio::test]
@@ -312,7 +314,7 @@ fn every_statement_is_understood_by_postgresql() {
     use std::fmt::Write;
 
     let mut script = String::new();
-    for text in sql::TABLES {
+    for text in sql::TABLES.iter().chain(sql::ADDED) {
         let _ = writeln!(script, "{text};");
     }
     for (k, (name, text)) in sql::ALL.iter().chain(OF_COURSE).enumerate() {

@@ -16,14 +16,14 @@ use triad_lessons::{Course, reference_submission};
 use crate::{Reply, get, send, server, state};
 
 /// A class, and how its people come in.
-struct Class {
-    app: App,
-    server: Router,
-    setup: String,
-    code: String,
+pub(crate) struct Class {
+    pub(crate) app: App,
+    pub(crate) server: Router,
+    pub(crate) setup: String,
+    pub(crate) code: String,
 }
 
-async fn class() -> Class {
+pub(crate) async fn class() -> Class {
     let app = state(Limits::default());
     let row = app.store.ensure_course(CLASS, "Mechanics").await.expect("a class");
     let setup = app.store.invite(CLASS, "triad", Role::Owner).await.expect("an invitation");
@@ -33,7 +33,7 @@ async fn class() -> Class {
 
 impl Class {
     /// Asks with a cookie; an empty one is nobody's.
-    async fn ask(&self, method: &str, path: &str, cookie: &str, body: Option<Value>) -> Reply {
+    pub(crate) async fn ask(&self, method: &str, path: &str, cookie: &str, body: Option<Value>) -> Reply {
         let mut request = Request::builder().method(method).uri(path).header(header::COOKIE, cookie);
         if body.is_some() {
             request = request.header(header::CONTENT_TYPE, "application/json");
@@ -43,13 +43,13 @@ impl Class {
     }
 
     /// Comes in: the cookie, and what was told.
-    async fn enter(&self, path: &str, body: Value) -> (String, Value) {
+    pub(crate) async fn enter(&self, path: &str, body: Value) -> (String, Value) {
         let reply = self.ask("POST", path, "", Some(body)).await;
         assert!(reply.status.is_success(), "{}", reply.json());
         (cookie(&reply), reply.json())
     }
 
-    async fn join(&self, name: &str) -> (String, Value) {
+    pub(crate) async fn join(&self, name: &str) -> (String, Value) {
         self.enter("/api/v1/join", json!({"code": self.code, "name": name})).await
     }
 
@@ -95,6 +95,7 @@ async fn every_operation_asks_for_the_right_that_the_table_says() {
             let filled = path.replace("{slug}", "screw").replace("{code}", "none").replace("{k}", "1");
             let filled = filled.replace("{name}", "free-fall").replace("{language}", "python");
             let filled = filled.replace("{id}", "none").replace("{person}", "none");
+            let filled = filled.replace("{question}", "none");
             for (role, cookie) in &everybody {
                 let reply = class.ask(&method, &filled, cookie, None).await;
                 let may = match right {

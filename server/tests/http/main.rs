@@ -9,6 +9,7 @@ mod class;
 mod described;
 mod document;
 mod lessons;
+mod policy;
 mod schema;
 mod secrets;
 mod sessions;

@@ -136,13 +136,30 @@ export interface components {
             opening: number;
         };
         /** @description How a lesson is assigned. */
-        AssignmentChange: {
+        AssignedLesson: {
+            /** @description Extensions, by person. */
+            extensions: components["schemas"]["PersonExtension"][];
             /**
              * Format: uint32
-             * @description Attempts that each student has; null: as many as they like.
+             * @description Its place in the course.
              */
-            most_attempts?: number | null;
+            number: number;
+            /**
+             * Format: uint
+             * @description How many people handed in.
+             */
+            people: number;
+            /** @description What is set. */
+            policy: components["schemas"]["Policy"];
+            /** @description When the results were released. */
+            released?: string | null;
+            /** @description Slug of the lesson. */
+            slug: string;
+            /** @description Its title. */
+            title: string;
         };
+        /** @description How the lessons are assigned, in the order of the course. */
+        AssignmentList: components["schemas"]["AssignedLesson"][];
         /** @description A mass that is part of a body. */
         AttachedMass: {
             /** @description Its inertia about its own centre, along the axes of the body's frame; without it a point mass. */
@@ -405,6 +422,38 @@ export interface components {
         };
         /** @description Which generalized coordinates describe a body. */
         Coordinates: "full" | "reduced" | "shared";
+        /** @description What an attempt counts. */
+        Credit: {
+            /** @description When it came. */
+            at: string;
+            /**
+             * Format: uint32
+             * @description Which attempt it is, from 1.
+             */
+            attempt: number;
+            /**
+             * Format: double
+             * @description Points that it earned.
+             */
+            earned: number;
+            /** @description The submission. */
+            id: string;
+            /**
+             * Format: double
+             * @description The share that counts of this attempt.
+             */
+            of_attempt: number;
+            /**
+             * Format: double
+             * @description The share that counts at that moment.
+             */
+            on_time: number;
+            /**
+             * Format: double
+             * @description The points that count: the product.
+             */
+            points: number;
+        };
         /** @description A body that is cut free. */
         CutBody: {
             /** @description Its name. */
@@ -424,17 +473,17 @@ export interface components {
             /** @description Name for people. */
             label: string;
         };
-        /** @description A decision about a grade. */
+        /** @description What somebody decided about the points. */
         Decided: {
-            /** @description When, RFC 3339. */
+            /** @description When. */
             at: string;
             /** @description Who decided. */
             by: string;
             /**
              * Format: double
-             * @description The points that count.
+             * @description The points that count; left out: those that were earned.
              */
-            points: number;
+            points?: number | null;
             /** @description Why. */
             reason: string;
         };
@@ -723,6 +772,22 @@ export interface components {
             /** @description The questions in order. */
             questions: components["schemas"]["Question"][];
         };
+        /** @description What one person is allowed beyond the others. */
+        Extension: {
+            /** @description When. */
+            at: string;
+            /**
+             * Format: uint32
+             * @description Attempts beyond those of everybody.
+             */
+            attempts: number;
+            /** @description Who gave it. */
+            by: string;
+            /** @description Why. */
+            reason: string;
+            /** @description Until when it counts in full; late steps and the end follow at the same distance. */
+            until?: string | null;
+        };
         /** @description One place in the input that is wrong. */
         Fault: {
             /** @description What is wrong there. */
@@ -773,6 +838,13 @@ export interface components {
              */
             viscous?: number;
         };
+        /** @description A verdict that was given. */
+        GivenVerdict: {
+            /** @description When. */
+            at: string;
+            /** @description What was told. */
+            verdict: components["schemas"]["GradedSubmission"];
+        };
         /** @description Students by lessons. */
         GradeTable: {
             /** @description The lessons, in the order of the course. */
@@ -797,21 +869,23 @@ export interface components {
             /** @description Its title. */
             title: string;
         };
-        /** @description The verdict of a submission. */
+        /** @description The verdict of a submission, without what is held back. */
         GradedSubmission: {
             /**
              * Format: double
-             * @description Points earned.
+             * @description Points earned; left out while they are held back.
              */
-            earned: number;
+            earned?: number | null;
             /** @description False if an answer could not be read or needs more digits: fix it and send again, no attempt is used. */
             gradable: boolean;
+            /** @description What is held back: `points`, `messages`. */
+            held?: string[];
             /** @description Its name. */
             id: string;
             /** @description Slug of the lesson. */
             lesson: string;
             /** @description Whether the lesson counts as passed: enough points, and nothing left that could not be read. */
-            passed: boolean;
+            passed?: boolean | null;
             /**
              * Format: double
              * @description Points that can be earned.
@@ -820,8 +894,8 @@ export interface components {
             /** @description What graded it. */
             provenance: components["schemas"]["Provenance"];
             /** @description The questions in the lesson's order. */
-            questions: components["schemas"]["QuestionVerdict"][];
-            /** @description The student, if the submission names one. */
+            questions: components["schemas"]["ToldQuestion"][];
+            /** @description The student. */
             student?: string | null;
             /** @description When it came, RFC 3339 in UTC. */
             submitted_at: string;
@@ -1254,17 +1328,19 @@ export interface components {
             };
             /**
              * Format: double
-             * @description Points earned.
+             * @description Points earned; left out while they are held back.
              */
-            earned: number;
+            earned?: number | null;
             /** @description False if an answer could not be read or needs more digits: fix it and send again, no attempt is used. */
             gradable: boolean;
+            /** @description What is held back: `points`, `messages`. */
+            held?: string[];
             /** @description Its name. */
             id: string;
             /** @description Slug of the lesson. */
             lesson: string;
             /** @description Whether the lesson counts as passed: enough points, and nothing left that could not be read. */
-            passed: boolean;
+            passed?: boolean | null;
             /**
              * Format: double
              * @description Points that can be earned.
@@ -1273,8 +1349,8 @@ export interface components {
             /** @description What graded it. */
             provenance: components["schemas"]["Provenance"];
             /** @description The questions in the lesson's order. */
-            questions: components["schemas"]["QuestionVerdict"][];
-            /** @description The student, if the submission names one. */
+            questions: components["schemas"]["ToldQuestion"][];
+            /** @description The student. */
             student?: string | null;
             /** @description When it came, RFC 3339 in UTC. */
             submitted_at: string;
@@ -1329,6 +1405,16 @@ export interface components {
              * @description Steps of the power series from the start to the end.
              */
             steps: number;
+        };
+        /** @description A step of lateness. */
+        LateStep: {
+            /**
+             * Format: double
+             * @description What share of the points counts until then, from 0 to 1.
+             */
+            share: number;
+            /** @description Until when. */
+            until: string;
         };
         /** @description What followers are sent in text. */
         LectureMessage: components["schemas"]["LectureState"] | components["schemas"]["SessionState"] | {
@@ -1418,6 +1504,37 @@ export interface components {
         };
         /** @description The lessons of a course. */
         LessonList: components["schemas"]["LessonSummary"][];
+        /** @description One person's work in one lesson. */
+        LessonRecord: {
+            /** @description Whether the student's request for a look again waits for an answer. */
+            asked: boolean;
+            /** @description What is allowed beyond the others. */
+            extension?: components["schemas"]["Extension"] | null;
+            /** @description What it counts after the due date, for this person. */
+            late?: components["schemas"]["LateStep"][];
+            /**
+             * Format: uint32
+             * @description Its place in the course.
+             */
+            number: number;
+            /** @description From when it can be handed in. */
+            opens?: string | null;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description Regrades that changed something here, the latest first. */
+            regrades: components["schemas"]["RegradeNote"][];
+            /** @description What was decided and said, the first at the beginning. */
+            remarks: components["schemas"]["Remark"][];
+            /** @description Slug of the lesson. */
+            slug: string;
+            /** @description Where the person stands. */
+            standing: components["schemas"]["ToldStanding"];
+            /** @description Its title. */
+            title: string;
+        };
         /** @description A step as a student sees it. */
         LessonStep: {
             /** @description The step as safe HTML. */
@@ -1844,6 +1961,22 @@ export interface components {
              */
             fit?: boolean;
         };
+        /** @description More time or attempts for one person. */
+        NewExtension: {
+            /**
+             * Format: uint32
+             * @description Attempts beyond those of everybody.
+             * @default 0
+             */
+            attempts?: number;
+            /** @description Why. */
+            reason: string;
+            /**
+             * @description Until when it counts in full; late steps and the end follow at the same distance.
+             * @default null
+             */
+            until?: string | null;
+        };
         /** @description The session that a lecture shows. */
         NewLecture: {
             /** @description Its id; who knows it may show it. */
@@ -2002,11 +2135,8 @@ export interface components {
         };
         /** @description A decision about a grade. */
         OwnDecision: {
-            /**
-             * Format: int64
-             * @description When, in milliseconds since 1970.
-             */
-            at: number;
+            /** @description When. */
+            at: string;
             /** @description Slug of the lesson. */
             lesson: string;
             /**
@@ -2071,6 +2201,26 @@ export interface components {
         Passing: "either" | "upwards" | "downwards";
         /** @description People of the class, by name. */
         PeopleList: components["schemas"]["Somebody"][];
+        /** @description An extension and whose it is. */
+        PersonExtension: {
+            /** @description When. */
+            at: string;
+            /**
+             * Format: uint32
+             * @description Attempts beyond those of everybody.
+             */
+            attempts: number;
+            /** @description Who gave it. */
+            by: string;
+            /** @description The person's id. */
+            person: string;
+            /** @description Why. */
+            reason: string;
+            /** @description Until when it counts in full; late steps and the end follow at the same distance. */
+            until?: string | null;
+        };
+        /** @description Whether an exercise can be handed in. */
+        Phase: "not_open" | "open" | "late" | "practice" | "closed";
         /** @description A place in the scene. */
         Place: string | {
             /**
@@ -2131,6 +2281,48 @@ export interface components {
              */
             speed?: number | null;
         };
+        /** @description How an exercise is handed in. What is left out bounds nothing. */
+        Policy: {
+            /** @description Until when it can be handed in at all. */
+            closes?: string | null;
+            /**
+             * Format: uint32
+             * @description Minutes between an attempt and the next.
+             * @default 0
+             */
+            cooldown_minutes?: number;
+            /** @description Until when it counts in full. */
+            due?: string | null;
+            /** @description What share of its points the first, second, … attempt counts, from 0 to 1; the last holds for all that follow. */
+            falling?: number[];
+            /** @description What it counts after that, step by step; after the last it earns nothing, and is practice. */
+            late?: components["schemas"]["LateStep"][];
+            /**
+             * Format: uint32
+             * @description Attempts that each person has.
+             */
+            most_attempts?: number | null;
+            /** @description From when it can be handed in. */
+            opens?: string | null;
+            /**
+             * @description What students are told of a verdict, and when.
+             * @default {
+             *       "messages": "at_once",
+             *       "points": "at_once",
+             *       "reference": "at_once"
+             *     }
+             */
+            reveal?: components["schemas"]["Reveal"];
+        };
+        /** @description What a policy makes of a person's work. */
+        PolicyPreview: {
+            /** @description At what moment. */
+            at: string;
+            /** @description Where the person then stands. */
+            standing: components["schemas"]["Standing"];
+            /** @description The person's last submission by then, as it would be told; left out if there is none. */
+            told?: components["schemas"]["GradedSubmission"] | null;
+        };
         /** @description What only the presenter sees. */
         PresenterState: {
             /**
@@ -2140,6 +2332,24 @@ export interface components {
             followers: number;
             /** @description How the answers stand. */
             tally: components["schemas"]["Tally"] | null;
+        };
+        /** @description What to look at before it counts. */
+        PreviewRequest: {
+            /**
+             * @description At what moment; now if it is left out.
+             * @default null
+             */
+            at?: string | null;
+            /**
+             * @description The person's id; without it somebody who has handed in nothing.
+             * @default null
+             */
+            person?: string | null;
+            /**
+             * @description The policy; without it the one that holds.
+             * @default null
+             */
+            policy?: components["schemas"]["Policy"] | null;
         };
         /** @description The members of a problem document as they go over the wire. */
         Problem: {
@@ -2336,37 +2546,12 @@ export interface components {
             /** @description Whether the right answer is shown. The points stay as they were before. */
             open: boolean;
         };
-        /** @description The outcome for one question. */
-        QuestionVerdict: {
-            /**
-             * Format: double
-             * @description Points earned.
-             */
-            earned: number;
-            /** @description A picture of what was computed, as SVG that the grader drew. */
-            figure_svg?: string | null;
-            /** @description The question's id. */
-            id: string;
-            /** @description Feedback for the student, as safe HTML. */
-            message_html: string;
-            /**
-             * Format: double
-             * @description Points that can be earned.
-             */
-            possible: number;
-            /** @description The right answer and its source, as safe HTML, where it is open. */
-            reference_html?: string | null;
-            /** @description The misconception that was recognised; for statistics and for the checks of authors. */
-            slip?: string | null;
-            /** @description What earlier submissions decide, where they are known. */
-            standing?: components["schemas"]["QuestionStanding"] | null;
-            /** @description Right, wrong, blank, invalid, or waiting for an answer that is invalid. */
-            verdict: components["schemas"]["Mark"];
-        };
         /** @description What a student has reached in a lesson. */
         Reached: {
+            /** @description Whether the student asks to look again. */
+            asked: boolean;
             /**
-             * Format: int64
+             * Format: uint32
              * @description Attempts; 0 where nothing could be judged yet.
              */
             attempts: number;
@@ -2377,8 +2562,12 @@ export interface components {
              * @description Most points of an attempt.
              */
             earned: number;
-            /** @description When the last submission came, RFC 3339; left out where nothing was handed in. */
+            /** @description Whether there is an extension. */
+            extended: boolean;
+            /** @description When the last submission came; left out where nothing was handed in. */
             last?: string | null;
+            /** @description Whether what counts came late. */
+            late: boolean;
             /** @description Whether it is enough to pass. */
             passed: boolean;
             /**
@@ -2482,6 +2671,15 @@ export interface components {
              */
             time: number;
         };
+        /** @description One person's work. */
+        Record: {
+            /** @description The person's id. */
+            id: string;
+            /** @description The lessons in which something was handed in, decided or set, in the order of the course. */
+            lessons: components["schemas"]["LessonRecord"][];
+            /** @description The name. */
+            name: string;
+        };
         /**
          * @description A set of joints and drivers whose rows repeat each other.
          *
@@ -2524,6 +2722,45 @@ export interface components {
             /** @description The rows, as indices. */
             rows: number[];
         };
+        /** @description What a regrade changed. */
+        RegradeNote: {
+            /** @description When. */
+            at: string;
+            /** @description By whom. */
+            by: string;
+            /** @description The regrade. */
+            id: string;
+            /** @description Points before and after; left out while they are held back. */
+            points?: [
+                number,
+                number
+            ] | null;
+            /** @description Why. */
+            reason: string;
+            /** @description When it was taken back. */
+            undone?: string | null;
+        };
+        /** @description Whether the results are released. */
+        Release: {
+            /** @description True to tell what waits for it. */
+            released: boolean;
+        };
+        /** @description Something that was decided or said. */
+        Remark: {
+            /** @description When. */
+            at: string;
+            /** @description By whom. */
+            by: string;
+            /** @description `points`, `comment`, or `request` by the student. */
+            kind: string;
+            /**
+             * Format: double
+             * @description The points that count from then on, if it is about points and does not take a decision back.
+             */
+            points?: number | null;
+            /** @description Why, or what was said. */
+            text: string;
+        };
         /** @description A change of one joint. */
         Remedy: {
             /** @description What it would become. */
@@ -2532,6 +2769,33 @@ export interface components {
             gives_up: string;
             /** @description The joint. */
             joint: string;
+        };
+        /** @description What students are told of a verdict, and when. */
+        Reveal: {
+            /**
+             * @description What is said about wrong answers.
+             * @default at_once
+             */
+            messages?: components["schemas"]["When"];
+            /**
+             * @description Points, and what is right.
+             * @default at_once
+             */
+            points?: components["schemas"]["When"];
+            /**
+             * @description The right answers. At once: as the course opens them, after a right answer or so many different ones.
+             * @default at_once
+             */
+            reference?: components["schemas"]["When"];
+        };
+        /** @description What of the verdicts a student is told. */
+        Revealed: {
+            /** @description What is said about wrong answers. */
+            messages: boolean;
+            /** @description Points, and what is right. */
+            points: boolean;
+            /** @description The right answers. */
+            reference: boolean;
         };
         /** @description Settings of a run, as chosen. */
         RunSettings: {
@@ -3037,6 +3301,54 @@ export interface components {
             /** @constant */
             kind: "augmented-lagrangian";
         };
+        /** @description Where a person stands in an exercise. */
+        Standing: {
+            /**
+             * Format: uint32
+             * @description Attempts that were made.
+             */
+            attempts: number;
+            /**
+             * Format: uint32
+             * @description Attempts that are left.
+             */
+            attempts_left?: number | null;
+            /** @description Until when this person can hand in. */
+            closes?: string | null;
+            /** @description What each attempt counts, the first at the beginning. */
+            credits: components["schemas"]["Credit"][];
+            /** @description The decision that holds. */
+            decided?: components["schemas"]["Decided"] | null;
+            /** @description Until when it counts in full for this person. */
+            due?: string | null;
+            /**
+             * Format: double
+             * @description Most points of an attempt, as its verdict says.
+             */
+            earned: number;
+            /** @description When the last submission came. */
+            last?: string | null;
+            /** @description Whether the attempt that counts came late. */
+            late: boolean;
+            /** @description From when the next attempt can be made, where one has to wait. */
+            next_attempt?: string | null;
+            /** @description Whether they are enough to pass. */
+            passed: boolean;
+            /** @description Whether it can be handed in. */
+            phase: components["schemas"]["Phase"];
+            /**
+             * Format: double
+             * @description The points that count.
+             */
+            points: number;
+            /** @description What the student is told. */
+            revealed: components["schemas"]["Revealed"];
+            /**
+             * Format: double
+             * @description What share of its points an attempt would count now.
+             */
+            worth: number;
+        };
         /** @description A motion in which all bodies keep their places in a frame that turns and slides uniformly. */
         SteadyMotion: {
             /** @description Velocity of the frame at the world's origin, m/s. */
@@ -3158,6 +3470,84 @@ export interface components {
              * @description The choice that is right.
              */
             right: number | null;
+        };
+        /** @description The points of a person in a lesson. */
+        ToldPoints: {
+            /** @description What each attempt counts. */
+            credits: components["schemas"]["Credit"][];
+            /** @description The decision that holds. */
+            decided?: components["schemas"]["Decided"] | null;
+            /**
+             * Format: double
+             * @description Most points of an attempt.
+             */
+            earned: number;
+            /** @description Whether what counts came late. */
+            late: boolean;
+            /** @description Whether they are enough to pass. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description Those that count.
+             */
+            points: number;
+        };
+        /** @description The outcome for one question, without what is held back. */
+        ToldQuestion: {
+            /**
+             * Format: double
+             * @description Points earned; left out while they are held back.
+             */
+            earned?: number | null;
+            /** @description A picture of what was computed, as SVG that the grader drew. */
+            figure_svg?: string | null;
+            /** @description The question's id. */
+            id: string;
+            /** @description Feedback for the student, as safe HTML. */
+            message_html?: string | null;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description The right answer and its source, as safe HTML, where it is open. */
+            reference_html?: string | null;
+            /** @description The misconception that was recognised; for statistics and for the checks of authors. */
+            slip?: string | null;
+            /** @description What earlier submissions decide, where they are known. */
+            standing?: components["schemas"]["QuestionStanding"] | null;
+            /** @description Right, wrong, blank, invalid, or waiting for an answer that is invalid; left out while it is held back. */
+            verdict?: components["schemas"]["Mark"] | null;
+        };
+        /** @description Where a person stands, without what is held back from them. */
+        ToldStanding: {
+            /**
+             * Format: uint32
+             * @description Attempts that were made.
+             */
+            attempts: number;
+            /**
+             * Format: uint32
+             * @description Attempts that are left.
+             */
+            attempts_left?: number | null;
+            /** @description Until when this person can hand in. */
+            closes?: string | null;
+            /** @description Until when it counts in full for this person. */
+            due?: string | null;
+            /** @description From when the next attempt can be made. */
+            next_attempt?: string | null;
+            /** @description Whether it can be handed in. */
+            phase: components["schemas"]["Phase"];
+            /** @description The points; left out while they are held back. */
+            points?: components["schemas"]["ToldPoints"] | null;
+            /** @description What is told of the verdicts. */
+            revealed: components["schemas"]["Revealed"];
+            /**
+             * Format: double
+             * @description What share of its points an attempt would count now.
+             */
+            worth: number;
         };
         /** @description What may be chosen for a run. */
         TuningChoices: {
@@ -3314,6 +3704,8 @@ export interface components {
             number,
             number
         ];
+        /** @description Every verdict of a submission, the first at the beginning. */
+        VerdictList: components["schemas"]["GivenVerdict"][];
         /** @description A follower's answer. */
         Vote: {
             /**
@@ -3337,6 +3729,15 @@ export interface components {
             person: components["schemas"]["Somebody"];
             /** @description Four words, to be written down. */
             words: string;
+        };
+        /** @description When something is told. */
+        When: "at_once" | "after_due" | "when_released" | "never";
+        /** @description Something that is said about work in a lesson. */
+        Words: {
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description What. */
+            text: string;
         };
     };
     responses: never;

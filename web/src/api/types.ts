@@ -29,7 +29,7 @@ export type Orientation = Schemas["Orientation"];
 /** The page reports some problems itself: a title is what all of them have. */
 export type Problem = Pick<Schemas["Problem"], "title"> & Partial<Schemas["Problem"]>;
 export type Question = Schemas["Question"];
-export type QuestionVerdict = Schemas["QuestionVerdict"];
+export type QuestionVerdict = Schemas["ToldQuestion"];
 export type Reaction = Schemas["Reaction"];
 export type Reactions = Schemas["Reactions"];
 export type Scene = Schemas["Scene"];

@@ -2,12 +2,12 @@
 import { api } from "../api/client";
 import type { GradedSubmission, Lesson } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, plural } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { verdictLine } from "./verdict";
+import { pointsOf, verdictLine } from "./verdict";
 
 export interface HistoryList {
   root: HTMLElement;
@@ -75,15 +75,17 @@ function entry(lesson: Lesson, verdict: GradedSubmission): HTMLElement {
         "span",
         { class: `standing ${verdict.passed ? "is-right" : "is-open"}` },
         icon(verdict.passed ? "check" : "dash"),
-        verdict.gradable ? `${points(verdict.earned)} of ${points(verdict.possible)}` : "Kept, not judged",
+        verdict.gradable ? pointsOf(verdict) : "Kept, not judged",
       ),
       h("time", { datetime: verdict.submitted_at }, dateTime(verdict.submitted_at)),
       h(
         "span",
         { class: "history-right" },
-        verdict.gradable
-          ? `${right} of ${plural(verdict.questions.length, "question")} right`
-          : "an answer could not be read; no attempt used",
+        verdict.earned == null
+          ? `${plural(verdict.questions.length, "question")}`
+          : verdict.gradable
+            ? `${right} of ${plural(verdict.questions.length, "question")} right`
+            : "an answer could not be read; no attempt used",
       ),
     ),
   );

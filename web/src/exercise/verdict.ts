@@ -13,26 +13,36 @@ const WORDS: Record<Mark, { word: string; mark: IconName }> = {
   waiting: { word: "Waiting", mark: "dash" },
 };
 
+/** What is kept and judged, and not told yet. */
+const HELD: { word: string; mark: IconName } = { word: "Handed in", mark: "dash" };
+
 const SAID = new Set(["Right.", "Not right.", "Not answered."]);
 const UNKNOWN_MISTAKE =
   "This mistake is not one that we know. Go through your steps once more, or open a hint.";
 
 export function verdictLine(result: QuestionVerdict): HTMLElement {
-  const { word, mark } = WORDS[result.verdict] ?? WORDS.invalid;
-  const text = authored(h("div", { class: "verdict-text" }), result.message_html);
+  const { word, mark } = result.verdict ? (WORDS[result.verdict] ?? WORDS.invalid) : HELD;
+  const text = authored(h("div", { class: "verdict-text" }), result.message_html ?? "");
   // The heading says it already.
   const first = text.firstElementChild;
   if (first && SAID.has(first.textContent ?? "")) first.remove();
-  if (result.verdict === "wrong" && !text.textContent) text.append(h("p", null, UNKNOWN_MISTAKE));
+  if (result.verdict === "wrong" && result.message_html != null && !text.textContent)
+    text.append(h("p", null, UNKNOWN_MISTAKE));
   return h(
     "div",
-    { class: `verdict is-${result.verdict}` },
+    { class: `verdict is-${result.verdict ?? "waiting"}` },
     h(
       "p",
       { class: "verdict-head" },
       icon(mark),
       h("strong", null, word),
-      h("span", { class: "verdict-points" }, `${points(result.earned)} of ${points(result.possible)} points`),
+      result.earned == null
+        ? null
+        : h(
+            "span",
+            { class: "verdict-points" },
+            `${points(result.earned)} of ${points(result.possible)} points`,
+          ),
     ),
     text.textContent ? text : null,
     standingLine(result),
@@ -61,8 +71,15 @@ function standingLine({ standing, possible }: QuestionVerdict): HTMLElement | nu
   return text ? h("p", { class: `standing-line ${open ? "is-open" : ""}` }, text) : null;
 }
 
+/** The points of a verdict in words, or that they are told later. */
+export function pointsOf(verdict: GradedSubmission): string {
+  return verdict.earned == null
+    ? "Results are told later"
+    : `${points(verdict.earned)} of ${points(verdict.possible)} points`;
+}
+
 export function verdictSummary(verdict: GradedSubmission): HTMLElement {
-  const score = `${points(verdict.earned)} of ${points(verdict.possible)} points`;
+  const score = pointsOf(verdict);
   const [cls, mark, title, text]: [string, IconName, string, string] = !verdict.gradable
     ? [
         "is-invalid",
@@ -70,19 +87,21 @@ export function verdictSummary(verdict: GradedSubmission): HTMLElement {
         "Not counted yet",
         "An answer was sent back, so nothing is judged and no attempt is used. Put it right and check again.",
       ]
-    : verdict.passed
-      ? [
-          "is-right",
-          "check",
-          `Passed: ${score}`,
-          "The result is stored. You can still change an answer and check again.",
-        ]
-      : [
-          "is-wrong",
-          "dash",
-          `${score} so far`,
-          "Read the remarks at the questions, change what needs it, and check again.",
-        ];
+    : verdict.earned == null
+      ? ["is-held", "check", "Handed in", "It is kept and judged. Your teacher tells the results later."]
+      : verdict.passed
+        ? [
+            "is-right",
+            "check",
+            `Passed: ${score}`,
+            "The result is stored. You can still change an answer and check again.",
+          ]
+        : [
+            "is-wrong",
+            "dash",
+            `${score} so far`,
+            "Read the remarks at the questions, change what needs it, and check again.",
+          ];
   return h(
     "div",
     { class: `summary ${cls}`, role: "status" },

@@ -144,9 +144,9 @@ function bestOf(verdicts: GradedSubmission[]): Map<string, Best> {
     // What could not be judged earns nothing and is no attempt, but the lesson is begun.
     const before = best.get(verdict.lesson);
     best.set(verdict.lesson, {
-      earned: Math.max(before?.earned ?? 0, verdict.gradable ? verdict.earned : 0),
+      earned: Math.max(before?.earned ?? 0, verdict.gradable ? (verdict.earned ?? 0) : 0),
       possible: verdict.possible,
-      passed: (before?.passed ?? false) || verdict.passed,
+      passed: (before?.passed ?? false) || (verdict.passed ?? false),
       attempts: (before?.attempts ?? 0) + (verdict.gradable ? 1 : 0),
     });
   }

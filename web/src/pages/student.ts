@@ -5,7 +5,7 @@ import { h } from "../core/dom";
 import { dateTime, plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import type { Page } from "../core/router";
-import { verdictLine } from "../exercise/verdict";
+import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 
@@ -83,7 +83,7 @@ const standing = (reached: Reached | undefined, possible: number): string =>
     : "nothing counts yet";
 
 function attempt(one: KeptSubmission): HTMLElement {
-  const head = one.gradable ? `${points(one.earned)} of ${points(one.possible)}` : "Kept, not judged";
+  const head = one.gradable ? pointsOf(one) : "Kept, not judged";
   return h(
     "li",
     null,

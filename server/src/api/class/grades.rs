@@ -13,18 +13,17 @@ use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::assignments::text_of;
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::api::lessons::submissions::{SubmissionList, listed};
 use crate::app::App;
-use crate::grades::{Format, GradeTable, csv, table};
+use crate::grades::{Format, GradeTable, csv, possible, table};
+use crate::policy::Moment;
 use crate::problem::Problem;
-use crate::store::{CLASS, Query};
-
-/// Longest reason, in characters.
-const LONGEST_REASON: usize = 2000;
+use crate::store::{CLASS, DecisionKind, Query};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<GradeTable>();
@@ -40,7 +39,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 #[utoipa::path(get, path = "/standings", operation_id = "get_standings", tag = "class", responses(
     (status = 200, description = "The table", body = ref(of::<GradeTable>()))))]
 async fn standings(State(app): State<App>) -> Result<Answer<GradeTable>, Problem> {
-    Ok(Answer(table(&app.store, CLASS, &app.course).await?))
+    Ok(Answer(table(&app.store, CLASS, &app.course, Moment::now()).await?))
 }
 
 /// For which program.
@@ -64,7 +63,7 @@ async fn standings_csv(
     QueryParameters(wanted): QueryParameters<For>,
 ) -> Result<impl IntoResponse, Problem> {
     let course = app.store.course(CLASS).await?;
-    let grades = table(&app.store, CLASS, &app.course).await?;
+    let grades = table(&app.store, CLASS, &app.course, Moment::now()).await?;
     let text = csv(&grades, wanted.format, &course.title)?;
     app.store.note(CLASS, &caller.member()?.id, "exported", "grades").await?;
     let headers = [
@@ -122,23 +121,15 @@ async fn decide(
     Json(new): Json<NewDecision>,
 ) -> Result<StatusCode, Problem> {
     let lesson = lessons::find(&app, &new.lesson)?;
-    let refused = |pointer: &str, wrong: String, hint: &str| {
-        let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-decision", wrong.clone(), hint);
-        Err(problem.at(pointer, wrong))
-    };
-    let reason = new.reason.trim();
-    if reason.is_empty() || reason.chars().count() > LONGEST_REASON {
-        let wrong = format!("the reason is empty or has more than {LONGEST_REASON} characters");
-        return refused("/reason", wrong, "say in a sentence why these points count");
-    }
-    let possible = lesson.exercise.possible();
+    let reason = text_of(&new.reason, "/reason")?;
+    let possible = possible(lesson);
     if new.points.is_some_and(|points| !(0.0..=possible).contains(&points)) {
-        return refused(
-            "/points",
-            format!("points go from 0 to {possible} here"),
-            "give points within that range",
-        );
+        let wrong = format!("points go from 0 to {possible} here");
+        let hint = "give points within that range";
+        let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-decision", wrong.clone(), hint);
+        return Err(problem.at("/points", wrong));
     }
-    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, new.points, reason).await?;
+    let what = (DecisionKind::Points, new.points, reason.as_str());
+    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, what).await?;
     Ok(StatusCode::CREATED)
 }

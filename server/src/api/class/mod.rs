@@ -1,6 +1,8 @@
 //! The class: who is in it, coming in, and what everybody has reached.
 
+pub(in crate::api) mod assignments;
 pub(in crate::api) mod grades;
 pub(in crate::api) mod people;
 pub(in crate::api) mod records;
 pub(in crate::api) mod sign_in;
+pub(in crate::api) mod standing;

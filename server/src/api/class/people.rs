@@ -15,7 +15,6 @@ use super::sign_in::{Somebody, title_of, way_back};
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters};
 use crate::api::guard::Caller;
-use crate::api::lessons;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::store::{CLASS, CourseRow, Role};
@@ -23,14 +22,12 @@ use crate::store::{CLASS, CourseRow, Role};
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<ClassView>();
     schemas.request::<ClassChange>();
-    schemas.request::<AssignmentChange>();
     schemas.answer::<PeopleList>();
     schemas.request::<NewRole>();
     schemas.answer::<NewWords>();
     schemas.answer::<Invitation>();
     OpenApiRouter::new()
         .routes(routes!(show, change))
-        .routes(routes!(bound))
         .routes(routes!(list))
         .routes(routes!(appoint))
         .routes(routes!(renew))
@@ -91,31 +88,6 @@ async fn change(
     let open = change.join_open.unwrap_or(before.join_open);
     let actor = caller.member()?.id;
     Ok(Answer(app.store.set_course(CLASS, &actor, &title, open, change.new_code).await?.into()))
-}
-
-/// How a lesson is assigned.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct AssignmentChange {
-    /// Attempts that each student has; null: as many as they like.
-    most_attempts: Option<u32>,
-}
-
-/// Bound the attempts at a lesson.
-#[utoipa::path(put, path = "/assignments/{slug}", operation_id = "change_assignment", tag = "class", params(("slug" = String, Path)),
-    request_body(content = ref(of::<AssignmentChange>()), example = json!({"most_attempts": 3})), responses(
-    (status = 204, description = "It is so from now on"),
-    (status = 404, description = "No such lesson", body = ref(PROBLEM))))]
-async fn bound(
-    State(app): State<App>,
-    PathParameters(slug): PathParameters<String>,
-    caller: Caller,
-    Json(change): Json<AssignmentChange>,
-) -> Result<StatusCode, Problem> {
-    let slug = lessons::find(&app, &slug)?.slug.clone();
-    let actor = caller.member()?.id;
-    app.store.set_most_attempts(CLASS, &actor, &slug, change.most_attempts.map(i64::from)).await?;
-    Ok(StatusCode::NO_CONTENT)
 }
 
 /// People of the class, by name.

@@ -25,9 +25,12 @@ use super::sign_in::Somebody;
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters};
 use crate::api::guard::Caller;
+use crate::api::lessons::told::hold;
 use crate::app::App;
+use crate::grades::Book;
+use crate::policy::{Moment, Revealed};
 use crate::problem::Problem;
-use crate::store::{CLASS, Decision, OwnEvent, Query, StoreError};
+use crate::store::{CLASS, Decision, DecisionKind, OwnEvent, Query, StoreError};
 
 /// Longest reason, in characters.
 const LONGEST_REASON: usize = 2000;
@@ -115,11 +118,11 @@ struct OwnDecision {
     points: Option<f64>,
     /// Why.
     reason: String,
-    /// When, in milliseconds since 1970.
-    at: i64,
+    /// When.
+    at: Moment,
 }
 
-/// A copy of one's own data: everything that is kept of who asks.
+/// A copy of one's own data: everything that is kept of who asks, but for results that are held back.
 #[utoipa::path(get, path = "/me/data", operation_id = "get_own_data", tag = "class", responses(
     (status = 200, description = "Submissions with files and verdicts, decisions, the log", body = ref(of::<OwnData>()))))]
 async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse, Problem> {
@@ -127,9 +130,19 @@ async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse
     let id = member.id.as_str();
     let query =
         Query { course: CLASS.to_owned(), person: Some(id.to_owned()), lesson: None, limit: usize::MAX };
-    let found = app.store.list(&query).await?;
+    let book = Book::open(&app.store, CLASS, Some(id)).await?;
+    let told = |lesson: &str| {
+        let standing = app.course.lesson(lesson).map(|lesson| book.standing(id, lesson, Moment::now()));
+        standing.map_or(Revealed::NOTHING, |standing| standing.revealed)
+    };
+    let mut found = app.store.list(&query).await?;
+    for one in &mut found {
+        hold(&mut one.verdict, told(&one.lesson));
+    }
     let submissions = found.into_iter().map(|one| json!({"answers": one.answers, "verdict": one.verdict}));
-    let decisions = app.store.decisions(CLASS).await?.into_iter().filter(|decision| decision.person == id);
+    let decisions = app.store.decisions(CLASS).await?.into_iter().filter(|decision| {
+        decision.person == id && (decision.kind != DecisionKind::Points || told(&decision.lesson).points)
+    });
     let decision = |Decision { lesson, points, reason, at, .. }| OwnDecision { lesson, points, reason, at };
     let data = OwnData {
         person: Somebody::of(&member),

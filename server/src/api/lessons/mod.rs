@@ -4,6 +4,7 @@
 #![allow(unused_qualifications)]
 
 pub(in crate::api) mod submissions;
+pub(in crate::api) mod told;
 
 use std::sync::Arc;
 

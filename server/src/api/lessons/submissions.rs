@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use triad_lessons::answers::{RunSettings, TypedValue};
-use triad_lessons::{Submission, Verdict};
+use triad_lessons::{Lesson, Submission, Verdict};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -23,10 +23,13 @@ use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::api::lessons;
+use crate::api::lessons::told::{self, GradedSubmission};
 use crate::app::App;
+use crate::grades::Book;
+use crate::policy::{Moment, When};
 use crate::problem::Problem;
 use crate::store::{
-    CLASS, HOME, HandIn, Kept, Query, StoreError, StoredSubmission, Whose, identifier, names,
+    CLASS, HOME, HandIn, Kept, Member, Query, StoreError, StoredSubmission, Whose, identifier, names,
 };
 use crate::{blocking, grading};
 
@@ -42,14 +45,11 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list))
 }
 
-/// The verdict of a submission.
-#[derive(Debug, Serialize, Deserialize, JsonSchema)]
-struct GradedSubmission {
-    /// Its name.
+/// A verdict with what names its submission, as it is kept.
+#[derive(Debug, Serialize)]
+struct KeptVerdict {
     id: String,
-    /// When it came, RFC 3339 in UTC.
     submitted_at: String,
-    /// What it earned.
     #[serde(flatten)]
     verdict: Verdict,
 }
@@ -68,7 +68,7 @@ struct GradedSubmission {
     (status = 201, description = "Graded and kept", body = ref(of::<GradedSubmission>())),
     (status = 200, description = "Kept, but not gradable: says what to correct", body = ref(of::<GradedSubmission>())),
     (status = 404, description = "No such lesson", body = ref(PROBLEM)),
-    (status = 409, description = "All attempts are used", body = ref(PROBLEM)),
+    (status = 409, description = "Not open, closed, too soon, or all attempts are used", body = ref(PROBLEM)),
     (status = 422, description = "Not a submission", body = ref(PROBLEM)),
     (status = 503, description = "It could not be kept: says why", body = ref(PROBLEM))))]
 async fn submit(
@@ -79,20 +79,21 @@ async fn submit(
     Json(body): Json<Value>,
 ) -> Result<impl IntoResponse, Problem> {
     let key = request_key(&headers)?;
-    let lesson = lessons::find(&app, &slug)?.slug.clone();
+    let lesson = lessons::find(&app, &slug)?;
     let who = who(&app, caller, &body)?;
+    let policy = app.store.assignment(who.course, &lesson.slug).await?.policy;
+    let lesson = told::assigned(lesson, &policy);
+    let person = who.person();
     let grading = app.clone();
-    let judged = Arc::new(blocking(move || judged(&grading, &lesson, &body, who, key)).await?);
+    let judged = Arc::new(blocking(move || judged(&grading, lesson, &body, who, key)).await?);
     let (new, kept) = keep(&app, &judged).await?;
     let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
+    let revealed = told::revealed(&app, person.as_deref(), &judged.lesson).await?;
     let document = blocking(move || {
-        let mut told: GradedSubmission = serde_json::from_value(kept.verdict).map_err(Problem::internal)?;
-        if told.verdict.gradable {
-            let lesson = lessons::find(&app, &new.lesson)?;
-            let own = app.variants.of(lesson, &new.seed)?;
-            triad_lessons::open(&own, &mut told.verdict);
-        }
-        Ok(told)
+        let mut verdict = kept.verdict;
+        let own = app.variants.of(&judged.lesson, &new.seed)?;
+        told::tell(&own, &policy, revealed, &mut verdict)?;
+        serde_json::from_value::<GradedSubmission>(verdict).map_err(Problem::internal)
     });
     Ok((status, Answer(document.await?)))
 }
@@ -102,9 +103,8 @@ async fn submit(
 async fn keep(app: &App, judged: &Arc<Judged>) -> Result<(HandIn, Kept), Problem> {
     loop {
         let (earlier, after) = earlier(app, judged).await?;
-        let (app, settling) = (app.clone(), Arc::clone(judged));
-        let lessons = app.clone();
-        let new = blocking(move || settled(&lessons, &settling, earlier, after)).await?;
+        let settling = Arc::clone(judged);
+        let new = blocking(move || settled(&settling, earlier, after)).await?;
         match app.store.hand_in(&new).await {
             // Each time around, one more of theirs is kept.
             Err(StoreError::Overtaken) => {}
@@ -130,6 +130,16 @@ struct Who {
     student: String,
     /// The class decides whose numbers these are; at home the submission says it.
     seed: Option<String>,
+}
+
+impl Who {
+    /// The person's id, where it is known.
+    fn person(&self) -> Option<String> {
+        match &self.whose {
+            Whose::Person(id) => Some(id.clone()),
+            Whose::Named => None,
+        }
+    }
 }
 
 /// At home whoever the submission names, in a class the caller: there a submission names nobody.
@@ -160,12 +170,13 @@ async fn earlier(app: &App, judged: &Judged) -> Result<(Vec<StoredSubmission>, i
         Whose::Named => app.store.person_named(HOME, &who.student).await?,
     };
     let Some(person) = person else { return Ok((Vec::new(), 0)) };
-    Ok(app.store.earlier(who.course, &person, &judged.lesson).await?)
+    Ok(app.store.earlier(who.course, &person, &judged.lesson.slug).await?)
 }
 
 /// What is handed in, judged for itself.
 struct Judged {
-    lesson: String,
+    /// As it is assigned.
+    lesson: Lesson,
     who: Who,
     key: Option<String>,
     submission: Submission,
@@ -174,33 +185,26 @@ struct Judged {
 }
 
 /// Judges what is handed in: without what came before, and without the right answers.
-fn judged(app: &App, slug: &str, body: &Value, who: Who, key: Option<String>) -> Result<Judged, Problem> {
-    let lesson = lessons::find(app, slug)?;
+fn judged(app: &App, lesson: Lesson, body: &Value, who: Who, key: Option<String>) -> Result<Judged, Problem> {
     let (submission, mut verdict) =
-        grading::grade(lesson, &app.variants, &body.to_string(), who.seed.as_deref())?;
+        grading::grade(&lesson, &app.variants, &body.to_string(), who.seed.as_deref())?;
     verdict.student = Some(who.student.clone());
     let seed = verdict.provenance.seed.clone();
     if who.seed.is_some() {
         // It would let others compute these numbers.
         verdict.provenance.seed.clear();
     }
-    Ok(Judged { lesson: lesson.slug.clone(), who, key, submission, verdict, seed })
+    Ok(Judged { lesson, who, key, submission, verdict, seed })
 }
 
 /// What is kept of it, after what came before: up to the entry `after` of the log.
-fn settled(
-    app: &App,
-    judged: &Judged,
-    earlier: Vec<StoredSubmission>,
-    after: i64,
-) -> Result<HandIn, Problem> {
-    let lesson = lessons::find(app, &judged.lesson)?;
-    let Judged { who, key, submission, seed, .. } = judged;
+fn settled(judged: &Judged, earlier: Vec<StoredSubmission>, after: i64) -> Result<HandIn, Problem> {
+    let Judged { lesson, who, key, submission, seed, .. } = judged;
     let mut verdict = judged.verdict.clone();
     grading::settle(lesson, earlier, submission, &mut verdict)?;
     let received = jiff::Timestamp::now();
     let counted = verdict.gradable;
-    let told = GradedSubmission { id: identifier(), submitted_at: format!("{received:.3}"), verdict };
+    let told = KeptVerdict { id: identifier(), submitted_at: format!("{received:.3}"), verdict };
     Ok(HandIn {
         id: told.id.clone(),
         course: who.course.to_owned(),
@@ -312,9 +316,11 @@ async fn list(
 ) -> Result<Answer<SubmissionList>, Problem> {
     let limit = filter.limit.unwrap_or(100).min(app.limits.submissions);
     if app.access.is_class() {
-        let person = Some(caller.member()?.id);
-        let query = Query { course: CLASS.to_owned(), person, lesson: filter.lesson, limit };
-        return Ok(Answer(listed(app.store.list(&query).await?)));
+        let member = caller.member()?;
+        let query =
+            Query { course: CLASS.to_owned(), person: Some(member.id.clone()), lesson: filter.lesson, limit };
+        let found = app.store.list(&query).await?;
+        return own(app, &member, found).await.map(|found| Answer(listed(found)));
     }
     let person = match filter.student {
         None => None,
@@ -325,6 +331,32 @@ async fn list(
     };
     let query = Query { course: HOME.to_owned(), person, lesson: filter.lesson, limit };
     Ok(Answer(listed(app.store.list(&query).await?)))
+}
+
+/// A student's own submissions, without what is held back from them.
+async fn own(
+    app: App,
+    member: &Member,
+    mut found: Vec<StoredSubmission>,
+) -> Result<Vec<StoredSubmission>, Problem> {
+    let book = Book::open(&app.store, CLASS, Some(&member.id)).await?;
+    let (member, now) = (member.clone(), Moment::now());
+    blocking(move || {
+        for one in &mut found {
+            let Some(lesson) = app.course.lesson(&one.lesson) else { continue };
+            let revealed = book.standing(&member.id, lesson, now).revealed;
+            let policy = book.assignment(&one.lesson).map(|assignment| assignment.policy.clone());
+            match policy.filter(|policy| revealed.reference && policy.reveal.reference != When::AtOnce) {
+                Some(policy) => {
+                    let own = app.variants.of(lesson, &app.access.seed_of(&member))?;
+                    told::tell(&own, &policy, revealed, &mut one.verdict)?;
+                }
+                None => told::hold(&mut one.verdict, revealed),
+            }
+        }
+        Ok(found)
+    })
+    .await
 }
 
 /// Submissions as they are shown: files by their lengths.

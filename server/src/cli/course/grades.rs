@@ -9,6 +9,7 @@ use triad_lessons::Course;
 
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::grades::{Format, GradeTable, csv, table};
+use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::{CLASS, HOME, Store};
 
@@ -37,7 +38,7 @@ pub(in crate::cli) fn grades(options: &Grades, course: &Course, json: bool) -> R
             return check(&store, json).await;
         }
         let (id, title) = kept_course(&store).await;
-        let grades = table(&store, id, course).await?;
+        let grades = table(&store, id, course, Moment::now()).await?;
         match (json, options.csv) {
             (true, _) => print_json(&grades),
             (_, true) => print_line(csv(&grades, options.format, &title)?.trim_end()),

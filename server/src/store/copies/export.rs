@@ -1,7 +1,7 @@
 //! A whole course as one file: a line for each row, and a last line that says that it is whole.
 //!
 //! ```text
-//! {"triad":"course","format":2,"course":"class","at":1760000000000}
+//! {"triad":"course","format":3,"course":"class","at":1760000000000}
 //! ["course",{"id":"class",…}]
 //! ["person",{…}]
 //! …

@@ -5,9 +5,9 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use sqlx::{AssertSqlSafe, SqliteConnection};
 
+use super::super::class::members::known;
 use super::super::error::StoreError;
 use super::super::log::{self, ERASED, Event};
-use super::super::people::known;
 use super::super::{Store, now, sql};
 
 /// An entry of the log that somebody made, or that is about them.

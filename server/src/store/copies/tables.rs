@@ -38,6 +38,17 @@ pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
          WHERE a.course = $1 ORDER BY s.n, v.run LIMIT $2 OFFSET $3",
     ),
     ("decision", "SELECT * FROM decision WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+    (
+        "extension",
+        "SELECT e.* FROM extension e JOIN assignment a ON a.id = e.assignment WHERE a.course = $1 \
+         ORDER BY e.assignment, e.person LIMIT $2 OFFSET $3",
+    ),
+    ("regrade", "SELECT * FROM regrade WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+    (
+        "regraded",
+        "SELECT d.* FROM regraded d JOIN regrade r ON r.id = d.regrade WHERE r.course = $1 \
+         ORDER BY d.regrade, d.person LIMIT $2 OFFSET $3",
+    ),
     ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
 ];
 

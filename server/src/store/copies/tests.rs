@@ -52,11 +52,14 @@ async fn place() -> Place {
     }
     let ada = store.person_named(HOME, "zebedee").await.expect("looks").expect("Zebedee");
     store
-        .decide(HOME, "triad", &ada, "pendulum", Some(0.7), "right in another frame")
+        .decide(HOME, "triad", &ada, "pendulum", (DecisionKind::Points, Some(0.7), "right in another frame"))
         .await
         .expect_err("triad is nobody");
     let emmy = store.person_named(HOME, "emmy").await.expect("looks").expect("Emmy");
-    store.decide(HOME, &emmy, &ada, "pendulum", Some(0.7), "right in another frame").await.expect("decides");
+    store
+        .decide(HOME, &emmy, &ada, "pendulum", (DecisionKind::Points, Some(0.7), "right in another frame"))
+        .await
+        .expect("decides");
     Place { folder, store }
 }
 
@@ -152,8 +155,10 @@ async fn a_course_moves_whole_and_only_once() {
     let came = other.import(&file).await.expect("comes in");
     assert!(came.rows > 10, "{came:?}");
     assert_eq!(all(&other).await, all(&place.store).await);
-    let (mut here, mut there) =
-        (place.store.standings(HOME).await.expect("reads"), other.standings(HOME).await.expect("reads"));
+    let (mut here, mut there) = (
+        place.store.handed(HOME, None, None).await.expect("reads"),
+        other.handed(HOME, None, None).await.expect("reads"),
+    );
     for list in [&mut here, &mut there] {
         list.sort_by(|a, b| a.person.cmp(&b.person));
     }
@@ -191,7 +196,7 @@ async fn a_file_that_is_cut_changed_or_newer_brings_nothing_in() {
     exported(&place.store, &file).await;
     let text = fs::read_to_string(&file).expect("text");
     let other = open(&place.path("other.db")).await;
-    let newer = text.replacen("\"format\":2", "\"format\":99", 1);
+    let newer = text.replacen("\"format\":3", "\"format\":99", 1);
     let resealed = |text: &str| {
         let rows: Vec<&str> = text.lines().collect();
         let body = format!("{}\n", rows[..rows.len() - 1].join("\n"));
@@ -226,7 +231,10 @@ async fn a_file_that_is_cut_changed_or_newer_brings_nothing_in() {
 async fn every_table_is_taken_along_or_left_on_purpose() {
     let known: BTreeSet<&str> =
         OF_COURSE.iter().map(|(table, _)| *table).chain(LEFT.iter().copied()).collect();
-    let tables = sql::TABLES.iter().filter_map(|text| text.strip_prefix("CREATE TABLE ")?.split(' ').next());
+    let tables = sql::TABLES
+        .iter()
+        .chain(sql::ADDED)
+        .filter_map(|text| text.strip_prefix("CREATE TABLE ")?.split(' ').next());
     assert_eq!(tables.collect::<BTreeSet<_>>(), known);
 }
 
@@ -236,10 +244,10 @@ async fn who_is_erased_leaves_grades_and_a_log_that_is_whole() {
         let place = place().await;
         let store = &place.store;
         let ada = store.person_named(HOME, "Zebedee").await.expect("looks").expect("Zebedee");
-        let before = store.standings(HOME).await.expect("reads");
+        let before = store.handed(HOME, None, None).await.expect("reads");
         assert!(!store.events_of(HOME, &ada).await.expect("reads").is_empty());
         store.erase(HOME, "triad", &ada, "asked for it", answers_stay).await.expect("erases");
-        assert_eq!(store.standings(HOME).await.expect("reads"), before, "points stay");
+        assert_eq!(store.handed(HOME, None, None).await.expect("reads"), before, "points stay");
         assert_eq!(store.person_named(HOME, "zebedee").await.expect("looks"), None);
         assert!(whole(store).await);
         let hers = Query { course: HOME.into(), person: Some(ada.clone()), limit: 9, ..Query::default() };

@@ -1,14 +1,21 @@
 //! The table of a class: students and what each has reached in every lesson, for the page and for other programs.
 
+mod book;
+mod record;
+
 use std::collections::HashMap;
 
 use csv::{QuoteStyle, WriterBuilder};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use triad_lessons::Course;
+use triad_lessons::{Course, Lesson};
 
+use crate::policy::{Decided, Moment};
 use crate::problem::Problem;
-use crate::store::{Decision, Role, Standing, Store};
+use crate::store::{DecisionKind, Member, Role, Store};
+
+pub use book::{Book, Entry, case, pass_points, possible};
+pub use record::{LessonRecord, Record, record, told};
 
 /// Students by lessons.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -51,28 +58,21 @@ pub struct Reached {
     /// Most points of an attempt.
     pub earned: f64,
     /// Attempts; 0 where nothing could be judged yet.
-    pub attempts: i64,
+    pub attempts: u32,
     /// Whether it is enough to pass.
     pub passed: bool,
-    /// When the last submission came, RFC 3339; left out where nothing was handed in.
+    /// Whether what counts came late.
+    pub late: bool,
+    /// When the last submission came; left out where nothing was handed in.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub last: Option<String>,
+    pub last: Option<Moment>,
+    /// Whether there is an extension.
+    pub extended: bool,
+    /// Whether the student asks to look again.
+    pub asked: bool,
     /// What somebody decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub decided: Option<Decided>,
-}
-
-/// A decision about a grade.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Decided {
-    /// The points that count.
-    pub points: f64,
-    /// Why.
-    pub reason: String,
-    /// Who decided.
-    pub by: String,
-    /// When, RFC 3339.
-    pub at: String,
 }
 
 /// For which program a table is written.
@@ -88,64 +88,58 @@ pub enum Format {
     Moodle,
 }
 
-/// A moment as text.
-fn moment(milliseconds: i64) -> String {
-    jiff::Timestamp::from_millisecond(milliseconds).map(|at| format!("{at:.3}")).unwrap_or_default()
-}
-
-/// The table of a course.
+/// The table of a course, as it is at a moment.
 ///
 /// Errors if the gradebook cannot be read.
-pub async fn table(store: &Store, id: &str, course: &Course) -> Result<GradeTable, Problem> {
+pub async fn table(store: &Store, id: &str, course: &Course, now: Moment) -> Result<GradeTable, Problem> {
     let people = store.people(id).await?;
-    let lessons: Vec<GradedLesson> = course
-        .lessons()
-        .iter()
-        .map(|lesson| GradedLesson {
-            slug: lesson.slug.clone(),
-            number: lesson.number,
-            title: lesson.about.title.clone(),
-            possible: lesson.exercise.possible(),
-        })
-        .collect();
-    let mut reached: HashMap<String, HashMap<String, Reached>> = HashMap::new();
-    for standing in store.standings(id).await? {
-        let Standing { person, lesson, attempts, best, passed, last, .. } = standing;
-        let one =
-            Reached { points: best, earned: best, attempts, passed, last: Some(moment(last)), decided: None };
-        reached.entry(person).or_default().insert(lesson, one);
-    }
-    for decision in store.decisions(id).await? {
-        let pass = course
-            .lesson(&decision.lesson)
-            .map(|lesson| lesson.exercise.pass_mark * lesson.exercise.possible() * (1.0 - 1e-12));
-        apply(&mut reached, decision, pass.unwrap_or(f64::INFINITY));
-    }
-    let students =
-        people.into_iter().filter(|person| person.role == Role::Student).map(|person| StudentRow {
-            lessons: reached.remove(&person.id).unwrap_or_default(),
-            id: person.id,
-            name: person.name,
-        });
-    Ok(GradeTable { students: students.collect(), lessons })
+    let book = Book::open(store, id, None).await?;
+    let lessons = course.lessons().iter().map(|lesson| GradedLesson {
+        slug: lesson.slug.clone(),
+        number: lesson.number,
+        title: lesson.about.title.clone(),
+        possible: possible(lesson),
+    });
+    let row = |person: Member| StudentRow {
+        lessons: course
+            .lessons()
+            .iter()
+            .filter_map(|lesson| reached(&book, &person.id, lesson, now))
+            .collect(),
+        id: person.id,
+        name: person.name,
+    };
+    let students = people.into_iter().filter(|person| person.role == Role::Student).map(row);
+    Ok(GradeTable { students: students.collect(), lessons: lessons.collect() })
 }
 
-/// Puts a decision into the table; `pass` points are enough to pass.
-fn apply(reached: &mut HashMap<String, HashMap<String, Reached>>, decision: Decision, pass: f64) {
-    let Decision { person, lesson, points, reason, by, at } = decision;
-    let of_person = reached.entry(person).or_default();
-    let Some(points) = points else {
-        if let Some(one) = of_person.get_mut(&lesson) {
-            (one.points, one.passed, one.decided) = (one.earned, one.earned >= pass, None);
-        }
-        of_person.retain(|_, one| one.last.is_some() || one.decided.is_some());
-        return;
+/// What somebody has reached in a lesson, if there is anything to tell.
+fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(String, Reached)> {
+    let entry = book.of(person, &lesson.slug)?;
+    let stands = book.standing(person, lesson, now);
+    if stands.last.is_none() && stands.decided.is_none() {
+        return None;
+    }
+    let one = Reached {
+        points: stands.points,
+        earned: stands.earned,
+        attempts: stands.attempts,
+        passed: stands.passed,
+        late: stands.late,
+        last: stands.last,
+        extended: entry.extension.is_some(),
+        asked: asks(entry),
+        decided: stands.decided,
     };
-    let none = Reached { points: 0.0, earned: 0.0, attempts: 0, passed: false, last: None, decided: None };
-    let one = of_person.entry(lesson).or_insert(none);
-    one.points = points;
-    one.passed = points >= pass;
-    one.decided = Some(Decided { points, reason, by, at: moment(at) });
+    Some((lesson.slug.clone(), one))
+}
+
+/// Whether a student's request for a look again waits for an answer.
+pub fn asks(entry: &Entry) -> bool {
+    let last_decided = entry.decided.last().map(|one| one.at);
+    let last_said = entry.said.last();
+    last_said
+        .is_some_and(|said| said.kind == DecisionKind::Request && last_decided.is_none_or(|at| at < said.at))
 }
 
 /// The table as CSV. A cell without an entry is left empty, which other programs take as "leave it"; 0 is a grade.
@@ -198,8 +192,17 @@ mod tests {
     fn small() -> GradeTable {
         let lesson =
             GradedLesson { slug: "a".into(), number: 1, title: "A, \"quoted\"".into(), possible: 12.0 };
-        let reached =
-            Reached { points: 0.0, earned: 0.0, attempts: 1, passed: false, last: None, decided: None };
+        let reached = Reached {
+            points: 0.0,
+            earned: 0.0,
+            attempts: 1,
+            passed: false,
+            late: false,
+            last: None,
+            extended: false,
+            asked: false,
+            decided: None,
+        };
         let row = |name: &str, lessons| StudentRow { id: "1".into(), name: name.into(), lessons };
         GradeTable {
             lessons: vec![lesson],
@@ -221,33 +224,5 @@ mod tests {
         assert_eq!(canvas.lines().nth(1), Some(r#""    Points Possible","","","","","12""#));
         assert_eq!(canvas.lines().nth(3), Some(r#""Zoë","","","","Mechanics","""#));
         assert!(csv(&small(), Format::Moodle, "").unwrap().starts_with("\"Full name\",\"ID number\","));
-    }
-
-    #[test]
-    fn the_last_decision_counts_and_can_be_taken_back() {
-        let mut reached = HashMap::new();
-        let decide = |points| Decision {
-            person: "p".into(),
-            lesson: "a".into(),
-            points,
-            reason: "why".into(),
-            by: "T".into(),
-            at: 0,
-        };
-        let earned = Reached {
-            points: 5.0,
-            earned: 5.0,
-            attempts: 2,
-            passed: false,
-            last: Some("t".into()),
-            decided: None,
-        };
-        reached.insert("p".to_owned(), HashMap::from([("a".to_owned(), earned.clone())]));
-        apply(&mut reached, decide(Some(3.0)), 8.0);
-        apply(&mut reached, decide(Some(9.0)), 8.0);
-        let now = &reached["p"]["a"];
-        assert_eq!((now.points, now.earned, now.passed, now.attempts), (9.0, 5.0, true, 2));
-        apply(&mut reached, decide(None), 8.0);
-        assert_eq!(reached["p"]["a"], earned);
     }
 }

@@ -1,0 +1,130 @@
+//! What everybody handed in as far as grades go by it, and what people decided about it.
+
+use crate::policy::{Handed, Moment};
+use crate::store::error::StoreError;
+use crate::store::log::{self, Event};
+use crate::store::{Store, identifier, now, sql};
+
+use super::assignments::ensured;
+use super::members::known;
+
+/// What somebody handed in to a lesson.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HandedRow {
+    /// The person's id.
+    pub person: String,
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// When it came and what it earned, by the verdict in force.
+    pub handed: Handed,
+}
+
+/// What kind of thing is said about somebody's work in a lesson.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DecisionKind {
+    /// Which points count.
+    Points,
+    /// A remark of somebody who teaches.
+    Comment,
+    /// The student asks to look again; whatever somebody who teaches says later answers it.
+    Request,
+}
+
+impl DecisionKind {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Points => "points",
+            Self::Comment => "comment",
+            Self::Request => "request",
+        }
+    }
+
+    fn named(name: &str) -> Self {
+        [Self::Comment, Self::Request].into_iter().find(|kind| kind.name() == name).unwrap_or(Self::Points)
+    }
+}
+
+/// What somebody decided or said about a person's work in a lesson; of points later decisions replace earlier ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// The person whom it is about.
+    pub person: String,
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// Of which kind.
+    pub kind: DecisionKind,
+    /// The points that count instead; `None`: those that were earned.
+    pub points: Option<f64>,
+    /// Why, or what is said.
+    pub reason: String,
+    /// Name of who decided.
+    pub by: String,
+    /// When.
+    pub at: Moment,
+}
+
+impl Store {
+    /// What was handed in, as far as grades go by it: all of a course, or of one person or lesson.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn handed(
+        &self,
+        course: &str,
+        person: Option<&str>,
+        lesson: Option<&str>,
+    ) -> Result<Vec<HandedRow>, StoreError> {
+        type Row = (String, String, String, i64, i64, i64, f64);
+        let list = sqlx::query_as(sql::HANDED).bind(course).bind(person).bind(lesson);
+        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
+        let read = |(person, lesson, id, n, at, judged, earned)| {
+            let handed = Handed { id, n, at: Moment(at), judged: judged == 1, earned };
+            HandedRow { person, lesson, handed }
+        };
+        Ok(rows.into_iter().map(read).collect())
+    }
+
+    /// All decisions of a course, in the order in which they were made.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn decisions(&self, course: &str) -> Result<Vec<Decision>, StoreError> {
+        type Row = (String, String, String, Option<f64>, String, String, i64);
+        let rows: Vec<Row> = sqlx::query_as(sql::DECISIONS).bind(course).fetch_all(&self.readers).await?;
+        let read = |(person, lesson, kind, points, reason, by, at): Row| Decision {
+            person,
+            lesson,
+            kind: DecisionKind::named(&kind),
+            points,
+            reason,
+            by,
+            at: Moment(at),
+        };
+        Ok(rows.into_iter().map(read).collect())
+    }
+
+    /// Writes down what somebody decided or said. For points: those that count instead of those that were earned, or `None` to
+    /// take such a decision back.
+    ///
+    /// Errors if there is no such person or it cannot be written.
+    pub async fn decide(
+        &self,
+        course: &str,
+        actor: &str,
+        person: &str,
+        lesson: &str,
+        what: (DecisionKind, Option<f64>, &str),
+    ) -> Result<(), StoreError> {
+        let (kind, points, reason) = what;
+        let at = now();
+        let mut transaction = self.write().await?;
+        let detail = serde_json::json!([lesson, kind.name(), points, reason]).to_string();
+        let event = Event { actor, what: "decided about", subject: person, detail: &detail };
+        let n = log::append(&mut transaction, course, at, &event).await?;
+        known(&mut transaction, course, person).await?;
+        let assignment = ensured(&mut transaction, course, lesson).await?.id;
+        let add = sqlx::query(sql::ADD_DECISION).bind(identifier()).bind(course).bind(n).bind(kind.name());
+        let add = add.bind(person).bind(assignment).bind(points).bind(reason).bind(actor).bind(at);
+        add.execute(&mut *transaction).await?;
+        transaction.commit().await
+    }
+}
