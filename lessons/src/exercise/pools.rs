@@ -11,7 +11,7 @@ impl Exercise {
     /// Leaves of each pool as many questions as it deals, in the author's order: a student's own, and the same for ever.
     ///
     /// Each question draws a number of its own, so that one that is added later changes as few hands as possible.
-    pub(crate) fn deal(&mut self, lesson: &str, drawn_from: &str) {
+    pub(crate) fn draw_own(&mut self, lesson: &str, drawn_from: &str) {
         let mut dealt: BTreeSet<String> = BTreeSet::new();
         for (pool, count) in &self.draw {
             let luck = |question: &Question| {

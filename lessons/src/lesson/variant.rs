@@ -65,7 +65,7 @@ impl Lesson {
     pub fn variant_in(&self, student: &str, secret: &str) -> Result<Self, VariantError> {
         let drawn_from = seed(student, &self.slug, secret);
         let mut lesson = self.drawn(&drawn_from)?;
-        lesson.exercise.deal(&self.slug, &drawn_from);
+        lesson.exercise.draw_own(&self.slug, &drawn_from);
         shuffle_options(&mut lesson.exercise, &self.slug, &drawn_from);
         Ok(Self { seed: student.to_owned(), drawn_from, ..lesson })
     }
@@ -74,7 +74,7 @@ impl Lesson {
     #[must_use]
     pub fn for_nobody(&self) -> Self {
         let mut lesson = self.clone();
-        lesson.exercise.deal(&self.slug, "");
+        lesson.exercise.draw_own(&self.slug, "");
         lesson
     }
 
