@@ -89,6 +89,36 @@ const check = async () => {
 };
 const mark = (id) => page.locator(`#q-${id}`).getAttribute("class");
 
+/** The run waits for a prediction, which is kept and stands there again after the page is loaded anew. */
+async function predict() {
+  const panel = page.locator("#prediction");
+  await panel.getByRole("heading", { name: "Before you run it" }).waitFor();
+  for (const name of ["Play", "One integrator step", "Step by time"]) await control(name).click();
+  await page.locator(".clock").fill("0.5");
+  await page.locator(".clock").press("Enter");
+  assert.equal(await clock(), 0, "nothing moves before the prediction");
+  assert.equal(await page.getByRole("tab", { name: "Jacobian" }).count(), 0, "no table tells it");
+  await picture("before");
+  const keep = panel.getByRole("button", { name: "That is my prediction" });
+  assert(await keep.isDisabled(), "nothing is chosen yet");
+  await panel.getByRole("button", { name: "Twice the weight" }).click();
+  await keep.click();
+  await panel.getByText("Write your name").waitFor();
+  await panel.getByLabel(/Your name/).fill("Ada Lovelace");
+  await panel.getByLabel(/Why/).fill("the weight, and the circle");
+  await keep.click();
+  await page.locator(".whose b", { hasText: "Ada Lovelace" }).waitFor();
+  await panel.getByText("You predicted: Twice the weight").waitFor();
+  await page.reload();
+  await panel.getByText("“the weight, and the circle”").waitFor();
+  assert.equal(await panel.getByText("What happened").count(), 0, "the run has not shown it yet");
+  await until("the clock starts", clock, (time) => time === 0);
+  await page.locator(".prediction-counts summary").click();
+  await page.locator(".prediction-counts").getByText("1 answer").waitFor();
+  await picture("counted");
+  say("predicted");
+}
+
 async function first() {
   await page.goto(`${address}/`);
   await page.getByRole("link", { name: /pendulum/i }).first().waitFor();
@@ -100,6 +130,7 @@ async function first() {
   assert(await page.locator(".katex").count() > 5, "the formulas are set");
 
   await until("the clock starts", clock, (time) => time === 0);
+  await predict();
   await control("One integrator step").click();
   const stepped = await until("a step moves the clock", clock, (time) => time > 0);
   await control("Step by time").click();
@@ -116,9 +147,11 @@ async function first() {
   const playing = await clock();
   await until("playing moves the clock", clock, (time) => time > playing + 0.5);
   await picture("playing");
+  await page.locator("#prediction").getByText("What happened: Three times the weight").waitFor();
+  await picture("predicted");
   await control("Pause").click();
   await control("Play").waitFor();
-  say("played and paused");
+  say("played and paused; the prediction stands beside what happened");
   const before = await viewer.screenshot();
   await control("Reset to the start").click();
   await until("reset", clock, (time) => time === 0);
@@ -129,8 +162,6 @@ async function first() {
   await picture("jacobian");
 
   // A wrong answer that the lesson knows, and one that is no number.
-  await page.locator("#student").fill("Ada Lovelace");
-  await page.locator("#student").press("Tab");
   const right = await pendulum(page, "Ada Lovelace");
   await fill("independent-rows-value", "11");
   await fill("tension-bottom-value", "a lot");

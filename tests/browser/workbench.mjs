@@ -66,6 +66,18 @@ async function byKeyboard() {
   await page.getByRole("heading", { name: /pendulum/i, level: 1 }).waitFor();
   await until(page, "the clock starts", () => clock(page), (time) => time === 0);
   await page.keyboard.press(".");
+  await until(page, "the prediction is asked for", () => page.locator("#announce").innerText(), (text) => /run waits/.test(text));
+  await noSeriousFaults(page, "the prediction");
+  await tabTo(page, ".prediction-form .choice");
+  await page.keyboard.press("Enter");
+  await tabTo(page, ".prediction-form .labelled:last-of-type input");
+  await page.keyboard.type("Grace Hopper");
+  await tabTo(page, ".prediction-form button.primary");
+  await page.keyboard.press("Enter");
+  await page.locator("#prediction").getByText("You predicted: As large as the weight").waitFor();
+  await page.locator(".whose b", { hasText: "Grace Hopper" }).waitFor();
+  await until(page, "the clock starts anew", () => clock(page), (time) => time === 0);
+  await page.keyboard.press(".");
   await until(page, "a full stop steps by time", () => clock(page), (time) => time >= 0.099);
   await page.keyboard.press("ArrowRight");
   const stepped = await until(page, "→ steps", () => clock(page), (time) => time > 0.1);
@@ -83,9 +95,6 @@ async function byKeyboard() {
   await noSeriousFaults(page, "the help");
   await page.keyboard.press("Escape");
   await noSeriousFaults(page, "lesson 2");
-  await tabTo(page, "#whose");
-  await page.keyboard.type("Grace Hopper");
-  await page.keyboard.press("Enter");
   const right = await pendulum(page, "Grace Hopper");
   const unit = async (id, value) => {
     if (await page.locator(`#q-${id}-unit`).count() === 0) return;

@@ -13,6 +13,7 @@ const LAYERS = [
   "editor",
   "exercise",
   "lecture",
+  "prediction",
   "stage",
   "inspector",
   "workbench",

@@ -6,6 +6,7 @@ mod findings;
 pub(crate) mod guessing;
 mod measured;
 mod notions;
+mod predictions;
 mod programs;
 mod question;
 mod references;
@@ -75,6 +76,8 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
     texts::stray_files(&mut found);
     texts::unfinished(&mut found);
     measured::scene(&mut found);
+    predictions::written(course, &mut found);
+    predictions::happen(&mut found);
     for question in &lesson.exercise.questions {
         question::itself(question, &mut found);
         tasks::task(question, &mut found);

@@ -47,6 +47,13 @@ fn texts(lesson: &Lesson) -> String {
         all.push('\n');
         all.push_str(&step.text);
     }
+    for prediction in &lesson.about.predictions {
+        let options = prediction.options.iter().map(|option| &option.text);
+        for text in options.chain([&prediction.text, &prediction.shows]) {
+            all.push('\n');
+            all.push_str(text);
+        }
+    }
     for text in lesson.exercise.questions.iter().flat_map(|question| question.texts()) {
         all.push('\n');
         all.push_str(text);

@@ -99,7 +99,7 @@ pub(super) fn text(course: &Course, found: &mut Findings) {
 }
 
 /// Checks a text that stands in a TOML file: its links, and that it is plain Markdown without figures.
-fn short(course: &Course, text: &str, file: &str, line: usize, found: &mut Findings) {
+pub(super) fn short(course: &Course, text: &str, file: &str, line: usize, found: &mut Findings) {
     let rendered = markdown::render(text, &BTreeMap::new());
     for (_, what) in rendered.problems {
         found.add(file, line, what, "correct the text");

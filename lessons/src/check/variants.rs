@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::findings::Findings;
 use super::references::{judged, quantity_answer, reference_answer};
-use super::{diagram, measured};
+use super::{diagram, measured, predictions};
 use crate::answers::Submission;
 use crate::exercise::{Question, QuestionBody};
 use crate::grading::grade;
@@ -54,6 +54,7 @@ pub(super) fn all_fit(found: &mut Findings) {
         if k < RUN {
             let mut own = Findings::new(&lesson);
             measured::scene(&mut own);
+            predictions::happen(&mut own);
             for question in &lesson.exercise.questions {
                 diagram::agrees(question, &mut own);
             }

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::prediction::PredictionFile;
+
 /// `course.toml`: the course as a whole.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -67,6 +69,9 @@ pub struct LessonFile {
     /// Predict, run, check, explain.
     #[serde(default, rename = "step")]
     pub steps: Vec<StepFile>,
+    /// What has to be predicted before the scenario runs.
+    #[serde(default, rename = "prediction")]
+    pub predictions: Vec<PredictionFile>,
 }
 
 /// One step of working with the scenario.

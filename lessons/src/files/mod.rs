@@ -1,6 +1,6 @@
 //! The files of a course exactly as an author writes them. Unknown keys are refused.
 //!
-//! [`lesson`] (what a lesson is about), [`exercise`] (its questions), [`tasks`] (questions answered by work),
+//! [`lesson`] (what a lesson is about), [`prediction`] (what is said before its run), [`exercise`] (its questions), [`tasks`] (questions answered by work),
 //! [`mod@reference`] (right and wrong answers), [`measured`] (where a scenario shows a value); [`schema`] describes them
 //! for editors and [`skeleton`] begins new ones.
 
@@ -10,6 +10,7 @@ pub mod diagram;
 pub mod exercise;
 pub mod lesson;
 pub mod measured;
+pub mod prediction;
 pub mod reference;
 pub mod schema;
 pub mod skeleton;
@@ -22,6 +23,7 @@ pub use exercise::{
 };
 pub use lesson::{CourseFile, LessonFile, OpensFile, StepFile, StepKind};
 pub use measured::{Component, CountKind, MeasuredFile, MotionKind};
+pub use prediction::{PredictionFile, PredictionOptionFile};
 pub use reference::{ProvenanceKind, ReferenceFile, WrongFile};
 pub use tasks::{
     EquationPart, FollowFile, ImplementFile, ModelFile, ScoreBand, TrajectoryFile, TuningFile, WatchFile,

@@ -7,6 +7,7 @@ use triad_engine::scene::{IntegratorKind, Scene};
 use super::content::Lesson;
 use super::conventions::conventions;
 use super::diagram_view::DiagramView;
+use super::prediction::PredictionView;
 use super::rules::{measurement, opens, rule};
 use crate::answers::tolerance::ValueShape;
 use crate::exercise::{ChoiceOption, Parameters, Question, QuestionBody};
@@ -36,6 +37,7 @@ impl Lesson {
             html: self.text.html.clone(),
             scene: self.scene.clone(),
             steps: self.about.steps.iter().map(|step| StepView::new(step, &self.parameters)).collect(),
+            predictions: self.predictions(),
             has_variants: self.has_variants(),
             seed: self.seed.clone(),
             exercise: ExerciseView {
@@ -88,6 +90,8 @@ pub struct LessonView {
     pub scene: serde_json::Value,
     /// Predict, run, check, explain; may be empty.
     pub steps: Vec<StepView>,
+    /// What is predicted before the scenario runs; may be empty.
+    pub predictions: Vec<PredictionView>,
     /// Whether each student gets numbers, or states, of their own.
     pub has_variants: bool,
     /// Whose numbers these are; empty for those that everybody sees without a name.

@@ -5,6 +5,7 @@ mod golden_variants;
 mod kinds;
 mod order;
 mod pools;
+mod predictions;
 mod properties;
 mod refusals;
 mod tasks;

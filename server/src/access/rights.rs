@@ -66,6 +66,9 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("POST", "/api/v1/lessons/{slug}/questions/{id}/reading", Anyone),
     ("GET", "/api/v1/lessons/{slug}/questions/{id}/states", Anyone),
     ("GET", "/api/v1/lessons/{slug}/questions/{id}/starters/{language}", Anyone),
+    ("POST", "/api/v1/lessons/{slug}/predictions", STUDENT),
+    ("GET", "/api/v1/lessons/{slug}/predictions", STUDENT),
+    ("GET", "/api/v1/lessons/{slug}/predictions/counts", GRADER),
     ("POST", "/api/v1/lessons/{slug}/submissions", STUDENT),
     ("GET", "/api/v1/submissions", STUDENT),
     // What computes belongs to the class.
@@ -144,14 +147,17 @@ pub fn check(method: &str, address: &str, member: Option<&Member>) -> Result<(),
     }
 }
 
+/// What those who grade do in a class and everybody does at home.
+const AT_HOME: [&str; 2] = ["/api/v1/rooms", "/api/v1/lessons/{slug}/predictions/counts"];
+
 /// Errors if an operation is about classes, at home.
 pub fn check_home(method: &str, address: &str) -> Result<(), Problem> {
     let listed = RIGHTS.iter().find(|(listed, at, _)| *listed == method && *at == address);
     let is_of_class = matches!(listed, Some((.., Right::Role(role))) if *role > Role::Student);
-    let room = address == "/api/v1/rooms";
+    let at_home = AT_HOME.contains(&address);
     let takes_account =
         ["/api/v1/setup", "/api/v1/join", "/api/v1/return", "/api/v1/sign-out", "/api/v1/me/data"];
-    if !takes_account.contains(&address) && (!is_of_class || room) {
+    if !takes_account.contains(&address) && (!is_of_class || at_home) {
         return Ok(());
     }
     Err(no_class())

@@ -70,6 +70,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(class::records::routes(&mut schemas))
                 .merge(class::standing::routes(&mut schemas))
                 .merge(lessons::routes(&mut schemas))
+                .merge(lessons::predictions::routes(&mut schemas))
                 .merge(lessons::submissions::routes(&mut schemas))
                 .merge(scenes::routes(&mut schemas))
                 .merge(scenes::import::routes(&mut schemas))

@@ -17,6 +17,8 @@ pub struct Entry {
     pub decided: Vec<Decided>,
     /// What was said besides.
     pub said: Vec<Decision>,
+    /// What was predicted, by id; what was skipped is left out.
+    pub predicted: Vec<String>,
     /// What is allowed to this person.
     pub extension: Option<Extension>,
 }
@@ -30,13 +32,13 @@ pub struct Book {
 
 /// Points that can be earned in a lesson.
 pub fn possible(lesson: &Lesson) -> f64 {
-    lesson.exercise.possible()
+    lesson.points()
 }
 
 /// Points that are enough to pass a lesson.
 pub fn pass_points(lesson: &Lesson) -> f64 {
     // The last digits of a sum of points are rounding.
-    lesson.exercise.pass_mark * possible(lesson) * (1.0 - 1e-12)
+    lesson.exercise.pass_mark * lesson.exercise.possible() * (1.0 - 1e-12)
 }
 
 impl Book {
@@ -50,6 +52,11 @@ impl Book {
         }
         for row in store.handed(course, person, None).await? {
             book.entry(row.person, row.lesson).handed.push(row.handed);
+        }
+        for one in store.predictions(course, person, None).await? {
+            if one.choice.is_some() {
+                book.entry(one.person, one.lesson).predicted.push(one.prediction);
+            }
         }
         let is_wanted = |other: &str| person.is_none_or(|person| person == other);
         for one in store.decisions(course).await?.into_iter().filter(|one| is_wanted(&one.person)) {
@@ -88,12 +95,22 @@ impl Book {
         self.entries.iter().filter_map(move |(person, of)| Some((person.as_str(), of.get(lesson)?)))
     }
 
+    /// Points for having predicted what a run would show. They count besides what the exercise earns, and pass nothing.
+    pub fn predicted(&self, person: &str, lesson: &Lesson) -> f64 {
+        let made = self.of(person, &lesson.slug).map_or(&[][..], |entry| &entry.predicted);
+        made.iter().filter_map(|id| lesson.prediction(id)).map(|one| one.points).sum()
+    }
+
     /// Where a person stands in a lesson at a moment.
     pub fn standing(&self, person: &str, lesson: &Lesson, now: Moment) -> Standing {
         let (none, open) = (Entry::default(), Assignment::of(&lesson.slug));
         let entry = self.of(person, &lesson.slug).unwrap_or(&none);
         let assignment = self.assignment(&lesson.slug).unwrap_or(&open);
-        standing(&case(assignment, entry, lesson), now)
+        let mut stands = standing(&case(assignment, entry, lesson), now);
+        if stands.decided.is_none() {
+            stands.points += self.predicted(person, lesson);
+        }
+        stands
     }
 }
 

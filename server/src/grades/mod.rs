@@ -57,6 +57,8 @@ pub struct Reached {
     pub points: f64,
     /// Most points of an attempt.
     pub earned: f64,
+    /// Points for having predicted what a run would show.
+    pub predicted: f64,
     /// Attempts; 0 where nothing could be judged yet.
     pub attempts: u32,
     /// Whether it is enough to pass.
@@ -117,12 +119,14 @@ pub async fn table(store: &Store, id: &str, course: &Course, now: Moment) -> Res
 fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(String, Reached)> {
     let entry = book.of(person, &lesson.slug)?;
     let stands = book.standing(person, lesson, now);
-    if stands.last.is_none() && stands.decided.is_none() {
+    let predicted = book.predicted(person, lesson);
+    if stands.last.is_none() && stands.decided.is_none() && predicted == 0.0 {
         return None;
     }
     let one = Reached {
         points: stands.points,
         earned: stands.earned,
+        predicted,
         attempts: stands.attempts,
         passed: stands.passed,
         late: stands.late,
@@ -195,6 +199,7 @@ mod tests {
         let reached = Reached {
             points: 0.0,
             earned: 0.0,
+            predicted: 0.0,
             attempts: 1,
             passed: false,
             late: false,

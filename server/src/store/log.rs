@@ -6,7 +6,7 @@ use sqlx::SqliteConnection;
 
 use super::error::StoreError;
 use super::hash::sha256;
-use super::records::{self, SubmissionRow, VerdictRow};
+use super::records::{self, PredictionRow, SubmissionRow, VerdictRow};
 use super::sql;
 
 /// What the log says where somebody's data were erased.
@@ -61,7 +61,7 @@ pub(super) async fn faults(
 ) -> Result<Vec<String>, StoreError> {
     let mut found = Vec::new();
     let mut before = String::new();
-    let (mut sealed, mut erased) = (BTreeSet::new(), BTreeSet::new());
+    let (mut sealed, mut predicted, mut erased) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
     let rows: Vec<Row> = sqlx::query_as(sql::EVENTS).bind(course).fetch_all(&mut *connection).await?;
     for ((n, at, actor, what, subject, detail, hash), place) in rows.iter().zip(1..) {
         let event = Event { actor, what, subject, detail };
@@ -71,6 +71,9 @@ pub(super) async fn faults(
         before.clone_from(hash);
         if matches!(what.as_str(), "submitted" | "regraded") {
             sealed.insert((subject.clone(), detail.clone()));
+        }
+        if what == "predicted" {
+            predicted.insert((actor.clone(), subject.clone(), detail.clone()));
         }
         if what == ERASED {
             erased.insert(subject.clone());
@@ -95,6 +98,7 @@ pub(super) async fn faults(
         }
     }
     let is_erased = |row: &&SubmissionRow| erased.contains(&row.person);
+    found.extend(wrong_predictions(connection, course, predicted, &erased).await?);
     for verdict in &verdicts {
         let id = &verdict.submission;
         if by_id.get(id.as_str()).is_some_and(is_erased) {
@@ -111,5 +115,32 @@ pub(super) async fn faults(
     found.extend(
         sealed.iter().map(|(id, _)| format!("submission {id}: it is logged, and is missing or changed")),
     );
+    Ok(found)
+}
+
+/// Predictions that are not those that were logged, by who made them, place and hash; of whom was erased nothing is asked.
+async fn wrong_predictions(
+    connection: &mut SqliteConnection,
+    course: &str,
+    mut logged: BTreeSet<(String, String, String)>,
+    erased: &BTreeSet<String>,
+) -> Result<Vec<String>, StoreError> {
+    let rows: Vec<PredictionRow> =
+        sqlx::query_as(sql::PREDICTION_ROWS).bind(course).fetch_all(connection).await?;
+    logged.retain(|(person, ..)| !erased.contains(person));
+    let mut found = Vec::new();
+    for row in rows.iter().filter(|row| !erased.contains(&row.person)) {
+        if !logged.remove(&(row.person.clone(), row.subject(), row.hash())) {
+            found.push(format!(
+                "the prediction {} of {} is not the one that was logged",
+                row.subject(),
+                row.person
+            ));
+        }
+    }
+    let missing = |(person, at, _): &(String, String, String)| {
+        format!("the prediction {at} of {person} is logged, and is missing or changed")
+    };
+    found.extend(logged.iter().map(missing));
     Ok(found)
 }

@@ -1,4 +1,4 @@
-//! What is never changed: rows of submissions and verdicts, with a hash over all that they say.
+//! What is never changed: rows of submissions, predictions and verdicts, with a hash over all that they say.
 
 use serde_json::{Value, json};
 use sqlx::sqlite::SqliteRow;
@@ -50,6 +50,54 @@ impl SubmissionRow {
         let add = sqlx::query(sql::ADD_SUBMISSION).bind(&self.id).bind(&self.assignment).bind(&self.person);
         let add = add.bind(n).bind(self.received_at).bind(&self.student).bind(&self.answers);
         add.bind(&self.request_key).bind(self.counted).execute(connection).await?;
+        Ok(())
+    }
+}
+
+/// A prediction as its row says it, but for its place in the log.
+#[derive(Debug, Clone)]
+pub(super) struct PredictionRow {
+    pub(super) course: String,
+    pub(super) person: String,
+    pub(super) slug: String,
+    pub(super) prediction: String,
+    /// None was made where this is `None`.
+    pub(super) choice: Option<String>,
+    pub(super) why: String,
+    pub(super) given_at: i64,
+}
+
+impl FromRow<'_, SqliteRow> for PredictionRow {
+    fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
+        Ok(Self {
+            course: row.try_get("course")?,
+            person: row.try_get("person")?,
+            slug: row.try_get("slug")?,
+            prediction: row.try_get("prediction")?,
+            choice: row.try_get("choice")?,
+            why: row.try_get("why")?,
+            given_at: row.try_get("given_at")?,
+        })
+    }
+}
+
+impl PredictionRow {
+    /// What the log calls it.
+    pub(super) fn subject(&self) -> String {
+        format!("{}/{}", self.slug, self.prediction)
+    }
+
+    /// A hash over all of it.
+    pub(super) fn hash(&self) -> String {
+        let Self { course, person, slug, prediction, choice, why, given_at } = self;
+        sha256(&json!([course, person, slug, prediction, choice, why, given_at]).to_string())
+    }
+
+    /// Adds it as the entry `n` of its course's log says.
+    pub(super) async fn add(&self, connection: &mut SqliteConnection, n: i64) -> Result<(), StoreError> {
+        let add = sqlx::query(sql::ADD_PREDICTION).bind(&self.course).bind(&self.person).bind(&self.slug);
+        let add = add.bind(&self.prediction).bind(&self.choice).bind(&self.why).bind(n).bind(self.given_at);
+        add.execute(connection).await?;
         Ok(())
     }
 }

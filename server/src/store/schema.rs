@@ -8,7 +8,7 @@ use super::records::{self, SubmissionRow, VerdictRow};
 use super::{HOME, now, sql};
 
 /// Format of the database that this program writes.
-pub(super) const FORMAT: i64 = 3;
+pub(super) const FORMAT: i64 = 4;
 
 /// Makes the tables, or carries those of earlier formats over, within a transaction: another program that opens the
 /// same file meanwhile waits.
@@ -37,8 +37,13 @@ pub(super) async fn migrate(transaction: &mut SqliteConnection) -> Result<(), St
         carry_over(transaction).await?;
         sqlx::query("DROP TABLE submission_1").execute(&mut *transaction).await?;
     }
+    if found < 4 {
+        for statement in sql::ADDED_4 {
+            sqlx::query(*statement).execute(&mut *transaction).await?;
+        }
+    }
     // Written each time: a file that cannot be written is found out before anybody hands in.
-    sqlx::query("PRAGMA user_version = 3").execute(&mut *transaction).await?;
+    sqlx::query("PRAGMA user_version = 4").execute(&mut *transaction).await?;
     Ok(())
 }
 

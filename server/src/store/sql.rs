@@ -61,6 +61,17 @@ pub(super) const ADDED: &[&str] = &[
      before_points DOUBLE PRECISION NOT NULL, after_points DOUBLE PRECISION NOT NULL, PRIMARY KEY (regrade, person))",
 ];
 
+/// What format 4 adds: predictions, as records.
+pub(super) const ADDED_4: &[&str] = &[
+    "CREATE TABLE prediction (course TEXT NOT NULL REFERENCES course(id), person TEXT NOT NULL REFERENCES person(id), \
+     slug TEXT NOT NULL, prediction TEXT NOT NULL, choice TEXT, why TEXT NOT NULL, n BIGINT NOT NULL, \
+     given_at BIGINT NOT NULL, PRIMARY KEY (course, person, slug, prediction))",
+    "CREATE TRIGGER prediction_is_immutable BEFORE UPDATE ON prediction \
+     BEGIN SELECT RAISE(ABORT, 'predictions are immutable'); END",
+    "CREATE TRIGGER prediction_is_kept BEFORE DELETE ON prediction \
+     BEGIN SELECT RAISE(ABORT, 'predictions are kept'); END",
+];
+
 /// What is a record is added to and never changed. In SQLite's words; PostgreSQL says it by rights of the role.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
@@ -197,6 +208,14 @@ statements! {
         AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3)";
     ADD_DECISION = "INSERT INTO decision (id, course, n, kind, person, assignment, amount, reason, decided_by, decided_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)";
+    ADD_PREDICTION = "INSERT INTO prediction (course, person, slug, prediction, choice, why, n, given_at) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7, $8)";
+    PREDICTED = "SELECT COUNT(*) FROM prediction WHERE course = $1 AND person = $2 AND slug = $3 AND prediction = $4";
+    PREDICTIONS = "SELECT q.person, p.name, q.slug, q.prediction, q.choice, q.why, q.given_at FROM prediction q \
+        JOIN person p ON p.id = q.person WHERE q.course = $1 AND (CAST($2 AS TEXT) IS NULL OR q.person = $2) \
+        AND (CAST($3 AS TEXT) IS NULL OR q.slug = $3) ORDER BY q.n";
+    EMPTY_PREDICTIONS = "UPDATE prediction SET why = '' WHERE person = $1";
+    PREDICTION_ROWS = "SELECT * FROM prediction WHERE course = $1 ORDER BY n";
     DECISIONS = "SELECT d.person, a.slug, d.kind, d.amount, d.reason, p.name, d.decided_at FROM decision d \
         JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 ORDER BY d.n";
 

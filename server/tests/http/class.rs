@@ -54,7 +54,7 @@ impl Class {
     }
 
     /// A cookie for each role, from nobody to the owner.
-    async fn everybody(&self) -> Vec<(Option<Role>, String)> {
+    pub(crate) async fn everybody(&self) -> Vec<(Option<Role>, String)> {
         let owner = self.enter("/api/v1/setup", json!({"token": self.setup, "name": "Owner"})).await.0;
         let mut all = vec![(None, String::new())];
         all.push((Some(Role::Student), self.join("Student").await.0));

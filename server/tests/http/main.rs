@@ -10,6 +10,7 @@ mod described;
 mod document;
 mod lessons;
 mod policy;
+mod predictions;
 mod schema;
 mod secrets;
 mod sessions;

@@ -9,6 +9,7 @@ import type {
   ClassView,
   Drag,
   Drawing,
+  GivenPrediction,
   GradedSubmission,
   GradeTable,
   Hint,
@@ -22,6 +23,7 @@ import type {
   Me,
   ModesAbout,
   OpenedLecture,
+  PredictionCounts,
   PresenterState,
   Problem,
   Reactions,
@@ -180,6 +182,18 @@ export const api = {
   lessons: (signal?: AbortSignal) => call<LessonSummary[]>("GET", "/lessons", undefined, signal),
   lesson: (slug: string, seed: string, signal?: AbortSignal) =>
     call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),
+  predictions: (slug: string, student: string) =>
+    call<GivenPrediction[]>(
+      "GET",
+      `/lessons/${id(slug)}/predictions${who.known() ? "" : `?${new URLSearchParams({ student })}`}`,
+    ),
+  /** Without a choice: skipped, and kept as that. */
+  predict: (
+    slug: string,
+    body: { student: string; prediction: string; choice: string | null; why: string },
+  ) => call<GivenPrediction>("POST", `/lessons/${id(slug)}/predictions`, own(body)),
+  predictionCounts: (slug: string) =>
+    call<PredictionCounts[]>("GET", `/lessons/${id(slug)}/predictions/counts`),
   hint: (slug: string, question: string, k: number, seed?: string) =>
     call<Hint>("GET", `/lessons/${id(slug)}/questions/${id(question)}/hints/${k}${whose(seed)}`),
   reading: (

@@ -838,6 +838,21 @@ export interface components {
              */
             viscous?: number;
         };
+        /** @description A prediction that was made, or skipped, with what the run shows. */
+        GivenPrediction: {
+            /** @description Id of the option that was chosen; absent if it was skipped. */
+            choice?: string | null;
+            /** @description When. */
+            given_at: string;
+            /** @description What comes true. */
+            outcome: components["schemas"]["Outcome"];
+            /** @description Id of the prediction. */
+            prediction: string;
+            /** @description Why, in the student's words; may be empty. */
+            why: string;
+        };
+        /** @description Predictions, in the order in which they were made. */
+        GivenPredictions: components["schemas"]["GivenPrediction"][];
         /** @description A verdict that was given. */
         GivenVerdict: {
             /** @description When. */
@@ -1487,6 +1502,8 @@ export interface components {
             number: number;
             /** @description What the student can do afterwards. */
             objectives: string[];
+            /** @description What is predicted before the scenario runs; may be empty. */
+            predictions: components["schemas"]["Prediction"][];
             /** @description Slugs of the lessons that come before. */
             prerequisites: string[];
             /** @description The scenario. */
@@ -2087,6 +2104,13 @@ export interface components {
                 number
             ] | null;
         };
+        /** @description What came of a prediction. */
+        Outcome: {
+            /** @description Id of the option that comes true. */
+            happens: string;
+            /** @description What the run shows, and why, as safe HTML. */
+            html: string;
+        };
         /** @description A group of columns: bodies, frames, accelerations, reactions, drivers, joints, loads, markers, energy, balance, violations, errors; of one element alone with its name behind a colon, like reactions:pin. */
         Output: string;
         /** @description Settings that replace those of the scene. */
@@ -2130,6 +2154,8 @@ export interface components {
             log: components["schemas"]["OwnEvent"][];
             /** @description Who. */
             person: components["schemas"]["Somebody"];
+            /** @description What they predicted before runs. */
+            predictions: components["schemas"]["OwnPrediction"][];
             /** @description What they handed in, files included, with the verdicts, newest first. */
             submissions: components["schemas"]["OwnSubmission"][];
         };
@@ -2158,6 +2184,22 @@ export interface components {
             own: boolean;
             /** @description A verb in the past tense. */
             what: string;
+        };
+        /** @description A prediction. */
+        OwnPrediction: {
+            /**
+             * Format: int64
+             * @description When, in milliseconds since 1970.
+             */
+            at: number;
+            /** @description Id of the option; null: it was skipped. */
+            choice: string | null;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description Id of the prediction. */
+            prediction: string;
+            /** @description Why, in their words. */
+            why: string;
         };
         /** @description A submission with its verdict. */
         OwnSubmission: {
@@ -2323,6 +2365,83 @@ export interface components {
             /** @description The person's last submission by then, as it would be told; left out if there is none. */
             told?: components["schemas"]["GradedSubmission"] | null;
         };
+        /** @description A prediction to keep. */
+        Predicted: {
+            /**
+             * @description Id of the option; null or left out: none is made, and that is kept, too.
+             * @default null
+             */
+            choice?: string | null;
+            /** @description Id of the prediction. */
+            prediction: string;
+            /** @description Who predicts, at home; in a class it is the caller. */
+            student?: string | null;
+            /**
+             * @description Why, in a sentence.
+             * @default
+             */
+            why?: string;
+        };
+        /** @description Something to predict before the run. */
+        Prediction: {
+            /** @description Whether a sentence why is asked for, too. */
+            asks_why: boolean;
+            /** @description What is asked, as safe HTML. */
+            html: string;
+            /** @description Id under which the prediction is sent. */
+            id: string;
+            /** @description What may happen. */
+            options: components["schemas"]["ChoiceOption"][];
+            /**
+             * Format: double
+             * @description Points for having predicted, right or wrong.
+             */
+            points: number;
+            /**
+             * Format: double
+             * @description When the run has shown what happens, s.
+             */
+            seen_at: number;
+        };
+        /** @description How often what was predicted. */
+        PredictionCounts: {
+            /** @description Whether a sentence why is asked for, too. */
+            asks_why: boolean;
+            /** @description How many chose each option, in the order of the options. */
+            chosen: number[];
+            /** @description Id of the option that comes true. */
+            happens: string;
+            /** @description What is asked, as safe HTML. */
+            html: string;
+            /** @description Id under which the prediction is sent. */
+            id: string;
+            /**
+             * Format: uint
+             * @description How many have neither predicted nor skipped.
+             */
+            missing: number;
+            /** @description What may happen. */
+            options: components["schemas"]["ChoiceOption"][];
+            /**
+             * Format: double
+             * @description Points for having predicted, right or wrong.
+             */
+            points: number;
+            /** @description The sentences why. */
+            reasons: components["schemas"]["Reason"][];
+            /**
+             * Format: double
+             * @description When the run has shown what happens, s.
+             */
+            seen_at: number;
+            /**
+             * Format: uint
+             * @description How many skipped it.
+             */
+            skipped: number;
+        };
+        /** @description What was predicted in a lesson. */
+        PredictionTable: components["schemas"]["PredictionCounts"][];
         /** @description What only the presenter sees. */
         PresenterState: {
             /**
@@ -2575,6 +2694,11 @@ export interface components {
              * @description The points that count: those that were decided, else the most of an attempt.
              */
             points: number;
+            /**
+             * Format: double
+             * @description Points for having predicted what a run would show.
+             */
+            predicted: number;
         };
         /** @description The reaction of a joint or driver: what body `by` does to body `on` through it — eq. (9.1). */
         Reaction: {
@@ -2670,6 +2794,15 @@ export interface components {
              * @description Time, s.
              */
             time: number;
+        };
+        /** @description Why somebody predicts what they do. */
+        Reason: {
+            /** @description The name. */
+            name: string;
+            /** @description The option; absent if the prediction was skipped. */
+            option?: components["schemas"]["ChoiceOption"] | null;
+            /** @description The sentence. */
+            why: string;
         };
         /** @description One person's work. */
         Record: {

@@ -28,6 +28,9 @@ export type Mark = Schemas["Mark"];
 export type Orientation = Schemas["Orientation"];
 /** The page reports some problems itself: a title is what all of them have. */
 export type Problem = Pick<Schemas["Problem"], "title"> & Partial<Schemas["Problem"]>;
+export type GivenPrediction = Schemas["GivenPrediction"];
+export type Prediction = Schemas["Prediction"];
+export type PredictionCounts = Schemas["PredictionCounts"];
 export type Question = Schemas["Question"];
 export type QuestionVerdict = Schemas["ToldQuestion"];
 export type Reaction = Schemas["Reaction"];

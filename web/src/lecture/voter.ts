@@ -75,7 +75,11 @@ export function ballot(code: string): {
 }
 
 /** The counts of the answers as bars with numbers; the right one is marked by a word too. */
-export function histogram(choices: string[], tally: Tally, mine?: number): HTMLElement {
+export function histogram(
+  choices: string[],
+  tally: Pick<Tally, "counts" | "right" | "revealed">,
+  mine?: number,
+): HTMLElement {
   const all = tally.counts.reduce((sum, count) => sum + count, 0);
   const most = Math.max(1, ...tally.counts);
   return h(

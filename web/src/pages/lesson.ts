@@ -6,6 +6,8 @@ import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
 import { exerciseSection } from "../exercise/exercise";
+import { predictionCounts } from "../prediction/counts";
+import { PredictionPanel } from "../prediction/panel";
 import { requestedView } from "../session/requested-view";
 import { problemNotice, skeleton } from "../ui/notice";
 import { trackReadingPosition } from "./reading-position";
@@ -38,9 +40,12 @@ class LessonPage {
   /** Another name, other numbers: text, mechanism and exercise are made anew. */
   private readonly renamed = (): void => {
     if (!this.shown?.has_variants || this.shown.seed === student.get()) return;
+    const answering = this.exercise.contains(document.activeElement);
     for (const step of this.undo.splice(0)) step();
     this.bench.replaceChildren(workbenchPlaceholder());
-    void this.load().then(() => this.exercise.scrollIntoView({ block: "start" }));
+    void this.load().then(() => {
+      if (answering) this.exercise.scrollIntoView({ block: "start" });
+    });
   };
 
   constructor(private readonly slug: string) {
@@ -90,6 +95,8 @@ class LessonPage {
   private async show(lesson: Lesson): Promise<void> {
     showText(this.text, lesson);
     this.exercise.replaceChildren();
+    const counts = predictionCounts(lesson);
+    if (counts) this.text.append(counts);
     this.undo.push(exerciseSection(this.exercise, lesson));
     await setMaths(this.text);
     await setMaths(this.exercise);
@@ -101,7 +108,9 @@ class LessonPage {
     const [{ workbench }, seen] = await Promise.all([import("../workbench/workbench"), requestedView()]);
     if (this.leaving.signal.aborted) return;
     const source = lesson.seed ? { lesson: this.slug, seed: lesson.seed } : { lesson: this.slug };
-    this.undo.push(workbench(this.bench, { source, scene: lesson.scene, seen }));
+    const asked = lesson.predictions.length > 0 ? new PredictionPanel(lesson) : undefined;
+    if (asked) this.undo.push(() => asked.dispose());
+    this.undo.push(workbench(this.bench, { source, scene: lesson.scene, seen, asked }));
   }
 
   private fail(error: unknown): void {

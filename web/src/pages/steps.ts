@@ -18,7 +18,16 @@ export function steps(lesson: Lesson): HTMLElement[] {
       `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`,
     );
     const prompt = PROMPTS[step.kind];
-    if (prompt)
+    if (step.kind === "predict" && lesson.predictions.length > 0)
+      item.append(
+        h(
+          "p",
+          null,
+          h("a", { href: "#prediction" }, "Your prediction"),
+          " is asked for beside the mechanism.",
+        ),
+      );
+    else if (prompt)
       item.append(note(`said:${lesson.slug}:${at}`, prompt, step.kind === "predict" ? again : null));
     if (step.kind === "check") item.append(again);
     return item;

@@ -29,6 +29,8 @@ export class Session extends Clock {
   private before: Numbers[] = [];
   /** Session and number of changes for which the scene was read. */
   private seenChanges = "";
+  /** What is asked for before the run may go on; none if it may. */
+  private gate: (() => void) | undefined;
   private waiters: (() => void)[] = [];
   private busy = false;
   private redrawing: "idle" | "busy" | "again" = "idle";
@@ -72,6 +74,24 @@ export class Session extends Clock {
 
   protected streamUrl(): string | undefined {
     return this.latest && api.streamUrl(this.latest.links.stream);
+  }
+
+  /** Whether the run waits for something. */
+  get held(): boolean {
+    return this.gate !== undefined;
+  }
+
+  /** Holds the run, and hides its forces, which would tell: whoever wants it to go on is asked for something first. */
+  hold(ask: () => void): void {
+    this.gate = ask;
+    this.draw({ what: "none" });
+  }
+
+  /** Lets the run go on. */
+  release(): void {
+    if (!this.gate) return;
+    this.gate = undefined;
+    this.draw({ what: "all" });
   }
 
   get canUndo(): boolean {
@@ -156,6 +176,7 @@ export class Session extends Clock {
   }
 
   play(): Promise<void> {
+    if (this.gate) return Promise.resolve(this.gate());
     this.setPose(undefined);
     const state = this.latest;
     // What is recorded is shown again; only what is not is computed.
@@ -186,6 +207,7 @@ export class Session extends Clock {
   }
 
   async step(by: { steps: number } | { seconds: number }): Promise<void> {
+    if (this.gate) return this.gate();
     this.toNewest();
     await this.ask((run) => api.step(run, by));
     this.announceState();

@@ -95,7 +95,11 @@ export class Transport {
     );
     this.root = this.layout(more);
     this.listen();
-    this.undo = [session.on("shown", () => this.paint()), this.bindKeys()];
+    const waits = (): void => {
+      this.root.classList.toggle("waits", session.held);
+    };
+    this.undo = [session.on("shown", () => this.paint()), session.on("view", waits), this.bindKeys()];
+    waits();
   }
 
   dispose(): void {

@@ -4,6 +4,7 @@ import type { Scene } from "../api/types";
 import { h } from "../core/dom";
 import { inspector } from "../inspector/inspector";
 import { PresenterPanel } from "../lecture/presenter";
+import type { Asked } from "../prediction/panel";
 import { Session } from "../session/session";
 import { restore, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
@@ -18,13 +19,17 @@ export interface WorkbenchOptions {
   seen?: SharedView | undefined;
   /** Where a scene that stands only here is opened from a link, and its text. */
   own?: { path: string; text: string } | undefined;
+  /** What is asked for before the run. */
+  asked?: Asked | undefined;
 }
 
 /** Fills `root` and starts the run; the returned function ends both. */
 export function workbench(root: HTMLElement, options: WorkbenchOptions): () => void {
   const session = new Session(options.source, options.seen?.numbers);
   const made = mountWorkbench(root, session, options);
+  options.asked?.hold(session);
   void session.start().then(async () => {
+    await options.asked?.given;
     if (options.seen && session.latest) await restore(session, options.seen);
   });
   return made.dispose;
@@ -48,8 +53,14 @@ export function mountWorkbench(
     picture.toggle,
   );
   const controls = new Transport(session, options.scene?.simulation?.duration, more);
+  const waits = (): void => {
+    details.root.hidden = session.held;
+  };
+  session.on("view", waits);
+  waits();
   root.replaceChildren(
     picture.root,
+    ...(options.asked ? [options.asked.root] : []),
     controls.root,
     ...(lecture ? [lecture.root] : []),
     trouble(session),

@@ -30,7 +30,7 @@ use crate::app::App;
 use crate::grades::Book;
 use crate::policy::{Moment, Revealed};
 use crate::problem::Problem;
-use crate::store::{CLASS, Decision, DecisionKind, OwnEvent, Query, StoreError};
+use crate::store::{CLASS, Decision, DecisionKind, KeptPrediction, OwnEvent, Query, StoreError};
 
 /// Longest reason, in characters.
 const LONGEST_REASON: usize = 2000;
@@ -93,6 +93,8 @@ struct OwnData {
     /// What they handed in, files included, with the verdicts, newest first.
     #[schemars(with = "Vec<OwnSubmission>")]
     submissions: Vec<Value>,
+    /// What they predicted before runs.
+    predictions: Vec<OwnPrediction>,
     /// What was decided about their grades, and why.
     decisions: Vec<OwnDecision>,
     /// What the log knows of them.
@@ -107,6 +109,21 @@ struct OwnSubmission {
     answers: Value,
     /// What was told of it.
     verdict: Value,
+}
+
+/// A prediction.
+#[derive(Debug, Serialize, JsonSchema)]
+struct OwnPrediction {
+    /// Slug of the lesson.
+    lesson: String,
+    /// Id of the prediction.
+    prediction: String,
+    /// Id of the option; null: it was skipped.
+    choice: Option<String>,
+    /// Why, in their words.
+    why: String,
+    /// When, in milliseconds since 1970.
+    at: i64,
 }
 
 /// A decision about a grade.
@@ -144,11 +161,20 @@ async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse
         decision.person == id && (decision.kind != DecisionKind::Points || told(&decision.lesson).points)
     });
     let decision = |Decision { lesson, points, reason, at, .. }| OwnDecision { lesson, points, reason, at };
+    let predicted = app.store.predictions(CLASS, Some(id), None).await?;
+    let prediction = |KeptPrediction { lesson, prediction, choice, why, given_at: at, .. }| OwnPrediction {
+        lesson,
+        prediction,
+        choice,
+        why,
+        at,
+    };
     let data = OwnData {
         person: Somebody::of(&member),
         joined_at: member.joined_at,
         course: app.store.course(CLASS).await?.title,
         submissions: submissions.collect(),
+        predictions: predicted.into_iter().map(prediction).collect(),
         decisions: decisions.map(decision).collect(),
         log: app.store.events_of(CLASS, id).await?,
     };

@@ -3,6 +3,7 @@
 // The documentation macro writes out paths of its own.
 #![allow(unused_qualifications)]
 
+pub(in crate::api) mod predictions;
 pub(in crate::api) mod submissions;
 pub(in crate::api) mod told;
 

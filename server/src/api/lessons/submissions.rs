@@ -124,10 +124,10 @@ fn request_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
 }
 
 /// Who hands in.
-struct Who {
-    course: &'static str,
-    whose: Whose,
-    student: String,
+pub(super) struct Who {
+    pub(super) course: &'static str,
+    pub(super) whose: Whose,
+    pub(super) student: String,
     /// The class decides whose numbers these are; at home the submission says it.
     seed: Option<String>,
 }
@@ -143,7 +143,7 @@ impl Who {
 }
 
 /// At home whoever the submission names, in a class the caller: there a submission names nobody.
-fn who(app: &App, caller: Caller, body: &Value) -> Result<Who, Problem> {
+pub(super) fn who(app: &App, caller: Caller, body: &Value) -> Result<Who, Problem> {
     if !app.access.is_class() {
         let student = student(body.get("student").and_then(Value::as_str))?;
         return Ok(Who { course: HOME, whose: Whose::Named, student, seed: None });

@@ -86,7 +86,8 @@ async fn strip(
     person: &str,
     answers_stay: bool,
 ) -> Result<(), StoreError> {
-    const ASIDE: [&str; 3] = ["submission_is_immutable", "verdict_is_immutable", "seed_is_immutable"];
+    const ASIDE: [&str; 4] =
+        ["submission_is_immutable", "verdict_is_immutable", "seed_is_immutable", "prediction_is_immutable"];
     for trigger in ASIDE {
         sqlx::query(AssertSqlSafe(format!("DROP TRIGGER {trigger}"))).execute(&mut *connection).await?;
     }
@@ -97,6 +98,7 @@ async fn strip(
     sqlx::query(sql::UNNAME_SUBMISSIONS).bind(person).execute(&mut *connection).await?;
     if !answers_stay {
         sqlx::query(sql::EMPTY_SUBMISSIONS).bind(person).execute(&mut *connection).await?;
+        sqlx::query(sql::EMPTY_PREDICTIONS).bind(person).execute(&mut *connection).await?;
     }
     let verdicts: Vec<(String, i64, String, String)> =
         sqlx::query_as(sql::VERDICTS_OF).bind(person).fetch_all(&mut *connection).await?;
@@ -108,7 +110,11 @@ async fn strip(
             sqlx::query(sql::REPLACE_VERDICT).bind(&submission).bind(run).bind(told.to_string()).bind(seed);
         set.execute(&mut *connection).await?;
     }
-    for statement in sql::RECORDS.iter().filter(|text| ASIDE.iter().any(|trigger| text.contains(trigger))) {
+    for statement in sql::RECORDS
+        .iter()
+        .chain(sql::ADDED_4)
+        .filter(|text| ASIDE.iter().any(|trigger| text.contains(trigger)))
+    {
         sqlx::query(*statement).execute(&mut *connection).await?;
     }
     Ok(())

@@ -49,6 +49,7 @@ pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
         "SELECT d.* FROM regraded d JOIN regrade r ON r.id = d.regrade WHERE r.course = $1 \
          ORDER BY d.regrade, d.person LIMIT $2 OFFSET $3",
     ),
+    ("prediction", "SELECT * FROM prediction WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
     ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
 ];
 

@@ -1,0 +1,45 @@
+//! Predictions that an author writes wrongly are found: by the run, and by their form.
+
+use crate::answers::TypedValue;
+use crate::files::PredictionFile;
+use crate::{Course, Lesson, check_lesson};
+
+/// What the check says of the pendulum's prediction after a change of it.
+fn faults(change: impl Fn(&mut PredictionFile)) -> Vec<String> {
+    let course = Course::embedded().unwrap();
+    let mut lesson: Lesson = course.lesson("simple-pendulum").unwrap().clone();
+    change(&mut lesson.about.predictions[0]);
+    let found = check_lesson(&course, &lesson).into_iter().map(|fault| fault.to_string());
+    found.filter(|fault| fault.contains("prediction")).collect()
+}
+
+#[test]
+fn what_does_not_come_true_is_found_by_the_run() {
+    assert_eq!(faults(|_| {}), Vec::<String>::new());
+    let wrong = faults(|one| one.happens = "two".to_owned());
+    // With the lesson's numbers and with those of two students.
+    assert!(wrong.len() == 3 && wrong[0].contains("the run shows 29.4"), "{wrong:?}");
+    let loose = faults(|one| {
+        one.options[1].range = Some([TypedValue::Number(0.0), TypedValue::Text("99*m*9.81".to_owned())]);
+    });
+    assert!(loose[0].contains("[\"two\", \"three\"]"), "{loose:?}");
+}
+
+#[test]
+fn what_cannot_be_given_is_found() {
+    for (change, expected) in [
+        ((|one| one.options.truncate(1)) as fn(&mut PredictionFile), "2 to 6 options"),
+        (|one| one.options[1].id = "one".to_owned(), "ids of their own"),
+        (|one| one.happens = "four".to_owned(), "no option is called four"),
+        (|one| one.options[0].range = None, "measured and ranges"),
+        (|one| one.shows = " ".to_owned(), "a text is empty"),
+        (|one| one.seen_at = 99.0, "ends before seen_at"),
+        (|one| one.points = -1.0, "points are negative"),
+        (|one| one.id = "Pull".to_owned(), "its id is"),
+        (|one| one.measured.as_mut().unwrap().component = None, "a vector is measured"),
+        (|one| one.measured.as_mut().unwrap().joint = Some("pim".to_owned()), "there is no joint pim"),
+    ] {
+        let found = faults(change);
+        assert!(found.iter().any(|fault| fault.contains(expected)), "{expected}: {found:?}");
+    }
+}

@@ -1,0 +1,155 @@
+// What the run will show, asked before it runs: the controls wait until every prediction is made or skipped. Afterwards
+// one's own prediction stands beside what happened.
+
+import { api } from "../api/client";
+import { inClass, me, teaches } from "../api/identity";
+import type { GivenPrediction, Lesson, Prediction } from "../api/types";
+import { announce, authored, h } from "../core/dom";
+import { seconds } from "../core/format";
+import { setMaths } from "../core/maths";
+import { student } from "../core/prefs";
+import type { Session } from "../session/session";
+import { problemNotice } from "../ui/notice";
+import { setStudent } from "../ui/shell";
+import { PredictionForm } from "./form";
+
+/** Something that stands before a run. */
+export interface Asked {
+  root: HTMLElement;
+  /** Holds the run until it is given. */
+  hold: (session: Session) => void;
+  given: Promise<void>;
+}
+
+export class PredictionPanel implements Asked {
+  readonly root = h("section", { class: "prediction", "aria-label": "Prediction", id: "prediction" });
+  readonly given: Promise<void>;
+  private opened: () => void = () => undefined;
+  private session: Session | undefined;
+  private readonly kept = new Map<string, GivenPrediction>();
+  private readonly revealed = new Set<string>();
+  private form: PredictionForm | undefined;
+  private readonly undo: (() => void)[] = [];
+  /** Another name: what that one has predicted. */
+  private readonly renamed = (): void => void this.load();
+
+  constructor(private readonly lesson: Lesson) {
+    this.given = new Promise((done) => {
+      this.opened = done;
+    });
+    addEventListener("triad:student", this.renamed);
+  }
+
+  hold(session: Session): void {
+    this.session = session;
+    // Who teaches shows the run to others, and who is not of the class has none.
+    if (inClass() && (teaches() || !me().person)) {
+      this.opened();
+      return;
+    }
+    session.hold(() => this.ask());
+    this.undo.push(session.on("shown", () => this.reveal()));
+    void this.load();
+  }
+
+  dispose(): void {
+    removeEventListener("triad:student", this.renamed);
+    for (const step of this.undo) step();
+  }
+
+  private get missing(): Prediction | undefined {
+    return this.lesson.predictions.find((one) => !this.kept.has(one.id));
+  }
+
+  private async load(): Promise<void> {
+    const name = student.get();
+    try {
+      const found = name ? await api.predictions(this.lesson.slug, name) : [];
+      this.kept.clear();
+      for (const one of found) this.kept.set(one.prediction, one);
+      this.paint();
+    } catch (error) {
+      this.root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void this.load() }]));
+    }
+  }
+
+  /** The run was to go on: says what it waits for. */
+  private ask(): void {
+    announce("The run waits: say first what you expect, or skip.");
+    this.root.scrollIntoView({ block: "nearest" });
+    this.form?.focus();
+  }
+
+  private paint(): void {
+    const { missing } = this;
+    this.form = missing && new PredictionForm(missing, (given) => this.give(missing, given));
+    this.root.replaceChildren(
+      ...[...this.kept.values()].map((one) => this.result(one)).filter((part) => part !== null),
+      ...(this.form ? [this.form.root] : []),
+    );
+    void setMaths(this.root);
+    if (missing) return;
+    this.session?.release();
+    this.opened();
+    this.reveal();
+  }
+
+  private async give(
+    asked: Prediction,
+    { name, ...given }: { name: string; choice: string | null; why: string },
+  ): Promise<void> {
+    const kept = await api.predict(this.lesson.slug, { student: name, prediction: asked.id, ...given });
+    this.kept.set(asked.id, kept);
+    announce(
+      kept.choice ? "Your prediction is kept. Now run it." : "Skipped, and kept as skipped. Now run it.",
+    );
+    this.paint();
+    this.root.querySelector<HTMLElement>(".prediction-result")?.focus();
+    setStudent(name);
+  }
+
+  /** Shows what happened as soon as the run has shown it. */
+  private reveal(): void {
+    const state = this.session?.latest;
+    if (!state || this.missing) return;
+    const seen = this.lesson.predictions.filter(
+      (one) =>
+        !this.revealed.has(one.id) && (state.finished || (state.time > 0 && state.time >= one.seen_at)),
+    );
+    if (seen.length === 0) return;
+    for (const one of seen) this.revealed.add(one.id);
+    this.paint();
+    announce(this.root.textContent ?? "");
+  }
+
+  private result(kept: GivenPrediction): HTMLElement | null {
+    const asked = this.lesson.predictions.find((one) => one.id === kept.prediction);
+    if (!asked) return null;
+    const option = (id: string | null | undefined): HTMLElement =>
+      authored(
+        h("span", { class: "prediction-option" }),
+        asked.options.find((one) => one.id === id)?.html ?? "",
+      );
+    const own = kept.choice
+      ? h("p", null, h("b", null, "You predicted: "), option(kept.choice))
+      : h("p", null, h("b", null, "You skipped the prediction."));
+    const shown = this.revealed.has(asked.id);
+    return h(
+      "div",
+      { class: "prediction-result", tabindex: "-1" },
+      authored(h("div", { class: "prediction-asked" }), asked.html),
+      own,
+      kept.why ? h("p", { class: "prediction-why" }, `“${kept.why}”`) : null,
+      shown ? h("p", null, h("b", null, "What happened: "), option(kept.outcome.happens)) : null,
+      shown
+        ? authored(h("div", { class: "prediction-shows" }), kept.outcome.html)
+        : h("p", { class: "help" }, waitsFor(asked)),
+    );
+  }
+}
+
+function waitsFor(asked: Prediction): string {
+  return asked.seen_at > 0
+    ? `Run it: at ${seconds(asked.seen_at)} you will have seen it.`
+    : "Run it, and you will see.";
+}
