@@ -3,7 +3,6 @@
 use super::companion::Lost;
 use super::state_view::CachedState;
 use super::{Simulation, StateView};
-use crate::reactions::JointMultipliers;
 use crate::scene::IntegratorKind;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -64,21 +63,23 @@ impl Simulation {
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn error_estimate(&self) -> Option<ErrorEstimate> {
-        Some(self.compare(&self.error_now()?))
+        Some(self.compare(self.better()?))
     }
 
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
     /// a second time, without the error of the state.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
-        let better = self.without(&self.error_now()?);
-        let (here, there) = (self.multipliers(), StateView::new(self, Cow::Owned(better)).multipliers());
+        let (here, there) = (self.state(), StateView::new(self, Cow::Borrowed(self.better()?)));
+        let (here, there) = (here.solved().multipliers, there.solved().multipliers);
         let mut found = ReactionErrors::default();
-        for (a, b) in here.iter().zip(&there) {
-            let JointMultipliers { force, moment, .. } = a;
-            found.force = found.force.max(apart(*force, b.force));
-            found.largest_force = found.largest_force.max(apart(*force, [0.0; 3]));
-            found.moment = found.moment.max(apart(*moment, b.moment));
-            found.largest_moment = found.largest_moment.max(apart(*moment, [0.0; 3]));
+        for constraint in &self.system().constraints {
+            let (Some(a), Some(b)) = (here.joint_wrench(constraint), there.joint_wrench(constraint)) else {
+                continue;
+            };
+            found.force = found.force.max((a.force - b.force).norm());
+            found.largest_force = found.largest_force.max(a.force.norm());
+            found.moment = found.moment.max((a.moment - b.moment).norm());
+            found.largest_moment = found.largest_moment.max(a.moment.norm());
         }
         Some(found)
     }
@@ -106,27 +107,17 @@ impl Simulation {
         }
     }
 
-    /// Error of (q, q̇) of the current state.
-    fn error_now(&self) -> Option<Vec<f64>> {
-        let (time, y) = (self.time(), self.current.y());
-        let mut error = vec![0.0; y.len()];
-        let known = match &self.companion {
-            Some(companion) => companion.error(time, y, &mut error),
-            None => self.integrator.error(self.system(), time, &mut error),
-        };
-        known.then_some(error)
-    }
-
-    /// The current state without an error.
-    fn without(&self, error: &[f64]) -> CachedState {
-        let y: Vec<f64> = self.current.y().iter().zip(error).map(|(y, e)| y - e).collect();
-        let angles: Vec<f64> = self.current.state().angles().iter().map(|angle| angle.value).collect();
-        self.current.at(self.system(), self.time(), &y, &angles)
+    /// The current state without its error.
+    fn better(&self) -> Option<&CachedState> {
+        let (time, system) = (self.time(), self.system());
+        self.current.better(system, |error| match &self.companion {
+            Some(companion) => companion.error(time, self.current.y(), error),
+            None => self.integrator.error(system, time, error),
+        })
     }
 
     /// The current state compared with that without an error.
-    fn compare(&self, error: &[f64]) -> ErrorEstimate {
-        let better = self.without(error);
+    fn compare(&self, better: &CachedState) -> ErrorEstimate {
         let (here, there, system) = (self.current.state(), better.state(), self.system());
         let energy = (here.energy(system) - there.energy(system)).abs();
         let mut found = ErrorEstimate { energy, ..ErrorEstimate::default() };

@@ -33,6 +33,24 @@ struct Results {
     spare: Mutex<Option<Box<Elimination>>>,
     /// Work of drivers and of loads without potential since the start of the last step, J.
     work: OnceLock<f64>,
+    /// The state without its error, where that is known.
+    better: OnceLock<Option<Box<CachedState>>>,
+    /// That of the state before, likewise to be used again.
+    spare_better: Mutex<Option<Box<CachedState>>>,
+}
+
+impl Results {
+    /// What another state can use again.
+    fn spare(self) -> Self {
+        let Self { solved, spare, better, spare_better, .. } = self;
+        let spare =
+            solved.into_inner().or_else(|| spare.into_inner().unwrap_or_else(PoisonError::into_inner));
+        let better = better
+            .into_inner()
+            .flatten()
+            .or_else(|| spare_better.into_inner().unwrap_or_else(PoisonError::into_inner));
+        Self { spare: Mutex::new(spare), spare_better: Mutex::new(better), ..Self::default() }
+    }
 }
 
 /// Without the results: a copy of a run is made to go on from there, and can compute them again.
@@ -56,10 +74,7 @@ impl CachedState {
         time: f64,
         write: impl FnOnce(&mut Mechanism, &mut [f64]),
     ) {
-        let Results { solved, spare, .. } = std::mem::take(&mut self.results);
-        let spare =
-            solved.into_inner().or_else(|| spare.into_inner().unwrap_or_else(PoisonError::into_inner));
-        self.results.spare = Mutex::new(spare);
+        self.results = std::mem::take(&mut self.results).spare();
         self.time = time;
         write(mechanism, &mut self.y);
         let turns = mechanism.state.angles().iter().map(|angle| angle.reference);
@@ -75,6 +90,28 @@ impl CachedState {
         let (q, q_dot) = y.split_at(system.coordinates);
         state.set(system, time, q, q_dot);
         Self { time, y: y.to_vec(), state, results: Results::default() }
+    }
+
+    /// This state less its error, which `error` writes on the first request; `None` if it does not know it.
+    pub fn better(&self, system: &System, error: impl FnOnce(&mut [f64]) -> bool) -> Option<&Self> {
+        let find = || {
+            let spare = self.results.spare_better.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let mut better = spare.unwrap_or_else(|| Box::new(self.clone()));
+            better.results = std::mem::take(&mut better.results).spare();
+            better.time = self.time;
+            better.y.fill(0.0);
+            if !error(&mut better.y) {
+                return None;
+            }
+            for (x, y) in better.y.iter_mut().zip(&self.y) {
+                *x = y - *x;
+            }
+            better.state.copy_revolutions(&self.state);
+            let (q, q_dot) = better.y.split_at(system.coordinates);
+            better.state.set(system, self.time, q, q_dot);
+            Some(better)
+        };
+        self.results.better.get_or_init(find).as_deref()
     }
 
     /// Time t, s.
