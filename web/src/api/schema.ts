@@ -3348,7 +3348,7 @@ export interface components {
              */
             constants?: boolean;
             /**
-             * @description Bodies that rigid connections tie to the ground (integrator `taylor`).
+             * @description Bodies that rigid connections tie to the ground, or to another body that then moves for both (integrator `taylor`).
              * @default true
              */
             fixed?: boolean;

@@ -72,6 +72,31 @@ impl ModelBody {
         })
     }
 
+    /// The body that rigidly joined `parts`, this one among them, make together, each given with its centre of mass r and its
+    /// directors as columns; `frame` are this one's. It keeps this one's name, its principal axes are next to `frame`, and its
+    /// rates are left at zero.
+    pub(crate) fn joined(&self, parts: &[(&Self, Vector3<f64>, Matrix3<f64>)], frame: &Matrix3<f64>) -> Self {
+        let parts: Vec<_> = parts
+            .iter()
+            .map(|(body, r, directors)| (body.mass, *r, tensor(&body.principal, directors)))
+            .collect();
+        let (mass, position, inertia) = composed(&parts);
+        let inertia = frame.tr_mul(&inertia) * frame;
+        let (principal, axes) = principal_axes(&((inertia + inertia.transpose()) * 0.5), inertia.amax());
+        Self {
+            name: self.name.clone(),
+            mass,
+            principal,
+            coordinates: self.coordinates,
+            center_of_mass: Vector3::zeros(),
+            principal_axes: Matrix3::identity(),
+            position,
+            directors: frame * axes,
+            velocity: Vector3::zeros(),
+            angular_velocity: Vector3::zeros(),
+        }
+    }
+
     /// Coordinates (ξ, η, ζ) in the principal frame of a point of the author's frame.
     pub fn point_to_principal(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.principal_axes.tr_mul(&(point - self.center_of_mass))
@@ -121,16 +146,7 @@ impl Composite {
             let (moments, axes) = principal_inertia(body, attached.inertia.as_ref(), &at("inertia"), notes)?;
             parts.push((attached.mass, Vector3::from(attached.point), tensor(&moments, &axes)));
         }
-        let mass: f64 = parts.iter().map(|part| part.0).sum();
-        let center_of_mass = parts.iter().map(|part| part.1 * part.0).sum::<Vector3<f64>>() / mass;
-        // Steiner's theorem: the parallel axes of all parts meet in the common centre.
-        let whole: Matrix3<f64> = parts
-            .iter()
-            .map(|(mass, center, inertia)| {
-                let arm = center - center_of_mass;
-                inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
-            })
-            .sum();
+        let (mass, center_of_mass, whole) = composed(&parts);
         let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| whole[(i, j)]));
         let (principal, principal_axes) =
             principal_inertia(body, Some(&Inertia::Tensor(rows)), &at("attached"), notes)?;
@@ -144,6 +160,21 @@ impl Composite {
         ));
         Ok(Self { mass, center_of_mass, principal, principal_axes })
     }
+}
+
+/// Mass, centre of mass and inertia about it of parts, each with its mass, centre and inertia about that.
+fn composed(parts: &[(f64, Vector3<f64>, Matrix3<f64>)]) -> (f64, Vector3<f64>, Matrix3<f64>) {
+    let mass: f64 = parts.iter().map(|part| part.0).sum();
+    let center_of_mass = parts.iter().map(|part| part.1 * part.0).sum::<Vector3<f64>>() / mass;
+    // Steiner's theorem: the parallel axes of all parts meet in the common centre.
+    let whole = parts
+        .iter()
+        .map(|(mass, center, inertia)| {
+            let arm = center - center_of_mass;
+            inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
+        })
+        .sum();
+    (mass, center_of_mass, whole)
 }
 
 /// The tensor of principal moments about axes, the columns.
@@ -216,7 +247,12 @@ fn diagonalize(
     if [(0, 1), (0, 2), (1, 2)].iter().all(|&(i, j)| tensor[(i, j)] == 0.0 && tensor[(j, i)] == 0.0) {
         return Ok((tensor.diagonal(), Matrix3::identity()));
     }
-    let eigen = SymmetricEigen::new((tensor + tensor.transpose()) * 0.5);
+    Ok(principal_axes(&((tensor + tensor.transpose()) * 0.5), largest))
+}
+
+/// Principal moments and axes (columns, right-handed) of a symmetric tensor, whose largest entry as written is `largest`.
+fn principal_axes(tensor: &Matrix3<f64>, largest: f64) -> (Vector3<f64>, Matrix3<f64>) {
+    let eigen = SymmetricEigen::new(*tensor);
     // Keep each principal axis next to the author's axis that it is nearest to, so that the frame reads well.
     let mut order = [0, 1, 2];
     let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -241,7 +277,7 @@ fn diagonalize(
         moment if moment < 0.0 && moment > -PRINTED * largest => 0.0,
         moment => moment,
     };
-    Ok((Vector3::from_fn(|k, _| moment(k)), axes))
+    (Vector3::from_fn(|k, _| moment(k)), axes)
 }
 
 fn orientation(body: &Body, pointer: &str, notes: &mut Vec<String>) -> Result<Matrix3<f64>, ModelError> {

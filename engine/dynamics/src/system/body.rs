@@ -31,11 +31,23 @@ pub struct RigidBody {
     pub coordinates: Coordinates,
     /// How its natural coordinates follow from q.
     pub layout: Layout,
+    /// The bodies that it is made of, if it stands for several that are rigidly joined: their coordinates are those of q, and its
+    /// own layout is not used.
+    pub parts: Vec<BodyPart>,
     /// Its pose in the plane, in a system that has been reduced to one.
     pub planar_pose: Option<PlanarPose>,
     /// The point in which a hinge fixes it to the ground, in a system that has been reduced to a plane: that joint's rows are
     /// eliminated with the rigid-body rows — eq. (7.10).
     pub pivot: Option<GroundPivot>,
+}
+
+/// A body that is rigidly joined to others, as part of the one that stands for all of them.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyPart {
+    /// How its natural coordinates follow from q.
+    pub layout: Layout,
+    /// Its place in the frame of the whole.
+    pub place: NaturalCoordinates,
 }
 
 /// A point of a body that a joint holds at a point of the ground.
@@ -63,8 +75,38 @@ impl RigidBody {
             regularizing_inertia: if lacks { REGULARIZING_INERTIA * scale } else { 0.0 },
             coordinates: body.coordinates,
             layout,
+            parts: Vec::new(),
             planar_pose: None,
             pivot: None,
+        }
+    }
+
+    /// Q of all generalized coordinates q.
+    pub fn position(&self, q: &[f64]) -> NaturalCoordinates {
+        match self.parts.first() {
+            None => self.layout.position(q),
+            Some(part) => part.layout.position(q).carrier(&part.place),
+        }
+    }
+
+    /// Q and Q̇ of all generalized coordinates and velocities.
+    pub fn motion(&self, q: &[f64], q_dot: &[f64]) -> [NaturalCoordinates; 2] {
+        let layout = self.parts.first().map_or(&self.layout, |part| &part.layout);
+        let position = layout.position(q);
+        let motion = [position, layout.velocity(&position, q_dot)];
+        match self.parts.first() {
+            None => motion,
+            Some(part) => motion.map(|of_part| of_part.carrier(&part.place)),
+        }
+    }
+
+    /// Writes the coordinates in q that a vector of its natural coordinates, a position or its rate or error, tells.
+    pub fn store(&self, natural: &NaturalCoordinates, q: &mut [f64]) {
+        if self.parts.is_empty() {
+            self.layout.store(natural, q);
+        }
+        for part in &self.parts {
+            part.layout.store(&natural.carried(&part.place), q);
         }
     }
 

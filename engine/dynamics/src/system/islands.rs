@@ -1,20 +1,25 @@
 //! The islands of a model, which nothing connects, without the bodies that cannot move — THEORY section 7.
 //!
 //! Bodies that no joint, driver or load connects move each on its own: their series take steps of their own. A body
-//! that rigid connections tie to the ground is ground.
+//! that rigid connections tie to the ground is ground, and bodies that they tie to each other are one.
 
-use crate::model::{BodyRef, DriverKind, JointGeometry, LoadKind, Model, ModelJoint};
-use crate::scene::Settings;
+mod rigid;
+
+use crate::model::motion::VectorCurve;
+use crate::model::{BodyRef, DriverKind, JointGeometry, LoadKind, Model, ModelBody, ModelJoint};
+use crate::scene::{LoadFrame, Settings};
 use crate::system::System;
+use crate::system::body::BodyPart;
 use crate::system::natural::NaturalCoordinates;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
+use rigid::{Merged, driver_bodies};
 
 /// An island as a system of its own; its columns are those of the whole system.
 #[derive(Clone, Debug)]
 pub struct Island {
     /// The system.
     pub system: System,
-    /// Its bodies, as places in the whole.
+    /// Its bodies, as places in the whole; of bodies that are merged the first.
     pub bodies: Vec<usize>,
 }
 
@@ -25,6 +30,8 @@ pub struct Islands {
     pub islands: Vec<Island>,
     /// Bodies that cannot move.
     pub fixed: usize,
+    /// Bodies that move as parts of others.
+    pub merged: usize,
 }
 
 /// What became of a body of the whole.
@@ -32,105 +39,94 @@ pub struct Islands {
 enum Assignment {
     /// It is ground, at its place.
     Ground(NaturalCoordinates),
-    /// Body `index` of island `island`.
-    Moves { island: usize, index: usize },
+    /// Body `index` of island `island`, or part of it at its place in the frame of that body.
+    Moves { island: usize, index: usize, place: Option<NaturalCoordinates> },
 }
 
-/// Divides a system at positions q: into islands if `islands`, and without fixed bodies if `fixed`.
-pub fn split(system: &System, q: &[f64], islands: bool, fixed: bool) -> Islands {
+/// The bodies of an island while it is put together.
+#[derive(Default)]
+struct Members {
+    /// As places in the whole; of bodies that are merged the first.
+    bodies: Vec<usize>,
+    /// What those that stand for several are made of.
+    merged: Vec<(usize, Merged)>,
+}
+
+/// Divides a system at positions q: into islands if `islands`, and, if `rigid`, without fixed bodies and with those that are rigidly
+/// joined merged.
+pub fn split(system: &System, q: &[f64], islands: bool, rigid: bool) -> Islands {
     let model = &system.model;
-    let grounded = if fixed { tied_to_ground(model) } else { vec![false; model.bodies.len()] };
-    let mut label: Vec<usize> = (0..model.bodies.len()).collect();
-    if islands {
-        for [i, j] in links(model) {
-            if let (BodyRef::Moving(i), BodyRef::Moving(j)) = (i, j)
-                && !grounded[i]
-                && !grounded[j]
-            {
-                join(&mut label, i, j);
-            }
-        }
-    } else {
-        label.fill(0);
-    }
-    let (mut assignments, mut bodies, mut island_of) =
-        (Vec::new(), Vec::<Vec<usize>>::new(), vec![None; label.len()]);
-    for body in 0..label.len() {
+    let grounded = if rigid { rigid::tied_to_ground(model) } else { vec![false; model.bodies.len()] };
+    let leaders = if rigid { rigid::leaders(model, &grounded) } else { (0..model.bodies.len()).collect() };
+    let mut label = labels(model, &grounded, islands);
+    let mut parts_of = vec![Vec::new(); leaders.len()];
+    leaders.iter().enumerate().for_each(|(body, &leader)| parts_of[leader].push(body));
+    let mut assignments = vec![Assignment::Moves { island: 0, index: 0, place: None }; leaders.len()];
+    let (mut members, mut island_of) = (Vec::<Members>::new(), vec![None; leaders.len()]);
+    for body in 0..leaders.len() {
         if grounded[body] {
-            assignments.push(Assignment::Ground(system.bodies[body].layout.position(q)));
+            assignments[body] = Assignment::Ground(system.bodies[body].layout.position(q));
             continue;
         }
-        let island = *island_of[root(&mut label, body)].get_or_insert_with(|| {
-            bodies.push(Vec::new());
-            bodies.len() - 1
+        if leaders[body] != body {
+            continue;
+        }
+        let island = *island_of[rigid::root(&mut label, body)].get_or_insert_with(|| {
+            members.push(Members::default());
+            members.len() - 1
         });
-        assignments.push(Assignment::Moves { island, index: bodies[island].len() });
-        bodies[island].push(body);
+        let Members { bodies, merged } = &mut members[island];
+        let index = bodies.len();
+        assignments[body] = Assignment::Moves { island, index, place: None };
+        if parts_of[body].len() > 1 {
+            let whole = Merged::new(system, q, &parts_of[body]);
+            for &(part, place) in &whole.parts {
+                assignments[part] = Assignment::Moves { island, index, place: Some(place) };
+            }
+            merged.push((index, whole));
+        }
+        bodies.push(body);
     }
     let fixed = grounded.iter().filter(|grounded| **grounded).count();
-    if bodies.len() < 2 && fixed == 0 {
-        return Islands { islands: Vec::new(), fixed };
+    let merged = leaders.iter().enumerate().filter(|(body, leader)| *body != **leader).count();
+    if members.len() < 2 && fixed + merged == 0 {
+        return Islands { islands: Vec::new(), fixed, merged };
     }
-    let mut models: Vec<Model> = bodies.iter().map(|list| without_rows(model, list)).collect();
+    let mut models: Vec<Model> = members.iter().map(|members| without_rows(model, members)).collect();
     distribute(model, &assignments, &mut models);
-    let own = models.into_iter().zip(bodies).map(|(model, bodies)| {
-        let mut island = System::new(model);
-        island.coordinates = system.coordinates;
-        for (own, &body) in island.bodies.iter_mut().zip(&bodies) {
-            own.layout = system.bodies[body].layout;
-        }
-        Island { system: island, bodies }
-    });
-    Islands { islands: own.collect(), fixed }
+    let own = models.into_iter().zip(members).map(|(model, members)| assembled(system, model, members));
+    Islands { islands: own.collect(), fixed, merged }
 }
 
-/// Bodies that rigid connections tie to the ground. Scenes with gears, whose joints must stay, keep all bodies, and a
-/// driven body is never taken for fixed.
-fn tied_to_ground(model: &Model) -> Vec<bool> {
-    let mut grounded = vec![false; model.bodies.len()];
-    if model.joints.iter().any(|joint| joint.coupled_joints().is_some()) {
-        return grounded;
+/// Labels of bodies, the same for those of an island, as [`rigid::join`] gives them.
+fn labels(model: &Model, grounded: &[bool], islands: bool) -> Vec<usize> {
+    if !islands {
+        return vec![0; model.bodies.len()];
     }
-    let mut driven = grounded.clone();
-    for driver in &model.drivers {
-        for body in driver_bodies(model, &driver.kind) {
-            if let BodyRef::Moving(body) = body {
-                driven[body] = true;
-            }
+    let mut label: Vec<usize> = (0..model.bodies.len()).collect();
+    for [i, j] in links(model) {
+        if let (BodyRef::Moving(i), BodyRef::Moving(j)) = (i, j)
+            && !grounded[i]
+            && !grounded[j]
+        {
+            rigid::join(&mut label, i, j);
         }
     }
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for joint in model.joints.iter().filter(|joint| joint.geometry.is_rigid()) {
-            let tied = |grounded: &[bool], body: BodyRef| match body {
-                BodyRef::Ground => true,
-                BodyRef::Moving(body) => grounded[body],
-            };
-            let [i, j] = joint.bodies;
-            for (one, other) in [(i, j), (j, i)] {
-                if let BodyRef::Moving(body) = other
-                    && tied(&grounded, one)
-                    && !grounded[body]
-                    && !driven[body]
-                {
-                    grounded[body] = true;
-                    changed = true;
-                }
-            }
-        }
-    }
-    grounded
+    label
 }
 
-fn driver_bodies(model: &Model, kind: &DriverKind) -> [BodyRef; 2] {
-    match kind {
-        DriverKind::Point { body, .. }
-        | DriverKind::Vector { body, .. }
-        | DriverKind::CosineToWorld { body, .. } => [BodyRef::Ground, BodyRef::Moving(*body)],
-        DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => model.joints[*joint].bodies,
-        DriverKind::Cosine { bodies, .. } => *bodies,
+/// The system of an island, in the coordinates of the whole.
+fn assembled(whole: &System, model: Model, members: Members) -> Island {
+    let mut system = System::new(model);
+    system.coordinates = whole.coordinates;
+    for (own, &body) in system.bodies.iter_mut().zip(&members.bodies) {
+        own.layout = whole.bodies[body].layout;
     }
+    for (index, merged) in members.merged {
+        let part = |(body, place): (usize, _)| BodyPart { layout: whole.bodies[body].layout, place };
+        system.bodies[index].parts = merged.parts.into_iter().map(part).collect();
+    }
+    Island { system, bodies: members.bodies }
 }
 
 fn load_bodies(model: &Model, kind: &LoadKind) -> [BodyRef; 2] {
@@ -179,30 +175,21 @@ pub fn has_loops(model: &Model) -> bool {
         | DriverKind::CosineToWorld { .. } => None,
     });
     joints.chain(drivers).any(|[i, j]| {
-        let joined = root(&mut label, i) == root(&mut label, j);
-        join(&mut label, i, j);
+        let joined = rigid::root(&mut label, i) == rigid::root(&mut label, j);
+        rigid::join(&mut label, i, j);
         joined
     })
 }
 
-fn root(label: &mut [usize], mut body: usize) -> usize {
-    while label[body] != body {
-        label[body] = label[label[body]];
-        body = label[body];
+fn without_rows(model: &Model, Members { bodies, merged }: &Members) -> Model {
+    let mut bodies: Vec<ModelBody> = bodies.iter().map(|&body| model.bodies[body].clone()).collect();
+    for (index, whole) in merged {
+        bodies[*index] = whole.body.clone();
     }
-    body
-}
-
-fn join(label: &mut [usize], i: usize, j: usize) {
-    let (i, j) = (root(label, i), root(label, j));
-    label[i.max(j)] = i.min(j);
-}
-
-fn without_rows(model: &Model, bodies: &[usize]) -> Model {
     Model {
         name: model.name.clone(),
         gravity: model.gravity,
-        bodies: bodies.iter().map(|&body| model.bodies[body].clone()).collect(),
+        bodies,
         joints: Vec::new(),
         starts: Vec::new(),
         drivers: Vec::new(),
@@ -223,44 +210,51 @@ impl Assignment {
             BodyRef::Ground => (BodyRef::Ground, None),
             BodyRef::Moving(body) => match assignments[body] {
                 Self::Ground(_) => (BodyRef::Ground, None),
-                Self::Moves { island, index } => (BodyRef::Moving(index), Some(island)),
+                Self::Moves { island, index, .. } => (BodyRef::Moving(index), Some(island)),
             },
         }
     }
 
-    /// The island that two bodies belong to, if it is not the ground, and their indices there.
+    /// The island that two bodies belong to and their indices there, if they are not one body.
     fn pair(assignments: &[Self], bodies: [BodyRef; 2]) -> Option<(usize, [BodyRef; 2])> {
         let [(i, island_i), (j, island_j)] = bodies.map(|body| Self::of(assignments, body));
-        Some((island_i.or(island_j)?, [i, j]))
+        (i != j).then_some((island_i.or(island_j)?, [i, j]))
     }
 
-    /// A point or vector of a body in the frame that its island uses for it: that of the body, or the world if it is fixed.
-    fn turned(assignments: &[Self], body: BodyRef, local: &Vector3<f64>, point: bool) -> Vector3<f64> {
+    /// The place of a body in the frame that its island uses for it, if it is not its own.
+    fn place(assignments: &[Self], body: BodyRef) -> Option<&NaturalCoordinates> {
         match body {
+            BodyRef::Ground => None,
             BodyRef::Moving(body) => match &assignments[body] {
-                Self::Ground(place) if point => place.r + place.arm(local),
-                Self::Ground(place) => place.arm(local),
-                Self::Moves { .. } => *local,
+                Self::Ground(place) => Some(place),
+                Self::Moves { place, .. } => place.as_ref(),
             },
-            BodyRef::Ground => *local,
         }
+    }
+
+    /// A point of a body in the frame that its island uses for it.
+    fn point(assignments: &[Self], body: BodyRef, local: &Vector3<f64>) -> Vector3<f64> {
+        Self::place(assignments, body).map_or(*local, |place| place.r + place.arm(local))
+    }
+
+    /// A vector of a body in the frame that its island uses for it.
+    fn vector(assignments: &[Self], body: BodyRef, local: &Vector3<f64>) -> Vector3<f64> {
+        Self::place(assignments, body).map_or(*local, |place| place.arm(local))
     }
 }
 
-/// Gives each joint, driver and load to the island that it belongs to. Those between ground and ground have no effect.
+/// Gives each joint, driver and load to the island that it belongs to. Those within one body, or the ground, have no effect.
 fn distribute(model: &Model, assignments: &[Assignment], islands: &mut [Model]) {
     let mut places = vec![usize::MAX; model.joints.len()];
     for (index, joint) in model.joints.iter().enumerate() {
         let Some((island, bodies)) = Assignment::pair(assignments, joint.bodies) else { continue };
         places[index] = islands[island].joints.len();
         let mut own = ModelJoint { bodies, ..joint.clone() };
-        for side in 0..2 {
-            let turned = |local: &Vector3<f64>, point: bool| {
-                Assignment::turned(assignments, joint.bodies[side], local, point)
-            };
-            own.points[side] = turned(&joint.points[side], true);
-            own.axes[side] = turned(&joint.axes[side], false);
-            own.cross[side] = joint.cross[side].map(|across| turned(&across, false));
+        for (side, &body) in joint.bodies.iter().enumerate() {
+            let vector = |local: &Vector3<f64>| Assignment::vector(assignments, body, local);
+            own.points[side] = Assignment::point(assignments, body, &joint.points[side]);
+            own.axes[side] = vector(&joint.axes[side]);
+            own.cross[side] = joint.cross[side].map(|across| vector(&across));
         }
         if let JointGeometry::Gear { joints, .. } = &mut own.geometry {
             *joints = joints.map(|joint| places[joint]);
@@ -268,35 +262,63 @@ fn distribute(model: &Model, assignments: &[Assignment], islands: &mut [Model]) 
         islands[island].joints.push(own);
     }
     for driver in &model.drivers {
-        let Some((island, pair)) = Assignment::pair(assignments, driver_bodies(model, &driver.kind)) else {
-            continue;
-        };
-        let mut own = driver.clone();
-        match &mut own.kind {
-            DriverKind::Point { body, .. }
-            | DriverKind::Vector { body, .. }
-            | DriverKind::CosineToWorld { body, .. } => rename(body, pair[1]),
-            DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => *joint = places[*joint],
-            DriverKind::Cosine { bodies, .. } => *bodies = pair,
+        if let Some((island, pair)) = Assignment::pair(assignments, driver_bodies(model, &driver.kind)) {
+            let mut own = driver.clone();
+            give_driver(&mut own.kind, assignments, pair, &places);
+            islands[island].drivers.push(own);
         }
-        islands[island].drivers.push(own);
     }
     for load in &model.loads {
-        let Some((island, pair)) = Assignment::pair(assignments, load_bodies(model, &load.kind)) else {
-            continue;
-        };
-        let mut own = load.clone();
-        match &mut own.kind {
-            LoadKind::Force { body, .. } | LoadKind::Moment { body, .. } => rename(body, pair[1]),
-            LoadKind::Spring { bodies, locals, .. } => {
-                for (side, local) in locals.iter_mut().enumerate() {
-                    *local = Assignment::turned(assignments, bodies[side], local, true);
-                }
-                *bodies = pair;
-            }
-            LoadKind::Torsion { joint, .. } | LoadKind::Slider { joint, .. } => *joint = places[*joint],
+        if let Some((island, pair)) = Assignment::pair(assignments, load_bodies(model, &load.kind)) {
+            let mut own = load.clone();
+            give_load(&mut own.kind, assignments, pair, &places);
+            islands[island].loads.push(own);
         }
-        islands[island].loads.push(own);
+    }
+}
+
+/// Writes a driver with the bodies `pair` and the joints `places` of its island.
+fn give_driver(kind: &mut DriverKind, assignments: &[Assignment], pair: [BodyRef; 2], places: &[usize]) {
+    let vector = |body, local: &Vector3<f64>| Assignment::vector(assignments, body, local);
+    match kind {
+        DriverKind::Point { body, local, .. } => {
+            *local = Assignment::point(assignments, BodyRef::Moving(*body), local);
+            rename(body, pair[1]);
+        }
+        DriverKind::Vector { body, local, .. } | DriverKind::CosineToWorld { body, local, .. } => {
+            *local = vector(BodyRef::Moving(*body), local);
+            rename(body, pair[1]);
+        }
+        DriverKind::Angle { joint, .. } | DriverKind::Slide { joint, .. } => *joint = places[*joint],
+        DriverKind::Cosine { bodies, locals, .. } => {
+            *locals = [0, 1].map(|side| vector(bodies[side], &locals[side]));
+            *bodies = pair;
+        }
+    }
+}
+
+/// The same for a load.
+fn give_load(kind: &mut LoadKind, assignments: &[Assignment], pair: [BodyRef; 2], places: &[usize]) {
+    let turned = |curve: &mut VectorCurve, frame, body| {
+        if let (LoadFrame::Body, Some(place)) = (frame, Assignment::place(assignments, body)) {
+            *curve = curve.clone().rotated(&Matrix3::from_columns(&place.e));
+        }
+    };
+    match kind {
+        LoadKind::Force { body, local, force, frame } => {
+            *local = Assignment::point(assignments, BodyRef::Moving(*body), local);
+            turned(force, *frame, BodyRef::Moving(*body));
+            rename(body, pair[1]);
+        }
+        LoadKind::Moment { body, moment, frame } => {
+            turned(moment, *frame, BodyRef::Moving(*body));
+            rename(body, pair[1]);
+        }
+        LoadKind::Spring { bodies, locals, .. } => {
+            *locals = [0, 1].map(|side| Assignment::point(assignments, bodies[side], &locals[side]));
+            *bodies = pair;
+        }
+        LoadKind::Torsion { joint, .. } | LoadKind::Slider { joint, .. } => *joint = places[*joint],
     }
 }
 

@@ -47,6 +47,21 @@ impl NaturalCoordinates {
     pub fn arm(&self, local: &Vector3<f64>) -> Vector3<f64> {
         self.e[0] * local[0] + self.e[1] * local[1] + self.e[2] * local[2]
     }
+
+    /// Natural coordinates of what stands at `place` in the frame of this body. Linear, so for rates and errors as for positions —
+    /// eq. (7.11).
+    #[must_use]
+    pub fn carried(&self, place: &Self) -> Self {
+        Self { r: self.r + self.arm(&place.r), e: place.e.map(|e| self.arm(&e)) }
+    }
+
+    /// Natural coordinates of the body in whose frame this one stands at `place`.
+    #[must_use]
+    pub fn carrier(&self, place: &Self) -> Self {
+        let e = [0, 1, 2].map(|l| (0..3).map(|k| self.e[k] * place.e[k][l]).sum());
+        let carrier = Self { r: self.r, e };
+        Self { r: self.r - carrier.arm(&place.r), e }
+    }
 }
 
 /// Where a director of a body comes from.

@@ -58,7 +58,7 @@ pub enum Spatial {
 ///
 /// [`Spatial`]: why it does not move in a plane.
 pub fn recognize(system: &System, q: &[f64]) -> Result<Plane, Spatial> {
-    let places: Vec<NaturalCoordinates> = system.bodies.iter().map(|b| b.layout.position(q)).collect();
+    let places: Vec<NaturalCoordinates> = system.bodies.iter().map(|b| b.position(q)).collect();
     let axis = |joint: &ModelJoint| {
         let (side, place) = match joint.bodies {
             [BodyRef::Moving(body), _] => (0, &places[body]),
@@ -135,7 +135,7 @@ impl Plane {
         let turned = self.frame.transpose();
         flat.model.gravity = turned * system.model.gravity;
         for body in &mut flat.bodies {
-            let place = body.layout.position(q);
+            let place = body.position(q);
             let directors = turned * Matrix3::from_columns(&place.e);
             let height = (turned * place.r)[2];
             body.planar_pose = Some(PlanarPose { frame: self.frame, directors, height });

@@ -67,6 +67,8 @@ pub struct SkippedWork {
     pub body_steps_together: u64,
     /// Bodies that are left out because they cannot move.
     pub fixed_bodies: usize,
+    /// Bodies that are left out because they move with others that they are rigidly joined to.
+    pub merged_bodies: usize,
     /// Entries of the matrix that were not written again.
     pub constants: u64,
     /// Steps after which the constraints needed no measuring.

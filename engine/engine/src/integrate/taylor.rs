@@ -53,6 +53,7 @@ impl Taylor {
         let mut skipped = SkippedWork {
             islands: islands.len(),
             fixed_bodies: split.fixed,
+            merged_bodies: split.merged,
             rows_in_space: system.solver_rows,
             ..SkippedWork::default()
         };

@@ -12,6 +12,9 @@ use triad_dynamics::system::index::SolverRow;
 use triad_dynamics::system::{Constraint, System};
 use triad_linalg::orthonormal_basis;
 
+/// Part of the force and moment of a row below which a component of them is rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// Which of the two bodies of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -161,7 +164,9 @@ fn reaction(
     let lambda = DVector::from_column_slice(&multipliers[constraint.solver.clone()]);
     let component = |row: usize| {
         let turned = axes.column(row % 3).transpose() * map.rows(row / 3 * 3, 3);
-        let weights: Vec<f64> = turned.iter().copied().collect();
+        let mut weights: Vec<f64> = turned.iter().copied().collect();
+        let arm = point.norm() + system.length;
+        drop_rounding(&mut weights, &map, if row < 3 { None } else { Some(arm) });
         ReactionComponent {
             value: (turned * &lambda)[0],
             unique: null.is_unique(SolverRow(constraint.solver.start), &weights),
@@ -178,6 +183,18 @@ fn reaction(
         axes: [0, 1, 2].map(|k| axes.column(k).into_owned().into()),
         force: [0, 1, 2].map(component),
         moment: [3, 4, 5].map(component),
+    }
+}
+
+/// Takes for zero what rounding leaves of components that a row has no part in: of a force, or of a moment where the arm of forces is
+/// known. A ball joint has no moment, and a hinge none about its axis.
+fn drop_rounding(weights: &mut [f64], map: &DMatrix<f64>, arm: Option<f64>) {
+    for (weight, row) in weights.iter_mut().zip(map.column_iter()) {
+        let [force, moment] = [0, 3].map(|first| row.rows(first, 3).norm());
+        let size = arm.map_or(force, |arm| moment + arm * force);
+        if weight.abs() <= ROUNDING * size {
+            *weight = 0.0;
+        }
     }
 }
 

@@ -68,7 +68,8 @@ impl Simulation {
         let saved = self.integrator.skipped();
         let s = saved.unwrap_or_default();
         let of = |n: u64| if saved.is_some() { n } else { 0 };
-        let (planar, fixed, constants) = (s.planar_bodies as u64, s.fixed_bodies as u64, s.constants);
+        let (planar, fixed, merged) = (s.planar_bodies as u64, s.fixed_bodies as u64, s.merged_bodies as u64);
+        let constants = s.constants;
         let (taken, together) = (s.body_steps, s.body_steps_together);
         let in_plane = format!(
             "{planar} of {bodies} bodies solved in a plane; {} rows instead of {}",
@@ -78,7 +79,13 @@ impl Simulation {
             "{} solved apart; {taken} steps of bodies instead of {together} with common steps",
             plural(s.islands, "part")
         );
-        let tied = format!("{fixed} of {bodies} bodies tied to the ground and left out");
+        let mut tied = format!("{fixed} of {bodies} bodies tied to the ground and left out");
+        if merged > 0 {
+            tied += &format!(
+                "; {merged} merged with those that they are rigidly joined to, {} rows left",
+                s.rows
+            );
+        }
         let unchanged = format!("{constants} entries of the matrix that never change not written again");
         let proven = format!(
             "{} of {steps} steps shown consistent by their own projection, {} measured",
@@ -87,7 +94,7 @@ impl Simulation {
         vec![
             SkippedItem::new("planar", skip.planar, planar, of(bodies), in_plane),
             SkippedItem::new("islands", skip.islands, together.saturating_sub(taken), of(together), apart),
-            SkippedItem::new("fixed", skip.fixed, fixed, of(bodies), tied),
+            SkippedItem::new("fixed", skip.fixed, fixed + merged, of(bodies), tied),
             SkippedItem::new("constants", skip.constants, constants, of(constants.max(1)), unchanged),
             SkippedItem::new("checks", skip.checks, s.checks, of(steps), proven),
         ]

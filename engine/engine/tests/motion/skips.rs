@@ -4,7 +4,7 @@
 
 use triad_engine::catalogue;
 use triad_engine::run::{Simulation, SkippedItem};
-use triad_engine::scene::{Ground, IntegratorKind, Joint, Orientation, Scene, Skip};
+use triad_engine::scene::{Driver, Ground, IntegratorKind, Joint, Motion, Orientation, Scene, Skip};
 
 fn scene(name: &str) -> Scene {
     let mut scene = catalogue::scene(name).unwrap();
@@ -158,6 +158,61 @@ fn bodies_tied_to_the_ground_are_ground() {
     scene.joints.push(weld);
     scene.joints[0].body_i = "base".to_owned();
     assert_eq!(compare(&scene, "fixed", 1e-8), (1, 0));
+}
+
+/// A closed chain of three rods, the first of which carries a plate and a fin, with loads in frames of merged bodies, a driver and a
+/// spring between them.
+fn welded(normal: &str) -> Scene {
+    let text = r#"{
+      "name": "welded", "gravity": [0.5, -9.81, 0],
+      "bodies": [
+        {"name": "crank", "mass": 1, "position": [0, 0.5, 0], "inertia": {"principal": [0.09, 0.01, 0.09]}},
+        {"name": "plate", "mass": 2, "position": [0.3, 0.6, 0.2], "inertia": {"principal": [0.1, 0.2, 0.25]},
+         "orientation": {"axis": [1, 2, 3], "angle": 0.7}, "coordinates": "reduced"},
+        {"name": "fin", "mass": 0.5, "position": [0.5, 0.9, -0.1], "inertia": {"tensor": [[0.03, 0.005, 0], [0.005, 0.02, 0.001], [0, 0.001, 0.04]]}},
+        {"name": "rod", "mass": 1, "position": [0.5, 1, 0], "inertia": {"principal": [0, 0.09, 0.09]}},
+        {"name": "rocker", "mass": 1, "position": [1, 0.5, 0], "inertia": {"principal": [0.09, 0.01, 0.09]}}
+      ],
+      "joints": [
+        {"name": "a", "type": "revolute", "body_i": "ground", "body_j": "crank", "point": [0, 0, 0], "axis": [0, 0, 1]},
+        {"name": "bolt", "type": "fixed", "body_i": "crank", "body_j": "plate", "point": [0.1, 0.6, 0.1]},
+        {"name": "seam", "type": "fixed", "body_i": "fin", "body_j": "plate", "point": [0.4, 0.7, 0]},
+        {"name": "b", "type": "revolute", "body_i": "plate", "body_j": "rod", "point": [0, 1, 0], "axis": NORMAL},
+        {"name": "c", "type": "KIND", "body_i": "rod", "body_j": "rocker", "point": [1, 1, 0]AXIS},
+        {"name": "d", "type": "revolute", "body_i": "rocker", "body_j": "ground", "point": [1, 0, 0], "axis": [0, 0, 1]}
+      ],
+      "loads": [
+        {"name": "push", "type": "force", "body": "fin", "point": [0.1, 0, 0.05], "force": {"kind": "fixed", "vector": [4, 1, 2]}, "frame": "body"},
+        {"name": "twist", "type": "moment", "body": "plate", "moment": {"kind": "fixed", "vector": [0.2, 0.1, 0.6]}, "frame": "body"},
+        {"name": "inside", "type": "spring", "body_i": "crank", "body_j": "fin", "point_i": [0, 0.1, 0], "point_j": [0.1, 0, 0], "stiffness": 50, "free_length": 0.1, "damping": 1},
+        {"name": "coil", "type": "spring", "body_i": "plate", "body_j": "rocker", "point_i": [0.1, 0, 0], "point_j": [0, 0.1, 0], "stiffness": 20, "damping": 0.2}
+      ]
+    }"#;
+    let (kind, axis) =
+        if normal == "[0, 0, 1]" { ("revolute", r#", "axis": [0, 0, 1]"#) } else { ("spherical", "") };
+    let text = text.replace("NORMAL", normal).replace("KIND", kind).replace("AXIS", axis);
+    let mut scene = Scene::from_json(&text).unwrap_or_else(|error| panic!("{error}"));
+    scene.simulation = self::scene("simple-pendulum").simulation;
+    scene
+}
+
+/// In a plane, in space, and driven; with the coordinates and rows that are left.
+#[test]
+fn bodies_rigidly_joined_move_as_one() {
+    let planar = welded("[0, 0, 1]");
+    assert_eq!(compare(&planar, "fixed", 1e-8), (2, 0));
+    let rows = |scene: &Scene| {
+        let (_, left) = run(scene);
+        left.iter().find(|l| l.word == "fixed").unwrap().what.clone()
+    };
+    assert!(rows(&planar).ends_with("2 merged with those that they are rigidly joined to, 4 rows left"));
+    let spatial = welded("[0, 0.2, 1]");
+    assert_eq!(compare(&spatial, "fixed", 1e-8), (2, 0));
+    assert!(rows(&spatial).ends_with("18 rows left"), "{}", rows(&spatial));
+    let mut driven = welded("[0, 0, 1]");
+    let motion = Motion::Harmonic { mean: 0.0, amplitude: 0.8, frequency: 2.0, phase: 0.0 };
+    driven.drivers.push(Driver::Angle { name: "turn".to_owned(), joint: "a".to_owned(), motion });
+    assert_eq!(compare(&driven, "fixed", 1e-8), (2, 0));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Dry friction and the reactions that load it, which depend on each other — eq. (7.11).
+//! Dry friction and the reactions that load it, which depend on each other — eq. (7.12).
 //!
 //! For given friction the multipliers are linear in it: one solution without it and one for each unit of it, all with one factor,
 //! leave as many scalar equations as there are such loads. Each has a concave left side, so that Newton's method comes to the

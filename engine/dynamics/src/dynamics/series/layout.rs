@@ -14,9 +14,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let (q, q_dot) = y.split_at(system.coordinates);
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {
-                let position = body.layout.position(q);
-                let velocity = body.layout.velocity(&position, q_dot);
-                for (state, lift) in state.iter_mut().zip([position, velocity]) {
+                for (state, lift) in state.iter_mut().zip(body.motion(q, q_dot)) {
                     bundle.read(lane, &lift, state);
                 }
             }
@@ -34,8 +32,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let bundle = &self.bundles[b];
         let (q, q_dot) = y.split_at_mut(system.coordinates);
         for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {
-            body.layout.store(&bundle.write(lane, &state[0], false), q);
-            body.layout.store(&bundle.write(lane, &state[1], true), q_dot);
+            body.store(&bundle.write(lane, &state[0], false), q);
+            body.store(&bundle.write(lane, &state[1], true), q_dot);
         }
     }
 
@@ -44,8 +42,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let bundle = &self.bundles[b];
         let (q, q_dot) = y.split_at_mut(system.coordinates);
         for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {
-            body.layout.store(&bundle.write(lane, &state[0], true), q);
-            body.layout.store(&bundle.write(lane, &state[1], true), q_dot);
+            body.store(&bundle.write(lane, &state[0], true), q);
+            body.store(&bundle.write(lane, &state[1], true), q_dot);
         }
     }
 
@@ -53,7 +51,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub fn store_accelerations(&self, system: &System, out: &mut [f64]) {
         for bundle in &self.bundles {
             for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {
-                body.layout.store(&bundle.write(lane, bundle.solution(), true), out);
+                body.store(&bundle.write(lane, bundle.solution(), true), out);
             }
         }
     }
