@@ -25,7 +25,7 @@ pub use augmented::Augmented;
 pub use choice::choose;
 pub use driven::Driven;
 pub use explicit::{DOP853, DOPRI5, Explicit, ODE45_TOLERANCE, Tableau};
-pub use in_chart::{Chart, Guess, InChart, IndependentCoordinates};
+pub use in_chart::{Bridged, Chart, IndependentCoordinates, Start};
 pub use integrator::Integrator;
 pub use penalty::{Penalty, PenaltyParameters};
 pub use power::{add_power, power};

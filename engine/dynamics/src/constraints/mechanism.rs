@@ -249,7 +249,8 @@ impl OdeSystem for Mechanism {
     /// Counts revolutions from here, and moves y onto the constraints where projection keeps them.
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
         self.state.commit_revolutions();
-        if self.system.model.settings.constraint_method != ConstraintMethod::Projection {
+        let method = self.system.model.settings.constraint_method;
+        if !matches!(method, ConstraintMethod::Projection | ConstraintMethod::Partitioning) {
             return;
         }
         self.projections += 1;

@@ -5,12 +5,12 @@ mod progress;
 use super::augmented::Augmented;
 use super::driven::Driven;
 use super::explicit::{DOP853, DOPRI5, Explicit};
-use super::in_chart::{Chart, InChart, IndependentCoordinates};
+use super::in_chart::{Bridged, Chart, IndependentCoordinates, Start};
 use super::penalty::{Penalty, PenaltyParameters};
 use super::radau::Radau;
 use super::rattle::Rattle;
 use super::step::{StepRecord, StopReason};
-use super::stepper::{OdeMethod, Stepper};
+use super::stepper::Stepper;
 use super::taylor::Taylor;
 use crate::scene::{ConstraintMethod, IntegratorKind};
 use progress::ProgressMonitor;
@@ -128,18 +128,8 @@ fn start(
         }
         _ => tolerance,
     };
-    let explicit = move |mut system: &mut dyn OdeSystem, y: &[f64]| {
-        let tableau = if kind == IntegratorKind::Dop853 { &DOP853 } else { &DOPRI5 };
-        match (kind, step) {
-            (_, Some(h)) => Explicit::with_step(tableau, &mut system, t, y, h),
-            (IntegratorKind::Ode45, None) => Explicit::ode45(&mut system, t, y, tolerance, end),
-            (_, None) => Explicit::new(tableau, &mut system, t, y, tolerance),
-        }
-    };
-    let radau = move |mut system: &mut dyn OdeSystem, x: &[f64]| match step {
-        Some(h) => Radau::with_step(&mut system, t, x, tolerance, h),
-        None => Radau::new(&mut system, t, x, tolerance),
-    };
+    let explicit = StartExplicit { kind, tolerance, step, end };
+    let radau = StartRadau { tolerance, step };
     let (tangent, partition) = (IndependentCoordinates::Tangent, IndependentCoordinates::Partition);
     Ok(match (kind, method) {
         (IntegratorKind::Taylor | IntegratorKind::Auto, _) => {
@@ -151,29 +141,68 @@ fn start(
         }
         (IntegratorKind::Trapezoidal, _) => return Err(StopReason::Alone),
         (IntegratorKind::Radau, ConstraintMethod::Partitioning) => {
-            in_chart(partition, mechanism, t, y, radau)?
+            in_chart(partition, mechanism, t, y, tolerance, radau)
         }
-        (IntegratorKind::Radau, _) => in_chart(tangent, mechanism, t, y, radau)?,
-        (_, ConstraintMethod::Partitioning) => in_chart(partition, mechanism, t, y, explicit)?,
+        (IntegratorKind::Radau, _) => in_chart(tangent, mechanism, t, y, tolerance, radau),
+        (_, ConstraintMethod::Partitioning) => in_chart(partition, mechanism, t, y, tolerance, explicit),
         (_, ConstraintMethod::Penalty { alpha, omega, mu }) => {
             let parameters = PenaltyParameters { alpha, omega, mu };
-            Box::new(Penalty::new(mechanism, t, y, parameters, explicit))
+            Box::new(Penalty::new(mechanism, t, y, parameters, |system, y| explicit.start(system, t, y)))
         }
-        _ => Box::new(explicit(mechanism, y)),
+        _ => Box::new(explicit.start(mechanism, t, y)),
     })
 }
 
-fn in_chart<M: OdeMethod>(
-    coordinates: IndependentCoordinates,
+/// How an explicit method is started.
+#[derive(Clone, Copy, Debug)]
+struct StartExplicit {
+    kind: IntegratorKind,
+    tolerance: f64,
+    step: Option<f64>,
+    end: f64,
+}
+
+impl Start for StartExplicit {
+    type Method = Explicit;
+
+    fn start(&self, mut system: &mut dyn OdeSystem, t: f64, y: &[f64]) -> Explicit {
+        let tableau = if self.kind == IntegratorKind::Dop853 { &DOP853 } else { &DOPRI5 };
+        match (self.kind, self.step) {
+            (_, Some(h)) => Explicit::with_step(tableau, &mut system, t, y, h),
+            (IntegratorKind::Ode45, None) => Explicit::ode45(&mut system, t, y, self.tolerance, self.end),
+            (_, None) => Explicit::new(tableau, &mut system, t, y, self.tolerance),
+        }
+    }
+}
+
+/// How Radau IIA is started.
+#[derive(Clone, Copy, Debug)]
+struct StartRadau {
+    tolerance: f64,
+    step: Option<f64>,
+}
+
+impl Start for StartRadau {
+    type Method = Radau;
+
+    fn start(&self, mut system: &mut dyn OdeSystem, t: f64, x: &[f64]) -> Radau {
+        match self.step {
+            Some(h) => Radau::with_step(&mut system, t, x, self.tolerance, h),
+            None => Radau::new(&mut system, t, x, self.tolerance),
+        }
+    }
+}
+
+fn in_chart(
+    choice: IndependentCoordinates,
     mechanism: &mut Mechanism,
     t: f64,
     y: &[f64],
-    start: impl FnOnce(&mut dyn OdeSystem, &[f64]) -> M,
-) -> Result<Box<dyn Stepper>, StopReason> {
-    let undetermined = StopReason::Undetermined { time: t };
-    let (chart, guess) = Chart::new(coordinates, mechanism, t, y).ok_or(undetermined)?;
-    if chart.freedoms() == 0 {
-        return Ok(Box::new(Driven::new(mechanism, t, y)));
+    tolerance: f64,
+    start: impl Start,
+) -> Box<dyn Stepper> {
+    if Chart::freedoms_at(mechanism, t, y) == 0 {
+        return Box::new(Driven::new(mechanism, t, y));
     }
-    Ok(Box::new(InChart::new((chart, guess), mechanism, t, y, start)))
+    Box::new(Bridged::new(choice, mechanism, t, y, tolerance, start))
 }

@@ -361,6 +361,10 @@ impl OdeMethod for Radau {
         self.stages.interpolate(self.last.part(t), &self.x_old, out);
     }
 
+    fn stage_weights(&mut self, t: f64) -> Option<&[f64]> {
+        (self.last.h > 0.0).then(|| self.stages.weights_at(self.last.part(t)))
+    }
+
     /// By the quadrature of the stages, to the order of the method.
     fn work_to(&self, t: f64) -> Option<f64> {
         self.power?;

@@ -20,6 +20,12 @@ pub trait OdeMethod: Clone + Debug + Send + Sync + 'static {
     /// Writes y(t) within the last step.
     fn interpolate(&mut self, system: &mut impl OdeSystem, t: f64, y: &mut [f64]);
 
+    /// Weights of the stages of the last step, less its start, in the polynomial through them at time t, where that says as much as
+    /// the method.
+    fn stage_weights(&mut self, _: f64) -> Option<&[f64]> {
+        None
+    }
+
     /// Integral of [`OdeSystem::power`] from the start of the last step to time t within it, where the method knows it.
     fn work_to(&self, _: f64) -> Option<f64> {
         None
@@ -86,6 +92,11 @@ pub trait Stepper: Debug + Send + Sync {
     /// Writes y(t) within the last step.
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]);
 
+    /// The same by one smooth curve over the whole step, whatever the constraints say.
+    fn interpolate_smoothly(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
+        self.interpolate(mechanism, t, y);
+    }
+
     /// The last step as it concerns singular configurations; `None` where it cannot hide any.
     fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
         let StepRecord { t, y, h, .. } = self.last();
@@ -118,6 +129,9 @@ pub trait Stepper: Debug + Send + Sync {
 
     /// Whether rows that hardly hold are kept, for methods that do not leave that to the mechanism's solver.
     fn set_resolving(&mut self, _: bool) {}
+
+    /// Whether a joint hardly holds at the end of the last step, for methods that go on otherwise there.
+    fn set_loose(&mut self, _: bool) {}
 
     /// Work of drivers and of loads without potential from the start of the last step to time t within it, J, where the
     /// method knows it.

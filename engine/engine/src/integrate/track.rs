@@ -12,6 +12,11 @@ pub trait Track {
     /// Takes the state at time t of the last step, or a little before or after it.
     fn place(&mut self, t: f64);
 
+    /// The same on one smooth curve over the whole step.
+    fn place_smoothly(&mut self, t: f64) {
+        self.place(t);
+    }
+
     /// Writes the numbers of the state.
     fn read(&mut self, out: &mut [f64]);
 

@@ -36,7 +36,7 @@ const ERRORS: f64 = 10.0;
 const APPROACH: f64 = 0.5;
 /// Most steps that are taken again on the way past one such place.
 const MAX_RETREATS: usize = 200;
-/// Root of the least pivot product above which such a place is left behind.
+/// Root of the least pivot product above which such a place is left behind, and all joints hold.
 const LEFT_BEHIND: f64 = 1e-2;
 /// Room for the times of dips in a step.
 const USUAL_DIPS: usize = 64;
@@ -230,15 +230,15 @@ impl SingularityMonitor {
         integrator: &mut Integrator,
     ) -> Option<f64> {
         let Err(Unresolved { time, until }) = result else {
-            if self.resolving {
-                let largest = &self.islands[island].largest;
-                let least = (0..largest.len())
-                    .filter(|&joint| largest[joint] > ZERO)
-                    .map(|joint| root(&self.samples[1], largest, joint));
-                if self.examined.is_empty() && least.fold(1.0, f64::min) > LEFT_BEHIND {
-                    self.resolve(false, mechanism, integrator);
-                }
+            let largest = &self.islands[island].largest;
+            let least = (0..largest.len())
+                .filter(|&joint| largest[joint] > ZERO)
+                .map(|joint| root(&self.samples[1], largest, joint));
+            let behind = least.fold(1.0, f64::min) > LEFT_BEHIND;
+            if self.resolving && behind && self.examined.is_empty() {
+                self.resolve(false, mechanism, integrator);
             }
+            integrator.set_loose(self.resolving || !behind);
             return None;
         };
         self.found.forget_after(island, start);
@@ -255,6 +255,7 @@ impl SingularityMonitor {
         self.resolving = on;
         mechanism.elimination.set_resolving(on);
         integrator.set_resolving(on);
+        integrator.set_loose(on);
     }
 }
 

@@ -96,6 +96,13 @@ impl Guess {
 }
 
 impl Chart {
+    /// Number of independent coordinates near a consistent state y at time t.
+    pub fn freedoms_at(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> usize {
+        mechanism.set_state(t, y);
+        let q = &y[..mechanism.system.coordinates];
+        6 * mechanism.system.bodies.len() - rank::analyze(&mechanism.system, &mut mechanism.state, q).rank
+    }
+
     /// A chart about the consistent state y at time t, with the guess to begin from. `None` if the motions that the
     /// constraints allow cannot be determined.
     pub fn new(
@@ -112,9 +119,7 @@ impl Chart {
         let n = numbers.count(mechanism);
         let (mut p, mut p_dot) = (DVector::zeros(n), DVector::zeros(n));
         numbers.read(mechanism, y, p.as_mut_slice(), p_dot.as_mut_slice());
-        let q = &y[..mechanism.system.coordinates];
-        let rank = rank::analyze(&mechanism.system, &mut mechanism.state, q);
-        let freedoms = 6 * mechanism.system.bodies.len() - rank.rank;
+        let freedoms = Self::freedoms_at(mechanism, t, y);
         let mut chart = Self {
             numbers,
             base: DVector::zeros(n),
@@ -250,6 +255,24 @@ impl Chart {
             guess.go_back();
         }
         found
+    }
+
+    /// Puts the mechanism between what was found at the start of a step and at stages, by the weight of each: on the polynomial
+    /// through them, not on the constraints. False if that is too far away.
+    pub fn place_between<'a>(
+        &mut self,
+        mechanism: &mut Mechanism,
+        start: &Guess,
+        stages: impl Iterator<Item = (f64, &'a Guess)>,
+    ) -> bool {
+        let (mut p, mut p_dot) = (start.p.clone(), start.p_dot.clone());
+        for (weight, stage) in stages {
+            p += (&stage.p - &start.p) * weight;
+            p_dot += (&stage.p_dot - &start.p_dot) * weight;
+        }
+        let placed = self.numbers.place(mechanism, p.as_slice());
+        self.numbers.move_at(mechanism, p_dot.as_slice());
+        placed
     }
 
     /// Φ(p, t) = 0 with L (p − p₀) = η, from the last position and Z times the change of η — eq. (10.4).

@@ -272,6 +272,12 @@ impl Stages {
         true
     }
 
+    /// Weights of the stages, less the start of the step, in its collocation polynomial at the part x.
+    pub fn weights_at(&mut self, x: f64) -> &[f64] {
+        self.method.collocation(x, &mut self.weights);
+        &self.weights
+    }
+
     /// The collocation polynomial of the last step, less its start, with the weights in place.
     fn polynomial(&self, i: usize) -> f64 {
         self.weights.iter().zip(&self.z_old).map(|(weight, z)| weight * z[i]).sum()

@@ -128,7 +128,7 @@ impl Examiner {
             return false;
         }
         self.count += 1;
-        track.place(dip.time);
+        track.place_smoothly(dip.time);
         track.read(&mut self.beside[0][0]);
         let most = FOLLOWED.0 * dip.root * track.length();
         if !track.project().is_some_and(|moved| moved <= most) {

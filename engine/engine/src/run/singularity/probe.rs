@@ -58,6 +58,15 @@ impl Path<'_> {
             y[n + i] += change;
         }
     }
+
+    /// Puts the state of the probe in place at time t.
+    fn set(&mut self, t: f64) {
+        let Probe { state, y, .. } = &mut *self.probe;
+        let system = &self.mechanism.system;
+        let (q, q_dot) = y.split_at(system.coordinates);
+        state.copy_revolutions(&self.mechanism.state);
+        state.set(system, t, q, q_dot);
+    }
 }
 
 impl Track for Path<'_> {
@@ -74,11 +83,16 @@ impl Track for Path<'_> {
         if t < self.start || t > self.end {
             self.extrapolate(t);
         }
-        let Probe { state, y, .. } = &mut *self.probe;
-        let system = &self.mechanism.system;
-        let (q, q_dot) = y.split_at(system.coordinates);
-        state.copy_revolutions(&self.mechanism.state);
-        state.set(system, t, q, q_dot);
+        self.set(t);
+    }
+
+    fn place_smoothly(&mut self, t: f64) {
+        self.integrator.interpolate_smoothly(
+            self.mechanism,
+            t.clamp(self.start, self.end),
+            &mut self.probe.y,
+        );
+        self.set(t);
     }
 
     fn read(&mut self, out: &mut [f64]) {

@@ -231,8 +231,8 @@ impl Search<'_> {
             (dip.time + apart, self.square(dip.joint, place))
         });
         let range = (start.min(dip.time - beside), end.max(dip.time + beside));
-        let least = points[1].1 <= points[0].1.min(points[2].1);
-        let root = if least && dip.root > KNOWN { dip.root } else { 0.0 };
+        let least = points.iter().fold(f64::INFINITY, |least, point| least.min(point.1)).max(0.0).sqrt();
+        let root = if least > KNOWN { least } else { 0.0 };
         self.descend(dip.joint, points, range, SHARP).unwrap_or(Dip { root, ..dip })
     }
 
