@@ -9,8 +9,8 @@ use triad_dynamics::system::System;
 /// Tolerance of the second solution over that of the first: its own error then spoils the estimate by a few parts in a hundred
 /// (measured: docs/ACCURACY.md).
 const TIGHTER: f64 = 1e-2;
-/// The same beside ode45, whose absolute tolerance is a thousandth of the relative one, and beside radau, whose errors lie far below
-/// its tolerance where nothing is stiff.
+/// The same beside ode45, whose absolute tolerance is a thousandth of the relative one, and beside radau with another method, whose
+/// errors would be as large: those of radau lie far below its tolerance.
 const MUCH_TIGHTER: f64 = 1e-4;
 /// The least tolerance of the second solution: rounding is near. That of a run with steps of one size, whose error has nothing to
 /// do with its tolerance.
@@ -59,15 +59,15 @@ impl Companion {
         if kind == IntegratorKind::Taylor || !settings.error_estimate {
             return None;
         }
-        let much = matches!(kind, IntegratorKind::Ode45 | IntegratorKind::Radau);
+        // Other methods would resolve what the first one leaves out.
+        let stiff = kind == IntegratorKind::Radau && !mechanism.system.loads.is_empty();
+        let much = kind == IntegratorKind::Ode45 || (kind == IntegratorKind::Radau && !stiff);
         let tighter = if much { MUCH_TIGHTER } else { TIGHTER };
         let tolerance = match settings.step {
             // The errors of rattle are far below its tolerance where its steps are limited by something else.
             None if kind != IntegratorKind::Rattle => (tighter * settings.tolerance).max(TIGHTEST),
             _ => TIGHTEST,
         };
-        // Other methods would resolve what the first one leaves out.
-        let stiff = kind == IntegratorKind::Radau && !mechanism.system.loads.is_empty();
         let mut mechanism = mechanism.clone();
         let settings = &mut mechanism.system.model.settings;
         settings.tolerance = tolerance;
