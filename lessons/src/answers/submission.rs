@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::de::IntoDeserializer;
+use serde::{Deserialize, Deserializer, Serialize};
 use thiserror::Error;
+use triad_engine::scene::IntegratorKind;
 
 use super::diagram::Arrow;
 
@@ -57,7 +59,8 @@ pub struct Answer {
 #[serde(deny_unknown_fields)]
 pub struct RunSettings {
     /// The integrator.
-    pub integrator: triad_engine::scene::IntegratorKind,
+    #[serde(deserialize_with = "integrator")]
+    pub integrator: IntegratorKind,
     /// Its tolerance, as typed.
     pub tolerance: TypedValue,
     /// Baumgarte's α and β in 1/s, as typed; without them the state is projected.
@@ -109,6 +112,12 @@ impl SubmissionError {
     pub fn hint(&self) -> &'static str {
         r#"A submission looks like {"student": "ada", "answers": {"period": {"value": "2.37", "unit": "s"}, "sign": {"choice": "a"}}}."#
     }
+}
+
+/// An integrator as people and other programs write it: `DOP853`, `Dopri5`.
+fn integrator<'de, D: Deserializer<'de>>(from: D) -> Result<IntegratorKind, D::Error> {
+    let written = String::deserialize(from)?;
+    IntegratorKind::deserialize(written.trim().to_lowercase().into_deserializer())
 }
 
 impl Submission {
@@ -181,6 +190,20 @@ mod tests {
         assert_eq!(submission.answers["a"].value, Some(TypedValue::Text("12.30".to_owned())));
         assert_eq!(submission.answers.len(), 4);
         assert!(!submission.answers["c"].is_blank());
+    }
+
+    #[test]
+    fn an_integrator_is_known_in_any_letters() {
+        let read = |name: &str| {
+            let text = format!(
+                r#"{{"answers":{{"a":{{"settings":{{"integrator":"{name}","tolerance":"1e-8"}}}}}}}}"#
+            );
+            Submission::from_json(&text).map(|s| s.answers["a"].settings.as_ref().map(|s| s.integrator))
+        };
+        for name in ["dop853", "DOP853", " Dop853 "] {
+            assert_eq!(read(name).unwrap(), Some(IntegratorKind::Dop853), "{name}");
+        }
+        assert!(read("euler").unwrap_err().to_string().contains("euler"));
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub(super) fn judge(task: &ModelTask, note: &str, answer: &Answer) -> Result<Jud
 
 /// The scene, if it can be read, is within bounds and can be started.
 fn accepted(task: &ModelTask, text: &str) -> Result<(Scene, CheckReport), InvalidModel> {
-    let mut scene = Scene::from_json(text).map_err(Box::new)?;
+    let mut scene = Scene::from_json(text.trim_start_matches('\u{feff}')).map_err(Box::new)?;
     let (bodies, most) = (scene.bodies.len(), task.demands.most_bodies);
     if bodies > most {
         return Err(InvalidModel::Bodies { bodies, most });

@@ -261,6 +261,11 @@ fn in_words(question: &QuantityQuestion, reading: &Reading) -> String {
     }
     let written: Vec<f64> = reading.entries.iter().map(|entry| entry.number.value).collect();
     let as_written = with_unit(list(&written), first.unit.text());
+    // A joule is a newton metre, and yet no moment: it is taken, and said.
+    let is_energy = first.unit.text().ends_with('J') && !question.unit.text().contains('J');
+    if is_energy && reading.mismatch.is_none() && !question.asks_unit {
+        return format!("{}: a moment; joules are for work and energy", in_question());
+    }
     if reading.mismatch.is_some() || written == reading.values {
         return as_written;
     }

@@ -37,7 +37,8 @@ fn read(task: &Trajectory, text: &str) -> Result<(Vec<f64>, Vec<Vec<f64>>), Inva
             InvalidTrajectory::NoColumn { name: name.to_owned(), known: table.names.join(", ") }
         })
     };
-    let time = place("t")?;
+    // Whoever writes out the name of the time means the same column.
+    let time = place("t").or_else(|missing| place("time").map_err(|_| missing))?;
     let columns: Vec<usize> = task.columns.keys().map(|name| place(name)).collect::<Result<_, _>>()?;
     let times: Vec<f64> = table.rows.iter().map(|row| row[time]).collect();
     if times.len() < FEWEST {

@@ -121,6 +121,8 @@ pub enum OutputError {
 
 /// Reads JSON or CSV. A part of which nothing was sent is left out.
 pub(crate) fn read(text: &str, size: &OutputSize) -> Result<ProgramOutput, OutputError> {
+    // Some editors put a byte order mark before everything.
+    let text = text.trim_start_matches('\u{feff}');
     if text.trim_start().starts_with(['{', '[']) { from_json(text, size) } else { from_csv(text, size) }
 }
 

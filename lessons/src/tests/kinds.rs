@@ -181,3 +181,15 @@ fn a_formula_is_judged_by_what_it_means() {
     // A formula that is nowhere defined is not right by accident.
     assert_eq!(judged("energy", text("sqrt(-1-v)"), None).verdict, Mark::Wrong);
 }
+
+#[test]
+fn a_joule_is_taken_for_a_moment_and_the_reader_says_so() {
+    let course = Course::embedded().unwrap();
+    let question = course.lesson("inverse-dynamics").unwrap().question("holding").unwrap();
+    let read = |text: &str| {
+        let answer = Answer { value: Some(TypedValue::Text(text.to_owned())), ..Answer::default() };
+        understand(question, &answer).unwrap().text.unwrap()
+    };
+    assert_eq!(read("17.70 J"), "17.7 N m: a moment; joules are for work and energy");
+    assert_eq!(read("17.70 N m"), "17.7 N m");
+}

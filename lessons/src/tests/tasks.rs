@@ -232,6 +232,10 @@ fn an_unusable_table_gets_the_reason() {
             |e| matches!(e, InvalidTrajectory::Table(TableError::NotANumber { line: 3, column, .. }) if column == "t"),
         ),
     ];
+    // What people write for the same thing.
+    let named = long.replacen("t;", "\u{feff}Time [s];", 1);
+    assert!(named != long);
+    assert_eq!(judged(&lesson, "your-run", file(named)).verdict, Mark::Right);
     for (text, is) in cases {
         match invalid(judgement(&lesson, "your-run", file(text))) {
             InvalidAnswer::Trajectory(error) => assert!(is(&error), "{error:?}"),
@@ -249,7 +253,7 @@ fn a_scene_is_judged_by_what_it_does() {
     scene["joints"][0]["body_j"] = "wheel".into();
     scene["joints"][1]["body_i"] = "wheel".into();
     scene["bodies"].as_array_mut().unwrap().reverse();
-    let right = judged(&lesson, "scene", file(scene.to_string()));
+    let right = judged(&lesson, "scene", file(format!("\u{feff}{scene}")));
     assert_eq!(right.verdict, Mark::Right, "{}", right.message_html);
 
     let mut heavy = scene.clone();
