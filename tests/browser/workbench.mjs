@@ -70,7 +70,7 @@ async function byKeyboard() {
   await noSeriousFaults(page, "the prediction");
   await tabTo(page, ".prediction-form .choice");
   await page.keyboard.press("Enter");
-  await tabTo(page, ".prediction-form .labelled:last-of-type input");
+  await tabTo(page, ".prediction-form .labelled + .labelled input");
   await page.keyboard.type("Grace Hopper");
   await tabTo(page, ".prediction-form button.primary");
   await page.keyboard.press("Enter");

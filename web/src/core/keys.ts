@@ -21,6 +21,9 @@ export const shortcuts = {
 /** Adds shortcuts; the returned function removes them. */
 export function bind(list: Shortcut[]): () => void {
   for (const shortcut of list) {
+    // A view that is made anew takes the place of the one before.
+    const before = listed.findIndex((other) => other.does === shortcut.does);
+    if (before >= 0) listed.splice(before, 1);
     listed.push(shortcut);
     for (const key of shortcut.keys) active.set(key, shortcut);
   }
