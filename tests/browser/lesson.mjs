@@ -137,6 +137,10 @@ async function first() {
   await until("a step by time moves the clock by 0.1 s", clock, (time) => time >= stepped + 0.09);
   say("stepped");
 
+  await until("the drawing shows the moment of the clock", async () => Number(await page.locator("canvas.drawing").getAttribute("data-time")) - (await clock()), (off) => off === 0);
+  assert(await colours(page.locator("canvas.drawing")) > BLANK, "the mechanism is drawn");
+  await picture("drawing");
+  await page.getByRole("button", { name: "Open in rerun" }).click();
   const viewer = page.locator("[data-viewer]");
   await viewer.locator("canvas").waitFor();
   const drawn = await until("the viewer draws", () => colours(viewer), (count) => count > BLANK);
@@ -207,6 +211,7 @@ async function later() {
   await picture("phone");
   assert(width <= 390, `the page is ${width} px wide on a screen of 390 px`);
   await page.goto(`${address}/scenes/heavy-top`);
+  // The browser remembers that the viewer was opened.
   await page.locator(".has-viewer").waitFor({ state: "attached" });
   await until("the viewer draws", () => colours(page.locator("[data-viewer]")), (count) => count > BLANK);
   const place = await page.evaluate(() => [scrollY, document.activeElement?.tagName]);

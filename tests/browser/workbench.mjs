@@ -19,10 +19,9 @@ const browser = await chromium.launch({
 const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
 const complaints = [];
 
-/** A browser of its own that shows the sketch: what is tested here needs no 3-D. */
+/** A browser of its own. */
 async function visitor(name, size = { width: 1280, height: 900 }, more = {}) {
   const context = await browser.newContext({ viewport: size, bypassCSP: true, permissions: ["clipboard-read", "clipboard-write"], ...more });
-  await context.addInitScript(() => localStorage.setItem("triad:picture", "sketch"));
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   page.on("pageerror", (error) => complaints.push(`${name}: ${error}`));
@@ -254,14 +253,14 @@ async function trouble() {
   await until(page, "the notice goes", () => page.locator(".trouble .notice").count(), (count) => count === 0);
   say("a run that stopped says why and what to try");
   await page.context().close();
-  // The 3-D view cannot be loaded: the sketch stays.
+  // The viewer cannot be loaded: the drawing stays.
   const blocked = await visitor("no viewer");
   await blocked.context().addInitScript(() => localStorage.setItem("triad:picture", "viewer"));
   await blocked.context().route("**/*.wasm", (route) => route.abort());
   await blocked.goto(`${address}/scenes/simple-pendulum`);
-  await blocked.getByText("The sketch and the tables show the same run.", { exact: false }).first().waitFor();
-  await blocked.locator("svg.sketch").waitFor();
-  say("without the 3-D view the sketch stays");
+  await blocked.getByText("The drawing and the tables show the same run.", { exact: false }).first().waitFor();
+  await blocked.locator("canvas.drawing").waitFor();
+  say("without the viewer the drawing stays");
   await blocked.context().close();
 }
 

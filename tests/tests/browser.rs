@@ -1,6 +1,6 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
-//! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble. What it saw is
-//! kept in `tests/output/`.
+//! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
+//! without a graphics card and with busy cores. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
@@ -70,4 +70,19 @@ fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_i
     );
     println!("{said}");
     server.stop();
+}
+
+#[test]
+fn the_drawing_shows_the_moment_of_the_clock_without_a_graphics_card_and_with_busy_cores() {
+    let folder = scripts();
+    let home = tempfile::tempdir().unwrap();
+    let server = Server::start(home.path());
+    let said = must(
+        "the browser",
+        Command::new("node")
+            .args(["drawing.mjs", &format!("http://{}", server.address)])
+            .arg(root().join("tests/output"))
+            .current_dir(&folder),
+    );
+    println!("{said}");
 }

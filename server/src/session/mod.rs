@@ -18,6 +18,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
+use serde::Deserialize;
 use tokio::sync::{oneshot, watch};
 use triad_engine::EngineError;
 use triad_engine::model::Model;
@@ -36,6 +37,30 @@ use worker::Worker;
 /// Commands that may wait for one session; more are refused.
 const QUEUE: usize = 32;
 
+/// In which form a run is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Watched {
+    /// Numbers, for a drawing of one's own: [`Track`](crate::stream::Track).
+    Track,
+    /// A recording for the rerun viewer.
+    Recording,
+}
+
+/// What a watcher asks for in the address of a stream.
+#[derive(Debug, Default, Clone, Copy, Deserialize)]
+#[serde(default)]
+pub struct StreamWish {
+    /// The recording for the rerun viewer instead of the numbers for a drawing.
+    recording: bool,
+}
+
+impl StreamWish {
+    /// The form in which the run is watched.
+    pub fn watched(self) -> Watched {
+        if self.recording { Watched::Recording } else { Watched::Track }
+    }
+}
+
 /// A handle on a live simulation; dropping the last one ends its thread.
 #[derive(Debug)]
 pub struct Session {
@@ -43,6 +68,7 @@ pub struct Session {
     signals: Arc<Signals>,
     state: watch::Receiver<Arc<SessionState>>,
     hub: Arc<Hub>,
+    track: Arc<Hub>,
     touched: Mutex<Instant>,
 }
 
@@ -65,10 +91,11 @@ impl Session {
             (scene, simulation)
         };
         let id = uuid::Uuid::new_v4().simple().to_string();
-        // Samples take half of the bound, their encoded form and the states a quarter each.
-        let hub = Arc::new(Hub::new(limits.recording_bytes / 4));
-        let mut recording =
-            Recording::new(&id, describe(&scene, &simulation), Arc::clone(&hub), limits.recording_bytes / 2);
+        // Samples take half of the bound, their two encoded forms an eighth each, the states a quarter.
+        let [hub, track] = [(); 2].map(|()| Arc::new(Hub::new(limits.recording_bytes / 8)));
+        let description = describe(&scene, &simulation);
+        let limit = limits.recording_bytes / 2;
+        let mut recording = Recording::new(&id, description, Arc::clone(&hub), Arc::clone(&track), limit);
         recording.record(&simulation)?;
         let mut history = History::new(limits.recording_bytes / 4);
         history.keep(&simulation);
@@ -99,7 +126,7 @@ impl Session {
             .name("triad-session".into())
             .spawn(move || worker.run(&received))
             .map_err(Problem::internal)?;
-        Ok(Self { commands, signals, state, hub, touched: Mutex::new(Instant::now()) })
+        Ok(Self { commands, signals, state, hub, track, touched: Mutex::new(Instant::now()) })
     }
 
     /// The state now.
@@ -196,10 +223,14 @@ impl Session {
         self.ask(|reply| Command::LookFrom(camera, reply)).await
     }
 
-    /// Watches the recording from its beginning.
-    pub fn watch(&self) -> Watcher {
+    /// Watches the run from its beginning.
+    pub fn watch(&self, what: Watched) -> Watcher {
         self.touch();
-        let watcher = self.hub.watch();
+        let hub = match what {
+            Watched::Track => &self.track,
+            Watched::Recording => &self.hub,
+        };
+        let watcher = hub.watch();
         // A queue that is full has a worker that is busy, and it looks for watchers when it is done.
         drop(self.commands.try_send(Command::Watched));
         watcher
@@ -237,7 +268,7 @@ impl Session {
 
     /// How long nobody has asked for it or watched it.
     fn idle(&self) -> Duration {
-        if self.hub.watchers() > 0 {
+        if self.hub.watchers() + self.track.watchers() > 0 {
             return Duration::ZERO;
         }
         self.touched.lock().unwrap_or_else(PoisonError::into_inner).elapsed()

@@ -12,7 +12,7 @@ use triad_engine::scene::Scene;
 use crate::problem::Problem;
 use crate::stream::{
     Arrows, Camera, Hub, JointVisual, Pattern, Pose, RecordError, Recorder, Sample, SampledReaction, Scale,
-    SceneDescription,
+    SceneDescription, Track,
 };
 
 /// Samples of one simulation, kept, and on their way to its watchers.
@@ -21,6 +21,8 @@ pub(crate) struct Recording {
     arrows: Arrows,
     camera: Camera,
     hub: Arc<Hub>,
+    /// The samples as the page draws them itself.
+    track: Track,
     id: String,
     /// Incremented by each reset, so that viewers do not join a recording to the one before.
     generation: u64,
@@ -40,6 +42,8 @@ pub(crate) struct Recording {
     fitted: bool,
     /// When blocks were last made.
     encoded_at: Instant,
+    /// When frames were last packed.
+    packed_at: Instant,
     /// How long to wait until the next blocks.
     pace: Duration,
 }
@@ -47,6 +51,8 @@ pub(crate) struct Recording {
 /// Time between two ticks of a playing session: about thirty a second, as smooth as a page draws.
 pub(super) const TICK: Duration = Duration::from_millis(33);
 
+/// Between two blocks of frames: less than what a page draws behind the newest state, so that none is missing there.
+const TRACK_PACE: Duration = Duration::from_millis(66);
 /// Entities that are streamed at each tick; larger scenes are streamed less often. A block costs some kilobytes for
 /// each entity, whatever it holds.
 const ENTITIES_AT_FULL_RATE: usize = 16;
@@ -60,12 +66,20 @@ const REDRAWN_PART: usize = 16;
 
 impl Recording {
     /// The recording of session `id`, which holds about `limit` bytes of samples at most.
-    pub(crate) fn new(id: &str, description: SceneDescription, hub: Arc<Hub>, limit: usize) -> Self {
+    pub(crate) fn new(
+        id: &str,
+        description: SceneDescription,
+        hub: Arc<Hub>,
+        track: Arc<Hub>,
+        limit: usize,
+    ) -> Self {
         let entities = description.bodies.len() + 2 * description.joints.len() + 2;
         let ticks = u32::try_from(entities / ENTITIES_AT_FULL_RATE).unwrap_or(u32::MAX);
         Self {
             encoded_at: Instant::now(),
+            packed_at: Instant::now(),
             pace: TICK.saturating_mul(ticks).min(MAX_WAIT),
+            track: Track::new(track, description.joints.len()),
             description,
             arrows: Arrows::default(),
             camera: Camera::default(),
@@ -107,7 +121,9 @@ impl Recording {
     fn thin(&mut self) {
         let half = self.samples.len() / 2;
         let goes = |index: usize| index < half && index % 2 == 1;
-        self.samples_encoded -= (0..self.samples_encoded).filter(|&index| goes(index)).count();
+        let dropped = |of: usize| (0..of).filter(|&index| goes(index)).count();
+        self.samples_encoded -= dropped(self.samples_encoded);
+        self.track.thinned(dropped);
         let mut index = 0;
         self.samples.retain(|_| {
             index += 1;
@@ -118,11 +134,20 @@ impl Recording {
 
     /// Encodes what waits, if anybody watches and it is time.
     pub(crate) fn encode_in_turn(&mut self) -> Result<(), Problem> {
-        if self.encoded_at.elapsed() < self.pace { Ok(()) } else { self.encode() }
+        if self.packed_at.elapsed() >= TRACK_PACE {
+            self.packed_at = Instant::now();
+            self.track.pack(&self.samples);
+        }
+        if self.encoded_at.elapsed() < self.pace { Ok(()) } else { self.encode_recording() }
     }
 
     /// Encodes what waits, if anybody watches.
     pub(crate) fn encode(&mut self) -> Result<(), Problem> {
+        self.track.pack(&self.samples);
+        self.encode_recording()
+    }
+
+    fn encode_recording(&mut self) -> Result<(), Problem> {
         let waiting = &self.samples[self.samples_encoded..];
         if self.hub.watchers() == 0 || (waiting.is_empty() && self.recorder.is_some()) {
             return Ok(());
@@ -226,6 +251,7 @@ impl Recording {
         self.samples.clear();
         self.bytes = 0;
         self.recorded = 0;
+        self.track.restart(self.description.joints.len());
         self.rewrite();
     }
 
@@ -256,7 +282,7 @@ impl Recording {
 
     /// Who watches.
     pub(crate) fn watchers(&self) -> usize {
-        self.hub.watchers()
+        self.hub.watchers() + self.track.watchers()
     }
 }
 
@@ -308,4 +334,52 @@ pub(crate) fn sample(simulation: &Simulation) -> Sample {
 
 fn unrecorded(error: RecordError) -> Problem {
     Problem::internal(error)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    use rerun::external::re_log_encoding::DecoderApp;
+    use rerun::external::re_log_types::StoreKind;
+    use rerun::log::LogMsg;
+    use triad_engine::scene::catalogue;
+
+    use super::*;
+
+    /// A viewer that has data and no layout yet lays them out by itself.
+    #[test]
+    fn the_layout_comes_before_all_data_also_on_a_busy_machine() {
+        let scene = catalogue::scene("simple-pendulum").expect("built in");
+        let simulation = Simulation::new(&scene).expect("a pendulum");
+        let description = describe(&scene, &simulation);
+        let done = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            for _ in 0..6 {
+                scope.spawn(|| {
+                    while !done.load(Ordering::Relaxed) {
+                        std::hint::spin_loop();
+                    }
+                });
+            }
+            let blocks = (0..50).map(|turn| {
+                let recorder = Recorder::to_blocks(&turn.to_string(), description.clone())?;
+                recorder.block()
+            });
+            let blocks: Vec<_> = blocks.collect();
+            // Whatever fails from here on, the threads end.
+            done.store(true, Ordering::Relaxed);
+            for block in blocks {
+                let block = block.expect("in time").expect("a block");
+                let messages =
+                    DecoderApp::decode_lazy(block.as_slice()).map(|message| message.expect("whole"));
+                let data: Vec<bool> = messages
+                    .filter(|message| !matches!(message, LogMsg::SetStoreInfo(_)))
+                    .map(|message| message.store_id().kind() == StoreKind::Recording)
+                    .collect();
+                assert!(data.iter().any(|&data| data), "{data:?}");
+                assert!(data.is_sorted(), "{data:?}");
+            }
+        });
+    }
 }

@@ -1,8 +1,9 @@
-//! From samples to what the rerun viewer shows: one recording a session, encoded once however many watch.
+//! From samples to pictures: one track of numbers and one recording a session, encoded once however many watch.
 //!
 //! ```text
-//! Sample ─▶ Recorder ─▶ blocks ─▶ Hub ─▶ Watcher, Watcher, …   (the page, over our own socket)
-//!                    └▶ a file, or a native viewer
+//! Sample ─▶ Track ─────▶ blocks ─▶ Hub ─▶ Watcher, Watcher, …   (the page's own drawing, over our own socket)
+//!        └▶ Recorder ──▶ blocks ─▶ Hub ─▶ Watcher, …            (the rerun viewer in the page)
+//!                     └▶ a file, or a native viewer
 //! ```
 
 mod hub;
@@ -18,6 +19,7 @@ mod geometry;
 mod layout;
 
 mod recorder;
+mod track;
 
 pub use arrows::{Arrows, DrawnForces, MomentPoint};
 pub use description::{BodyVisual, JointVisual, Pattern, SceneDescription};
@@ -26,6 +28,7 @@ pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};
 pub use sample::{Pose, Sample, SampledReaction};
 pub use scale::Scale;
+pub use track::Track;
 
 /// Name under which the viewer knows the recordings.
 pub const APPLICATION: &str = "triad";

@@ -81,6 +81,8 @@ impl Recorder {
         description: SceneDescription,
     ) -> Result<Self, RecordError> {
         layout::send(&recording, &description, Camera::default())?;
+        // Layout and data travel by two queues of the library: whichever is handed on first comes first.
+        flush(&recording)?;
         geometry::log_static(&recording, &description)?;
         Ok(Self { recording, sink, description, arrows: Arrows::default(), used: HashSet::new(), encoded: 0 })
     }
@@ -155,7 +157,8 @@ impl Recorder {
     ///
     /// Errors as [`Self::write`] does.
     pub fn look_from(&self, camera: Camera) -> Result<(), RecordError> {
-        Ok(layout::send(&self.recording, &self.description, camera)?)
+        layout::send(&self.recording, &self.description, camera)?;
+        flush(&self.recording)
     }
 
     fn write_arrows(&mut self, samples: &[Sample]) -> RecordingStreamResult<()> {
@@ -247,10 +250,14 @@ impl Recorder {
     ///
     /// Errors if that takes longer than ten seconds.
     pub fn flush(&self) -> Result<(), RecordError> {
-        self.recording
-            .flush_with_timeout(Duration::from_secs(10))
-            .map_err(|error| RecordError::Flush(error.to_string()))
+        flush(&self.recording)
     }
+}
+
+fn flush(recording: &RecordingStream) -> Result<(), RecordError> {
+    recording
+        .flush_with_timeout(Duration::from_secs(10))
+        .map_err(|error| RecordError::Flush(error.to_string()))
 }
 
 impl Drop for Recorder {

@@ -112,7 +112,7 @@ async fn watchers_get_the_history_then_what_is_new_and_are_told_of_a_reset_and_o
         post(&server, "/api/v1/sessions", json!({"builtin": "spatial-double-pendulum"})).await.json();
     let path = created["links"]["self"].as_str().expect("a path").to_owned();
     post(&server, &format!("{path}/step"), json!({"seconds": 0.2})).await;
-    let stream = format!("{path}/stream");
+    let stream = format!("{path}/stream?recording=true");
     let open = |stream: String| tokio::task::spawn_blocking(move || Client::open(address, &stream));
 
     let first = open(stream.clone()).await.expect("opens");
@@ -180,7 +180,7 @@ async fn watched_sessions_resets_and_cameras_leave_no_threads_behind() {
         let created = post(&server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
         let path = created["links"]["self"].as_str().expect("a path").to_owned();
         let session = app.sessions.get(created["id"].as_str().expect("an id")).expect("a session");
-        let mut watcher = session.watch();
+        let mut watcher = session.watch(triad::session::Watched::Recording);
         assert!(watcher.next().await.is_some());
         for view in ["front", "side"] {
             let request = Request::put(format!("{path}/camera")).header("content-type", "application/json");

@@ -27,6 +27,7 @@ export type LessonSummary = Schemas["LessonSummary"];
 export type Mark = Schemas["Mark"];
 export type Orientation = Schemas["Orientation"];
 /** The page reports some problems itself: a title is what all of them have. */
+export type JointKind = Schemas["JointKind"];
 export type Problem = Pick<Schemas["Problem"], "title"> & Partial<Schemas["Problem"]>;
 export type GivenPrediction = Schemas["GivenPrediction"];
 export type Prediction = Schemas["Prediction"];

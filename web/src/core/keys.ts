@@ -51,7 +51,8 @@ function taken(event: KeyboardEvent): boolean {
     return true;
   }
   if (event.key === " ") return target.closest(ACTIVATED_BY_SPACE) !== null;
-  if (event.key.startsWith("Arrow")) return target.closest("input, [role=tab]") !== null;
+  // With Shift, arrows turn the drawing that has the focus.
+  if (event.key.startsWith("Arrow")) return event.shiftKey || target.closest("input, [role=tab]") !== null;
   return false;
 }
 

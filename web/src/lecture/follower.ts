@@ -12,8 +12,6 @@ export class Follower extends Session {
   /** Looks around alone: time, selection and panels are one's own until one comes back. */
   roaming = false;
   over = false;
-  /** The 3-D view needs the recording; the sketch does without its bytes. */
-  recording = false;
   /** What the presenter looks at changes the inspector's panel too. */
   panel: ((key: string) => void) | undefined;
 
@@ -26,15 +24,8 @@ export class Follower extends Session {
     return Promise.resolve();
   }
 
-  protected override streamUrl(): string {
-    return api.streamUrl(
-      `/api/v1/rooms/${encodeURIComponent(this.code)}/stream${this.recording ? "?recording=true" : ""}`,
-    );
-  }
-
-  override resubscribe(): void {
-    this.recording = true;
-    this.connection.open();
+  protected override stream(): string {
+    return `/api/v1/rooms/${encodeURIComponent(this.code)}/stream`;
   }
 
   /** Goes on alone from what is shown. */

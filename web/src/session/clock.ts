@@ -5,6 +5,7 @@ import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { Emitter } from "./events";
 import { History } from "./history";
+import { Track } from "./track";
 
 /** Between two states of a running session, s. */
 const STATE_INTERVAL = 0.1;
@@ -15,6 +16,8 @@ export class Clock extends Emitter {
   /** The newest state that the server reported. */
   latest: SessionState | undefined;
   readonly past = new History();
+  /** The motion between the states, frame by frame. */
+  readonly track = new Track();
   speed = 1;
   /** A replay that has come to its end begins again. */
   loop = false;
@@ -59,6 +62,13 @@ export class Clock extends Emitter {
     if (!state?.playing || this.cursor !== null) return this.time;
     const since = (performance.now() - this.cameAt) / 1000;
     return state.time - state.speed * Math.max(0, STATE_INTERVAL - since);
+  }
+
+  /** The mechanism as it was at a time that the run has passed. */
+  moment(time: number): SessionState | undefined {
+    const state = this.past.at(time) ?? this.latest;
+    if (!state || state.time === time) return state;
+    return this.track.at(time, state) ?? this.past.between(time);
   }
 
   /** Looks at an earlier time without computing anything again. */

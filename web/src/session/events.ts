@@ -12,11 +12,11 @@ export type { Drawn };
 type Events = {
   /** A state arrived, or the cursor moved: what is shown has changed. */
   shown: () => void;
-  /** Blocks of the recording, complete in themselves. */
+  /** Blocks of the recording for the 3-D viewer, complete in themselves. */
   blocks: (bytes: Uint8Array) => void;
   /** Another joint was selected, in the viewer or in the page. */
   selected: () => void;
-  /** A new connection, or a run from the start: a recording follows from its beginning. */
+  /** A new connection, or a run from the start: the motion follows from its beginning. */
   opened: () => void;
   /** The scene's numbers are known, or were changed. */
   scene: () => void;

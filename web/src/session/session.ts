@@ -22,6 +22,8 @@ export class Session extends Clock {
   numbers: Numbers;
   /** Numbers were changed, or a body was dragged, in the middle of this run: from its start it would move differently. */
   altered = false;
+  /** The stream brings the recording for the 3-D viewer, not the numbers for the drawing. */
+  private recorded = false;
   /** Whether this page controls the run; a follower of a lecture only watches. */
   readonly controls: boolean = true;
   protected readonly connection: Connection;
@@ -45,8 +47,8 @@ export class Session extends Clock {
     this.numbers = start ?? none();
     this.connection = new Connection({
       url: () => this.streamUrl(),
-      opened: () => this.emit("opened"),
-      blocks: (bytes) => this.emit("blocks", bytes),
+      opened: () => this.begun(),
+      blocks: (bytes) => (this.recorded ? this.emit("blocks", bytes) : this.track.add(bytes)),
       text: (text) => this.read(JSON.parse(text) as { type?: string }),
       comeBack: () => this.comeBack(),
       gone: () => this.recreate(),
@@ -72,8 +74,20 @@ export class Session extends Clock {
     return api.createSession(this.source, isNone(this.numbers) ? undefined : this.numbers);
   }
 
-  protected streamUrl(): string | undefined {
-    return this.latest && api.streamUrl(this.latest.links.stream);
+  /** The address of the stream, without what is asked of it. */
+  protected stream(): string | undefined {
+    return this.latest?.links.stream;
+  }
+
+  private streamUrl(): string | undefined {
+    const stream = this.stream();
+    return stream && api.streamUrl(this.recorded ? `${stream}?recording=true` : stream);
+  }
+
+  /** The motion follows from its beginning. */
+  private begun(): void {
+    this.track.clear();
+    this.emit("opened");
   }
 
   /** Whether the run waits for something. */
@@ -319,7 +333,7 @@ export class Session extends Clock {
         this.latest = { ...this.latest, drawing: state.drawing };
       this.emit("view");
     } catch {
-      // The sketch and the tables show it already; the next change asks again.
+      // The drawing and the tables show it already; the next change asks again.
     } finally {
       const again = (this.redrawing as string) === "again";
       this.redrawing = "idle";
@@ -327,8 +341,9 @@ export class Session extends Clock {
     }
   }
 
-  /** Opens the stream anew: the server sends the recording from its beginning. */
-  resubscribe(): void {
+  /** Opens the stream anew, with the recording for the 3-D viewer or without: it comes from its beginning. */
+  subscribe(recorded: boolean): void {
+    this.recorded = recorded;
     if (this.latest) this.connection.open();
   }
 
@@ -364,7 +379,7 @@ export class Session extends Clock {
   }
 
   protected read(message: { type?: string }): void {
-    if (message.type === "reset") this.emit("opened");
+    if (message.type === "reset") this.begun();
     // A step asked for by HTTP may overtake its own echo on the socket.
     if (message.type === "state" && !this.busy) this.accept(message as unknown as SessionState);
   }

@@ -16,7 +16,7 @@ const GLANCE_MS = 6000;
 export interface Shared {
   session: Session;
   panel: () => string;
-  picture: () => "sketch" | "viewer";
+  picture: () => "drawing" | "viewer";
   /** Where a scene of one's own is opened, and its text. */
   own?: { path: string; text: string } | undefined;
 }

@@ -8,7 +8,7 @@ describe("a link", () => {
       time: 1.25,
       joint: "pin “A”",
       panel: "multipliers",
-      picture: "sketch",
+      picture: "drawing",
       drawn: "body:bob",
       told: "i.center.body",
       scene: '{"name":"x"}',

@@ -9,7 +9,7 @@ export interface SharedView {
   back?: boolean;
   joint?: string;
   panel?: string;
-  picture?: "sketch" | "viewer";
+  picture?: "drawing" | "viewer";
   /** From where the mechanism is looked at. */
   camera?: string;
   /** Which forces are drawn: joint, all, none, or body:NAME. */
@@ -73,7 +73,7 @@ export function parseView(value: unknown): SharedView | undefined {
   for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const)
     if (typeof given[key] === "string") seen[key] = given[key];
   if (given.back === true) seen.back = true;
-  if (given.picture === "sketch" || given.picture === "viewer") seen.picture = given.picture;
+  if (given.picture === "drawing" || given.picture === "viewer") seen.picture = given.picture;
   if (typeof given.time === "number" && Number.isFinite(given.time) && given.time >= 0)
     seen.time = given.time;
   const numbers = given.numbers as { values?: unknown; places?: unknown } | undefined;

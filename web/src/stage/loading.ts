@@ -1,16 +1,19 @@
-// The line over the sketch while the 3-D view loads, and where it says that it cannot.
+// The line over the drawing while the 3-D view loads, and where it says that it cannot.
 import { announce, h, setText } from "../core/dom";
 import { ViewerUnavailable } from "./unavailable";
 
-const SKETCH_STAYS = "The sketch and the tables show the same run.";
+const SKETCH_STAYS = "The drawing and the tables show the same run.";
 
 export class Loading {
   private readonly bar = h("progress", { max: "1", value: "0", "aria-label": "Loading the 3-D view" });
   private readonly text = h("span");
+  private what = "the viewer";
   readonly root = h("div", { class: "stage-loading", hidden: true }, this.text, this.bar);
 
-  begin(): void {
-    setText(this.text, "Loading the 3-D view…");
+  /** `slow`: this computer draws 3-D without a graphics card. */
+  begin(slow: boolean): void {
+    this.what = slow ? "the viewer (slow on this computer: it has no graphics card to use)" : "the viewer";
+    setText(this.text, `Loading ${this.what}…`);
     this.bar.hidden = false;
   }
 
@@ -21,7 +24,7 @@ export class Loading {
     this.bar.value = fraction;
     setText(
       this.text,
-      fraction < 1 ? `Loading the 3-D view, ${Math.round(fraction * 100)} %` : "Starting the 3-D view…",
+      fraction < 1 ? `Loading ${this.what}, ${Math.round(fraction * 100)} %` : `Starting ${this.what}…`,
     );
   }
 

@@ -1,17 +1,19 @@
-// Where the mechanism is seen: the sketch at once, the 3-D view when it has arrived.
+// Where the mechanism is seen: the drawing, and in its place the rerun viewer for whoever opens it.
 
 import type { Scene } from "../api/types";
-import { h } from "../core/dom";
+import { h, setText } from "../core/dom";
+import { seconds } from "../core/format";
 import { recall, reducedMotion, remember } from "../core/prefs";
 import { onTheme } from "../core/theme";
 import type { Session } from "../session/session";
 import { icon } from "../ui/icons";
 import { cameras } from "./cameras";
-import { forceLayer } from "./force-layer";
+import { Drawing } from "./drawing";
+import { hands } from "./hands";
 import { legend } from "./legend";
 import { Loading } from "./loading";
-import { dragging, pullLayer } from "./pull-layer";
-import { Sketch } from "./sketch";
+import { toolbar } from "./toolbar";
+import { drawsInSoftware } from "./unavailable";
 import type { ViewerHandle } from "./viewer";
 
 /** Bytes of recordings after which the viewer starts afresh: its memory is bounded, and it cannot forget one. */
@@ -22,23 +24,25 @@ const SLOW_FRAME_MS = 50;
 const MAX_REST_MS = 1500;
 /** How much of the cost of the slowest frame is remembered from one frame to the next. */
 const FRAME_COST_DECAY = 0.9;
-/** The 3-D view starts to load when the stage is this close to the visible part of the page. */
+/** The viewer starts to load when the stage is this close to the visible part of the page. */
 const LOAD_WITHIN = "200px";
+/** A viewer that is behind the clock by more than this shows another moment, s: the drawing is shown in its place. */
+const BEHIND = 0.1;
 
 export class Stage {
   readonly root: HTMLElement;
-  /** Changes between sketch and 3-D view; it has its place among the controls. */
+  /** Changes between drawing and viewer; it has its place among the controls. */
   readonly toggle: HTMLElement;
   private readonly button = h("button", { type: "button", class: "button quiet small" });
   private readonly host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
+  private readonly behind = h("p", { class: "stage-behind", role: "status", hidden: true });
   private readonly loading = new Loading();
-  private readonly sketch: Sketch;
+  private readonly drawing: Drawing;
   private readonly legend: ReturnType<typeof legend>;
-  private readonly cameras: ReturnType<typeof cameras>;
   private readonly undo: (() => void)[];
 
   private viewer: ViewerHandle | undefined;
-  /** The 3-D view is wanted, not the sketch. */
+  /** The viewer is wanted, not the drawing. */
   private wanted: boolean;
   private visible = false;
   private starting = false;
@@ -60,36 +64,36 @@ export class Stage {
   constructor(
     private readonly session: Session,
     scene: Scene | undefined,
-    picture?: "sketch" | "viewer",
+    picture?: "drawing" | "viewer",
   ) {
-    this.wanted = picture ? picture === "viewer" : recall("picture") !== "sketch" && !savesData();
-    this.sketch = new Sketch(scene, [forceLayer(session), pullLayer(session)], (joint) =>
-      session.select(session.joint === joint ? null : joint),
-    );
-    if (session.controls) dragging(session, this.sketch);
+    this.wanted = (picture ?? recall("picture")) === "viewer";
+    this.drawing = new Drawing(scene, session, reducedMotion);
+    hands(session, this.drawing);
+    const tools = toolbar(session, this.drawing, () => this.root);
+    const views = cameras(session);
     this.legend = legend(session);
-    this.cameras = cameras(session);
-    this.toggle = h("span", { class: "row tight" }, this.cameras.root, this.button);
+    this.toggle = h("span", { class: "row tight" }, views.root, this.button);
     this.root = h(
       "div",
       { class: "stage" },
-      h("div", { class: "sketch-holder" }, this.sketch.root),
+      this.drawing.root,
       this.host,
       this.legend.root,
+      tools.root,
+      this.behind,
       this.loading.root,
     );
     this.button.addEventListener("click", () => this.change());
-    this.undo = this.listen();
+    this.undo = [...this.listen(), tools.dispose, views.dispose, () => this.drawing.dispose()];
     this.paint();
   }
 
-  current(): "sketch" | "viewer" {
-    return this.wanted ? "viewer" : "sketch";
+  current(): "drawing" | "viewer" {
+    return this.wanted ? "viewer" : "drawing";
   }
 
   dispose(): void {
     this.gone = true;
-    this.cameras.dispose();
     for (const step of this.undo) step();
     this.viewer?.close();
   }
@@ -104,6 +108,7 @@ export class Stage {
       { rootMargin: LOAD_WITHIN },
     );
     near.observe(this.root);
+    let camera = session.camera;
     return [
       () => near.disconnect(),
       session.on("opened", () => this.begin()),
@@ -113,11 +118,18 @@ export class Stage {
         if (session.moving && !this.ticking && !reducedMotion())
           requestAnimationFrame((now) => this.tick(now));
       }),
-      session.on("view", () => this.draw()),
+      session.on("view", () => {
+        if (camera !== session.camera) this.drawing.lookFrom(session.camera);
+        camera = session.camera;
+        this.draw();
+      }),
       session.on("selected", () => this.draw()),
       session.on("scene", () => this.rebuild()),
-      // The viewer takes its theme when it starts: it is started again, from the browser's cache.
-      onTheme(() => this.restart()),
+      onTheme(() => {
+        this.drawing.recolour();
+        // The viewer takes its theme when it starts: it is started again, from the browser's cache.
+        this.restart();
+      }),
     ];
   }
 
@@ -140,27 +152,30 @@ export class Stage {
   private rebuild(): void {
     const first = this.session.past.all[0];
     if (!this.session.view || first?.time !== 0) return;
-    this.sketch.rebuild(this.session.view.scene as Scene);
-    this.sketch.update(first);
+    this.drawing.rebuild(this.session.view.scene as Scene, first);
     this.draw();
   }
 
   private change(): void {
     this.wanted = !this.wanted;
     this.failed = false;
-    remember("picture", this.wanted ? null : "sketch");
+    remember("picture", this.wanted ? "viewer" : null);
     this.paint();
-    void this.start();
+    if (this.wanted) void this.start();
+    // What nobody looks at is not sent.
+    else this.close();
   }
 
   private paint(): void {
     const on = this.viewer !== undefined && this.wanted;
-    this.cameras.root.hidden = !on || !this.session.controls;
     this.host.hidden = !on;
-    this.sketch.root.toggleAttribute("inert", on);
     this.root.classList.toggle("has-viewer", on);
+    if (!on) this.root.classList.remove("is-behind");
     this.loading.root.hidden = !this.failed && !(this.starting && this.wanted);
-    this.button.replaceChildren(icon("cube"), this.wanted ? "Sketch instead" : "3-D view");
+    this.button.replaceChildren(icon("cube"), this.wanted ? "Back to the drawing" : "Open in rerun");
+    this.button.title = this.wanted
+      ? ""
+      : "The run in the rerun viewer: plots, the Jacobian, every quantity (11 MB once)";
   }
 
   private draw(): void {
@@ -171,13 +186,30 @@ export class Stage {
     }
     this.legend.update();
     const time = session.smoothTime;
-    const state = session.past.between(time) ?? session.shown;
+    const state = session.moment(time) ?? session.shown;
     if (!state) return;
-    if (!this.viewer || !this.wanted) this.sketch.update(state);
+    if (!this.viewer || !this.wanted) {
+      this.drawing.update(state);
+      return;
+    }
+    const taken = this.viewer.taken();
+    const behind = taken === undefined || taken < time - BEHIND;
+    this.root.classList.toggle("is-behind", behind);
+    this.behind.hidden = !behind || taken === undefined;
+    if (behind) {
+      this.drawing.update(state);
+      if (taken !== undefined)
+        setText(
+          this.behind,
+          `The viewer catches up: ${seconds(taken, 1)} of ${seconds(time, 1)}. Till then the drawing.`,
+        );
+    }
     if (this.ticking && performance.now() - this.shownAt < restAfter(this.frameCost)) return;
     this.shownAt = performance.now();
-    for (const block of this.waiting.splice(0)) this.viewer?.send(block);
-    this.viewer?.show(time);
+    for (const block of this.waiting.splice(0)) this.viewer.send(block);
+    this.viewer.show(time);
+    // What it is given it takes in over several frames: it is asked again until it has caught up.
+    if (behind && !this.ticking) setTimeout(() => !this.gone && !this.ticking && this.draw(), SLOW_FRAME_MS);
   }
 
   private tick(now: number): void {
@@ -188,12 +220,12 @@ export class Stage {
     if (this.ticking) requestAnimationFrame((next) => this.tick(next));
   }
 
-  /** Draws the result of an analysis in the sketch, also where the 3-D view is open: that one shows the run. */
+  /** Draws the result of an analysis, also where the viewer is open: that one shows the run. */
   private drawPose(): boolean {
     const { pose } = this.session;
     this.root.classList.toggle("is-posed", pose !== undefined);
     if (!pose) return false;
-    this.sketch.update(pose(performance.now()));
+    this.drawing.update(pose(performance.now()));
     return true;
   }
 
@@ -206,16 +238,16 @@ export class Stage {
     if (this.viewer || this.starting || !this.wanted || !this.visible || this.gone) return;
     this.starting = true;
     this.failed = false;
-    this.loading.begin();
+    this.loading.begin(drawsInSoftware());
     this.paint();
     try {
       const opened = await this.open();
-      if (this.gone) {
+      if (this.gone || !this.wanted) {
         opened.close();
         return;
       }
       this.viewer = opened;
-      this.session.resubscribe();
+      this.session.subscribe(true);
     } catch (error) {
       this.failed = true;
       this.wanted = false;
@@ -241,13 +273,26 @@ export class Stage {
     });
   }
 
+  private close(): void {
+    if (!this.viewer) return;
+    this.end();
+    this.session.subscribe(false);
+    this.paint();
+    this.draw();
+  }
+
   private restart(): void {
     if (!this.viewer) return;
-    this.viewer.close();
+    this.end();
+    void this.start();
+  }
+
+  private end(): void {
+    this.viewer?.close();
     this.viewer = undefined;
     this.viewerBytes = 0;
+    this.waiting.length = 0;
     this.host.replaceChildren();
-    void this.start();
   }
 }
 
@@ -261,9 +306,3 @@ function restAfter(frameCost: number): number {
 
 /** The viewer writes special characters in paths with a backslash. */
 const unescaped = (part: string): string => part.replace(/\\(.)/g, "$1");
-
-/** A browser that is set to save data gets the 11 MB of the viewer only on request. */
-function savesData(): boolean {
-  const connection = (navigator as Navigator & { connection?: { saveData?: boolean } }).connection;
-  return connection?.saveData === true;
-}

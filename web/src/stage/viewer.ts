@@ -10,6 +10,8 @@ export interface ViewerHandle {
   send: (block: Uint8Array) => void;
   /** Shows the recording at a time in seconds. */
   show: (time: number) => void;
+  /** Up to which time, in seconds, the viewer has taken the recording in; `undefined` while it has none. */
+  taken: () => number | undefined;
   /** The next blocks belong to a recording that begins anew. */
   begin: () => void;
   close: () => void;
@@ -77,6 +79,7 @@ function handle(viewer: WebViewer, hooks: ViewerHooks): ViewerHandle {
 
   return {
     begin: () => {
+      recording = null;
       channel?.close();
       opened += 1;
       channel = viewer.open_channel(`triad-${opened}`);
@@ -85,6 +88,10 @@ function handle(viewer: WebViewer, hooks: ViewerHooks): ViewerHandle {
     show: (time) => {
       wanted = time;
       settle();
+    },
+    taken: () => {
+      const range = recording === null ? null : viewer.get_time_range(recording, TIMELINE);
+      return range ? range.max / NANOSECONDS : undefined;
     },
     close: () => {
       channel?.close();

@@ -202,8 +202,8 @@ function help(): void {
     h(
       "p",
       { class: "help" },
-      "In the 3-D view: drag to turn, scroll to come closer, drag with the right button to move, double-click a body to " +
-        "look at it. The sketch is the same scene without 3-D.",
+      "In the drawing: drag beside the mechanism to look from elsewhere, drag a body to pull it, Ctrl and the wheel to come " +
+        "closer; with the keys, when it has the focus: Shift and the arrows, + and −.",
     ),
   );
 }

@@ -1,15 +1,14 @@
 //! The stream of a lecture, over a WebSocket.
 //!
 //! Text messages are JSON: `{"type":"room",…}` when the presenter shows or asks something else, `{"type":"state",…}` at
-//! most ten times a second, `{"type":"reset"}` when a recording begins (the viewer must forget the old one),
-//! `{"type":"closed"}` at the end. Binary messages are complete RRD blocks, if they were asked for with
-//! `?recording=true`. A follower that is slow misses states, never the newest one, and reads the recording on from
+//! most ten times a second, `{"type":"reset"}` when a run begins (its motion so far must be forgotten),
+//! `{"type":"closed"}` at the end. Binary messages are those of a session's stream: numbers for a drawing, or
+//! RRD blocks with `?recording=true`. A follower that is slow misses states, never the newest one, and reads the recording on from
 //! where it is.
 
 use axum::extract::ws::Message;
 use axum::extract::{Query, Request, State};
 use axum::response::Response;
-use serde::Deserialize;
 use tokio::time::{MissedTickBehavior, interval};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -20,6 +19,7 @@ use crate::api::sessions::stream::{Disconnected, PING_INTERVAL, ViewerSocket, up
 use crate::app::App;
 use crate::lecture::{Follower, LectureMessage, LiveView};
 use crate::problem::Problem;
+use crate::session::{StreamWish, Watched};
 use crate::stream::{Delivery, Watcher};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -27,17 +27,9 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     OpenApiRouter::new().routes(routes!(follow))
 }
 
-/// What a follower wants.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Wish {
-    /// The recording for the 3-D view.
-    recording: bool,
-}
-
-/// Follow a lecture: a WebSocket of what is shown and asked and of states (text) and, if wanted, of RRD blocks (binary).
+/// Follow a lecture: a WebSocket of what is shown and asked and of states (text) and of the motion (binary).
 #[utoipa::path(get, path = "/rooms/{code}/stream", operation_id = "follow_lecture", tag = "rooms", params(("code" = String, Path),
-    ("recording" = Option<bool>, Query, description = "Send the recording for the 3-D view too")), responses(
+    ("recording" = Option<bool>, Query, description = "Send RRD blocks instead of numbers")), responses(
     (status = 101, description = "The socket is open"),
     (status = 404, description = "No such room", body = ref(PROBLEM)),
     (status = 426, description = "The request is not a WebSocket's", body = ref(PROBLEM)),
@@ -45,7 +37,7 @@ struct Wish {
 async fn follow(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
-    Query(wish): Query<Wish>,
+    Query(wish): Query<StreamWish>,
     request: Request,
 ) -> Result<Response, Problem> {
     let lecture = app.lectures.get(&code)?;
@@ -55,14 +47,14 @@ async fn follow(
     let patience = app.limits.stalled_viewer;
     Ok(upgrade.on_upgrade(move |socket| async move {
         // However it ends, the follower is given back.
-        drop(follow_on(ViewerSocket { socket, patience }, follower, wish.recording).await);
+        drop(follow_on(ViewerSocket { socket, patience }, follower, wish.watched()).await);
     }))
 }
 
 async fn follow_on(
     mut viewer: ViewerSocket,
     mut follower: Follower,
-    recording: bool,
+    watched: Watched,
 ) -> Result<(), Disconnected> {
     let mut watcher: Option<Watcher> = None;
     let mut ping = interval(PING_INTERVAL);
@@ -84,11 +76,11 @@ async fn follow_on(
                         viewer.tell(&LectureMessage::Closed).await?;
                         return viewer.send(Message::Close(None)).await;
                     }
-                    LiveView::Session(session) if recording => {
+                    LiveView::Session(session) => {
                         viewer.tell(&LectureMessage::Reset).await?;
-                        Some(session.watch())
+                        Some(session.watch(watched))
                     }
-                    LiveView::Session(_) | LiveView::Empty => None,
+                    LiveView::Empty => None,
                 };
             },
             changed = follower.public.changed() => {

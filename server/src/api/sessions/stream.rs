@@ -1,7 +1,7 @@
 //! The live stream of a session, over a WebSocket.
 //!
-//! Binary messages are complete RRD blocks for the viewer, from the beginning of the recording. Text messages are
-//! JSON: `{"type":"state",…}` at most ten times a second, `{"type":"reset"}` when the recording begins anew (the
+//! Binary messages are blocks of the motion in numbers, as `stream/track.rs` packs them, from the beginning of the run;
+//! with `?recording=true` complete RRD blocks for the rerun viewer instead. Text messages are JSON: `{"type":"state",…}` at most ten times a second, `{"type":"reset"}` when the recording begins anew (the
 //! viewer must forget the old one), `{"type":"closed"}` at the end.
 
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
-use axum::extract::{FromRequestParts, Request, State};
+use axum::extract::{FromRequestParts, Query, Request, State};
 use axum::http::StatusCode;
 use axum::response::Response;
 use schemars::JsonSchema;
@@ -23,7 +23,7 @@ use crate::api::describe::{PROBLEM, Schemas};
 use crate::api::extract::PathParameters;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::session::SessionState;
+use crate::session::{SessionState, StreamWish};
 use crate::stream::{Delivery, Watcher};
 
 /// Pause between two states on one socket: ten a second, as often as tables can be read.
@@ -48,21 +48,23 @@ enum SessionMessage<'a> {
     Closed,
 }
 
-/// Watch a session: a WebSocket of RRD blocks (binary) and states (text).
-#[utoipa::path(get, path = "/sessions/{id}/stream", operation_id = "stream_session", tag = "sessions", params(("id" = String, Path)), responses(
+/// Watch a session: a WebSocket of states (text) and of the motion (binary): numbers for a drawing, or RRD blocks for the rerun viewer.
+#[utoipa::path(get, path = "/sessions/{id}/stream", operation_id = "stream_session", tag = "sessions", params(("id" = String, Path),
+    ("recording" = Option<bool>, Query, description = "Send RRD blocks instead of numbers")), responses(
     (status = 101, description = "The socket is open"),
     (status = 404, description = "No such session", body = ref(PROBLEM)),
     (status = 426, description = "The request is not a WebSocket's", body = ref(PROBLEM))))]
 async fn stream(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,
+    Query(wish): Query<StreamWish>,
     request: Request,
 ) -> Result<Response, Problem> {
     let session = app.sessions.get(&id)?;
     let upgrade = upgrade(&app, request).await?;
     let patience = app.limits.stalled_viewer;
     Ok(upgrade.on_upgrade(move |socket| async move {
-        let watcher = session.watch();
+        let watcher = session.watch(wish.watched());
         let states = session.states();
         // The session may be deleted while it is watched.
         drop(session);

@@ -180,7 +180,7 @@ export function modesView(found: ModesResult, about: string, show: (mode: Mode) 
     h(
       "p",
       null,
-      `${plural(found.freedoms, "degree")} of freedom ${about}. Choose a mode to see it swing in the sketch.`,
+      `${plural(found.freedoms, "degree")} of freedom ${about}. Choose a mode to see it swing in the drawing.`,
     ),
     ...steadyView(found.steady),
     modesTable(found.modes, show),

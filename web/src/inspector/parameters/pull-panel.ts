@@ -1,4 +1,4 @@
-// Pulling a body by numbers, for whoever cannot or will not drag it in the sketch.
+// Pulling a body by numbers, for whoever cannot or will not drag it in the drawing.
 import type { Vec3 } from "../../api/types";
 import { h } from "../../core/dom";
 import { typedNumber } from "../../core/format";
@@ -58,7 +58,7 @@ export class PullPanel implements Panel {
         h(
           "p",
           { class: "help" },
-          "In the sketch, drag a body: a spring pulls it to the hand while the run goes on. " +
+          "In the drawing, drag a body: a spring pulls it to the hand while the run goes on. " +
             "Or pull the centre of mass by numbers, in metres.",
         ),
         h(

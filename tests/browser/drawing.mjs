@@ -1,0 +1,158 @@
+// The page's own drawing, drawn by the processor. Started by tests/tests/browser.rs:
+//   node drawing.mjs http://127.0.0.1:PORT PICTURE_FOLDER
+// It shows the moment of the clock while it plays, at the end and looking back, also with busy cores; what it costs is
+// bounded by numbers; hands and keys turn it, choose a joint and pull a body; it becomes a file.
+import assert from "node:assert/strict";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { Worker } from "node:worker_threads";
+import { chromium } from "playwright-core";
+
+const [address, pictures] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium", headless: true,
+  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
+});
+const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
+/** Messages and bytes of the stream for 5 s of three bodies: thirty times as many were sent to the viewer. */
+const MOST_MESSAGES = 150;
+const MOST_BYTES = 1e6;
+/** What a page loads before the 3-D viewer is asked for, bytes. */
+const MOST_LOADED = 500e3;
+/** The clock may be ahead of the picture by this much of the run, s: states come every tenth of a second. */
+const BEHIND = 0.2;
+
+const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
+const page = await context.newPage();
+page.setDefaultTimeout(60_000);
+const complaints = [];
+page.on("pageerror", (error) => complaints.push(String(error)));
+const stream = { messages: 0, bytes: 0 };
+page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => {
+  stream.messages += 1;
+  stream.bytes += payload.length;
+}));
+const drawing = page.locator("canvas.drawing");
+/** The moment that is drawn and that of the clock, read at once. */
+const times = () => page.evaluate(() => [Number(document.querySelector("canvas.drawing")?.dataset.time), Number(document.querySelector(".clock")?.value)]);
+async function until(what, read, good) {
+  const end = performance.now() + 60_000;
+  let last;
+  while (performance.now() < end) {
+    last = await read();
+    if (good(last)) return last;
+    await page.waitForTimeout(50);
+  }
+  await page.screenshot({ path: join(pictures, "drawing-failed.png") });
+  throw new Error(`${what}: still ${JSON.stringify(last)}`);
+}
+
+async function plays() {
+  const client = await context.newCDPSession(page);
+  await client.send("Network.enable");
+  let loaded = 0;
+  client.on("Network.loadingFinished", ({ encodedDataLength }) => { loaded += encodedDataLength; });
+  await page.goto(`${address}/scenes/spatial-slider-crank`);
+  await until("the mechanism is drawn", times, ([drawn, clock]) => drawn === 0 && clock === 0);
+  assert(loaded < MOST_LOADED, `${loaded} bytes are loaded before anything is asked for`);
+  say(`the page with its drawing is ${(loaded / 1e3).toFixed(0)} kB`);
+  const frames = page.evaluate(() => new Promise((done) => {
+    let count = 0;
+    const began = performance.now();
+    const next = () => { count += 1; if (performance.now() - began < 4000) requestAnimationFrame(next); else done(count / 4); };
+    requestAnimationFrame(next);
+  }));
+  await page.keyboard.press(" ");
+  for (let look = 0; look < 10; look += 1) {
+    const [drawn, clock] = await times();
+    assert(clock - drawn <= BEHIND && drawn <= clock + 0.001, `the drawing stands at ${drawn} s, the clock at ${clock} s`);
+    await page.waitForTimeout(200);
+  }
+  say(`${(await frames).toFixed(0)} frames a second while it plays`);
+  await until("the end of the run", times, ([drawn, clock]) => drawn === 5 && clock === 5);
+  say(`5 s of three bodies: ${stream.messages} messages, ${(stream.bytes / 1e6).toFixed(2)} MB`);
+  assert(stream.messages < MOST_MESSAGES && stream.bytes < MOST_BYTES, JSON.stringify(stream));
+  await page.screenshot({ path: join(pictures, "drawing.png") });
+  // Between two states, at a moment that only the frames know.
+  await page.locator(".timeline").fill("2.345");
+  await until("looking back", times, ([drawn, clock]) => drawn === clock && Math.abs(drawn - 2.345) < 0.051);
+}
+
+async function busy() {
+  const loops = Array.from({ length: 4 }, () => new Worker("for (;;);", { eval: true }));
+  try {
+    await page.getByRole("button", { name: "Reset to the start" }).click();
+    await until("reset", times, ([drawn, clock]) => drawn === 0 && clock === 0);
+    await page.keyboard.press(" ");
+    for (let look = 0; look < 5; look += 1) {
+      const [drawn, clock] = await times();
+      assert(clock - drawn <= BEHIND, `with busy cores the drawing stands at ${drawn} s, the clock at ${clock} s`);
+      await page.waitForTimeout(300);
+    }
+    await page.keyboard.press(" ");
+    await until("the pause", times, ([drawn, clock]) => drawn === clock);
+  } finally {
+    await Promise.all(loops.map((loop) => loop.terminate()));
+  }
+  say("with four busy loops beside it the drawing is at the moment of the clock");
+}
+
+async function hands() {
+  await page.goto(`${address}/lessons/simple-pendulum`);
+  await until("the pendulum is drawn", times, ([drawn]) => drawn === 0);
+  // What the picture looks like, as a number.
+  const look = () => drawing.evaluate((canvas) => [...canvas.toDataURL()].reduce((sum, letter) => (31 * sum + letter.charCodeAt(0)) % 1e9, 7));
+  const before = await look();
+  const box = await drawing.boundingBox();
+  await page.mouse.move(box.x + 40, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 140, box.y + 40, { steps: 4 });
+  await page.mouse.up();
+  const turned = await look();
+  assert.notEqual(turned, before, "a drag beside the mechanism turns the picture");
+  await drawing.focus();
+  await page.keyboard.press("Shift+ArrowLeft");
+  assert.notEqual(await look(), turned, "and so do keys");
+  await page.keyboard.press("0");
+  await page.keyboard.press("c");
+  await page.keyboard.press("c");
+  await page.keyboard.press("c");
+  await page.keyboard.press("c");
+  await until("four sides on, it is as it was", look, (picture) => picture === before);
+  // The bob is at the left; where it is pulled to, the run goes.
+  const label = await drawing.getAttribute("aria-label");
+  assert.match(label, /Drawing of the mechanism at 0.*bob at/);
+  const [x, y] = await page.evaluate(() => {
+    const canvas = document.querySelector("canvas.drawing");
+    const seen = canvas.getBoundingClientRect();
+    const pen = canvas.getContext("2d");
+    // The ball is blue: the middle of all pixels of its colour in the left half.
+    const { data, width, height } = pen.getImageData(0, 0, canvas.width, canvas.height);
+    let [sum, sx, sy] = [0, 0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+      const column = (at / 4) % width;
+      if (data[at + 2] - data[at] > 60 && data[at + 3] > 200 && column < width / 2) { sum += 1; sx += column; sy += Math.floor(at / 4 / width); }
+    }
+    return [seen.x + (sx / sum / width) * seen.width, seen.y + (sy / sum / height) * seen.height];
+  });
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y + 60, { steps: 3 });
+  await until("the body is pulled", () => drawing.getAttribute("class"), (names) => names.includes("is-pulling"));
+  await page.mouse.up();
+  const saved = page.waitForEvent("download");
+  await page.getByRole("button", { name: "Save this picture (SVG)" }).click();
+  assert.match((await saved).suggestedFilename(), /\.svg$/);
+  say("hands and keys turn it, pull a body and save it");
+}
+
+try {
+  for (const part of [plays, busy, hands]) await part();
+  assert.deepEqual(complaints, [], "errors in the page");
+} catch (error) {
+  await page.screenshot({ path: join(pictures, "drawing-failed.png") }).catch(() => {});
+  throw error;
+} finally {
+  await browser.close();
+}

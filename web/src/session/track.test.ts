@@ -1,0 +1,78 @@
+import { expect, it } from "vitest";
+import { state } from "../testing/state";
+import { Track } from "./track";
+
+/** A block of one body and one joint, as the server packs it. */
+function block(frames: { time: number; x: number; force: number }[]): Uint8Array {
+  const size = 12 + 9;
+  const bytes = new ArrayBuffer(16 + frames.length * (8 + 4 * size));
+  const view = new DataView(bytes);
+  for (const [at, count] of [1, 1, frames.length, 0].entries()) view.setUint32(4 * at, count, true);
+  for (const [k, { time, x, force }] of frames.entries()) {
+    view.setFloat64(16 + 8 * k, time, true);
+    const numbers = [
+      x,
+      0,
+      0,
+      1,
+      0,
+      0,
+      0,
+      1,
+      0,
+      0,
+      0,
+      1,
+      Number.isNaN(force) ? force : x,
+      0,
+      0,
+      force,
+      0,
+      0,
+      0,
+      0,
+      force,
+    ];
+    const from = 16 + 8 * frames.length + 4 * size * k;
+    for (const [j, number] of numbers.entries()) view.setFloat32(from + 4 * j, number, true);
+  }
+  return new Uint8Array(bytes);
+}
+
+const joint = { joint: "pin", on: "bob", by: "ground", at: [0, 0, 0], force: [0, 0, 0], moment: [0, 0, 0] };
+const known = { ...state(0, 0), forces: [joint as never] };
+
+it("bodies and forces stand where they were between two frames", () => {
+  const track = new Track();
+  track.add(
+    block([
+      { time: 0, x: 0, force: 10 },
+      { time: 0.01, x: 1, force: 20 },
+    ]),
+  );
+  track.add(block([{ time: 0.02, x: 4, force: Number.NaN }]));
+  const at = track.at(0.0025, known);
+  expect(at?.time).toBe(0.0025);
+  expect(at?.bodies[0]?.position[0]).toBeCloseTo(0.25);
+  expect(at?.forces[0]?.at[0]).toBeCloseTo(0.25);
+  expect(at?.forces[0]?.force[0]).toBeCloseTo(12.5);
+  // No reaction is known at the third: it stays as the state has it.
+  expect(track.at(0.015, known)?.forces[0]?.force[0]).toBe(0);
+  expect(track.at(0.015, known)?.bodies[0]?.position[0]).toBeCloseTo(2.5);
+  expect(track.at(0.03, known)).toBeUndefined();
+});
+
+it("a run that goes on from an earlier time replaces what came after it, and a torn block is left out", () => {
+  const track = new Track();
+  track.add(
+    block([
+      { time: 0, x: 0, force: 0 },
+      { time: 1, x: 1, force: 0 },
+    ]),
+  );
+  track.add(block([{ time: 0.5, x: 7, force: 0 }]));
+  expect(track.at(0.5, known)?.bodies[0]?.position[0]).toBe(7);
+  expect(track.at(0.75, known)).toBeUndefined();
+  track.add(block([{ time: 0.6, x: 8, force: 0 }]).subarray(0, 40));
+  expect(track.at(0.6, known)).toBeUndefined();
+});

@@ -1,0 +1,93 @@
+// Where bodies were and what joints did at every recorded moment, as the server packs them (server/src/stream/track.rs).
+
+import type { SessionState, Vec3 } from "../api/types";
+import { unit } from "../mechanics/vec";
+
+/** Numbers before the times of a block. */
+const HEAD_BYTES = 16;
+const OF_BODY = 12;
+const OF_JOINT = 9;
+/** Bytes kept; beyond them every second frame goes. */
+const MOST_BYTES = 48e6;
+
+interface Frame {
+  time: number;
+  bodies: number;
+  joints: number;
+  /** Of each body position, u, v, w; then of each joint point, force, moment. */
+  numbers: Float32Array;
+}
+
+export class Track {
+  private frames: Frame[] = [];
+  private bytes = 0;
+
+  clear(): void {
+    this.frames = [];
+    this.bytes = 0;
+  }
+
+  /** Adds a block as it came. */
+  add(block: Uint8Array): void {
+    const view = new DataView(block.buffer, block.byteOffset, block.byteLength);
+    if (block.byteLength < HEAD_BYTES) return;
+    const [bodies, joints, count] = [0, 4, 8].map((at) => view.getUint32(at, true)) as [
+      number,
+      number,
+      number,
+    ];
+    const size = OF_BODY * bodies + OF_JOINT * joints;
+    if (block.byteLength !== HEAD_BYTES + count * (8 + 4 * size)) return;
+    for (let k = 0; k < count; k += 1) {
+      const from = HEAD_BYTES + 8 * count + 4 * size * k;
+      const numbers = Float32Array.from({ length: size }, (_, j) => view.getFloat32(from + 4 * j, true));
+      const time = view.getFloat64(HEAD_BYTES + 8 * k, true);
+      // A run that goes on from an earlier time replaces what came after it.
+      while ((this.frames.at(-1)?.time ?? -1) >= time) this.frames.pop();
+      this.frames.push({ time, bodies, joints, numbers });
+    }
+    this.bytes += block.byteLength;
+    if (this.bytes > MOST_BYTES) {
+      this.frames = this.frames.filter((_, k, all) => k % 2 === 0 || k === all.length - 1);
+      this.bytes /= 2;
+    }
+  }
+
+  /** `state` with bodies and forces as they were at `time`; `undefined` where that is not recorded. */
+  at(time: number, state: SessionState): SessionState | undefined {
+    const { frames } = this;
+    const [first, last] = [frames[0], frames.at(-1)];
+    if (!first || !last || time < first.time || time > last.time) return undefined;
+    let [low, high] = [0, frames.length - 1];
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if ((frames[middle]?.time ?? Infinity) <= time) low = middle;
+      else high = middle - 1;
+    }
+    const a = frames[low] ?? first;
+    const b = frames[low + 1] ?? a;
+    if (a.bodies !== state.bodies.length || b.bodies !== a.bodies || b.joints !== a.joints) return undefined;
+    const part = b.time > a.time ? (time - a.time) / (b.time - a.time) : 0;
+    const vector = (at: number): Vec3 => mixed(a.numbers, b.numbers, at, part);
+    const bodies = state.bodies.map((body, k) => {
+      const at = OF_BODY * k;
+      const [u, v, w] = [3, 6, 9].map((off) => unit(vector(at + off))) as [Vec3, Vec3, Vec3];
+      return { ...body, position: vector(at), u, v, w };
+    });
+    const known = a.joints === state.forces.length;
+    const forces = state.forces.map((entry, k) => {
+      const at = OF_BODY * a.bodies + OF_JOINT * k;
+      if (!known || Number.isNaN(a.numbers[at] ?? NaN) || Number.isNaN(b.numbers[at] ?? NaN)) return entry;
+      return { ...entry, at: vector(at), force: vector(at + 3), moment: vector(at + 6) };
+    });
+    return { ...state, time, bodies, forces };
+  }
+}
+
+function mixed(a: Float32Array, b: Float32Array, at: number, part: number): Vec3 {
+  const one = (k: number): number => {
+    const [x, y] = [a[at + k] ?? 0, b[at + k] ?? 0];
+    return x + part * (y - x);
+  };
+  return [one(0), one(1), one(2)];
+}

@@ -1,0 +1,389 @@
+// The page's own picture of a run: always that of the moment which it is given, on every machine.
+
+import type { Camera, Scene, SessionState, Vec3 } from "../api/types";
+import { h, setText } from "../core/dom";
+import { num, seconds } from "../core/format";
+import { type Arrow, arrows } from "../mechanics/forces";
+import { add, dot, norm, scale, unit } from "../mechanics/vec";
+import type { Session } from "../session/session";
+import { type Box, boxOf, Eye } from "./eye";
+import { drawForces } from "./forces-picture";
+import { distanceTo, drawMechanism, drawWorldAxes, type Shown } from "./mechanism";
+import { type Palette, palette } from "./palette";
+import { CanvasPen, type Pen, type Point, SvgPen } from "./pen";
+import { drawPull } from "./pull-picture";
+import { inWorld, type Parts, partsOf, planeOf } from "./solids";
+
+/** Where one reaches for a joint or a body, CSS pixels about it; fingers are thicker than this. */
+const REACH = 14;
+/** A run that has been seen for this long, s, has shown where it goes: the picture is fitted to that. */
+const SWEEP = 2;
+/** The picture is fitted anew where it would become this many times as large. */
+const WORTH_FITTING = 1.15;
+/** How long the picture takes to a new fit, ms. */
+const EASE_MS = 450;
+/** Moments of a run at which it is asked where its parts are. */
+const SWEEP_MOMENTS = 60;
+/** Room for words and bars above and below what is fitted, CSS pixels. */
+const ABOVE = 26;
+const BELOW = 40;
+/** The drawing tells its state to screen readers at most this often, ms. */
+const TELL_MS = 1500;
+
+/** What was grabbed: a body, and where in the world. */
+export interface Grip {
+  body: string;
+  at: Vec3;
+}
+
+export class Drawing {
+  readonly root = h("canvas", { class: "drawing", tabindex: "0", role: "img" });
+  private readonly context = this.root.getContext("2d");
+  private readonly eye: Eye;
+  private colours: Palette | undefined;
+  private parts: Parts | undefined;
+  private state: SessionState | undefined;
+  private floor: number | undefined;
+  /** The reader has turned or moved the picture: it is not fitted by itself any more. */
+  private byHand = false;
+  /** The whole sweep of the run has been fitted. */
+  private swept = false;
+  private easing: { from: [number, Point]; to: [number, Point]; since: number } | undefined;
+  private toldAt = 0;
+  private readonly watch: ResizeObserver;
+
+  constructor(
+    private scene: Scene | undefined,
+    private readonly session: Session,
+    private readonly still: () => boolean,
+  ) {
+    this.eye = Eye.under(scene?.gravity);
+    this.watch = new ResizeObserver(() => this.resize());
+    this.watch.observe(this.root);
+  }
+
+  dispose(): void {
+    this.watch.disconnect();
+  }
+
+  /** Shows a moment. */
+  update(state: SessionState): void {
+    this.state = state;
+    if (!this.parts) {
+      this.parts = partsOf(this.scene, state);
+      this.face(state);
+      this.fit(false);
+    }
+    if (!this.byHand) this.keepInSight(state);
+    this.paint();
+    this.tell(state);
+  }
+
+  /** Draws a changed scene, of which `first` is the first state. */
+  rebuild(scene: Scene, first: SessionState): void {
+    this.scene = scene;
+    this.parts = partsOf(scene, first);
+    this.swept = false;
+    this.state ??= first;
+    if (!this.byHand) this.fit(false);
+    this.paint();
+  }
+
+  /** Another theme, or larger type. */
+  recolour(): void {
+    this.colours = undefined;
+    this.paint();
+  }
+
+  lookFrom(side: Camera): void {
+    this.eye.lookFrom(side);
+    this.byHand = false;
+    this.swept = false;
+    this.fit(false);
+    this.paint();
+  }
+
+  /** Shows all of it, as large as it fits. */
+  fit(slowly = true): void {
+    this.byHand = false;
+    const box = this.sweep();
+    if (!box) return;
+    const before: [number, Point] = [this.eye.perMetre, [...this.eye.middle]];
+    this.eye.fit(box, ABOVE, BELOW);
+    this.floor = this.floorUnder();
+    if (!slowly || this.still()) {
+      this.easing = undefined;
+      return;
+    }
+    this.easing = { from: before, to: [this.eye.perMetre, [...this.eye.middle]], since: performance.now() };
+    [this.eye.perMetre, this.eye.middle] = before;
+    requestAnimationFrame(() => this.ease());
+  }
+
+  turn(turn: number, tilt: number): void {
+    this.byHand = true;
+    this.eye.orbit(turn, tilt, this.center());
+    this.paint();
+  }
+
+  zoom(by: number, about: Point = [this.eye.width / 2, this.eye.height / 2]): void {
+    this.byHand = true;
+    this.eye.zoom(by, about);
+    this.paint();
+  }
+
+  /** The joint at a point of the picture. */
+  jointAt([x, y]: Point): string | undefined {
+    const { parts, state } = this;
+    if (!parts || !state) return undefined;
+    const far = parts.joints.map((joint) => {
+      const [jx, jy] = this.eye.project(inWorld(state, joint.body, joint.point));
+      return { name: joint.name, off: Math.hypot(x - jx, y - jy) };
+    });
+    far.sort((a, b) => a.off - b.off);
+    return far[0] && far[0].off < REACH ? far[0].name : undefined;
+  }
+
+  /** The body at a point of the picture, and the point of it that is grabbed. */
+  grip(point: Point): Grip | undefined {
+    const shown = this.shown();
+    if (!shown) return undefined;
+    const near = shown.parts.solids
+      .filter((solid) => distanceTo(shown, solid, point) < REACH / 2)
+      .map((solid) => ({ solid, middle: middleOf(shown, solid) }))
+      .sort((a, b) => this.eye.nearness(b.middle) - this.eye.nearness(a.middle))[0];
+    const body = near && shown.state.bodies[near.solid.body];
+    if (!near || !body) return undefined;
+    // The point under the hand, in the plane of the picture through the middle of the part.
+    const [mx, my] = this.eye.project(near.middle);
+    const off = this.move(point[0] - mx, point[1] - my);
+    const at = near.middle.map((value, k) => value + (off[k] ?? 0)) as Vec3;
+    return { body: body.name, at };
+  }
+
+  /** The shift in the world that a shift on the picture means. */
+  move(dx: number, dy: number): Vec3 {
+    return this.eye.shift(dx, dy);
+  }
+
+  /** The picture as an SVG file. */
+  svg(title: string): string {
+    const pen = new SvgPen();
+    this.draw(pen);
+    return pen.file(this.eye.width, this.eye.height, title);
+  }
+
+  /** The picture as it stands, for a film. */
+  get canvas(): HTMLCanvasElement {
+    return this.root;
+  }
+
+  /** Turns the picture so that a plane mechanism is seen from the front. */
+  private face(state: SessionState): void {
+    const normal = this.parts && planeOf(this.parts, state);
+    if (normal) this.eye.faceOn(normal);
+    this.eye.lookFrom(this.session.camera);
+  }
+
+  private shown(): Shown | undefined {
+    const { state, parts, eye, floor } = this;
+    if (!state || !parts) return undefined;
+    this.colours ??= palette();
+    return { eye, state, parts, colours: this.colours, joint: this.session.joint, floor };
+  }
+
+  private paint(): void {
+    const { context, root } = this;
+    if (!context || root.width === 0) return;
+    const ratio = root.width / Math.max(1, this.eye.width);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, this.eye.width, this.eye.height);
+    this.draw(new CanvasPen(context));
+    // The moment that is to be seen.
+    if (this.state) root.dataset.time = this.state.time.toFixed(3);
+  }
+
+  private draw(pen: Pen): void {
+    const shown = this.shown();
+    if (!shown) return;
+    const { eye, colours, state } = shown;
+    drawMechanism(pen, shown);
+    drawPull(pen, this.session, state, eye, colours);
+    drawForces(pen, this.session, state, eye, colours);
+    drawWorldAxes(pen, eye, colours);
+  }
+
+  private resize(): void {
+    const { root, eye } = this;
+    const [width, height] = [root.clientWidth, root.clientHeight];
+    if (width === 0 || height === 0) return;
+    const ratio = Math.min(2, devicePixelRatio || 1);
+    [root.width, root.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    [eye.width, eye.height] = [width, height];
+    if (!this.byHand) this.fit(false);
+    this.paint();
+  }
+
+  private ease(): void {
+    const { easing, eye } = this;
+    if (!easing || this.byHand) return;
+    const part = Math.min(1, (performance.now() - easing.since) / EASE_MS);
+    const smooth = part * part * (3 - 2 * part);
+    const between = (a: number, b: number): number => a + smooth * (b - a);
+    eye.perMetre = between(easing.from[0], easing.to[0]);
+    eye.middle = [between(easing.from[1][0], easing.to[1][0]), between(easing.from[1][1], easing.to[1][1])];
+    this.paint();
+    if (part < 1) requestAnimationFrame(() => this.ease());
+    else this.easing = undefined;
+  }
+
+  /** Fits the picture when the run has shown where it goes, and again where a body leaves it. */
+  private keepInSight(state: SessionState): void {
+    if (this.easing) return;
+    const { eye, session } = this;
+    const out = state.bodies.some((body) => {
+      const [x, y] = eye.project(body.position);
+      return Number.isFinite(x + y) && (x < 0 || y < 0 || x > eye.width || y > eye.height);
+    });
+    const known = (session.latest?.time ?? 0) >= Math.min(SWEEP, session.latest?.duration ?? SWEEP);
+    if (!out && (this.swept || !known)) return;
+    const box = this.sweep();
+    if (!box) return;
+    this.swept ||= known;
+    const now = eye.perMetre;
+    const middle: Point = [...eye.middle];
+    eye.fit(box, ABOVE, BELOW);
+    const wanted = eye.perMetre;
+    [eye.perMetre, eye.middle] = [now, middle];
+    if (out || wanted > WORTH_FITTING * now) this.fit();
+  }
+
+  /** What the motion has covered so far, in the plane of the picture. Before it is known: where it could swing to. */
+  private sweep(): Box | undefined {
+    const { parts, state, eye, session } = this;
+    if (!parts || !state) return undefined;
+    const last = session.latest?.time ?? 0;
+    const known = last >= Math.min(SWEEP, session.latest?.duration ?? SWEEP);
+    const count = known ? SWEEP_MOMENTS : 1;
+    const moments = Array.from({ length: count }, (_, k) =>
+      known ? (session.moment((last * k) / (count - 1)) ?? state) : state,
+    );
+    const points = [state, ...moments].flatMap((moment) => outline(parts, moment, eye));
+    const fixed = parts.joints
+      .filter((joint) => joint.grounded)
+      .map((joint) => eye.flat(inWorld(state, joint.body, joint.point)));
+    if (!known && fixed.length === 1 && !this.turnsUpright()) points.push(...circle(fixed, points));
+    points.push(...this.tips(moments).map((p) => eye.flat(p)));
+
+    return boxOf(points);
+  }
+
+  /** A mechanism on a vertical hinge stays beside it: it does not swing below. */
+  private turnsUpright(): boolean {
+    const hinge = this.parts?.joints.find((joint) => joint.grounded);
+    return hinge?.kind === "revolute" && Math.abs(dot(hinge.axis ?? [0, 0, 0], this.eye.up)) > 0.9;
+  }
+
+  /** Where arrows end that are as long as half of the drawn forces at these moments are. */
+  private tips(moments: SessionState[]): Vec3[] {
+    const { session } = this;
+    if (session.pose) return [];
+    const { drawing } = session.latest ?? {};
+    if (!drawing) return [];
+    const drawn = moments.flatMap((moment) =>
+      arrows(moment, session.drawn, session.joint, session.convention),
+    );
+    const length = (arrow: Arrow): number =>
+      Math.min(drawing.longest, norm(arrow.force) * drawing.force_scale);
+    const median = drawn.map(length).sort((a, b) => a - b)[drawn.length >> 1] ?? 0;
+    return drawn.map((arrow) => add(arrow.at, scale(unit(arrow.force), Math.min(median, length(arrow)))));
+  }
+
+  private floorUnder(): number | undefined {
+    const { parts, state, eye, session } = this;
+    if (!parts || !state || !this.scene?.gravity?.some((g) => g !== 0)) return undefined;
+    const seen = [state, ...session.past.all.slice(0, 1), ...(session.latest ? [session.latest] : [])];
+    const points = seen.flatMap((moment) => pointsOf(parts, moment));
+    const fixed = parts.joints
+      .filter((joint) => joint.grounded)
+      .map((joint) => inWorld(state, joint.body, joint.point));
+    // A mechanism that hangs may swing as far below its joints as it reaches.
+    const reach = fixed.flatMap((f) =>
+      points.map((p) => dot(f, eye.up) - Math.hypot(...p.map((x, k) => x - (f[k] ?? 0)))),
+    );
+    const lowest = Math.min(
+      ...points.map((p) => dot(p, eye.up)),
+      ...(fixed.length === 1 && !this.turnsUpright() ? reach : []),
+    );
+    return Number.isFinite(lowest) ? lowest - 0.12 * (this.eye.height / this.eye.perMetre) * 0.5 : undefined;
+  }
+
+  private center(): Vec3 {
+    const bodies = this.state?.bodies ?? [];
+    const sum = bodies.reduce((total, body) => total.map((x, k) => x + (body.position[k] ?? 0)), [0, 0, 0]);
+    return sum.map((x) => x / Math.max(1, bodies.length)) as Vec3;
+  }
+
+  /** Says what is to be seen, for those who do not see it; seldom while it moves. */
+  private tell(state: SessionState): void {
+    const now = performance.now();
+    if (this.session.moving && now - this.toldAt < TELL_MS) return;
+    this.toldAt = now;
+    const bodies = state.bodies
+      .slice(0, 4)
+      .map((body) => `${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} m`);
+    const more = state.bodies.length > 4 ? `, and ${state.bodies.length - 4} more bodies` : "";
+    const label = `Drawing of the mechanism at ${seconds(state.time)}: ${bodies.join("; ")}${more}.`;
+    if (this.root.getAttribute("aria-label") !== label) this.root.setAttribute("aria-label", label);
+    setText(this.root, label);
+  }
+}
+
+/** Points about the parts of a mechanism on the plane of the picture. */
+function outline(parts: Parts, state: SessionState, eye: Eye): Point[] {
+  const round = parts.solids.flatMap((solid) => {
+    if (solid.kind === "box") return [];
+    const ends = solid.kind === "rod" ? [solid.from, solid.to] : [solid.center];
+    return ends.flatMap((end): Point[] => {
+      const [x, y] = eye.flat(inWorld(state, solid.body, end));
+      return [
+        [x - solid.radius, y - solid.radius],
+        [x + solid.radius, y + solid.radius],
+      ];
+    });
+  });
+  return [...round, ...pointsOf(parts, state).map((p) => eye.flat(p))];
+}
+
+/** Where the parts of a mechanism are. */
+function pointsOf(parts: Parts, state: SessionState): Vec3[] {
+  const of = parts.solids.flatMap((solid) =>
+    solid.kind === "rod" ? [solid.from, solid.to] : solid.kind === "ball" ? [solid.center] : solid.corners,
+  );
+  const owners = parts.solids.flatMap((solid) =>
+    Array<number>(solid.kind === "rod" ? 2 : solid.kind === "ball" ? 1 : 8).fill(solid.body),
+  );
+  return [
+    ...of.map((point, k) => inWorld(state, owners[k] ?? 0, point)),
+    ...parts.joints.map((joint) => inWorld(state, joint.body, joint.point)),
+    ...parts.markers.map((marker) => inWorld(state, marker.body, marker.point)),
+  ];
+}
+
+function middleOf(shown: Shown, solid: Parts["solids"][number]): Vec3 {
+  const points =
+    solid.kind === "rod" ? [solid.from, solid.to] : solid.kind === "ball" ? [solid.center] : solid.corners;
+  const sum = points.reduce((total, p) => total.map((x, k) => x + (p[k] ?? 0)) as Vec3, [0, 0, 0] as Vec3);
+  return inWorld(shown.state, solid.body, sum.map((x) => x / points.length) as Vec3);
+}
+
+/** Mechanisms swing about their ground: the circle about it that holds all points. */
+function circle(fixed: Point[], points: Point[]): Point[] {
+  const mean = (k: 0 | 1): number => fixed.reduce((sum, p) => sum + p[k], 0) / fixed.length;
+  const [x, y] = [mean(0), mean(1)];
+  const radius = Math.max(...points.map((p) => Math.hypot(p[0] - x, p[1] - y)));
+  return [
+    [x - radius, y - radius],
+    [x + radius, y + radius],
+  ];
+}

@@ -1,0 +1,45 @@
+// The small buttons over the drawing: fit, whole screen, picture as a file.
+
+import { h, saveFile } from "../core/dom";
+import { bind } from "../core/keys";
+import type { Session } from "../session/session";
+import { type IconName, icon } from "../ui/icons";
+import type { Drawing } from "./drawing";
+
+export function toolbar(
+  session: Session,
+  drawing: Drawing,
+  stage: () => HTMLElement,
+): { root: HTMLElement; dispose: () => void } {
+  const fit = (): void => drawing.fit();
+  const whole = (): void => {
+    if (document.fullscreenElement) void document.exitFullscreen();
+    else void stage().requestFullscreen?.();
+  };
+  const save = (): void => {
+    const state = session.shown;
+    const title = state ? `${state.title}, ${state.time.toFixed(3)} s` : "mechanism";
+    const name = title.toLowerCase().replace(/[^a-z0-9.]+/g, "-");
+    saveFile(new Blob([drawing.svg(title)], { type: "image/svg+xml" }), `${name}.svg`);
+  };
+  const release = bind([
+    { keys: ["0"], shown: "0", does: "Show all of the mechanism, as large as it fits", run: fit },
+    { keys: ["e", "E"], shown: "E", does: "The drawing on the entire screen, and back", run: whole },
+  ]);
+  const root = h(
+    "div",
+    { class: "stage-tools", role: "group", "aria-label": "Drawing" },
+    tool("fit", "Show all of it, as large as it fits (0)", fit),
+    tool("full", "Entire screen (E)", whole),
+    tool("save", "Save this picture (SVG)", save),
+  );
+  return { root, dispose: release };
+}
+
+function tool(name: IconName, title: string, run: () => void): HTMLElement {
+  return h(
+    "button",
+    { type: "button", class: "button quiet small icon-only", title, "aria-label": title, onclick: run },
+    icon(name),
+  );
+}
