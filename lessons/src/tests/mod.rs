@@ -1,5 +1,6 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
+mod claims;
 mod fairness;
 mod golden_variants;
 mod kinds;

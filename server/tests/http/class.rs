@@ -236,7 +236,12 @@ async fn every_verdict_is_rebuilt_byte_for_byte() {
     let course = Course::embedded().expect("a course");
     for lesson in course.lessons() {
         let path = format!("/api/v1/lessons/{}/submissions", lesson.slug);
-        let reference = serde_json::to_value(reference_submission(lesson)).expect("JSON");
+        // Of a pool only what was drawn for her is asked.
+        let shown = class.ask("GET", &format!("/api/v1/lessons/{}", lesson.slug), &ada, None).await.json();
+        let asked = shown["exercise"]["questions"].as_array().expect("questions").clone();
+        let mut reference = reference_submission(lesson);
+        reference.answers.retain(|id, _| asked.iter().any(|question| question["id"] == json!(id)));
+        let reference = serde_json::to_value(reference).expect("JSON");
         let body = json!({"answers": reference["answers"]});
         let reply = class.ask("POST", &path, &ada, Some(body)).await;
         assert!(reply.status.is_success() || reply.status == 429, "{}", reply.json());

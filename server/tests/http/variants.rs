@@ -83,3 +83,26 @@ async fn a_file_is_kept_but_a_list_only_tells_its_length() {
     let bytes = list[0]["answers"]["program"]["file"]["bytes"].as_u64().expect("a length");
     assert_eq!(bytes, right["answers"]["program"]["file"].as_str().expect("text").len() as u64);
 }
+
+#[tokio::test]
+async fn a_student_gets_the_questions_that_were_drawn_and_no_others() {
+    let server = server();
+    let course = Course::embedded().expect("a course");
+    let whole = course.lesson("exam").expect("the lesson");
+    let own = whole.variant("ada").expect("a variant");
+    let ids = |view: &Value| -> Vec<String> {
+        let questions = view["exercise"]["questions"].as_array().expect("questions");
+        questions.iter().map(|q| q["id"].as_str().unwrap_or_default().to_owned()).collect()
+    };
+    let drawn: Vec<String> = own.exercise.questions.iter().map(|q| q.id.clone()).collect();
+    assert_eq!(ids(&get(&server, "/api/v1/lessons/exam?student=ada").await.json()), drawn);
+    assert_eq!(ids(&get(&server, "/api/v1/lessons/exam").await.json()).len(), drawn.len());
+    let path = "/api/v1/lessons/exam/submissions";
+    let mut right = serde_json::to_value(reference_submission(&own)).expect("JSON");
+    right["student"] = json!("ada");
+    let verdict = post(&server, path, &right).await.json();
+    assert_eq!((&verdict["passed"], &verdict["possible"]), (&json!(true), &json!(whole.exercise.possible())));
+    let mut all = serde_json::to_value(reference_submission(whole)).expect("JSON");
+    all["student"] = json!("ada");
+    post(&server, path, &all).await.problem(422, "unknown-question");
+}
