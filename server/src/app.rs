@@ -8,6 +8,7 @@ use triad_lessons::Course;
 use crate::access::Access;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
+use crate::regrade::Previews;
 use crate::session::Registry;
 use crate::store::Store;
 use crate::variants::Variants;
@@ -31,6 +32,8 @@ pub struct App {
     pub lectures: Arc<Lectures>,
     /// Places for what is computed on request.
     pub work: Arc<Work>,
+    /// Regrades that were looked at and not applied yet.
+    pub regrades: Arc<Previews>,
     /// Who may do what.
     pub access: Arc<Access>,
     /// What this server allows.
@@ -49,6 +52,7 @@ impl App {
             sessions: Arc::default(),
             lectures: Arc::default(),
             work: Arc::default(),
+            regrades: Arc::default(),
             access: Arc::new(Access::home(false, [])),
             limits: Arc::new(limits),
             reports: Path::new(REPORTS).into(),

@@ -45,6 +45,16 @@ function start(head: HTMLElement, main: HTMLElement): void {
         open: lazily("Class", () => import("./pages/class").then((page) => page.classPage)),
       },
       {
+        pattern: /^\/class\/lessons\/([^/]+)$/,
+        open: lazily("Lesson of the class", () =>
+          import("./pages/assignment").then((page) => page.assignmentPage),
+        ),
+      },
+      {
+        pattern: /^\/record$/,
+        open: lazily("Your work", () => import("./pages/record").then((page) => page.recordPage)),
+      },
+      {
         pattern: /^\/class\/([^/]+)$/,
         open: lazily("Student", () => import("./pages/student").then((page) => page.studentPage)),
       },

@@ -170,7 +170,11 @@ enum Command {
         triad grades --csv --for canvas --database /srv/triad/grades.db\n  triad grades --check")]
     Grades(grades::Grades),
     /// Rebuild every verdict of a gradebook: with the same lesson, seed and answers each must come out byte for byte.
-    #[command(after_help = "Example:\n  triad regrade --check --database /srv/triad/grades.db")]
+    ///
+    /// Or look at what the lesson as it is now makes of what was handed in, for each student; apply it, and take it back.
+    #[command(after_help = "Examples:\n  triad regrade --check --database /srv/triad/grades.db\n  \
+        triad regrade --lesson screw\n  \
+        triad regrade --lesson screw --apply better --reason \"the reference had the wrong sign\"")]
     Regrade(regrade::Regrade),
     /// Copy the whole gradebook into a new file while the server runs, and look at every record of the copy.
     ///
@@ -322,7 +326,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Backup(options) => records::backup(&options, json),
         Command::Restore(options) => records::restore(&options, json),
         Command::Class(options) => records::class(options, json),
-        Command::Regrade(options) => regrade::regrade(&options, json),
+        Command::Regrade(options) => regrade::regrade(&options, &course()?, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),

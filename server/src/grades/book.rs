@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use triad_lessons::Lesson;
 
-use crate::policy::{Case, Decided, Extension, Handed, Moment, Standing, standing};
+use crate::policy::{Case, Decided, Extension, Handed, Moment, Policy, Standing, When, standing};
 use crate::problem::Problem;
 use crate::store::{Assignment, Decision, DecisionKind, Store};
 
@@ -124,4 +124,14 @@ pub fn case<'a>(assignment: &'a Assignment, entry: &'a Entry, lesson: &Lesson) -
         decided: &entry.decided,
         pass: pass_points(lesson),
     }
+}
+
+/// A lesson as its policy has it graded: where right answers are not told as the course opens them, none opens, and so no
+/// question is settled by having been opened.
+pub fn assigned(lesson: &Lesson, policy: &Policy) -> Lesson {
+    let mut own = lesson.clone();
+    if policy.reveal.reference != When::AtOnce {
+        own.opens = triad_lessons::files::OpensFile::default();
+    }
+    own
 }

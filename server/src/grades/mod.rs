@@ -14,7 +14,7 @@ use crate::policy::{Decided, Moment};
 use crate::problem::Problem;
 use crate::store::{DecisionKind, Member, Role, Store};
 
-pub use book::{Book, Entry, case, pass_points, possible};
+pub use book::{Book, Entry, assigned, case, pass_points, possible};
 pub use record::{LessonRecord, Record, record, told};
 
 /// Students by lessons.

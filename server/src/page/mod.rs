@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use asset::{Asset, find};
 
 /// First words of the addresses that the page has a view for: those of `web/src/main.ts`.
-const VIEWS: [&str; 7] = ["lessons", "room", "join", "setup", "return", "class", "scenes"];
+const VIEWS: [&str; 8] = ["lessons", "room", "join", "setup", "return", "class", "record", "scenes"];
 
 /// What may run and load in the page: only what this server sent. The viewer is WebAssembly in a worker. Not every browser
 /// takes 'self' for WebSockets: they are named by the server's own name.

@@ -95,7 +95,7 @@ async fn every_operation_asks_for_the_right_that_the_table_says() {
             let filled = path.replace("{slug}", "screw").replace("{code}", "none").replace("{k}", "1");
             let filled = filled.replace("{name}", "free-fall").replace("{language}", "python");
             let filled = filled.replace("{id}", "none").replace("{person}", "none");
-            let filled = filled.replace("{question}", "none");
+            let filled = filled.replace("{question}", "none").replace("{submission}", "none");
             for (role, cookie) in &everybody {
                 let reply = class.ask(&method, &filled, cookie, None).await;
                 let may = match right {

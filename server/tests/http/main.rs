@@ -11,6 +11,7 @@ mod document;
 mod lessons;
 mod policy;
 mod predictions;
+mod regrade;
 mod schema;
 mod secrets;
 mod sessions;

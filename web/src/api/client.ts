@@ -4,12 +4,16 @@ import type { Numbers } from "./numbers";
 import type {
   AfterChange,
   Answer,
+  AppliedRegrade,
+  AssignedLesson,
+  BothVerdicts,
   Camera,
   CheckReport,
   ClassView,
   Drag,
   Drawing,
   GivenPrediction,
+  GivenVerdict,
   GradedSubmission,
   GradeTable,
   Hint,
@@ -23,10 +27,14 @@ import type {
   Me,
   ModesAbout,
   OpenedLecture,
+  PersonRecord,
+  Policy,
+  PolicyPreview,
   PredictionCounts,
   PresenterState,
   Problem,
   Reactions,
+  RegradePreview,
   Scene,
   SceneEntry,
   SessionScene,
@@ -178,6 +186,31 @@ export const api = {
   submissionsOf: (person: string) => call<KeptSubmission[]>("GET", `/people/${id(person)}/submissions`),
   decide: (person: string, decision: { lesson: string; points: number | null; reason: string }) =>
     call<void>("POST", `/people/${id(person)}/decisions`, decision),
+  assignments: () => call<AssignedLesson[]>("GET", "/assignments"),
+  setPolicy: (slug: string, policy: Policy) => call<void>("PUT", `/assignments/${id(slug)}`, policy),
+  releaseResults: (slug: string, released: boolean) =>
+    call<void>("PUT", `/assignments/${id(slug)}/release`, { released }),
+  extend: (slug: string, person: string, body: { until?: string; attempts: number; reason: string }) =>
+    call<void>("PUT", `/assignments/${id(slug)}/extensions/${id(person)}`, body),
+  takeBackExtension: (slug: string, person: string) =>
+    call<void>("DELETE", `/assignments/${id(slug)}/extensions/${id(person)}`),
+  previewPolicy: (slug: string, body: { policy?: Policy; person?: string; at?: string }) =>
+    call<PolicyPreview>("POST", `/assignments/${id(slug)}/preview`, body),
+  previewRegrade: (slug: string) => call<RegradePreview>("POST", `/assignments/${id(slug)}/regrades`),
+  regrades: () => call<AppliedRegrade[]>("GET", "/regrades"),
+  bothVerdicts: (regrade: string, submission: string) =>
+    call<BothVerdicts>("GET", `/regrades/${id(regrade)}/submissions/${id(submission)}`),
+  applyRegrade: (regrade: string, body: { choice: "replace" | "better"; reason: string }) =>
+    call<void>("POST", `/regrades/${id(regrade)}/apply`, body),
+  undoRegrade: (regrade: string) => call<void>("POST", `/regrades/${id(regrade)}/undo`),
+  record: () => call<PersonRecord>("GET", "/record"),
+  recordOf: (person: string) => call<PersonRecord>("GET", `/people/${id(person)}/record`),
+  askAgain: (lesson: string, text: string) => call<void>("POST", "/record/requests", { lesson, text }),
+  comment: (person: string, lesson: string, text: string) =>
+    call<void>("POST", `/people/${id(person)}/comments`, { lesson, text }),
+  fileUrl: (submission: string, question: string): string =>
+    `${BASE}/submissions/${id(submission)}/files/${id(question)}`,
+  verdicts: (submission: string) => call<GivenVerdict[]>("GET", `/submissions/${id(submission)}/verdicts`),
 
   lessons: (signal?: AbortSignal) => call<LessonSummary[]>("GET", "/lessons", undefined, signal),
   lesson: (slug: string, seed: string, signal?: AbortSignal) =>

@@ -77,6 +77,30 @@ export interface components {
             /** @description A number, a list of numbers, or a formula, as typed. */
             value?: components["schemas"]["TypedValue"] | null;
         };
+        /** @description How to apply a preview. */
+        Application: {
+            /** @description What counts. */
+            choice: components["schemas"]["Choice"];
+            /** @description Why: students see it. */
+            reason: string;
+        };
+        /** @description A regrade that was applied. */
+        AppliedRegrade: {
+            /** @description When. */
+            at: string;
+            /** @description Who asked for it. */
+            by: string;
+            /** @description What counted: `replace` or `better`. */
+            choice: string;
+            /** @description Its id. */
+            id: string;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description Why. */
+            reason: string;
+            /** @description When it was taken back. */
+            undone?: string | null;
+        };
         /** @description A force or a moment in a diagram. */
         Arrow: {
             /** @description Along or about which axis of the ground frame, and in which sense. */
@@ -332,8 +356,17 @@ export interface components {
                 number
             ];
         };
+        /** @description The verdicts of a submission side by side. */
+        BothVerdicts: {
+            /** @description As it would be told; left out where the new lesson cannot grade it. */
+            after?: components["schemas"]["GradedSubmission"] | null;
+            /** @description As it was told. */
+            before: components["schemas"]["GradedSubmission"];
+        };
         /** @description From where the mechanism is looked at. */
         Camera: "corner" | "front" | "side" | "above";
+        /** @description How a submission comes out. */
+        Changed: "same" | "words" | "up" | "down" | "gradable" | "failed";
         /** @description Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene. */
         CheckReport: {
             /**
@@ -368,6 +401,8 @@ export interface components {
              */
             rows: number;
         };
+        /** @description What counts of a regrade. */
+        Choice: "replace" | "better";
         /** @description An option as a student sees it. */
         ChoiceOption: {
             /** @description The option as safe HTML. */
@@ -422,6 +457,44 @@ export interface components {
         };
         /** @description Which generalized coordinates describe a body. */
         Coordinates: "full" | "reduced" | "shared";
+        /** @description How many submissions came out how. */
+        Counts: {
+            /**
+             * Format: uint
+             * @description Fewer points.
+             */
+            down: number;
+            /**
+             * Format: uint
+             * @description Cannot be graded by the new lesson: the verdict of before stays.
+             */
+            failed: number;
+            /**
+             * Format: uint
+             * @description Could be judged before or can be now, and not both.
+             */
+            gradable: number;
+            /**
+             * Format: uint
+             * @description This program differs from the one that graded them, with the same lesson.
+             */
+            program: number;
+            /**
+             * Format: uint
+             * @description The same in every word.
+             */
+            same: number;
+            /**
+             * Format: uint
+             * @description More points.
+             */
+            up: number;
+            /**
+             * Format: uint
+             * @description The same points in other words.
+             */
+            words: number;
+        };
         /** @description What an attempt counts. */
         Credit: {
             /** @description When it came. */
@@ -2243,6 +2316,30 @@ export interface components {
         Passing: "either" | "upwards" | "downwards";
         /** @description People of the class, by name. */
         PeopleList: components["schemas"]["Somebody"][];
+        /** @description What changes for a person. */
+        PersonChange: {
+            /**
+             * Format: double
+             * @description Points that count, after: attempts and lateness counted anew.
+             */
+            after: number;
+            /** @description Attempts before and after. */
+            attempts: [
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Points that count, before.
+             */
+            before: number;
+            /** @description The name. */
+            name: string;
+            /** @description The person's id. */
+            person: string;
+            /** @description What changes for each submission; those that stay the same are left out. */
+            submissions: components["schemas"]["SubmissionChange"][];
+        };
         /** @description An extension and whose it is. */
         PersonExtension: {
             /** @description When. */
@@ -2451,6 +2548,36 @@ export interface components {
             followers: number;
             /** @description How the answers stand. */
             tally: components["schemas"]["Tally"] | null;
+        };
+        /** @description What a regrade would change. */
+        Preview: {
+            /** @description How many came out how. */
+            counts: components["schemas"]["Counts"];
+            /** @description The same after. */
+            histogram_after: number[];
+            /** @description How many people reach which tenth of the points, before. */
+            histogram_before: number[];
+            /** @description Its name, to apply it by. */
+            id: string;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /**
+             * Format: uint
+             * @description How many of them another version of the lesson had graded.
+             */
+            of_other_versions: number;
+            /** @description People for whom something changes, by name. */
+            people: components["schemas"]["PersonChange"][];
+            /**
+             * Format: double
+             * @description How long it took, in seconds.
+             */
+            seconds: number;
+            /**
+             * Format: uint
+             * @description Submissions that were graded again.
+             */
+            submissions: number;
         };
         /** @description What to look at before it counts. */
         PreviewRequest: {
@@ -2855,6 +2982,8 @@ export interface components {
             /** @description The rows, as indices. */
             rows: number[];
         };
+        /** @description Regrades that were applied, the latest first. */
+        RegradeList: components["schemas"]["AppliedRegrade"][];
         /** @description What a regrade changed. */
         RegradeNote: {
             /** @description When. */
@@ -3535,6 +3664,34 @@ export interface components {
             seed?: string | null;
             /** @description Who answers; any name the class agrees on. */
             student?: string | null;
+        };
+        /** @description What changes for a submission. */
+        SubmissionChange: {
+            /**
+             * Format: double
+             * @description Points after; left out where it cannot be graded.
+             */
+            after?: number | null;
+            /** @description When it came. */
+            at: string;
+            /**
+             * Format: double
+             * @description Points of its verdict before.
+             */
+            before: number;
+            /** @description How it comes out. */
+            changed: components["schemas"]["Changed"];
+            /** @description The submission. */
+            id: string;
+            /** @description Misconceptions by question, where another one is recognised: before and after, empty for none. */
+            misconceptions: {
+                [key: string]: [
+                    string,
+                    string
+                ];
+            };
+            /** @description What this program says otherwise with the lesson of before. */
+            program?: string | null;
         };
         /** @description Submissions, newest first. */
         SubmissionList: components["schemas"]["KeptSubmission"][];

@@ -89,7 +89,14 @@ function sheet(grades: GradeTable): HTMLElement {
     h(
       "th",
       { scope: "col", class: "number", title: `${lesson.title}, ${points(lesson.possible)} points` },
-      String(lesson.number),
+      h(
+        "a",
+        {
+          href: `/class/lessons/${encodeURIComponent(lesson.slug)}`,
+          "aria-label": `${lesson.number} ${lesson.title}`,
+        },
+        String(lesson.number),
+      ),
     ),
   );
   const rows = grades.students.map((student) =>
@@ -107,7 +114,11 @@ function sheet(grades: GradeTable): HTMLElement {
     h(
       "table",
       { class: "data grade-table" },
-      h("caption", null, "Points that count; below them the attempts. Point at a cell for the last one."),
+      h(
+        "caption",
+        null,
+        "Points that count (* decided, ? asks for a look again); below them the attempts. The numbers above lead to each lesson’s dates and regrades.",
+      ),
       h(
         "thead",
         null,
@@ -130,11 +141,13 @@ const total = (student: StudentRow): number =>
 function cell(reached: Reached | undefined): HTMLElement {
   if (!reached) return h("td", { class: "number is-nothing" }, "·");
   const last = reached.last ? `last ${dateTime(reached.last)}` : "nothing handed in";
+  const marks = `${reached.decided ? "*" : ""}${reached.late ? " late" : ""}${reached.asked ? " ?" : ""}`;
+  const asked = reached.asked ? "; asks for a look again" : "";
   const decided = reached.decided ? `; decided by ${reached.decided.by}: ${reached.decided.reason}` : "";
   return h(
     "td",
-    { class: `number ${reached.passed ? "is-passed" : "is-open"}`, title: `${last}${decided}` },
-    h("span", null, `${points(reached.points)}${reached.decided ? "*" : ""}`),
+    { class: `number ${reached.passed ? "is-passed" : "is-open"}`, title: `${last}${decided}${asked}` },
+    h("span", null, `${points(reached.points)}${marks}`),
     h(
       "span",
       { class: "attempts", "aria-label": plural(reached.attempts, "attempt") },

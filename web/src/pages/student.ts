@@ -1,6 +1,6 @@
 // One student, for those who teach: every attempt with its verdict, and decisions about what counts.
 import { api } from "../api/client";
-import type { GradeTable, KeptSubmission, Reached } from "../api/types";
+import type { GradeTable, KeptSubmission, PersonRecord, Reached } from "../api/types";
 import { h } from "../core/dom";
 import { dateTime, plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
@@ -8,6 +8,7 @@ import type { Page } from "../core/router";
 import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { empty, problemNotice, skeleton } from "../ui/notice";
+import { remarksList } from "./record";
 
 export function studentPage(outlet: HTMLElement, params: string[]): Page {
   const id = params[0] ?? "";
@@ -15,8 +16,12 @@ export function studentPage(outlet: HTMLElement, params: string[]): Page {
   outlet.append(root);
   const load = async (): Promise<void> => {
     try {
-      const [grades, submissions] = await Promise.all([api.standings(), api.submissionsOf(id)]);
-      paint(root, id, grades, submissions, () => void load());
+      const [grades, submissions, record] = await Promise.all([
+        api.standings(),
+        api.submissionsOf(id),
+        api.recordOf(id),
+      ]);
+      paint(root, id, grades, submissions, record, () => void load());
       await setMaths(root);
     } catch (error) {
       root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
@@ -31,6 +36,7 @@ function paint(
   id: string,
   grades: GradeTable,
   submissions: KeptSubmission[],
+  record: PersonRecord,
   again: () => void,
 ): void {
   const student = grades.students.find((row) => row.id === id);
@@ -54,6 +60,8 @@ function paint(
       const reached = student?.lessons[lesson.slug];
       const change = h("button", { type: "button", class: "button small" }, "Change what counts");
       change.addEventListener("click", () => decide(id, lesson, reached, again));
+      const remark = h("button", { type: "button", class: "button small" }, "Write to the student");
+      remark.addEventListener("click", () => write(id, lesson, again));
       const own = submissions.filter((one) => one.lesson === lesson.slug);
       return h(
         "section",
@@ -62,19 +70,43 @@ function paint(
           "div",
           { class: "section-head" },
           h("h2", null, `${lesson.number} ${lesson.title}`),
-          h("p", null, standing(reached, lesson.possible), " ", change),
+          h("p", null, standing(reached, lesson.possible), " ", change, " ", remark),
         ),
-        reached?.decided
-          ? h(
-              "p",
-              { class: "help" },
-              `${reached.decided.by}, ${dateTime(reached.decided.at)}: ${reached.decided.reason}`,
-            )
-          : null,
+        told(record, lesson.slug),
         h("ol", { class: "history-list", reversed: true }, ...own.map(attempt)),
       );
     }),
   );
+}
+
+/** What was allowed, decided, said and regraded. */
+function told(record: PersonRecord, slug: string): HTMLElement | null {
+  const own = record.lessons.find((lesson) => lesson.slug === slug);
+  return own ? remarksList(own) : null;
+}
+
+function write(id: string, lesson: GradeTable["lessons"][number], again: () => void): void {
+  const text = h("textarea", { id: "remark", class: "field", required: true, maxlength: "2000", rows: "4" });
+  const wrong = h("div", { "aria-live": "polite" });
+  const form = h(
+    "form",
+    { class: "stack" },
+    h("label", { for: "remark" }, "What the student reads"),
+    text,
+    wrong,
+    h("div", { class: "row" }, h("button", { class: "button primary" }, "Send")),
+  );
+  const box = dialog(lesson.title, form);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    api
+      .comment(id, lesson.slug, text.value)
+      .then(() => {
+        box.close();
+        again();
+      })
+      .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
+  });
 }
 
 const standing = (reached: Reached | undefined, possible: number): string =>
@@ -101,7 +133,7 @@ function attempt(one: KeptSubmission): HTMLElement {
           "div",
           { class: "history-question" },
           h("p", { class: "history-label" }, question.id),
-          h("p", { class: "help" }, `Answer: ${shown(one.answers[question.id])}`),
+          h("p", { class: "help" }, "Answer: ", shown(one, question.id)),
           verdictLine(question),
         ),
       ),
@@ -109,9 +141,15 @@ function attempt(one: KeptSubmission): HTMLElement {
   );
 }
 
-function shown(answer: KeptSubmission["answers"][string] | undefined): string {
+function shown(one: KeptSubmission, question: string): HTMLElement | string {
+  const answer = one.answers[question];
   if (!answer) return "none";
-  if (answer.file) return `a file of ${answer.file.bytes} bytes`;
+  if (answer.file)
+    return h(
+      "a",
+      { href: api.fileUrl(one.id, question), download: "answer.txt" },
+      `a file of ${answer.file.bytes} bytes`,
+    );
   if (answer.settings) return JSON.stringify(answer.settings);
   const value =
     answer.choice ?? (typeof answer.value === "object" ? JSON.stringify(answer.value) : answer.value);

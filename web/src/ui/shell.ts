@@ -126,7 +126,7 @@ function account(): void {
     person?.name ?? "",
     h("p", null, `You are signed in as ${person?.role ?? ""} of “${course ?? ""}”.`),
     h("p", { class: "help" }, "To come back you need your four words, or the link that you kept with them."),
-    h("div", { class: "row" }, leave),
+    h("div", { class: "row" }, h("a", { class: "button", href: "/record" }, "Your work"), leave),
   );
 }
 

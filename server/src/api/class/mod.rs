@@ -4,5 +4,6 @@ pub(in crate::api) mod assignments;
 pub(in crate::api) mod grades;
 pub(in crate::api) mod people;
 pub(in crate::api) mod records;
+pub(in crate::api) mod regrades;
 pub(in crate::api) mod sign_in;
 pub(in crate::api) mod standing;

@@ -25,7 +25,7 @@ use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::api::lessons::told::{self, GradedSubmission};
 use crate::app::App;
-use crate::grades::Book;
+use crate::grades::{Book, assigned};
 use crate::policy::{Moment, When};
 use crate::problem::Problem;
 use crate::store::{
@@ -82,7 +82,7 @@ async fn submit(
     let lesson = lessons::find(&app, &slug)?;
     let who = who(&app, caller, &body)?;
     let policy = app.store.assignment(who.course, &lesson.slug).await?.policy;
-    let lesson = told::assigned(lesson, &policy);
+    let lesson = assigned(lesson, &policy);
     let person = who.person();
     let grading = app.clone();
     let judged = Arc::new(blocking(move || judged(&grading, lesson, &body, who, key)).await?);

@@ -140,16 +140,6 @@ pub(in crate::api) fn tell(
     Ok(())
 }
 
-/// A lesson as its policy has it graded: where right answers are not told as the course opens them, none opens, and so no
-/// question is settled by having been opened.
-pub(in crate::api) fn assigned(lesson: &Lesson, policy: &Policy) -> Lesson {
-    let mut own = lesson.clone();
-    if policy.reveal.reference != When::AtOnce {
-        own.opens = triad_lessons::files::OpensFile::default();
-    }
-    own
-}
-
 /// What a student is told in a lesson now: at home everything.
 ///
 /// Errors if the gradebook cannot be read.

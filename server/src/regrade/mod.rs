@@ -1,5 +1,7 @@
 //! Grading again what was handed in, with the lesson that graded it then.
 
+mod preview;
+
 use std::collections::HashMap;
 
 use serde::Serialize;
@@ -10,6 +12,8 @@ use crate::grading;
 use crate::problem::Problem;
 use crate::store::{Recorded, Store, StoredSubmission};
 use crate::variants::Variants;
+
+pub use preview::{Changed, Counts, PersonChange, Preview, Previews, SubmissionChange, preview};
 
 /// What came of grading a course again.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -51,12 +55,7 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
     let mut known: HashMap<(String, String), Vec<StoredSubmission>> = HashMap::new();
     for record in store.recorded(course, None).await? {
         let all = known.entry((record.person.clone(), record.lesson.clone())).or_default();
-        let place = all.iter().position(|other| other.id == record.id).unwrap_or(all.len());
-        let earlier = all[..place].to_vec();
-        match all.get_mut(place) {
-            Some(before) => *before = stored(&record),
-            None => all.push(stored(&record)),
-        }
+        let earlier = replace(all, &record);
         if record.lesson_sha256.is_empty() {
             rebuilt.without_lesson += 1;
             continue;
@@ -73,6 +72,17 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
         }
     }
     Ok(rebuilt)
+}
+
+/// Puts a verdict into those in force of a person in a lesson, in the order of the submissions; those before it.
+fn replace(all: &mut Vec<StoredSubmission>, record: &Recorded) -> Vec<StoredSubmission> {
+    let place = all.iter().position(|other| other.id == record.id).unwrap_or(all.len());
+    let earlier = all[..place].to_vec();
+    match all.get_mut(place) {
+        Some(before) => *before = stored(record),
+        None => all.push(stored(record)),
+    }
+    earlier
 }
 
 /// The verdict as it would be kept now.

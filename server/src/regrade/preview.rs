@@ -1,0 +1,429 @@
+//! What another version of a lesson would make of what was handed in: looked at before it counts.
+//!
+//! Each submission is graded twice. First with the lesson that graded it: what differs then is this program's doing, and is
+//! shown apart. Then with the new one, after the new verdicts on what the same person handed in before.
+
+use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+use triad_lessons::Lesson;
+
+use super::{again, first_difference, replace, stored};
+use crate::grades::{Book, Entry, assigned, case};
+use crate::policy::{Moment, standing};
+use crate::problem::Problem;
+use crate::store::hash::sha256;
+use crate::store::{
+    Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError, StoredSubmission, identifier,
+};
+use crate::variants::Variants;
+
+/// Previews that are kept until they are applied: one that is pushed out is made anew.
+const KEPT: usize = 8;
+/// Bars of a histogram.
+const BARS: u32 = 10;
+
+/// What a regrade would change.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Preview {
+    /// Its name, to apply it by.
+    pub id: String,
+    /// Slug of the lesson.
+    pub lesson: String,
+    /// Submissions that were graded again.
+    pub submissions: usize,
+    /// How many of them another version of the lesson had graded.
+    pub of_other_versions: usize,
+    /// How many came out how.
+    pub counts: Counts,
+    /// People for whom something changes, by name.
+    pub people: Vec<PersonChange>,
+    /// How many people reach which tenth of the points, before.
+    pub histogram_before: Vec<u32>,
+    /// The same after.
+    pub histogram_after: Vec<u32>,
+    /// How long it took, in seconds.
+    pub seconds: f64,
+}
+
+/// How many submissions came out how.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Counts {
+    /// The same in every word.
+    pub same: usize,
+    /// The same points in other words.
+    pub words: usize,
+    /// More points.
+    pub up: usize,
+    /// Fewer points.
+    pub down: usize,
+    /// Could be judged before or can be now, and not both.
+    pub gradable: usize,
+    /// Cannot be graded by the new lesson: the verdict of before stays.
+    pub failed: usize,
+    /// This program differs from the one that graded them, with the same lesson.
+    pub program: usize,
+}
+
+/// What changes for a person.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct PersonChange {
+    /// The person's id.
+    pub person: String,
+    /// The name.
+    pub name: String,
+    /// Points that count, before.
+    pub before: f64,
+    /// Points that count, after: attempts and lateness counted anew.
+    pub after: f64,
+    /// Attempts before and after.
+    pub attempts: [u32; 2],
+    /// What changes for each submission; those that stay the same are left out.
+    pub submissions: Vec<SubmissionChange>,
+}
+
+/// How a submission comes out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Changed {
+    /// The same in every word.
+    Same,
+    /// The same points in other words.
+    Words,
+    /// More points.
+    Up,
+    /// Fewer points.
+    Down,
+    /// Could be judged before or can be now, and not both.
+    Gradable,
+    /// Cannot be graded by the new lesson.
+    Failed,
+}
+
+/// What changes for a submission.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct SubmissionChange {
+    /// The submission.
+    pub id: String,
+    /// When it came.
+    pub at: Moment,
+    /// How it comes out.
+    pub changed: Changed,
+    /// Points of its verdict before.
+    pub before: f64,
+    /// Points after; left out where it cannot be graded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after: Option<f64>,
+    /// Misconceptions by question, where another one is recognised: before and after, empty for none.
+    pub misconceptions: BTreeMap<String, [String; 2]>,
+    /// What this program says otherwise with the lesson of before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
+}
+
+/// A submission that was graded again.
+#[derive(Debug, Clone)]
+struct Graded {
+    record: Recorded,
+    change: SubmissionChange,
+    body: Option<Value>,
+}
+
+/// A preview with all that is needed to apply it.
+#[derive(Debug)]
+pub struct Computed {
+    /// What is shown.
+    pub shown: Preview,
+    people: Vec<(PersonChange, Vec<Graded>)>,
+    bundle: String,
+    verdicts: usize,
+}
+
+/// Previews that were made and not applied yet.
+#[derive(Debug, Default)]
+pub struct Previews(Mutex<VecDeque<Arc<Computed>>>);
+
+impl Previews {
+    /// Keeps one.
+    pub fn keep(&self, computed: Computed) -> Arc<Computed> {
+        let computed = Arc::new(computed);
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.push_back(Arc::clone(&computed));
+        while kept.len() > KEPT {
+            kept.pop_front();
+        }
+        computed
+    }
+
+    /// The one of that name.
+    ///
+    /// Errors if it is not kept any more.
+    pub fn get(&self, id: &str) -> Result<Arc<Computed>, Problem> {
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = kept.iter().find(|one| one.shown.id == id).cloned();
+        Ok(found.ok_or(StoreError::Unknown("preview of a regrade, or it is too old"))?)
+    }
+}
+
+impl Computed {
+    /// The verdicts of a submission before and after.
+    ///
+    /// Errors if it is not among those that were graded again.
+    pub fn verdicts(&self, submission: &str) -> Result<(Value, Option<Value>), Problem> {
+        let all = self.people.iter().flat_map(|(_, graded)| graded);
+        let one = all.into_iter().find(|one| one.record.id == submission);
+        let one = one.ok_or(StoreError::Unknown("submission in this regrade"))?;
+        Ok((serde_json::from_str(&one.record.body).map_err(Problem::internal)?, one.body.clone()))
+    }
+
+    /// What is written to apply it: for everybody, or (`better`) for those alone who do not lose by it.
+    pub fn applied(&self, course: &str, actor: &str, better: bool, reason: &str) -> NewRegrade {
+        let chosen = self.people.iter().filter(|(one, _)| !better || one.after >= one.before);
+        let chosen: Vec<_> = chosen.filter(|(one, _)| !one.submissions.is_empty()).collect();
+        let new = chosen.iter().flat_map(|(_, graded)| graded).filter_map(|one| {
+            let body = one.body.as_ref()?.to_string();
+            Some(NewVerdict { submission: one.record.id.clone(), body })
+        });
+        NewRegrade {
+            course: course.to_owned(),
+            lesson: self.shown.lesson.clone(),
+            actor: actor.to_owned(),
+            choice: if better { "better" } else { "replace" },
+            reason: reason.to_owned(),
+            bundle: self.bundle.clone(),
+            verdicts: self.verdicts,
+            new: new.collect(),
+            people: chosen.iter().map(|(one, _)| (one.person.clone(), one.before, one.after)).collect(),
+        }
+    }
+}
+
+/// Grades everything that was handed in to a lesson again, and says what would change. Nothing is written.
+///
+/// Errors if the gradebook cannot be read.
+pub async fn preview(store: &Store, course: &str, lesson: &Lesson) -> Result<Computed, Problem> {
+    let started = Instant::now();
+    let book = Book::open(store, course, None).await?;
+    let assignment = book.assignment(&lesson.slug).cloned().unwrap_or_else(|| Assignment::of(&lesson.slug));
+    let new = assigned(lesson, &assignment.policy);
+    let records = store.recorded(course, Some(&lesson.slug)).await?;
+    let mut old = HashMap::new();
+    for record in &records {
+        if !record.lesson_sha256.is_empty() && !old.contains_key(&record.lesson_sha256) {
+            let bundle = store.lesson_version(&record.lesson_sha256).await?;
+            old.insert(record.lesson_sha256.clone(), Lesson::from_bundle(&bundle).ok());
+        }
+    }
+    let names: HashMap<String, String> =
+        store.people(course).await?.into_iter().map(|person| (person.id, person.name)).collect();
+    let bundle = new.bundle();
+    let (version, verdicts, slug) = (sha256(&bundle), records.len(), lesson.slug.clone());
+    let graded = crate::blocking(move || Ok(all_again(&by_person(records), &old, &new))).await?;
+    let now = Moment::now();
+    let mut people: Vec<(PersonChange, Vec<Graded>)> = graded
+        .into_iter()
+        .map(|graded| (person_change(&book, &assignment, lesson, &names, &graded, now), graded))
+        .collect();
+    people.sort_by(|a, b| a.0.name.cmp(&b.0.name));
+    let mut shown = summary(&people, crate::grades::possible(lesson));
+    shown.lesson = slug;
+    let all = people.iter().flat_map(|(_, graded)| graded);
+    shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != version).count();
+    shown.seconds = started.elapsed().as_secs_f64();
+    Ok(Computed { shown, people, bundle, verdicts })
+}
+
+/// What each person was told, in the order of the log.
+fn by_person(records: Vec<Recorded>) -> Vec<Vec<Recorded>> {
+    let mut all: BTreeMap<String, Vec<Recorded>> = BTreeMap::new();
+    for record in records {
+        all.entry(record.person.clone()).or_default().push(record);
+    }
+    all.into_values().collect()
+}
+
+/// Grades again, each person by one thread: what came before decides what a later submission earns.
+fn all_again(
+    people: &[Vec<Recorded>],
+    old: &HashMap<String, Option<Lesson>>,
+    new: &Lesson,
+) -> Vec<Vec<Graded>> {
+    let next = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(people.len().max(1));
+    let work = || {
+        // The numbers of both versions are kept apart: they have the same seeds.
+        let (before, after) = (Variants::default(), Variants::default());
+        let mut done = Vec::new();
+        while let Some(records) = people.get(next.fetch_add(1, Ordering::Relaxed)) {
+            done.push(person_again(records, old, new, &before, &after));
+        }
+        done
+    };
+    std::thread::scope(|scope| {
+        let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        started.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+    })
+}
+
+fn person_again(
+    records: &[Recorded],
+    old: &HashMap<String, Option<Lesson>>,
+    new: &Lesson,
+    before: &Variants,
+    after: &Variants,
+) -> Vec<Graded> {
+    let mut known: Vec<StoredSubmission> = Vec::new();
+    let mut graded: Vec<Graded> = Vec::new();
+    for record in records {
+        let earlier = replace(&mut known, record);
+        let lesson = old.get(&record.lesson_sha256).and_then(Option::as_ref);
+        let control = (!record.lesson_sha256.is_empty()).then(|| again(record, lesson, before, earlier));
+        let place = graded.iter().position(|one| one.record.id == record.id).unwrap_or(graded.len());
+        let told: Vec<StoredSubmission> = graded[..place].iter().map(newly_stored).collect();
+        let now = again(record, Some(new), after, told).ok();
+        let change = submission_change(record, control, now.as_ref());
+        let one = Graded { record: record.clone(), change, body: now };
+        match graded.get_mut(place) {
+            Some(before) => *before = one,
+            None => graded.push(one),
+        }
+    }
+    graded
+}
+
+/// A submission with its new verdict, or with the one of before where there is none.
+fn newly_stored(one: &Graded) -> StoredSubmission {
+    let before = stored(&one.record);
+    StoredSubmission { verdict: one.body.clone().unwrap_or(before.verdict), ..before }
+}
+
+fn submission_change(
+    record: &Recorded,
+    control: Option<Result<Value, String>>,
+    now: Option<&Value>,
+) -> SubmissionChange {
+    let kept: Value = serde_json::from_str(&record.body).unwrap_or_default();
+    let program = match &control {
+        Some(Ok(control)) if record.body == control.to_string() => None,
+        Some(Ok(control)) => first_difference(&kept, control, ""),
+        Some(Err(why)) => Some(why.clone()),
+        None => None,
+    };
+    // What the lesson changes is what differs between two runs of this program.
+    let before = control.and_then(Result::ok).unwrap_or(kept);
+    let points = |verdict: &Value| verdict["earned"].as_f64().unwrap_or_default();
+    let changed = match now {
+        None => Changed::Failed,
+        Some(now) if before["gradable"] != now["gradable"] => Changed::Gradable,
+        Some(now) if points(now) > points(&before) => Changed::Up,
+        Some(now) if points(now) < points(&before) => Changed::Down,
+        Some(now) if without_version(&before) == without_version(now) => Changed::Same,
+        Some(_) => Changed::Words,
+    };
+    SubmissionChange {
+        id: record.id.clone(),
+        at: record.at,
+        changed,
+        before: points(&before),
+        after: now.map(points),
+        misconceptions: now.map(|now| misconceptions(&before, now)).unwrap_or_default(),
+        program,
+    }
+}
+
+/// A verdict without what names the version of the lesson.
+fn without_version(verdict: &Value) -> Value {
+    let mut bare = verdict.clone();
+    bare["provenance"]["lesson_hash"] = Value::Null;
+    bare
+}
+
+fn misconceptions(before: &Value, now: &Value) -> BTreeMap<String, [String; 2]> {
+    let of = |verdict: &Value| -> BTreeMap<String, String> {
+        let all = verdict["questions"].as_array().into_iter().flatten();
+        let one = |q: &Value| {
+            (
+                q["id"].as_str().unwrap_or_default().to_owned(),
+                q["slip"].as_str().unwrap_or_default().to_owned(),
+            )
+        };
+        all.map(one).collect()
+    };
+    let (mut before, now) = (of(before), of(now));
+    let pairs = now.into_iter().map(|(id, now)| (before.remove(&id).unwrap_or_default(), (id, now)));
+    pairs.filter(|(before, (_, now))| before != now).map(|(before, (id, now))| (id, [before, now])).collect()
+}
+
+fn person_change(
+    book: &Book,
+    assignment: &Assignment,
+    lesson: &Lesson,
+    names: &HashMap<String, String>,
+    graded: &[Graded],
+    now: Moment,
+) -> PersonChange {
+    let person = graded.first().map(|one| one.record.person.clone()).unwrap_or_default();
+    let entry = book.of(&person, &lesson.slug).cloned().unwrap_or_default();
+    let mut next = entry.clone();
+    for handed in &mut next.handed {
+        let new = graded.iter().find(|one| one.record.id == handed.id).and_then(|one| one.body.as_ref());
+        if let Some(new) = new {
+            handed.earned = new["earned"].as_f64().unwrap_or_default();
+            handed.judged = new["gradable"] == true;
+        }
+    }
+    let stands = |entry: &Entry| standing(&case(assignment, entry, lesson), now);
+    let (before, after) = (stands(&entry), stands(&next));
+    let touched = graded.iter().map(|one| &one.change);
+    let touched = touched.filter(|one| one.changed != Changed::Same || one.program.is_some());
+    PersonChange {
+        name: names.get(&person).cloned().unwrap_or_default(),
+        before: before.points,
+        after: after.points,
+        attempts: [before.attempts, after.attempts],
+        submissions: touched.cloned().collect(),
+        person,
+    }
+}
+
+fn summary(people: &[(PersonChange, Vec<Graded>)], possible: f64) -> Preview {
+    let mut counts = Counts::default();
+    for one in people.iter().flat_map(|(_, graded)| graded) {
+        let count = match one.change.changed {
+            Changed::Same => &mut counts.same,
+            Changed::Words => &mut counts.words,
+            Changed::Up => &mut counts.up,
+            Changed::Down => &mut counts.down,
+            Changed::Gradable => &mut counts.gradable,
+            Changed::Failed => &mut counts.failed,
+        };
+        *count += 1;
+        counts.program += usize::from(one.change.program.is_some());
+    }
+    let histogram = |points: fn(&PersonChange) -> f64| {
+        let mut bars = vec![0; BARS as usize];
+        for (one, _) in people {
+            // Whoever has all points stands in the last bar; at most 10, so nothing is cut off.
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let bar = (points(one) / possible * f64::from(BARS)).clamp(0.0, f64::from(BARS - 1)) as usize;
+            bars[bar] += 1;
+        }
+        bars
+    };
+    Preview {
+        id: identifier(),
+        lesson: String::new(),
+        submissions: people.iter().map(|(_, graded)| graded.len()).sum(),
+        of_other_versions: 0,
+        counts,
+        histogram_before: histogram(|one| one.before),
+        histogram_after: histogram(|one| one.after),
+        people: people.iter().map(|(one, _)| one.clone()).filter(|one| !one.submissions.is_empty()).collect(),
+        seconds: 0.0,
+    }
+}

@@ -1,0 +1,128 @@
+//! A faulty reference is mended: what would change is looked at, applied, seen by students, and taken back.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use triad::access::Access;
+use triad::policy::Moment;
+use triad::store::CLASS;
+use triad_lessons::Course;
+
+use crate::class::{Class, class};
+
+/// The files of a folder by their paths.
+fn read(folder: &Path, at: &str, files: &mut BTreeMap<String, Vec<u8>>) {
+    for entry in std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+        let name = format!("{at}{}", entry.file_name().and_then(|name| name.to_str()).expect("a name"));
+        if entry.is_dir() {
+            read(&entry, &format!("{name}/"), files);
+        } else {
+            files.insert(name, std::fs::read(&entry).expect("a file"));
+        }
+    }
+}
+
+/// The course with one lesson whose tension at the bottom pays twice as much.
+fn mended() -> Course {
+    let mut files = BTreeMap::new();
+    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../lessons/course"), "", &mut files);
+    let path = files.keys().find(|path| path.ends_with("simple-pendulum/exercise.toml")).expect("it").clone();
+    let exercise = String::from_utf8(files[&path].clone()).expect("text");
+    let (head, tail) = exercise.split_once("id = \"tension-bottom\"").expect("the question");
+    let changed = format!("{head}id = \"tension-bottom\"{}", tail.replacen("points = 3", "points = 6", 1));
+    assert_ne!(changed, exercise);
+    files.insert(path, changed.into_bytes());
+    Course::from_files(files).expect("a course")
+}
+
+impl Class {
+    /// The same class, served with another course.
+    async fn with(&self, course: Course) -> Self {
+        let row = self.app.store.course(CLASS).await.expect("a class");
+        let mut app = self.app.clone().with_access(Access::class(&row, false));
+        app.course = course.into();
+        let (setup, code) = (self.setup.clone(), self.code.clone());
+        Self { server: triad::app(app.clone()), app, setup, code }
+    }
+
+    async fn submit(&self, who: &str, value: &str) -> Value {
+        let body = json!({"answers": {"tension-bottom": {"value": value, "unit": "N"}}});
+        self.ask("POST", "/api/v1/lessons/simple-pendulum/submissions", who, Some(body)).await.json()
+    }
+
+    async fn see(&self, who: &str, path: &str) -> Value {
+        self.ask("GET", path, who, None).await.json()
+    }
+
+    async fn tension(&self, who: &str) -> String {
+        let lesson = self.see(who, "/api/v1/lessons/simple-pendulum").await;
+        format!("{:.4}", 3.0 * 9.81 * lesson["scene"]["bodies"][0]["mass"].as_f64().expect("a mass"))
+    }
+}
+
+#[tokio::test]
+async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
+    let class = class().await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let ((ada, _), (eve, _)) = (class.join("Ada").await, class.join("Eve").await);
+    let first = class.submit(&ada, "1.000").await;
+    class.submit(&ada, &class.tension(&ada).await).await;
+    class.submit(&eve, "1.000").await;
+    let preview = "/api/v1/assignments/simple-pendulum/regrades";
+    let same = class.ask("POST", preview, &owner, None).await.json();
+    assert_eq!((&same["counts"]["same"], &same["people"]), (&json!(3), &json!([])), "{same}");
+
+    // Late by half: what counts is counted anew.
+    let ago = json!(Moment::now().after(-3_600_000));
+    let late = json!({"due": ago, "late": [{"until": Moment::now().after(3_600_000), "share": 0.5}]});
+    class.ask("PUT", "/api/v1/assignments/simple-pendulum", &owner, Some(late)).await;
+    let class = class.with(mended()).await;
+    let seen = class.ask("POST", preview, &owner, None).await.json();
+    assert_eq!(
+        (&seen["counts"]["up"], &seen["counts"]["program"], &seen["of_other_versions"]),
+        (&json!(1), &json!(0), &json!(3))
+    );
+    let hers =
+        seen["people"].as_array().expect("people").iter().find(|one| one["name"] == "Ada").expect("Ada");
+    assert_eq!((&hers["before"], &hers["after"]), (&json!(1.5), &json!(3.0)), "{hers}");
+    let id = seen["id"].as_str().expect("an id");
+    let changed = hers["submissions"].as_array().expect("a list").iter().find(|one| one["changed"] == "up");
+    let submission = changed.expect("the right one")["id"].as_str().expect("an id");
+    let both = class.see(&owner, &format!("/api/v1/regrades/{id}/submissions/{submission}")).await;
+    assert_eq!((&both["before"]["earned"], &both["after"]["earned"]), (&json!(3.0), &json!(6.0)));
+
+    // Somebody hands in meanwhile: the preview is out of date, and nothing is changed.
+    class.submit(&eve, "2.000").await;
+    let apply = async |id: &str, reason: &str| {
+        let body = json!({"choice": "better", "reason": reason});
+        class.ask("POST", &format!("/api/v1/regrades/{id}/apply"), &owner, Some(body)).await
+    };
+    apply(id, "too few points").await.problem(409, "out-of-date");
+    let seen = class.ask("POST", preview, &owner, None).await.json();
+    let id = seen["id"].as_str().expect("an id");
+    apply(id, " ").await.problem(422, "invalid-decision");
+    assert_eq!(apply(id, "the question was worth too little").await.status, 204);
+    apply(id, "twice").await.problem(409, "out-of-date");
+    let points = async || class.see(&ada, "/api/v1/record").await["lessons"][0].clone();
+    let record = points().await;
+    assert_eq!(record["standing"]["points"]["points"], 3.0);
+    assert_eq!(record["regrades"][0]["reason"], "the question was worth too little");
+    assert_eq!(record["regrades"][0]["points"], json!([1.5, 3.0]));
+    let given = class.see(&ada, &format!("/api/v1/submissions/{submission}/verdicts")).await;
+    assert_eq!(given.as_array().map(Vec::len), Some(2), "what was told before stays readable");
+    class.submit(&eve, "3.000").await;
+    let rebuilt = triad::regrade::check(&class.app.store, CLASS).await.expect("rebuilds");
+    assert!(rebuilt.changed.is_empty() && rebuilt.same >= 8, "{rebuilt:?}");
+
+    let applied = class.see(&owner, "/api/v1/regrades").await;
+    let undo = format!("/api/v1/regrades/{}/undo", applied[0]["id"].as_str().expect("an id"));
+    assert_eq!(class.ask("POST", &undo, &owner, None).await.status, 204);
+    class.ask("POST", &undo, &owner, None).await.problem(404, "unknown-entry");
+    assert_eq!(points().await["standing"]["points"]["points"], 1.5);
+    let listed = class.see(&ada, "/api/v1/submissions").await;
+    assert_eq!((&listed[1]["id"], &listed[1]["earned"]), (&first["id"], &json!(0.0)));
+    let rebuilt = triad::regrade::check(&class.app.store, CLASS).await.expect("rebuilds");
+    assert!(rebuilt.changed.is_empty(), "{rebuilt:?}");
+    assert_eq!(class.app.store.faults().await.expect("looks"), Vec::<String>::new());
+}

@@ -1,0 +1,347 @@
+// A lesson of the class, for those who teach: when it is handed in and what is told, looked at before it counts; more
+// time for one person; regrades.
+import { api } from "../api/client";
+import type { AssignedLesson, Policy, PolicyPreview, Somebody } from "../api/types";
+import { h } from "../core/dom";
+import { dateTime, plural, points } from "../core/format";
+import type { Page } from "../core/router";
+import { pointsOf } from "../exercise/verdict";
+import { problemNotice, skeleton } from "../ui/notice";
+import { regradeSection } from "./regrade";
+
+export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
+  const slug = params[0] ?? "";
+  const root = h("div", { class: "page" }, skeleton(6));
+  outlet.append(root);
+  const load = async (): Promise<void> => {
+    try {
+      const [all, people] = await Promise.all([api.assignments(), api.people()]);
+      const lesson = all.find((one) => one.slug === slug);
+      if (!lesson) throw new Error(`There is no lesson ${slug} in this class.`);
+      const students = people.filter((person) => person.role === "student");
+      root.replaceChildren(
+        h("p", null, h("a", { href: "/class" }, "← Class")),
+        h("header", { class: "page-head" }, h("h1", null, `${lesson.number} ${lesson.title}`)),
+        policySection(lesson, students, () => void load()),
+        extensionSection(lesson, students, () => void load()),
+        regradeSection(lesson),
+      );
+    } catch (error) {
+      root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+    }
+  };
+  void load();
+  return { title: "Lesson of the class" };
+}
+
+/** A moment as a field of local time has it. */
+function local(moment: string | null | undefined): string {
+  if (!moment) return "";
+  const at = new Date(moment);
+  return new Date(at.getTime() - at.getTimezoneOffset() * 60_000).toISOString().slice(0, 16);
+}
+
+const moment = (input: HTMLInputElement): string | undefined =>
+  input.value ? new Date(input.value).toISOString() : undefined;
+
+function labelled(label: string, input: HTMLElement, id: string): HTMLElement {
+  input.id = id;
+  return h("div", { class: "stack tight" }, h("label", { for: id }, label), input);
+}
+
+const when = (
+  id: string,
+  label: string,
+  value: string | null | undefined,
+): [HTMLElement, HTMLInputElement] => {
+  const input = h("input", { type: "datetime-local", class: "field", value: local(value) });
+  return [labelled(label, input, id), input];
+};
+
+const REVEAL = {
+  at_once: "at once",
+  after_due: "after the due date",
+  when_released: "when released",
+  never: "never",
+};
+type When = keyof typeof REVEAL;
+
+function choice(id: string, label: string, value: When): [HTMLElement, HTMLSelectElement] {
+  const select = h(
+    "select",
+    { class: "field" },
+    ...Object.entries(REVEAL).map(([word, text]) =>
+      h("option", { value: word, selected: word === value }, text),
+    ),
+  );
+  return [labelled(label, select, id), select];
+}
+
+/** Shares in percent, one after the other. */
+const shares = (text: string): number[] =>
+  text
+    .split(/[\s,;%]+/)
+    .filter(Boolean)
+    .map((word) => Number(word) / 100);
+
+/** What is told when. */
+function revealFields(now: Policy["reveal"]): {
+  rows: HTMLElement[];
+  read: () => NonNullable<Policy["reveal"]>;
+} {
+  const [pointsRow, told] = choice("reveal-points", "Points are told", now?.points ?? "at_once");
+  const [messagesRow, messages] = choice("reveal-messages", "Remarks are told", now?.messages ?? "at_once");
+  const [referenceRow, reference] = choice(
+    "reveal-reference",
+    "Right answers are told",
+    now?.reference ?? "at_once",
+  );
+  return {
+    rows: [pointsRow, messagesRow, referenceRow],
+    read: () => ({
+      points: told.value as When,
+      messages: messages.value as When,
+      reference: reference.value as When,
+    }),
+  };
+}
+
+/** The fields of a policy, and what stands in them. */
+function policyFields(policy: Policy): { rows: HTMLElement[]; read: () => Policy } {
+  const [opensRow, opens] = when("opens", "Opens", policy.opens);
+  const [dueRow, due] = when("due", "Due", policy.due);
+  const [closesRow, closes] = when("closes", "Closes", policy.closes);
+  const [lateRow, late] = when("late", "Then, until", policy.late?.at(-1)?.until);
+  const share = h("input", {
+    class: "field number",
+    type: "number",
+    min: "0",
+    max: "100",
+    value: String(100 * (policy.late?.at(-1)?.share ?? 0.5)),
+  });
+  const most = h("input", {
+    class: "field number",
+    type: "number",
+    min: "1",
+    value: String(policy.most_attempts ?? ""),
+  });
+  const falling = h("input", {
+    class: "field",
+    placeholder: "100, 90, 80",
+    value: (policy.falling ?? []).map((one) => 100 * one).join(", "),
+  });
+  const pause = h("input", {
+    class: "field number",
+    type: "number",
+    min: "0",
+    value: String(policy.cooldown_minutes ?? 0),
+  });
+  const reveal = revealFields(policy.reveal);
+  const read = (): Policy => {
+    const until = moment(late);
+    // Steps before the last are set by the interface; the page keeps them.
+    const steps = (policy.late ?? []).slice(0, -1);
+    return {
+      opens: moment(opens),
+      due: moment(due),
+      closes: moment(closes),
+      late: until ? [...steps, { until, share: Number(share.value) / 100 }] : [],
+      most_attempts: most.value ? Number(most.value) : undefined,
+      falling: shares(falling.value),
+      cooldown_minutes: Number(pause.value),
+      reveal: reveal.read(),
+    };
+  };
+  const rows = [
+    h("div", { class: "policy-grid" }, opensRow, dueRow, closesRow),
+    h("div", { class: "policy-grid" }, lateRow, labelled("counts, %", share, "late-share")),
+    h(
+      "div",
+      { class: "policy-grid" },
+      labelled("Attempts (empty: any number)", most, "most-attempts"),
+      labelled("What the attempts count, %", falling, "falling"),
+      labelled("Minutes between attempts", pause, "cooldown"),
+    ),
+    h("div", { class: "policy-grid" }, ...reveal.rows),
+  ];
+  return { rows, read };
+}
+
+function policySection(lesson: AssignedLesson, students: Somebody[], again: () => void): HTMLElement {
+  const { rows, read } = policyFields(lesson.policy);
+  const said = h("div", { "aria-live": "polite" });
+  const form = h(
+    "form",
+    { class: "stack" },
+    ...rows,
+    said,
+    h(
+      "div",
+      { class: "row wrap" },
+      h("button", { class: "button primary" }, "Set"),
+      releaseButton(lesson, said, again),
+    ),
+  );
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    api
+      .setPolicy(lesson.slug, read())
+      .then(again)
+      .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
+  });
+  return h(
+    "section",
+    { class: "student-lesson" },
+    h("h2", null, "When it is handed in, and what is told"),
+    form,
+    previewForm(lesson, students, read),
+  );
+}
+
+function releaseButton(lesson: AssignedLesson, said: HTMLElement, again: () => void): HTMLElement {
+  const button = h(
+    "button",
+    { type: "button", class: "button" },
+    lesson.released ? "Hold the results back" : "Release the results",
+  );
+  button.addEventListener("click", () => {
+    api
+      .releaseResults(lesson.slug, !lesson.released)
+      .then(again)
+      .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
+  });
+  return button;
+}
+
+/** What the policy above makes of somebody's work at some time, before it is set. */
+function previewForm(lesson: AssignedLesson, students: Somebody[], read: () => Policy): HTMLElement {
+  const who = personChoice(students, "Somebody new");
+  const at = h("input", { type: "datetime-local", class: "field" });
+  const seen = h("div", { "aria-live": "polite" });
+  const form = h(
+    "form",
+    { class: "stack" },
+    h("h3", null, "Look at it for a student, before it counts"),
+    h(
+      "div",
+      { class: "policy-grid" },
+      labelled("Student", who, "preview-person"),
+      labelled("At (empty: now)", at, "preview-at"),
+      h("div", { class: "row end" }, h("button", { class: "button" }, "Preview")),
+    ),
+    seen,
+  );
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    api
+      .previewPolicy(lesson.slug, { policy: read(), person: who.value || undefined, at: moment(at) })
+      .then((preview) => seen.replaceChildren(previewed(preview)))
+      .catch((error: unknown) => seen.replaceChildren(problemNotice(error)));
+  });
+  return form;
+}
+
+function previewed({ at, standing, told }: PolicyPreview): HTMLElement {
+  const phase = {
+    not_open: "not open",
+    open: "open",
+    late: "late",
+    practice: "practice only",
+    closed: "closed",
+  }[standing.phase];
+  const rows = standing.credits.map((credit) =>
+    h(
+      "tr",
+      null,
+      h("td", { class: "number" }, String(credit.attempt)),
+      h("td", null, dateTime(credit.at)),
+      h("td", { class: "number" }, points(credit.earned)),
+      h("td", { class: "number" }, `${points(100 * credit.on_time)} %`),
+      h("td", { class: "number" }, `${points(100 * credit.of_attempt)} %`),
+      h("td", { class: "number" }, points(credit.points)),
+    ),
+  );
+  const head = ["Attempt", "Handed in", "Earned", "On time", "As attempt", "Counts"];
+  return h(
+    "div",
+    { class: "stack" },
+    h(
+      "p",
+      null,
+      `${dateTime(at)}: ${phase}; an attempt would count ${points(100 * standing.worth)} %. ${points(standing.points)} points count. `,
+      told
+        ? `The student is told of the last submission: ${told.earned == null ? "nothing yet" : pointsOf(told)}.`
+        : "",
+    ),
+    rows.length === 0
+      ? h("p", { class: "help" }, "No attempts by then.")
+      : h(
+          "table",
+          { class: "data" },
+          h("thead", null, h("tr", null, ...head.map((text) => h("th", { scope: "col" }, text)))),
+          h("tbody", null, ...rows),
+        ),
+  );
+}
+
+function personChoice(students: Somebody[], none: string): HTMLSelectElement {
+  return h(
+    "select",
+    { class: "field" },
+    h("option", { value: "" }, none),
+    ...students.map((person) => h("option", { value: person.id }, person.name)),
+  );
+}
+
+function extensionSection(lesson: AssignedLesson, students: Somebody[], again: () => void): HTMLElement {
+  const who = personChoice(students, "Choose");
+  const until = h("input", { type: "datetime-local", class: "field" });
+  const more = h("input", { class: "field number", type: "number", min: "0", value: "0" });
+  const reason = h("input", { class: "field", maxlength: "2000", required: true });
+  const said = h("div", { "aria-live": "polite" });
+  const failed = (error: unknown): void => said.replaceChildren(problemNotice(error));
+  const name = (person: string): string => students.find((one) => one.id === person)?.name ?? "somebody";
+  const form = h(
+    "form",
+    { class: "stack" },
+    h(
+      "div",
+      { class: "policy-grid" },
+      labelled("Student", who, "extend-person"),
+      labelled("Due", until, "extend-until"),
+      labelled("More attempts", more, "extend-attempts"),
+    ),
+    labelled("Why (the student sees it)", reason, "extend-reason"),
+    said,
+    h("div", { class: "row" }, h("button", { class: "button" }, "Allow")),
+  );
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const body = { until: moment(until), attempts: Number(more.value), reason: reason.value };
+    api.extend(lesson.slug, who.value, body).then(again).catch(failed);
+  });
+  const given = lesson.extensions.map((one) => {
+    const back = h("button", { type: "button", class: "button small" }, "Take back");
+    back.addEventListener(
+      "click",
+      () => void api.takeBackExtension(lesson.slug, one.person).then(again).catch(failed),
+    );
+    const what = [
+      one.until ? `due ${dateTime(one.until)}` : "",
+      one.attempts ? plural(one.attempts, "more attempt") : "",
+    ];
+    return h(
+      "li",
+      null,
+      `${name(one.person)}: ${what.filter(Boolean).join(", ")}. ${one.by}: ${one.reason} `,
+      back,
+    );
+  });
+  return h(
+    "section",
+    { class: "student-lesson" },
+    h("h2", null, "More time for one student"),
+    h("ul", { class: "remarks", hidden: given.length === 0 }, ...given),
+    form,
+  );
+}

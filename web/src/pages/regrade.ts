@@ -1,0 +1,231 @@
+// Grading again what was handed in to a lesson: look first, then apply, then perhaps take it back.
+import { api } from "../api/client";
+import type { AppliedRegrade, AssignedLesson, RegradePreview } from "../api/types";
+import { h } from "../core/dom";
+import { dateTime, plural, points } from "../core/format";
+import { setMaths } from "../core/maths";
+import { pointsOf, verdictLine } from "../exercise/verdict";
+import { dialog } from "../ui/dialog";
+import { problemNotice } from "../ui/notice";
+
+export function regradeSection(lesson: AssignedLesson): HTMLElement {
+  const seen = h("div", { "aria-live": "polite" });
+  const before = h("div");
+  const look = h("button", { type: "button", class: "button" }, "Grade again and look");
+  const failed = (error: unknown): void => seen.replaceChildren(problemNotice(error));
+  const list = (): void =>
+    void api
+      .regrades()
+      .then((all) => before.replaceChildren(applied(all, lesson, list, failed)))
+      .catch(failed);
+  look.addEventListener("click", () => {
+    look.disabled = true;
+    api
+      .previewRegrade(lesson.slug)
+      .then((preview) => seen.replaceChildren(shown(preview, list, seen)))
+      .catch(failed)
+      .finally(() => {
+        look.disabled = false;
+      });
+  });
+  list();
+  return h(
+    "section",
+    { class: "student-lesson" },
+    h("h2", null, "Grade again"),
+    h(
+      "p",
+      { class: "help" },
+      "With the lesson as this server has it now. Nothing counts before you apply it.",
+    ),
+    h("div", { class: "row" }, look),
+    seen,
+    before,
+  );
+}
+
+function applied(
+  all: AppliedRegrade[],
+  lesson: AssignedLesson,
+  again: () => void,
+  failed: (error: unknown) => void,
+): HTMLElement {
+  const items = all
+    .filter((one) => one.lesson === lesson.slug)
+    .map((one) => {
+      const undo = h("button", { type: "button", class: "button small" }, "Take back");
+      undo.addEventListener("click", () => void api.undoRegrade(one.id).then(again).catch(failed));
+      const end = one.undone ? ` Taken back ${dateTime(one.undone)}.` : " ";
+      return h(
+        "li",
+        null,
+        `${dateTime(one.at)} ${one.by}: ${one.reason} (${one.choice}).${end}`,
+        one.undone ? null : undo,
+      );
+    });
+  return h("ul", { class: "remarks", hidden: items.length === 0 }, ...items);
+}
+
+function shown(preview: RegradePreview, again: () => void, seen: HTMLElement): HTMLElement {
+  const { counts } = preview;
+  const sum = [
+    `${counts.same} the same`,
+    counts.words ? `${counts.words} in other words` : "",
+    counts.up ? `${counts.up} up` : "",
+    counts.down ? `${counts.down} down` : "",
+    counts.gradable ? `${counts.gradable} in what can be judged` : "",
+    counts.failed ? `${counts.failed} cannot be graded by the lesson as it is` : "",
+  ];
+  return h(
+    "div",
+    { class: "stack" },
+    h(
+      "p",
+      null,
+      `${plural(preview.submissions, "submission")}, ${preview.of_other_versions} of them graded by another version of the lesson: ${sum.filter(Boolean).join(", ")}.`,
+    ),
+    counts.program
+      ? h(
+          "p",
+          null,
+          `${plural(counts.program, "verdict")} differ with the same lesson: this is the program's doing, and no change of the lesson.`,
+        )
+      : null,
+    preview.people.length === 0 ? h("p", null, "Nothing would change.") : histogram(preview),
+    preview.people.length === 0 ? null : people(preview),
+    preview.people.length === 0 ? null : apply(preview, again, seen),
+  );
+}
+
+/** How many students reach which tenth of the points, before and after. */
+function histogram({ histogram_before: before, histogram_after: after }: RegradePreview): HTMLElement {
+  const most = Math.max(1, ...before, ...after);
+  const bar = (count: number, label: string): HTMLElement =>
+    h(
+      "td",
+      { class: "bar", style: `--share:${count / most}` },
+      h("span", null, String(count)),
+      h("span", { class: "visually-hidden" }, label),
+    );
+  return h(
+    "table",
+    { class: "data histogram" },
+    h("caption", null, "Students by tenths of the points that count"),
+    h(
+      "thead",
+      null,
+      h(
+        "tr",
+        null,
+        h("td"),
+        ...before.map((_, k) => h("th", { scope: "col" }, `${10 * k}–${10 * (k + 1)} %`)),
+      ),
+    ),
+    h(
+      "tbody",
+      null,
+      h("tr", null, h("th", { scope: "row" }, "Before"), ...before.map((count) => bar(count, "before"))),
+      h("tr", null, h("th", { scope: "row" }, "After"), ...after.map((count) => bar(count, "after"))),
+    ),
+  );
+}
+
+function people(preview: RegradePreview): HTMLElement {
+  const rows = preview.people.map((person) =>
+    h(
+      "tr",
+      null,
+      h("th", { scope: "row" }, h("a", { href: `/class/${encodeURIComponent(person.person)}` }, person.name)),
+      h("td", { class: "number" }, points(person.before)),
+      h("td", { class: "number" }, points(person.after)),
+      h(
+        "td",
+        { class: "number" },
+        person.attempts[0] === person.attempts[1] ? String(person.attempts[0]) : person.attempts.join(" → "),
+      ),
+      h(
+        "td",
+        null,
+        ...person.submissions.flatMap((one) =>
+          Object.entries(one.misconceptions).map(([question, [was, is]]) =>
+            h("div", null, `${question}: ${was || "none"} → ${is || "none"}`),
+          ),
+        ),
+      ),
+      h("td", null, ...person.submissions.map((one) => compare(preview.id, one.id, dateTime(one.at)))),
+    ),
+  );
+  const head = ["Student", "Before", "After", "Attempts", "Misconceptions", "Verdicts"];
+  return h(
+    "div",
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "What changes for whom" },
+    h(
+      "table",
+      { class: "data" },
+      h("thead", null, h("tr", null, ...head.map((text) => h("th", { scope: "col" }, text)))),
+      h("tbody", null, ...rows),
+    ),
+  );
+}
+
+/** Both verdicts side by side. */
+function compare(id: string, submission: string, label: string): HTMLElement {
+  const button = h("button", { type: "button", class: "button small" }, label);
+  button.addEventListener("click", async () => {
+    try {
+      const both = await api.bothVerdicts(id, submission);
+      const side = (title: string, verdict: typeof both.before | null | undefined): HTMLElement =>
+        h(
+          "div",
+          null,
+          h("h3", null, verdict ? `${title}: ${pointsOf(verdict)}` : `${title}: cannot be graded`),
+          ...(verdict?.questions ?? []).map((question) =>
+            h("div", null, h("p", { class: "history-label" }, question.id), verdictLine(question)),
+          ),
+        );
+      const box = dialog(
+        "Both verdicts",
+        h("div", { class: "side-by-side" }, side("Before", both.before), side("After", both.after)),
+      );
+      await setMaths(box);
+    } catch (error) {
+      dialog("Both verdicts", problemNotice(error));
+    }
+  });
+  return button;
+}
+
+function apply(preview: RegradePreview, again: () => void, seen: HTMLElement): HTMLElement {
+  const reason = h("input", { id: "regrade-reason", class: "field", required: true, maxlength: "2000" });
+  const choice = h(
+    "select",
+    { id: "regrade-choice", class: "field" },
+    h("option", { value: "better" }, "those who do not lose by it"),
+    h("option", { value: "replace" }, "everybody"),
+  );
+  const said = h("div", { "aria-live": "polite" });
+  const form = h(
+    "form",
+    { class: "stack" },
+    h("label", { for: "regrade-choice" }, "Let the new verdicts count for"),
+    choice,
+    h("label", { for: "regrade-reason" }, "Why (students see it)"),
+    reason,
+    said,
+    h("div", { class: "row" }, h("button", { class: "button primary" }, "Apply")),
+  );
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    api
+      .applyRegrade(preview.id, {
+        choice: choice.value === "replace" ? "replace" : "better",
+        reason: reason.value,
+      })
+      .then(() => {
+        seen.replaceChildren(h("p", { role: "status" }, "Applied. Students see it, and why."));
+        again();
+      })
+      .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
+  });
+  return form;
+}
