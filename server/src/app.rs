@@ -40,6 +40,8 @@ pub struct App {
     pub limits: Arc<Limits>,
     /// The folder with the reports of commands.
     pub reports: Arc<Path>,
+    /// The file in which sessions and rooms outlive the server; nothing if they do not.
+    pub live: Option<Arc<Path>>,
 }
 
 impl App {
@@ -56,6 +58,7 @@ impl App {
             access: Arc::new(Access::home(false, [])),
             limits: Arc::new(limits),
             reports: Path::new(REPORTS).into(),
+            live: None,
         }
     }
 
@@ -63,6 +66,12 @@ impl App {
     #[must_use]
     pub fn with_access(self, access: Access) -> Self {
         Self { access: Arc::new(access), ..self }
+    }
+
+    /// The same server, whose sessions and rooms outlive it in a file.
+    #[must_use]
+    pub fn with_live(self, file: &Path) -> Self {
+        Self { live: Some(file.into()), ..self }
     }
 
     /// The same server, with reports in another folder.

@@ -23,6 +23,8 @@ pub mod session;
 
 pub mod lecture;
 
+pub mod live;
+
 pub mod work;
 
 pub mod access;

@@ -35,11 +35,11 @@ const FULL: &[u8] =
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Serves until `stop` is over; then, after `ending`, requests under way have ten seconds. A second `stop` ends at once.
-pub async fn serve<S: Future<Output = ()>>(
+pub async fn serve<S: Future<Output = ()>, E: Future<Output = ()>>(
     listener: TcpListener,
     app: Router,
     stop: impl Fn() -> S,
-    ending: impl FnOnce(),
+    ending: impl FnOnce() -> E,
 ) {
     let (stopping, stopped) = watch::channel(());
     // Each connection holds a sender: nothing more can come when the last one has ended.
@@ -49,7 +49,7 @@ pub async fn serve<S: Future<Output = ()>>(
         () = accept(&listener, &app, &stopped, &alive) => {}
     }
     drop((listener, alive));
-    ending();
+    ending().await;
     stopping.send_replace(());
     tokio::select! {
         _ = ended.recv() => {}

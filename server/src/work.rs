@@ -1,5 +1,6 @@
 //! Computing for callers, bounded: as much at a time as leaves the server a processor, and a short queue.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use axum::http::StatusCode;
@@ -13,30 +14,38 @@ const WAITING: usize = 64;
 /// Places for computing that callers wait for.
 #[derive(Debug)]
 pub struct Work {
-    places: Semaphore,
+    places: Arc<Semaphore>,
     waiting: AtomicUsize,
 }
 
 impl Default for Work {
     fn default() -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { places: Semaphore::new(cores.saturating_sub(1).max(1)), waiting: AtomicUsize::new(0) }
+        Self {
+            places: Arc::new(Semaphore::new(cores.saturating_sub(1).max(1))),
+            waiting: AtomicUsize::new(0),
+        }
     }
 }
 
 impl Work {
-    /// Runs `work` on a thread that may block, when its turn comes. A caller that leaves before has not asked.
+    /// Runs `work` on a thread that may block, when its turn comes. A caller that leaves before has not asked; what one that
+    /// leaves later began keeps its place to its end, so that no more is computed at a time however many come and go.
     ///
     /// Errors if too many wait already, and as `work` does.
     pub async fn run<T: Send + 'static>(
         &self,
         work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let _place = {
+        let place = {
             let _waiting = Waiting::among(&self.waiting)?;
-            self.places.acquire().await.map_err(Problem::internal)?
+            Arc::clone(&self.places).acquire_owned().await.map_err(Problem::internal)?
         };
-        crate::blocking(work).await
+        crate::blocking(move || {
+            let _place = place;
+            work()
+        })
+        .await
     }
 }
 
@@ -68,11 +77,10 @@ impl Drop for Waiting<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::Arc;
 
     #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
     async fn so_many_compute_so_many_wait_and_the_others_are_sent_away() {
-        let work = Arc::new(Work { places: Semaphore::new(1), waiting: AtomicUsize::new(0) });
+        let work = Arc::new(Work { places: Arc::new(Semaphore::new(1)), waiting: AtomicUsize::new(0) });
         let busy = Arc::new(AtomicUsize::new(0));
         let (finish, gate) = std::sync::mpsc::channel::<()>();
         let gate = Arc::new(std::sync::Mutex::new(gate));
@@ -103,5 +111,28 @@ mod tests {
         }
         assert_eq!(refused, 10);
         assert_eq!(work.waiting.load(Ordering::Relaxed), 0);
+    }
+
+    #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+    async fn who_leaves_gives_no_place_to_others_before_the_work_has_ended() {
+        let work = Arc::new(Work { places: Arc::new(Semaphore::new(1)), waiting: AtomicUsize::new(0) });
+        let (finish, gate) = std::sync::mpsc::channel::<()>();
+        let (tell, begun) = tokio::sync::oneshot::channel();
+        let busy = Arc::clone(&work);
+        let first = tokio::spawn(async move {
+            let job = move || {
+                tell.send(()).expect("somebody listens");
+                gate.recv().expect("a word");
+                Ok(())
+            };
+            busy.run(job).await
+        });
+        begun.await.expect("begins");
+        first.abort();
+        drop(first.await);
+        assert_eq!(work.places.available_permits(), 0, "it still computes");
+        finish.send(()).expect("it waits");
+        work.run(|| Ok(())).await.expect("then it is the next one's turn");
+        assert_eq!(work.places.available_permits(), 1);
     }
 }

@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 use std::time::Instant;
-use triad_tests::lecture::{FollowerPage, LectureRun, Seen, follow};
+use triad_tests::lecture::{FollowerPage, LectureRun, Message, Seen, follow};
 use triad_tests::program::Server;
 
 fn time(state: &Value) -> f64 {
@@ -88,5 +88,39 @@ fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal()
     );
     let late = json!({"question": 1, "voter": "d", "choice": 0});
     assert_eq!(server.post(&format!("{room}/answers"), &late).status, 409);
+    server.stop();
+}
+
+#[test]
+fn a_lecture_goes_on_after_a_restart_of_the_server() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let lecture = LectureRun::open(&server, "spatial-double-pendulum");
+    let session = format!("/api/v1/sessions/{}", lecture.session);
+    let before = server.post(&format!("{session}/step"), &json!({"seconds": 1.3})).json();
+    assert_eq!(lecture.lead(&server, "PUT", "view", &json!({"view": {"joint": "hinge"}})).status, 204);
+    let mut follower = FollowerPage::join(&server.address, &lecture.code, false);
+    follower.until("room", |room| room["view"]["joint"] == "hinge");
+    let port = server.address.rsplit(':').next().unwrap().to_owned();
+    server.stop();
+    // Nobody was told that the lecture is over.
+    loop {
+        match follower.read() {
+            Message::Close => break,
+            Message::Text(told) => assert_ne!(told["type"], "closed"),
+            Message::Block(_) | Message::Other => {}
+        }
+    }
+    let server = Server::start_at(folder.path(), &port);
+    let after = server.get(&session).json();
+    assert_eq!(
+        (&after["time"], &after["q"], &after["q_dot"]),
+        (&before["time"], &before["q"], &before["q_dot"])
+    );
+    let mut again = FollowerPage::join(&server.address, &lecture.code, true);
+    again.until("room", |room| room["view"]["joint"] == "hinge");
+    again.until("state", |state| time(state) == time(&before));
+    assert_eq!(lecture.lead(&server, "DELETE", "", &json!({})).status, 204);
+    again.until("closed", |_| true);
     server.stop();
 }

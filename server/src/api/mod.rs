@@ -26,6 +26,7 @@ use utoipa_axum::router::OpenApiRouter;
 
 use crate::app::App;
 use crate::guide;
+use crate::live::{self, Which};
 use crate::page;
 use crate::problem::{Problem, ProblemDocument};
 use crate::reports;
@@ -148,5 +149,9 @@ pub async fn keep_house(app: App) {
         app.sessions.expire(&app.limits);
         app.lectures.expire(&app.limits);
         app.access.forget();
+        if let Some(path) = &app.live {
+            // Tried again in a moment; as the server stops it is said.
+            drop(live::keep(path, &app.sessions, &app.lectures, Which::Shown).await);
+        }
     }
 }

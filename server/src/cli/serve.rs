@@ -13,6 +13,7 @@ use super::terminal::{Outcome, print_line};
 use crate::access::Access;
 use crate::app::{App, REPORTS};
 use crate::limits::Limits;
+use crate::live::{self, Which};
 use crate::problem::Problem;
 use crate::store::{CLASS, Quotas, Role, Store};
 
@@ -132,6 +133,14 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
         };
         let access = access.behind(options.proxy.iter().copied());
         let app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
+        let app = app.with_live(&live::beside(&options.database));
+        let coming = app.clone();
+        crate::blocking(move || {
+            Ok(coming
+                .live
+                .map(|path| live::bring_back(&path, &coming.sessions, &coming.lectures, &coming.limits)))
+        })
+        .await?;
         listen(options, app).await
     });
     // What still computes for callers that are gone is not waited for.
@@ -156,11 +165,20 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     ));
     print_line(&format!("Submissions are kept in {}", options.database.display()));
     tell_use(options, &app, address).await?;
-    tokio::spawn(crate::api::keep_house(app.clone()));
+    let house = tokio::spawn(crate::api::keep_house(app.clone()));
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
     // Open streams end with their sessions; otherwise they would keep the server up.
-    let ending = move || {
-        lectures.clear();
+    let live_at = app.live.clone();
+    let ending = move || async move {
+        // It would write what is left when everybody has gone.
+        house.abort();
+        drop(house.await);
+        if let Some(path) = live_at {
+            if let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await {
+                eprintln!("triad: sessions and rooms end with the server: {}: {error}", path.display());
+            }
+        }
+        lectures.leave();
         sessions.clear();
     };
     let store = app.store.clone();

@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 use axum::extract::ws::Utf8Bytes;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use tokio::sync::watch;
 
@@ -65,6 +65,8 @@ pub enum LiveView {
     Session(Arc<Session>),
     /// The lecture is over.
     Closed,
+    /// The server stops; the lecture goes on when it is back.
+    Away,
 }
 
 /// What the presenter shows and asks.
@@ -94,6 +96,19 @@ pub struct PublicState {
     pub question: Option<LectureQuestion>,
 }
 
+/// A lecture as it goes on later. The question of the moment is not kept, nor who answered it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct KeptLecture {
+    code: String,
+    key: String,
+    /// The session that is shown.
+    pub session: String,
+    view: Value,
+    asked: u64,
+    /// Seconds since it was opened.
+    age: u64,
+}
+
 /// What only the presenter sees.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PresenterState {
@@ -106,12 +121,19 @@ pub struct PresenterState {
 impl Lecture {
     /// Opens a lecture for a session and starts to send its states.
     fn open(code: String, session: Arc<Session>, max_followers: usize) -> Arc<Self> {
-        let presentation =
-            Presentation { view: Value::Null, question: None, asked: 0, touched: Instant::now() };
+        let key = uuid::Uuid::new_v4().simple().to_string();
+        let kept = KeptLecture { code, key, session: String::new(), view: Value::Null, asked: 0, age: 0 };
+        Self::resume(kept, session, max_followers)
+    }
+
+    /// Goes on with a lecture that was kept.
+    fn resume(kept: KeptLecture, session: Arc<Session>, max_followers: usize) -> Arc<Self> {
+        let KeptLecture { code, key, view, asked, age, .. } = kept;
+        let presentation = Presentation { view, question: None, asked, touched: Instant::now() };
         let lecture = Arc::new(Self {
             code,
-            key: uuid::Uuid::new_v4().simple().to_string(),
-            opened: Instant::now(),
+            key,
+            opened: Instant::now().checked_sub(Duration::from_secs(age)).unwrap_or_else(Instant::now),
             presentation: Mutex::new(presentation),
             live: watch::Sender::new(LiveView::Session(session)),
             state: watch::Sender::new(Utf8Bytes::default()),
@@ -123,6 +145,20 @@ impl Lecture {
         lecture.publish();
         tokio::spawn(send_states(Arc::downgrade(&lecture), lecture.live.subscribe()));
         lecture
+    }
+
+    /// What is needed to go on with it after a restart; nothing while no session is shown.
+    pub fn keep(&self) -> Option<KeptLecture> {
+        let session = self.session()?.state().id.clone();
+        let presentation = self.presentation();
+        Some(KeptLecture {
+            code: self.code.clone(),
+            key: self.key.clone(),
+            session,
+            view: presentation.view.clone(),
+            asked: presentation.asked,
+            age: self.opened.elapsed().as_secs(),
+        })
     }
 
     /// The presenter's key, sent once to whoever opened the lecture.
@@ -220,7 +256,7 @@ impl Lecture {
     pub fn session(&self) -> Option<Arc<Session>> {
         match &*self.live.borrow() {
             LiveView::Session(session) => Some(Arc::clone(session)),
-            LiveView::Empty | LiveView::Closed => None,
+            LiveView::Empty | LiveView::Closed | LiveView::Away => None,
         }
     }
 
@@ -271,6 +307,11 @@ impl Lecture {
     /// Ends the lecture for everybody.
     fn close(&self) {
         self.live.send_replace(LiveView::Closed);
+    }
+
+    /// Lets go of everybody, who may come back to it.
+    fn leave(&self) {
+        self.live.send_replace(LiveView::Away);
     }
 
     /// How long the presenter has not been heard of, and how old the lecture is.
@@ -332,7 +373,7 @@ async fn send_states(lecture: Weak<Lecture>, mut live: watch::Receiver<LiveView>
     loop {
         let shown = live.borrow_and_update().clone();
         let mut states = match shown {
-            LiveView::Closed => return,
+            LiveView::Closed | LiveView::Away => return,
             LiveView::Empty => match live.changed().await {
                 Ok(()) => continue,
                 Err(_) => return,

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use axum::http::StatusCode;
 
-use super::Lecture;
+use super::{KeptLecture, Lecture};
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::session::Session;
@@ -38,6 +38,22 @@ impl Lectures {
         let lecture = Lecture::open(code.clone(), session, limits.followers);
         open.insert(code, Arc::clone(&lecture));
         Ok(lecture)
+    }
+
+    /// Goes on with a lecture that was kept. Needs the async runtime.
+    pub fn resume(&self, kept: KeptLecture, session: Arc<Session>, limits: &Limits) {
+        let lecture = Lecture::resume(kept, session, limits.followers);
+        self.lock().insert(lecture.code.clone(), lecture);
+    }
+
+    /// What is needed to go on with all of them after a restart.
+    pub fn keep(&self) -> Vec<KeptLecture> {
+        self.lock().values().filter_map(|lecture| lecture.keep()).collect()
+    }
+
+    /// Lets go of all followers, who may come back after a restart.
+    pub fn leave(&self) {
+        self.lock().values().for_each(|lecture| lecture.leave());
     }
 
     /// The lecture with that code, in capitals or not. Errors if there is none.

@@ -7,6 +7,7 @@ use tokio::sync::oneshot;
 use triad_engine::run::StateView;
 
 use super::change::{Drag, SceneChange, SessionScene};
+use super::kept::KeptSession;
 use super::state::SessionState;
 use crate::problem::Problem;
 use crate::stream::{Arrows, Camera};
@@ -27,6 +28,8 @@ pub(super) enum Command {
     Change(SceneChange, ReplySender<Arc<SessionState>>),
     /// Drag a body by a spring, or let it go.
     Drag(Option<Drag>, ReplySender<Arc<SessionState>>),
+    /// Give what is needed to go on after a restart.
+    Keep(ReplySender<KeptSession>),
     /// Give the scene.
     Scene(ReplySender<SessionScene>),
     /// Read something from the run as it is, or as it was at a time.

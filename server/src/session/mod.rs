@@ -3,12 +3,14 @@
 mod change;
 mod command;
 mod history;
+mod kept;
 mod recording;
 mod registry;
 mod state;
 mod worker;
 
 pub use change::{AfterChange, Drag, SceneChange, SessionParameter, SessionScene};
+pub use kept::KeptSession;
 pub(crate) use recording::{describe, sample};
 pub use registry::{Registry, bounded};
 pub use state::{Drawing, Links, SceneSource, SessionBody, SessionState};
@@ -32,7 +34,7 @@ use change::as_it_runs;
 use command::{Command, Reply, ReplySender, Signals};
 use history::History;
 use recording::Recording;
-use worker::Worker;
+use worker::{Play, Worker};
 
 /// Commands that may wait for one session; more are refused.
 const QUEUE: usize = 32;
@@ -59,6 +61,20 @@ impl StreamWish {
     pub fn watched(self) -> Watched {
         if self.recording { Watched::Recording } else { Watched::Track }
     }
+}
+
+/// What a session begins with.
+struct Beginning {
+    id: String,
+    /// Name of its recording.
+    recording: String,
+    source: SceneSource,
+    original: Scene,
+    scene: Scene,
+    changes: u64,
+    simulation: Simulation,
+    play: Option<Play>,
+    speed: f64,
 }
 
 /// A handle on a live simulation; dropping the last one ends its thread.
@@ -91,11 +107,50 @@ impl Session {
             (scene, simulation)
         };
         let id = uuid::Uuid::new_v4().simple().to_string();
+        let recording = id.clone();
+        Self::begin(
+            Beginning {
+                id,
+                recording,
+                source,
+                original,
+                scene,
+                changes: 0,
+                simulation,
+                play: None,
+                speed: 1.0,
+            },
+            limits,
+        )
+    }
+
+    /// Goes on with a session that was kept, at the time and in the state of its run. Its recording begins anew.
+    ///
+    /// Errors if its scene is refused by this program, or the state is of another.
+    pub fn resume(kept: KeptSession, limits: &Limits) -> Result<Self, Problem> {
+        let KeptSession { id, source, original, scene, changes, state, playing, speed } = kept;
+        let mut simulation = Simulation::new(&as_it_runs(&scene))?;
+        if !simulation.resume(&state) {
+            return Err(Problem::internal("a session was kept that is none of this program"));
+        }
+        // Viewers would join a recording of the same name to the one before.
+        let recording = uuid::Uuid::new_v4().simple().to_string();
+        let play = playing.then(|| Play::from(simulation.time()));
+        Self::begin(
+            Beginning { id, recording, source, original, scene, changes, simulation, play, speed },
+            limits,
+        )
+    }
+
+    /// Starts the thread of a session.
+    fn begin(start: Beginning, limits: &Limits) -> Result<Self, Problem> {
+        let Beginning { id, recording, source, original, scene, changes, simulation, play, speed } = start;
         // Samples take half of the bound, their two encoded forms an eighth each, the states a quarter.
         let [hub, track] = [(); 2].map(|()| Arc::new(Hub::new(limits.recording_bytes / 8)));
         let description = describe(&scene, &simulation);
         let limit = limits.recording_bytes / 2;
-        let mut recording = Recording::new(&id, description, Arc::clone(&hub), Arc::clone(&track), limit);
+        let mut recording =
+            Recording::new(&recording, description, Arc::clone(&hub), Arc::clone(&track), limit);
         recording.record(&simulation)?;
         let mut history = History::new(limits.recording_bytes / 4);
         history.keep(&simulation);
@@ -109,7 +164,7 @@ impl Session {
             title,
             original,
             scene,
-            changes: 0,
+            changes,
             drag: None,
             simulation,
             recording,
@@ -117,14 +172,17 @@ impl Session {
             signals: Arc::clone(&signals),
             state: sender,
             command_time: limits.command_time,
-            play: None,
-            speed: 1.0,
+            play,
+            speed,
             error: None,
         };
         let (commands, received) = mpsc::sync_channel(QUEUE);
         std::thread::Builder::new()
             .name("triad-session".into())
-            .spawn(move || worker.run(&received))
+            .spawn(move || {
+                step_back();
+                worker.run(&received);
+            })
             .map_err(Problem::internal)?;
         Ok(Self { commands, signals, state, hub, track, touched: Mutex::new(Instant::now()) })
     }
@@ -194,6 +252,16 @@ impl Session {
     /// Errors if the session is busy or closed.
     pub async fn scene(&self) -> Result<SessionScene, Problem> {
         self.ask(Command::Scene).await
+    }
+
+    /// What is needed to go on with it after a restart.
+    ///
+    /// Errors if the session is busy or closed.
+    pub async fn keep(&self) -> Result<KeptSession, Problem> {
+        // Nobody has used it by this: it gets no younger.
+        let (reply, answer) = oneshot::channel();
+        self.commands.try_send(Command::Keep(reply)).map_err(|_| gone())?;
+        answer.await.map_err(|_| gone())?
     }
 
     /// Reads something from the run as it is, or as it was at a time that it has passed. Errors if that time is not
@@ -289,4 +357,15 @@ fn gone() -> Problem {
         "the session was closed while it was asked",
         "start another session",
     )
+}
+
+/// How much less a session's thread counts than one that answers, in the system's own measure (nice): where 200 play on two
+/// processors the runs become slower, and answers do not wait for them.
+#[cfg(target_os = "linux")]
+const LESS: i32 = 10;
+
+/// Lets those who answer go before this thread, where the system can.
+fn step_back() {
+    #[cfg(target_os = "linux")]
+    rustix::process::setpriority_process(Some(rustix::thread::gettid()), LESS).unwrap_or_default();
 }

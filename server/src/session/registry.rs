@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use axum::http::StatusCode;
 use triad_engine::scene::Scene;
 
-use super::{SceneChange, SceneSource, Session};
+use super::{KeptSession, SceneChange, SceneSource, Session};
 use crate::limits::Limits;
 use crate::problem::Problem;
 
@@ -56,6 +56,21 @@ impl Registry {
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)
+    }
+
+    /// Goes on with a session that was kept. Blocks until its scene is assembled.
+    ///
+    /// Errors if its scene is refused.
+    pub fn resume(&self, kept: KeptSession, limits: &Limits) -> Result<Arc<Session>, Problem> {
+        let id = kept.id().to_owned();
+        let session = Arc::new(Session::resume(kept, limits)?);
+        self.lock().live.insert(id, Arc::clone(&session));
+        Ok(session)
+    }
+
+    /// All of them.
+    pub fn all(&self) -> Vec<Arc<Session>> {
+        self.lock().live.values().cloned().collect()
     }
 
     /// The session called `id`.

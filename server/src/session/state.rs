@@ -1,7 +1,7 @@
 //! What a session tells about itself.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use triad_engine::run::{ErrorEstimate, Simulation};
 
 use super::change::Drag;
@@ -10,7 +10,7 @@ use crate::problem::{Problem, ProblemDocument};
 use crate::stream::{Arrows, Camera};
 
 /// Where a session's scene came from.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SceneSource {
     /// A lesson, by its slug.

@@ -12,6 +12,7 @@ use triad_engine::scene::Scene;
 use super::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
 use super::command::{Command, Signals};
 use super::history::History;
+use super::kept::KeptSession;
 use super::recording::{Recording, TICK, describe};
 use super::state::{Drawing, SceneSource, SessionFacts, SessionState};
 use crate::problem::Problem;
@@ -47,6 +48,13 @@ pub(super) struct Worker {
 pub(super) struct Play {
     since: Instant,
     from: f64,
+}
+
+impl Play {
+    /// From this simulated time on.
+    pub(super) fn from(time: f64) -> Self {
+        Self { since: Instant::now(), from: time }
+    }
 }
 
 impl Worker {
@@ -107,6 +115,7 @@ impl Worker {
                 let result = self.drag(drag);
                 drop(reply.send(self.answer_to_change(result)));
             }
+            Command::Keep(reply) => drop(reply.send(Ok(self.kept()))),
             Command::Scene(reply) => drop(reply.send(Ok(SessionScene::new(&self.scene, &self.original)))),
             Command::Query(at, read) => match at.filter(|at| *at < self.simulation.time()) {
                 None => read(Ok(self.simulation.state())),
@@ -126,6 +135,19 @@ impl Worker {
                 self.note(encoded);
                 self.publish();
             }
+        }
+    }
+
+    fn kept(&self) -> KeptSession {
+        KeptSession {
+            id: self.id.clone(),
+            source: self.source.clone(),
+            original: self.original.clone(),
+            scene: self.scene.clone(),
+            changes: self.changes,
+            state: self.simulation.snapshot(),
+            playing: self.play.is_some(),
+            speed: self.speed,
         }
     }
 

@@ -24,7 +24,11 @@ pub(crate) struct Class {
 }
 
 pub(crate) async fn class() -> Class {
-    let app = state(Limits::default());
+    class_with(Limits::default()).await
+}
+
+pub(crate) async fn class_with(limits: Limits) -> Class {
+    let app = state(limits);
     let row = app.store.ensure_course(CLASS, "Mechanics").await.expect("a class");
     let setup = app.store.invite(CLASS, "triad", Role::Owner).await.expect("an invitation");
     let app = app.with_access(Access::class(&row, false));

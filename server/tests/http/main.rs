@@ -8,6 +8,7 @@ mod changes;
 mod class;
 mod described;
 mod document;
+mod generated;
 mod lessons;
 mod policy;
 mod predictions;

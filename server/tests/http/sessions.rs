@@ -7,6 +7,7 @@ use axum::body::Body;
 use axum::http::Request;
 use serde_json::{Value, json};
 use triad::limits::Limits;
+use triad::live::{self, Which};
 
 use crate::{get, post, send, server, state};
 
@@ -186,4 +187,58 @@ async fn settings_of_a_scene_can_be_replaced() {
     let path = start(&server, body).await;
     let state = post(&server, &format!("{path}/step"), json!({"seconds": 9})).await.json();
     assert_eq!((&state["time"], &state["duration"], &state["frames"]), (&json!(0.5), &json!(0.5), &json!(3)));
+}
+
+/// A server that is restarted: the run stands where it stood, to the last bit, and the room shows it under the same code and key.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn sessions_and_rooms_go_on_after_a_restart_where_they_were() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("grades.db.live");
+    let first = state(Limits::default());
+    let server = triad::app(first.clone());
+    let begun = post(&server, "/api/v1/sessions", json!({"builtin": "spatial-double-pendulum"})).await.json();
+    let (id, path) = (begun["id"].as_str().expect("an id"), begun["links"]["self"].as_str().expect("a path"));
+    post(&server, &format!("{path}/step"), json!({"seconds": 0.7})).await;
+    let change = json!({"places": {"/bodies/0/mass": 2.0}, "then": "continue"});
+    assert_eq!(post(&server, &format!("{path}/parameters"), change).await.status, 200);
+    let before = post(&server, &format!("{path}/step"), json!({"seconds": 0.4})).await.json();
+    let room = post(&server, "/api/v1/rooms", json!({"session": id})).await.json();
+    let (code, key) = (room["code"].as_str().expect("a code"), room["key"].as_str().expect("a key"));
+    let lead = async |server: &Router, method: &str, path: &str, body: Value| {
+        let request = Request::builder().method(method).uri(format!("/api/v1/rooms/{code}{path}"));
+        let request = request
+            .header("authorization", format!("Bearer {key}"))
+            .header("content-type", "application/json");
+        send(server, request.body(Body::from(body.to_string())).expect("a request")).await
+    };
+    assert_eq!(lead(&server, "PUT", "/view", json!({"view": {"joint": "upper"}})).await.status, 204);
+    live::keep(&file, &first.sessions, &first.lectures, Which::All).await.expect("writes");
+
+    let second = state(Limits::default());
+    let back = || live::bring_back(&file, &second.sessions, &second.lectures, &second.limits);
+    assert_eq!((back(), file.exists()), (1, false));
+    let server = triad::app(second.clone());
+    let after = get(&server, path).await.json();
+    for member in ["id", "title", "source", "time", "q", "q_dot", "changes", "bodies", "playing", "speed"] {
+        assert_eq!(after[member], before[member], "{member}");
+    }
+    let shown = get(&server, &format!("/api/v1/rooms/{code}")).await.json();
+    assert_eq!((&shown["view"]["joint"], &shown["title"]), (&json!("upper"), &before["title"]));
+    let on = post(&server, &format!("{path}/step"), json!({"seconds": 0.1})).await.json();
+    assert!(on["time"].as_f64() > before["time"].as_f64(), "it goes on");
+    let scene = get(&server, &format!("{path}/scene")).await.json();
+    assert_eq!(
+        (&scene["scene"]["bodies"][0]["mass"], scene["original"] == scene["scene"]),
+        (&json!(2.0), false)
+    );
+    // In case of a crash what a lecture shows is written too, and nothing else.
+    post(&server, "/api/v1/sessions", json!({"builtin": "free-fall"})).await;
+    live::keep(&file, &second.sessions, &second.lectures, Which::Shown).await.expect("writes");
+    let text = std::fs::read_to_string(&file).expect("text");
+    assert!(text.contains(id) && !text.contains("free-fall"));
+    assert_eq!(lead(&server, "DELETE", "", Value::Null).await.status, 204, "the presenter's key is the same");
+    live::keep(&file, &second.sessions, &second.lectures, Which::Shown).await.expect("removes");
+    assert!(!file.exists());
+    std::fs::write(&file, &text[..text.len() / 2]).expect("writes");
+    assert_eq!(back(), 2, "what is damaged is forgotten");
 }

@@ -171,12 +171,30 @@ fn encoding_threads() -> usize {
         .count()
 }
 
+/// Open files and resident memory in kB of this process.
+#[cfg(target_os = "linux")]
+fn files_and_memory() -> (usize, u64) {
+    let status = std::fs::read_to_string("/proc/self/status").expect("a status");
+    let resident = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("memory");
+    let resident = resident.trim().trim_end_matches(" kB").parse().expect("a number");
+    (std::fs::read_dir("/proc/self/fd").expect("files").count(), resident)
+}
+
+/// Sessions that are watched one after the other, unless `TRIAD_WATCHED` says otherwise.
+#[cfg(target_os = "linux")]
+const WATCHED: usize = 10;
+
 #[cfg(target_os = "linux")]
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn watched_sessions_resets_and_cameras_leave_no_threads_behind() {
     let app = state(Limits::default());
     let server = triad::app(app.clone());
-    for _ in 0..10 {
+    let watched = std::env::var("TRIAD_WATCHED").map_or(WATCHED, |text| text.parse().expect("a number"));
+    for k in 0..watched {
+        if k % (watched / 10) == 0 {
+            let (files, memory) = files_and_memory();
+            println!("{k} sessions: {} threads, {files} files, {memory} kB", encoding_threads());
+        }
         let created = post(&server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
         let path = created["links"]["self"].as_str().expect("a path").to_owned();
         let session = app.sessions.get(created["id"].as_str().expect("an id")).expect("a session");

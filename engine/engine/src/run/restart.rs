@@ -1,7 +1,7 @@
 //! Restarts of a run: at its start, from the state of another run, or backwards.
 
 use super::companion::Companion;
-use super::{Simulation, explain};
+use super::{Simulation, Snapshot, explain};
 use crate::error::EngineError;
 use crate::integrate::Integrator;
 use nalgebra::{Matrix3, Vector3};
@@ -54,6 +54,33 @@ impl Simulation {
         self.mechanism.state.commit_revolutions();
         self.begin(time, &y);
         Ok(notes)
+    }
+
+    /// Goes on from a state that was kept of a run of the same scene, at its time; false, and nothing is changed, if it cannot be
+    /// one of this scene. Counters and energies are counted from here.
+    ///
+    /// ```
+    /// use triad_engine::prelude::*;
+    ///
+    /// let scene = catalogue::scene("simple-pendulum")?;
+    /// let mut first = Simulation::new(&scene)?;
+    /// first.advance_to(0.4)?;
+    /// let mut later = Simulation::new(&scene)?;
+    /// assert!(later.resume(&first.snapshot()));
+    /// assert_eq!((later.time(), later.q()), (0.4, first.q()));
+    /// # Ok::<(), EngineError>(())
+    /// ```
+    pub fn resume(&mut self, kept: &Snapshot) -> bool {
+        let Snapshot { time, state, angles } = kept;
+        let of_this =
+            state.len() == self.current.y().len() && angles.len() == self.current.state().angles().len();
+        let plain = state.iter().chain(angles).chain([time]).all(|x| x.is_finite());
+        if !of_this || !plain || !(0.0..=self.duration()).contains(time) {
+            return false;
+        }
+        self.mechanism.state.set_revolutions(angles.iter().copied());
+        self.begin(*time, state);
+        true
     }
 
     /// A run that starts where this one stands, velocities reversed: without drivers and losses it goes the way back.

@@ -1,17 +1,18 @@
 //! Snapshots: states of a run that are kept, and can be restored after the run has gone on.
 
 use super::{Simulation, StateView};
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// A state of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Time, s.
     pub time: f64,
     /// q and q̇.
-    state: Vec<f64>,
+    pub(super) state: Vec<f64>,
     /// Angles with their whole turns, rad.
-    angles: Vec<f64>,
+    pub(super) angles: Vec<f64>,
 }
 
 impl Snapshot {

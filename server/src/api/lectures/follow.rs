@@ -6,15 +6,15 @@
 //! RRD blocks with `?recording=true`. A follower that is slow misses states, never the newest one, and reads the recording on from
 //! where it is.
 
-use axum::extract::ws::Message;
-use axum::extract::{Query, Request, State};
+use axum::extract::ws::{CloseFrame, Message};
+use axum::extract::{Request, State};
 use axum::response::Response;
 use tokio::time::{MissedTickBehavior, interval};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas};
-use crate::api::extract::PathParameters;
+use crate::api::extract::{PathParameters, QueryParameters};
 use crate::api::sessions::stream::{Disconnected, PING_INTERVAL, ViewerSocket, upgrade};
 use crate::app::App;
 use crate::lecture::{Follower, LectureMessage, LiveView};
@@ -37,7 +37,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 async fn follow(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
-    Query(wish): Query<StreamWish>,
+    QueryParameters(wish): QueryParameters<StreamWish>,
     request: Request,
 ) -> Result<Response, Problem> {
     let lecture = app.lectures.get(&code)?;
@@ -75,6 +75,11 @@ async fn follow_on(
                     LiveView::Closed => {
                         viewer.tell(&LectureMessage::Closed).await?;
                         return viewer.send(Message::Close(None)).await;
+                    }
+                    // 1012: the server is restarted (RFC 6455 and its registry).
+                    LiveView::Away => {
+                        let frame = CloseFrame { code: 1012, reason: "restart".into() };
+                        return viewer.send(Message::Close(Some(frame))).await;
                     }
                     LiveView::Session(session) => {
                         viewer.tell(&LectureMessage::Reset).await?;

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
-use axum::extract::{FromRequestParts, Query, Request, State};
+use axum::extract::{FromRequestParts, Request, State};
 use axum::http::StatusCode;
 use axum::response::Response;
 use schemars::JsonSchema;
@@ -20,7 +20,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas};
-use crate::api::extract::PathParameters;
+use crate::api::extract::{PathParameters, QueryParameters};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{SessionState, StreamWish};
@@ -57,7 +57,7 @@ enum SessionMessage<'a> {
 async fn stream(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,
-    Query(wish): Query<StreamWish>,
+    QueryParameters(wish): QueryParameters<StreamWish>,
     request: Request,
 ) -> Result<Response, Problem> {
     let session = app.sessions.get(&id)?;

@@ -9,6 +9,7 @@
 //! ```
 
 use axum::body::Bytes;
+use futures_util::TryStreamExt;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 use sqlx::SqliteConnection;
@@ -19,8 +20,6 @@ use super::super::hash::hexadecimal;
 use super::super::{Store, now, schema, transaction};
 use super::tables::{OF_COURSE, as_json};
 
-/// Rows that are read at once: some may have megabytes.
-const AT_ONCE: i64 = 16;
 /// Bytes that are sent at once, at least.
 const CHUNK: usize = 1 << 16;
 
@@ -48,16 +47,14 @@ async fn rows(connection: &mut SqliteConnection, course: &str, out: &Pieces) -> 
     lines.add(&head.to_string()).await;
     let mut count = 0_u64;
     for (table, select) in OF_COURSE {
-        for offset in (0..).step_by(usize::try_from(AT_ONCE).unwrap_or(1)) {
-            let found = sqlx::query(*select).bind(course).bind(AT_ONCE).bind(offset);
-            let found = found.fetch_all(&mut *connection).await?;
-            for row in &found {
-                lines.add(&json!([table, as_json(row)?]).to_string()).await;
-                count += 1;
+        // One row at a time: some have megabytes.
+        let mut found = sqlx::query(*select).bind(course).fetch(&mut *connection);
+        while let Some(row) = found.try_next().await? {
+            if out.is_closed() {
+                return Ok(());
             }
-            if found.len() < usize::try_from(AT_ONCE).unwrap_or(1) || out.is_closed() {
-                break;
-            }
+            lines.add(&json!([table, as_json(&row)?]).to_string()).await;
+            count += 1;
         }
     }
     let hash = hexadecimal(&lines.hash.clone().finalize());

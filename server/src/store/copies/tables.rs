@@ -6,51 +6,50 @@ use sqlx::{Column, Row, TypeInfo, ValueRef};
 
 use super::super::error::StoreError;
 
-/// Tables with their rows that belong to the course `$1`, in the order in which they refer to each other: `$2` rows after
-/// the first `$3`.
+/// Tables with their rows that belong to the course `$1`, in the order in which they refer to each other.
 pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
-    ("course", "SELECT * FROM course WHERE id = $1 LIMIT $2 OFFSET $3"),
+    ("course", "SELECT * FROM course WHERE id = $1"),
     (
         "person",
-        "SELECT p.* FROM person p JOIN membership m ON m.person = p.id WHERE m.course = $1 ORDER BY p.id LIMIT $2 OFFSET $3",
+        "SELECT p.* FROM person p JOIN membership m ON m.person = p.id WHERE m.course = $1 ORDER BY p.id",
     ),
-    ("membership", "SELECT * FROM membership WHERE course = $1 ORDER BY person LIMIT $2 OFFSET $3"),
+    ("membership", "SELECT * FROM membership WHERE course = $1 ORDER BY person"),
     (
         "identity",
         "SELECT i.* FROM identity i JOIN membership m ON m.person = i.person WHERE m.course = $1 \
-         ORDER BY i.kind, i.subject LIMIT $2 OFFSET $3",
+         ORDER BY i.kind, i.subject",
     ),
     (
         "lesson_version",
         "SELECT * FROM lesson_version WHERE sha256 IN (SELECT v.lesson_sha256 FROM verdict v \
          JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment WHERE a.course = $1) \
-         ORDER BY sha256 LIMIT $2 OFFSET $3",
+         ORDER BY sha256",
     ),
-    ("assignment", "SELECT * FROM assignment WHERE course = $1 ORDER BY id LIMIT $2 OFFSET $3"),
+    ("assignment", "SELECT * FROM assignment WHERE course = $1 ORDER BY id"),
     (
         "submission",
         "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 \
-         ORDER BY s.n LIMIT $2 OFFSET $3",
+         ORDER BY s.n",
     ),
     (
         "verdict",
         "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment \
-         WHERE a.course = $1 ORDER BY s.n, v.run LIMIT $2 OFFSET $3",
+         WHERE a.course = $1 ORDER BY s.n, v.run",
     ),
-    ("decision", "SELECT * FROM decision WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+    ("decision", "SELECT * FROM decision WHERE course = $1 ORDER BY n"),
     (
         "extension",
         "SELECT e.* FROM extension e JOIN assignment a ON a.id = e.assignment WHERE a.course = $1 \
-         ORDER BY e.assignment, e.person LIMIT $2 OFFSET $3",
+         ORDER BY e.assignment, e.person",
     ),
-    ("regrade", "SELECT * FROM regrade WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+    ("regrade", "SELECT * FROM regrade WHERE course = $1 ORDER BY n"),
     (
         "regraded",
         "SELECT d.* FROM regraded d JOIN regrade r ON r.id = d.regrade WHERE r.course = $1 \
-         ORDER BY d.regrade, d.person LIMIT $2 OFFSET $3",
+         ORDER BY d.regrade, d.person",
     ),
-    ("prediction", "SELECT * FROM prediction WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
-    ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n LIMIT $2 OFFSET $3"),
+    ("prediction", "SELECT * FROM prediction WHERE course = $1 ORDER BY n"),
+    ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n"),
 ];
 
 /// Tables that are not taken along: sessions are for one server, invitations for one place.

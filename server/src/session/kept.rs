@@ -1,0 +1,34 @@
+//! What is kept of a session while the server is restarted.
+
+use serde::{Deserialize, Serialize};
+use triad_engine::run::Snapshot;
+use triad_engine::scene::Scene;
+
+use super::state::SceneSource;
+
+/// A session at one moment, as it goes on later: its scene and the state of the run, not its recording.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct KeptSession {
+    pub(super) id: String,
+    pub(super) source: SceneSource,
+    /// The scene as its author wrote it.
+    pub(super) original: Scene,
+    /// The scene that runs.
+    pub(super) scene: Scene,
+    pub(super) changes: u64,
+    pub(super) state: Snapshot,
+    pub(super) playing: bool,
+    pub(super) speed: f64,
+}
+
+impl KeptSession {
+    /// Its name in addresses.
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// The scene that runs.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+}
