@@ -1,5 +1,7 @@
 //! Bodies that rigid connections join are solved as one, and nothing that anybody can ask for changes.
 
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
 use triad_engine::EngineError;
 use triad_engine::reactions::report::Convention;
 use triad_engine::run::Simulation;

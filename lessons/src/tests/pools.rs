@@ -74,7 +74,7 @@ fn refused(head: &str, pools: &[(&str, &str)]) -> String {
         }
         files.insert(format!("01-own/{name}"), text.into_bytes());
     }
-    Course::from_files(files).map(|_| String::new()).unwrap_or_else(|error| error.to_string())
+    Course::from_files(files).map_or_else(|error| error.to_string(), |_| String::new())
 }
 
 #[test]

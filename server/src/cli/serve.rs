@@ -173,10 +173,10 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         // It would write what is left when everybody has gone.
         house.abort();
         drop(house.await);
-        if let Some(path) = live_at {
-            if let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await {
-                eprintln!("triad: sessions and rooms end with the server: {}: {error}", path.display());
-            }
+        if let Some(path) = live_at
+            && let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await
+        {
+            eprintln!("triad: sessions and rooms end with the server: {}: {error}", path.display());
         }
         lectures.leave();
         sessions.clear();

@@ -51,6 +51,7 @@ pub struct StudentRow {
 }
 
 /// What a student has reached in a lesson.
+#[allow(clippy::struct_excessive_bools)] // each is a fact of its own
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Reached {
     /// The points that count: those that were decided, else the most of an attempt.

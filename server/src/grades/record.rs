@@ -136,7 +136,7 @@ pub struct RegradeNote {
 pub fn told(standing: Standing, all: bool) -> ToldStanding {
     let Standing { phase, due, closes, worth, attempts, attempts_left, next_attempt, revealed, .. } =
         standing;
-    let points = (all || revealed.points).then(|| ToldPoints {
+    let points = (all || revealed.points).then_some(ToldPoints {
         points: standing.points,
         earned: standing.earned,
         passed: standing.passed,

@@ -266,7 +266,11 @@ fn all_again(
     };
     std::thread::scope(|scope| {
         let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        started.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+        // Nobody is left out in silence: what fails in one fails the preview.
+        started
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
     })
 }
 
@@ -309,7 +313,7 @@ fn submission_change(
 ) -> SubmissionChange {
     let kept: Value = serde_json::from_str(&record.body).unwrap_or_default();
     let program = match &control {
-        Some(Ok(control)) if record.body == control.to_string() => None,
+        Some(Ok(control)) if record.body.as_str() == control.to_string().as_str() => None,
         Some(Ok(control)) => first_difference(&kept, control, ""),
         Some(Err(why)) => Some(why.clone()),
         None => None,

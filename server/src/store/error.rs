@@ -116,6 +116,7 @@ fn refused(refusal: Refusal) -> (StatusCode, &'static str, &'static str) {
 }
 
 impl From<StoreError> for Problem {
+    #[allow(clippy::too_many_lines)] // one table
     fn from(error: StoreError) -> Self {
         const FAILED: StatusCode = StatusCode::INTERNAL_SERVER_ERROR;
         let (status, code, hint) = match &error {

@@ -46,6 +46,9 @@ pub struct KeptPrediction {
     pub given_at: i64,
 }
 
+/// Person, name, lesson, prediction, choice, why, when.
+type Row = (String, String, String, String, Option<String>, String, i64);
+
 impl Store {
     /// Keeps a prediction, unless the person has made it before: then nothing is changed. Whether it is new, and the id of the
     /// person.
@@ -74,8 +77,7 @@ impl Store {
         lesson: Option<&str>,
     ) -> Result<Vec<KeptPrediction>, StoreError> {
         let list = sqlx::query_as(sql::PREDICTIONS).bind(course).bind(person).bind(lesson);
-        let rows: Vec<(String, String, String, String, Option<String>, String, i64)> =
-            list.fetch_all(&self.readers).await?;
+        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
         let kept = |(person, name, lesson, prediction, choice, why, given_at)| KeptPrediction {
             person,
             name,

@@ -279,6 +279,7 @@ fn body_of(operation: &Value) -> Option<&Value> {
     operation.pointer("/requestBody/content/application~1json/schema")
 }
 
+#[allow(clippy::too_many_lines)] // one request after another, each drawn from what is there
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn whatever_is_sent_the_answer_is_no_fault_of_the_server() {
     let requests = std::env::var("TRIAD_REQUESTS").map_or(REQUESTS, |text| text.parse().expect("a number"));

@@ -81,9 +81,9 @@ impl Simulation {
         );
         let mut tied = format!("{fixed} of {bodies} bodies tied to the ground and left out");
         if merged > 0 {
-            tied += &format!(
-                "; {merged} merged with those that they are rigidly joined to, {} rows left",
-                s.rows
+            let rows = s.rows;
+            tied = format!(
+                "{tied}; {merged} merged with those that they are rigidly joined to, {rows} rows left"
             );
         }
         let unchanged = format!("{constants} entries of the matrix that never change not written again");

@@ -110,7 +110,7 @@ fn loads_and_drivers_act_in_the_plane_as_in_space() {
         {"name": "coil", "type": "spring", "body_i": "ground", "body_j": "bob", "point_i": [2, 0.5, 0], "point_j": [1.5, -0.4, 0], "stiffness": 5, "damping": 0.2}
       ]
     }"#;
-    let mut slider = Scene::from_json(text).unwrap_or_else(|error| panic!("{error}"));
+    let mut slider = Scene::from_json(text).unwrap();
     slider.simulation = scene("simple-pendulum").simulation;
     let (saved, _) = compare(&slider, "planar", 1e-8);
     assert_eq!(saved, 4);

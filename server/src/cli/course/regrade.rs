@@ -61,9 +61,9 @@ pub(in crate::cli) fn regrade(options: &Regrade, course: &Course, json: bool) ->
         }
         let rebuilt = regrade::check(&store, id).await?;
         if json {
-            print_json(&rebuilt)
+            print_json(&rebuilt);
         } else {
-            print_rebuilt(&rebuilt)
+            print_rebuilt(&rebuilt);
         }
         Ok(if rebuilt.changed.is_empty() { Outcome::Done } else { Outcome::No })
     })
@@ -80,9 +80,9 @@ async fn of_lesson(
     let lesson = course.lesson(slug).ok_or_else(|| crate::api::unknown_lesson(course, slug))?;
     let computed = regrade::preview(store, id, lesson).await?;
     if json {
-        print_json(&computed.shown)
+        print_json(&computed.shown);
     } else {
-        print_preview(&computed.shown)
+        print_preview(&computed.shown);
     }
     if let (Some(choice), Some(reason)) = (options.apply, &options.reason) {
         let actor = owner(store, id).await?;
