@@ -22,7 +22,7 @@ fn many_follow_one_simulation_and_one_who_stalls_harms_nobody_and_catches_up() {
     drop(FollowerPage::join(&server.address, &lecture.code, true));
     let crowd: Vec<FollowerPage> =
         (0..40).map(|_| FollowerPage::join(&server.address, &lecture.code, true)).collect();
-    server.post(&format!("{session}/play"), &json!({"speed": 2}));
+    assert_eq!(server.post(&format!("{session}/play"), &json!({"speed": 2})).status, 200);
     // However long it takes: a follower who is told nothing more ends with an error.
     let start = Instant::now();
     let enough = |seen: &Seen| seen.states >= 10 && seen.blocks >= 1 && seen.time > 2.0;

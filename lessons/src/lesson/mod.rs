@@ -19,10 +19,8 @@ pub use course::{Course, CourseError};
 pub use diagram_view::{CutBodyView, DiagramView, PlaceView};
 pub(crate) use notions::need;
 pub use notions::{Need, NotionGraph, NotionNode};
-pub use prediction::{OutcomeView, PredictionView};
+pub use prediction::{OptionView, OutcomeView, PredictionView};
 pub use reader::LessonError;
 pub(crate) use reader::line_of;
 pub use variant::VariantError;
-pub use view::{
-    ColumnView, ExerciseView, LessonSummary, LessonView, OptionView, QuestionView, StepView, TuningView,
-};
+pub use view::{ColumnView, ExerciseView, LessonSummary, LessonView, QuestionView, StepView, TuningView};

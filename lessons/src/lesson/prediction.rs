@@ -4,10 +4,19 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::content::Lesson;
-use super::view::OptionView;
 use crate::exercise::Parameters;
 use crate::files::PredictionFile;
 use crate::rendering::markdown;
+
+/// An option as a student sees it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "ChoiceOption")]
+pub struct OptionView {
+    /// Id to send.
+    pub id: String,
+    /// The option as safe HTML.
+    pub html: String,
+}
 
 /// Something to predict before the run.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -7,7 +7,7 @@ use triad_engine::scene::{IntegratorKind, Scene};
 use super::content::Lesson;
 use super::conventions::conventions;
 use super::diagram_view::DiagramView;
-use super::prediction::PredictionView;
+use super::prediction::{OptionView, PredictionView};
 use super::rules::{measurement, opens, rule};
 use crate::answers::tolerance::ValueShape;
 use crate::exercise::{ChoiceOption, Parameters, Question, QuestionBody};
@@ -173,16 +173,6 @@ pub struct QuestionView {
     pub follows: Vec<String>,
     /// How many hints there are.
     pub hints_available: usize,
-}
-
-/// An option as a student sees it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-#[schemars(rename = "ChoiceOption")]
-pub struct OptionView {
-    /// Id to send.
-    pub id: String,
-    /// The option as safe HTML.
-    pub html: String,
 }
 
 /// A column of a table.

@@ -58,6 +58,8 @@ pub(super) struct Signals {
     urgent: AtomicUsize,
     /// The session is closed.
     closed: AtomicBool,
+    /// A word that somebody has come to watch waits already.
+    announced: AtomicBool,
 }
 
 impl Signals {
@@ -79,6 +81,17 @@ impl Signals {
     /// Whether the session has ended.
     pub(super) fn closed(&self) -> bool {
         self.closed.load(Ordering::Relaxed)
+    }
+
+    /// Somebody has come to watch; whether the worker must still be told. A whole lecture hall that comes at once
+    /// takes one place in the queue.
+    pub(super) fn announce(&self) -> bool {
+        !self.announced.swap(true, Ordering::AcqRel)
+    }
+
+    /// The worker looks at who watches now, or could not be told.
+    pub(super) fn looked(&self) {
+        self.announced.store(false, Ordering::Release);
     }
 
     /// Whether what is under way is to end.

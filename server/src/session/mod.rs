@@ -300,7 +300,9 @@ impl Session {
         };
         let watcher = hub.watch();
         // A queue that is full has a worker that is busy, and it looks for watchers when it is done.
-        drop(self.commands.try_send(Command::Watched));
+        if self.signals.announce() && self.commands.try_send(Command::Watched).is_err() {
+            self.signals.looked();
+        }
         watcher
     }
 

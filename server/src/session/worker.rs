@@ -131,6 +131,7 @@ impl Worker {
                 drop(reply.send(self.answer(result)));
             }
             Command::Watched => {
+                self.signals.looked();
                 let encoded = self.recording.encode();
                 self.note(encoded);
                 self.publish();

@@ -269,8 +269,8 @@ async fn no_stream_tells_an_answer() {
         let state = post(&server, "/api/v1/sessions", json!({"lesson": lesson.slug})).await.json();
         let session = state["links"]["self"].as_str().expect("a session").to_owned();
         post(&server, &format!("{session}/play"), json!({})).await;
-        let stream = state["links"]["stream"].as_str().expect("a stream");
-        let heard = overheard(&server, address, stream, &session).await;
+        let stream = format!("{}?recording=true", state["links"]["stream"].as_str().expect("a stream"));
+        let heard = overheard(&server, address, &stream, &session).await;
         assert!(
             heard.contains("101 Switching Protocols") && heard.contains("frames"),
             "{}: {heard}",

@@ -191,7 +191,7 @@ fn welded(normal: &str) -> Scene {
     let (kind, axis) =
         if normal == "[0, 0, 1]" { ("revolute", r#", "axis": [0, 0, 1]"#) } else { ("spherical", "") };
     let text = text.replace("NORMAL", normal).replace("KIND", kind).replace("AXIS", axis);
-    let mut scene = Scene::from_json(&text).unwrap_or_else(|error| panic!("{error}"));
+    let mut scene = Scene::from_json(&text).unwrap();
     scene.simulation = self::scene("simple-pendulum").simulation;
     scene
 }
