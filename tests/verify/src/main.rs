@@ -38,7 +38,7 @@ const STEPS: [Step; 10] = [
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
     Step::new("bits", "the same results from builds for old and for new processors", bits::run),
-    Step::new("size", "the program is at most 40 MB", size),
+    Step::new("size", "the program is at most 43 MB", size),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
         cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))
@@ -56,8 +56,8 @@ const STEPS: [Step; 10] = [
     .if_named(),
 ];
 
-/// The largest program, MB: what somebody downloads and keeps.
-const LARGEST: f64 = 40.0;
+/// The largest program, MB: what somebody downloads and keeps. Without accounts, grades and backups it had 37.
+const LARGEST: f64 = 43.0;
 
 fn size(root: &Path) -> Result<(), String> {
     cargo(root, "build --release --quiet --workspace")?;
