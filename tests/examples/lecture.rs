@@ -62,7 +62,7 @@ fn measure(followers: u64, length: Duration, scene: &str, recording: bool) {
     let wall = length.as_secs_f64();
     println!(
         "{scene}, {followers} followers, {wall} s, {runs} runs, {}",
-        if recording { "3-D view" } else { "sketch only" }
+        if recording { "recordings" } else { "numbers" }
     );
     println!("  joined in              {:.2} s", joining.as_secs_f64());
     println!("  states a second        {:.1}", mean(|one| one.states) / wall);

@@ -56,15 +56,15 @@ fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
     visit("later", &server);
 }
 
-#[test]
-fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_in_trouble() {
+/// Runs a script against a server of its own.
+fn run(script: &str) {
     let folder = scripts();
     let home = tempfile::tempdir().unwrap();
     let server = Server::start(home.path());
     let said = must(
         "the browser",
         Command::new("node")
-            .args(["workbench.mjs", &format!("http://{}", server.address)])
+            .args([script, &format!("http://{}", server.address)])
             .arg(root().join("tests/output"))
             .current_dir(&folder),
     );
@@ -73,16 +73,11 @@ fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_i
 }
 
 #[test]
+fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_in_trouble() {
+    run("workbench.mjs");
+}
+
+#[test]
 fn the_drawing_shows_the_moment_of_the_clock_without_a_graphics_card_and_with_busy_cores() {
-    let folder = scripts();
-    let home = tempfile::tempdir().unwrap();
-    let server = Server::start(home.path());
-    let said = must(
-        "the browser",
-        Command::new("node")
-            .args(["drawing.mjs", &format!("http://{}", server.address)])
-            .arg(root().join("tests/output"))
-            .current_dir(&folder),
-    );
-    println!("{said}");
+    run("drawing.mjs");
 }

@@ -100,15 +100,8 @@ async function failure(response: Response): Promise<ApiError> {
   }
 }
 
-async function call<T>(
-  method: string,
-  path: string,
-  body?: unknown,
-  signal?: AbortSignal,
-  key?: string,
-  more?: Record<string, string>,
-): Promise<T> {
-  const response = await ask(method, path, body, signal, key, more);
+async function call<T>(...request: Parameters<typeof ask>): Promise<T> {
+  const response = await ask(...request);
   const text = await response.text();
   return (text === "" ? undefined : JSON.parse(text)) as T;
 }

@@ -1,18 +1,19 @@
 // The page's own picture of a run: always that of the moment which it is given, on every machine.
 
 import type { Camera, Scene, SessionState, Vec3 } from "../api/types";
-import { h, setText } from "../core/dom";
+import { h } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { type Arrow, arrows } from "../mechanics/forces";
 import { add, dot, norm, scale, unit } from "../mechanics/vec";
 import type { Session } from "../session/session";
 import { type Box, boxOf, Eye } from "./eye";
 import { drawForces } from "./forces-picture";
-import { distanceTo, drawMechanism, drawWorldAxes, type Shown } from "./mechanism";
+import { distanceTo, drawMechanism, drawWorldAxes } from "./mechanism";
 import { type Palette, palette } from "./palette";
 import { CanvasPen, type Pen, type Point, SvgPen } from "./pen";
 import { drawPull } from "./pull-picture";
-import { inWorld, type Parts, partsOf, planeOf } from "./solids";
+import type { Shown } from "./shown";
+import { inWorld, middleOf, type Parts, partsOf, planeOf, spanned } from "./solids";
 
 /** Where one reaches for a joint or a body, CSS pixels about it; fingers are thicker than this. */
 const REACH = 14;
@@ -24,6 +25,8 @@ const WORTH_FITTING = 1.15;
 const EASE_MS = 450;
 /** Moments of a run at which it is asked where its parts are. */
 const SWEEP_MOMENTS = 60;
+/** The floor is below the lowest point by this part of the height of the picture. */
+const FLOOR_BELOW = 0.06;
 /** Room for words and bars above and below what is fitted, CSS pixels. */
 const ABOVE = 26;
 const BELOW = 40;
@@ -107,7 +110,10 @@ export class Drawing {
   fit(slowly = true): void {
     this.byHand = false;
     const box = this.sweep();
-    if (!box) return;
+    if (box) this.frame(box, slowly);
+  }
+
+  private frame(box: Box, slowly: boolean): void {
     const before: [number, Point] = [this.eye.perMetre, [...this.eye.middle]];
     this.eye.fit(box, ABOVE, BELOW);
     this.floor = this.floorUnder();
@@ -150,7 +156,7 @@ export class Drawing {
     if (!shown) return undefined;
     const near = shown.parts.solids
       .filter((solid) => distanceTo(shown, solid, point) < REACH / 2)
-      .map((solid) => ({ solid, middle: middleOf(shown, solid) }))
+      .map((solid) => ({ solid, middle: middleOf(shown.state, solid) }))
       .sort((a, b) => this.eye.nearness(b.middle) - this.eye.nearness(a.middle))[0];
     const body = near && shown.state.bodies[near.solid.body];
     if (!near || !body) return undefined;
@@ -171,11 +177,6 @@ export class Drawing {
     const pen = new SvgPen();
     this.draw(pen);
     return pen.file(this.eye.width, this.eye.height, title);
-  }
-
-  /** The picture as it stands, for a film. */
-  get canvas(): HTMLCanvasElement {
-    return this.root;
   }
 
   /** Turns the picture so that a plane mechanism is seen from the front. */
@@ -240,41 +241,44 @@ export class Drawing {
   /** Fits the picture when the run has shown where it goes, and again where a body leaves it. */
   private keepInSight(state: SessionState): void {
     if (this.easing) return;
-    const { eye, session } = this;
+    const { eye } = this;
     const out = state.bodies.some((body) => {
       const [x, y] = eye.project(body.position);
       return Number.isFinite(x + y) && (x < 0 || y < 0 || x > eye.width || y > eye.height);
     });
-    const known = (session.latest?.time ?? 0) >= Math.min(SWEEP, session.latest?.duration ?? SWEEP);
-    if (!out && (this.swept || !known)) return;
+    if (!out && (this.swept || !this.known)) return;
     const box = this.sweep();
     if (!box) return;
-    this.swept ||= known;
-    const now = eye.perMetre;
-    const middle: Point = [...eye.middle];
-    eye.fit(box, ABOVE, BELOW);
-    const wanted = eye.perMetre;
-    [eye.perMetre, eye.middle] = [now, middle];
-    if (out || wanted > WORTH_FITTING * now) this.fit();
+    this.swept ||= this.known;
+    if (out || eye.scaleOf(box, ABOVE, BELOW) > WORTH_FITTING * eye.perMetre) this.frame(box, true);
+  }
+
+  /** The run has been seen for long enough to know where it goes. */
+  private get known(): boolean {
+    const { latest } = this.session;
+    return (latest?.time ?? 0) >= Math.min(SWEEP, latest?.duration ?? SWEEP);
+  }
+
+  /** Where joints stand on the ground. */
+  private grounds(parts: Parts, state: SessionState): Vec3[] {
+    return parts.joints
+      .filter((joint) => joint.grounded)
+      .map((joint) => inWorld(state, joint.body, joint.point));
   }
 
   /** What the motion has covered so far, in the plane of the picture. Before it is known: where it could swing to. */
   private sweep(): Box | undefined {
-    const { parts, state, eye, session } = this;
+    const { parts, state, eye, session, known } = this;
     if (!parts || !state) return undefined;
     const last = session.latest?.time ?? 0;
-    const known = last >= Math.min(SWEEP, session.latest?.duration ?? SWEEP);
     const count = known ? SWEEP_MOMENTS : 1;
     const moments = Array.from({ length: count }, (_, k) =>
       known ? (session.moment((last * k) / (count - 1)) ?? state) : state,
     );
     const points = [state, ...moments].flatMap((moment) => outline(parts, moment, eye));
-    const fixed = parts.joints
-      .filter((joint) => joint.grounded)
-      .map((joint) => eye.flat(inWorld(state, joint.body, joint.point)));
+    const fixed = this.grounds(parts, state).map((p) => eye.flat(p));
     if (!known && fixed.length === 1 && !this.turnsUpright()) points.push(...circle(fixed, points));
     points.push(...this.tips(moments).map((p) => eye.flat(p)));
-
     return boxOf(points);
   }
 
@@ -284,7 +288,7 @@ export class Drawing {
     return hinge?.kind === "revolute" && Math.abs(dot(hinge.axis ?? [0, 0, 0], this.eye.up)) > 0.9;
   }
 
-  /** Where arrows end that are as long as half of the drawn forces at these moments are. */
+  /** Where the arrows of these moments end; those above the median are counted as long as it. */
   private tips(moments: SessionState[]): Vec3[] {
     const { session } = this;
     if (session.pose) return [];
@@ -299,14 +303,13 @@ export class Drawing {
     return drawn.map((arrow) => add(arrow.at, scale(unit(arrow.force), Math.min(median, length(arrow)))));
   }
 
+  /** Height of the floor: below all that is seen, and below where what hangs may swing. */
   private floorUnder(): number | undefined {
     const { parts, state, eye, session } = this;
     if (!parts || !state || !this.scene?.gravity?.some((g) => g !== 0)) return undefined;
     const seen = [state, ...session.past.all.slice(0, 1), ...(session.latest ? [session.latest] : [])];
     const points = seen.flatMap((moment) => pointsOf(parts, moment));
-    const fixed = parts.joints
-      .filter((joint) => joint.grounded)
-      .map((joint) => inWorld(state, joint.body, joint.point));
+    const fixed = this.grounds(parts, state);
     // A mechanism that hangs may swing as far below its joints as it reaches.
     const reach = fixed.flatMap((f) =>
       points.map((p) => dot(f, eye.up) - Math.hypot(...p.map((x, k) => x - (f[k] ?? 0)))),
@@ -315,7 +318,7 @@ export class Drawing {
       ...points.map((p) => dot(p, eye.up)),
       ...(fixed.length === 1 && !this.turnsUpright() ? reach : []),
     );
-    return Number.isFinite(lowest) ? lowest - 0.12 * (this.eye.height / this.eye.perMetre) * 0.5 : undefined;
+    return Number.isFinite(lowest) ? lowest - (FLOOR_BELOW * eye.height) / eye.perMetre : undefined;
   }
 
   private center(): Vec3 {
@@ -335,7 +338,6 @@ export class Drawing {
     const more = state.bodies.length > 4 ? `, and ${state.bodies.length - 4} more bodies` : "";
     const label = `Drawing of the mechanism at ${seconds(state.time)}: ${bodies.join("; ")}${more}.`;
     if (this.root.getAttribute("aria-label") !== label) this.root.setAttribute("aria-label", label);
-    setText(this.root, label);
   }
 }
 
@@ -343,8 +345,7 @@ export class Drawing {
 function outline(parts: Parts, state: SessionState, eye: Eye): Point[] {
   const round = parts.solids.flatMap((solid) => {
     if (solid.kind === "box") return [];
-    const ends = solid.kind === "rod" ? [solid.from, solid.to] : [solid.center];
-    return ends.flatMap((end): Point[] => {
+    return spanned(solid).flatMap((end): Point[] => {
       const [x, y] = eye.flat(inWorld(state, solid.body, end));
       return [
         [x - solid.radius, y - solid.radius],
@@ -357,24 +358,10 @@ function outline(parts: Parts, state: SessionState, eye: Eye): Point[] {
 
 /** Where the parts of a mechanism are. */
 function pointsOf(parts: Parts, state: SessionState): Vec3[] {
-  const of = parts.solids.flatMap((solid) =>
-    solid.kind === "rod" ? [solid.from, solid.to] : solid.kind === "ball" ? [solid.center] : solid.corners,
-  );
-  const owners = parts.solids.flatMap((solid) =>
-    Array<number>(solid.kind === "rod" ? 2 : solid.kind === "ball" ? 1 : 8).fill(solid.body),
-  );
   return [
-    ...of.map((point, k) => inWorld(state, owners[k] ?? 0, point)),
-    ...parts.joints.map((joint) => inWorld(state, joint.body, joint.point)),
-    ...parts.markers.map((marker) => inWorld(state, marker.body, marker.point)),
+    ...parts.solids.flatMap((solid) => spanned(solid).map((point) => inWorld(state, solid.body, point))),
+    ...[...parts.joints, ...parts.markers].map((one) => inWorld(state, one.body, one.point)),
   ];
-}
-
-function middleOf(shown: Shown, solid: Parts["solids"][number]): Vec3 {
-  const points =
-    solid.kind === "rod" ? [solid.from, solid.to] : solid.kind === "ball" ? [solid.center] : solid.corners;
-  const sum = points.reduce((total, p) => total.map((x, k) => x + (p[k] ?? 0)) as Vec3, [0, 0, 0] as Vec3);
-  return inWorld(shown.state, solid.body, sum.map((x) => x / points.length) as Vec3);
 }
 
 /** Mechanisms swing about their ground: the circle about it that holds all points. */

@@ -95,13 +95,19 @@ export class Eye {
     this.middle[1] += dy / before - dy / this.perMetre;
   }
 
-  /** Puts a box of the plane of the picture in its middle, as large as it fits; `above` and `below` stay free, px. */
-  fit([left, bottom, right, top]: Box, above = 0, below = 0): void {
+  /** The scale at which a box of the plane of the picture fits, CSS pixels a metre; `above` and `below` stay free, px. */
+  scaleOf([left, bottom, right, top]: Box, above = 0, below = 0): number {
     const width = Math.max(SMALLEST, right - left);
     const height = Math.max(SMALLEST, top - bottom);
     const free = 1 - 2 * MARGIN;
     const room = Math.max(1, this.height - above - below);
-    this.perMetre = Math.min((free * this.width) / width, (free * room) / height);
+    return Math.min((free * this.width) / width, (free * room) / height);
+  }
+
+  /** Puts such a box in the middle of the picture, as large as it fits. */
+  fit(box: Box, above = 0, below = 0): void {
+    const [left, bottom, right, top] = box;
+    this.perMetre = this.scaleOf(box, above, below);
     this.middle = [(left + right) / 2, (bottom + top) / 2 + (above - below) / (2 * this.perMetre)];
   }
 

@@ -1,25 +1,19 @@
 // Bodies, joints, markers and the floor under them, from far to near.
 
-import type { SessionState, Vec3 } from "../api/types";
-import { roundDown } from "../mechanics/forces";
+import type { Vec3 } from "../api/types";
 import { add, cross, dot, norm, scale, sub, unit } from "../mechanics/vec";
 import type { Eye } from "./eye";
+import { drawFloor, hull } from "./floor";
+import { drawnJoint } from "./joints";
 import { mix, type Paint, type Palette, paint } from "./palette";
 import type { Pen, Point } from "./pen";
-import { direction, inWorld, type JointMark, type Parts, type Solid } from "./solids";
+import { type Item, type Shown, THIN } from "./shown";
+import { direction, inWorld, middleOf, type Solid } from "./solids";
 
-/** Thinnest body, CSS pixels. */
-const THIN = 6;
 /** A rod is drawn as a cylinder that is shorter than so many radii. */
 const STOUT = 3;
-/** Radius of a joint, CSS pixels. */
-const JOINT = 6;
-/** Radius of the ring about the chosen joint, CSS pixels. */
-const CHOSEN = 14;
 /** Length of the principal axes of a body, CSS pixels. */
 const AXES = 40;
-/** Lines of the floor to each side of its middle. */
-const FLOOR_LINES = 7;
 /** From where light comes, along the axes of the view: from the left, from above, from the reader. */
 const LIGHT: Vec3 = unit([-0.45, 0.75, 0.6]);
 /** Faces of a box as corners around them; corner i has its sides in the bits of i. */
@@ -31,23 +25,6 @@ const FACES = [
   [0, 4, 6, 2],
   [1, 3, 7, 5],
 ] as const;
-
-export interface Shown {
-  eye: Eye;
-  state: SessionState;
-  parts: Parts;
-  colours: Palette;
-  /** The chosen joint. */
-  joint: string | null;
-  /** Height of the floor along the upward axis, m; none where nothing says what is down. */
-  floor: number | undefined;
-}
-
-interface Item {
-  /** How near its middle is. */
-  near: number;
-  draw: () => void;
-}
 
 export function drawMechanism(pen: Pen, shown: Shown): void {
   if (shown.floor !== undefined && shown.eye.seesFloor) drawFloor(pen, shown, shown.floor);
@@ -117,10 +94,7 @@ function drawnSolid(pen: Pen, shown: Shown, solid: Solid): Item {
     return { near: eye.nearness(center), draw: () => ball(pen, eye.project(center), radius, own) };
   }
   const corners = solid.corners.map(at);
-  const middle = scale(
-    corners.reduce((sum, corner) => add(sum, corner), [0, 0, 0] as Vec3),
-    1 / 8,
-  );
+  const middle = middleOf(state, solid);
   return { near: eye.nearness(middle), draw: () => box(pen, eye, corners, middle, own, colours) };
 }
 
@@ -210,224 +184,6 @@ function drawnAxes(pen: Pen, shown: Shown, body: number): Item {
   };
   // Its own body does not hide it.
   return { near: eye.nearness(origin) + 30 / eye.perMetre, draw };
-}
-
-function drawnJoint(pen: Pen, shown: Shown, joint: JointMark): Item[] {
-  const { eye, state, colours } = shown;
-  const point = inWorld(state, joint.body, joint.point);
-  const near = eye.nearness(point) + 20 / eye.perMetre;
-  const far = joint.other && inWorld(state, joint.other.body, joint.other.point);
-  const size = JOINT * Math.sqrt(colours.size);
-  const items: Item[] = [];
-  if (joint.grounded)
-    items.push({
-      near: near - 15 / eye.perMetre,
-      draw: () => bearing(pen, eye.project(point), size, colours),
-    });
-  if (joint.kind === "rod" && far)
-    items.push({
-      near: eye.nearness(scale(add(point, far), 0.5)),
-      draw: () => pen.path([eye.project(point), eye.project(far)], { stroke: colours.edge, width: 3 }),
-    });
-  items.push({
-    near,
-    draw: () => {
-      const axis = joint.axis && direction(state, joint.body, joint.axis);
-      glyph(pen, shown, joint, point, axis, size);
-      if (shown.joint === joint.name)
-        pen.disc(eye.project(point), CHOSEN * Math.sqrt(colours.size), {
-          stroke: colours.accent,
-          width: 3.5,
-        });
-    },
-  });
-  return items;
-}
-
-/** What stands on the ground: a block with hatching below the joint. */
-function bearing(pen: Pen, [x, y]: Point, size: number, colours: Palette): void {
-  const [half, depth] = [2.2 * size, 2.3 * size];
-  pen.path(
-    [
-      [x, y],
-      [x - 0.75 * half, y + depth],
-      [x + 0.75 * half, y + depth],
-    ],
-    { fill: mix(colours.edge, colours.paper, 0.6), stroke: colours.edge, width: 1.8 },
-    true,
-  );
-  pen.path(
-    [
-      [x - half, y + depth],
-      [x + half, y + depth],
-    ],
-    { stroke: colours.edge, width: 2.4 },
-  );
-  for (let k = 0; k < 5; k += 1) {
-    const from = x - half + (k + 0.7) * ((2 * half) / 5);
-    pen.path(
-      [
-        [from, y + depth],
-        [from - 0.7 * size, y + depth + 0.9 * size],
-      ],
-      { stroke: colours.edge, width: 1.6 },
-    );
-  }
-}
-
-/** The joint, recognisable by its kind. */
-function glyph(
-  pen: Pen,
-  shown: Shown,
-  joint: JointMark,
-  point: Vec3,
-  axis: Vec3 | undefined,
-  size: number,
-): void {
-  const { eye, colours } = shown;
-  const at = eye.project(point);
-  const metal = { fill: colours.paper, stroke: colours.edge, width: 2.4 };
-  const half = (1.6 * size) / eye.perMetre;
-  const ends =
-    axis &&
-    ([eye.project(sub(point, scale(axis, half))), eye.project(add(point, scale(axis, half)))] as const);
-  switch (joint.kind) {
-    case "revolute":
-    case "cylindrical":
-    case "screw": {
-      if (ends) {
-        pen.path(ends, { stroke: colours.edge, width: 2 * size + 2.4, butt: true });
-        pen.path(ends, { stroke: mix(colours.edge, colours.paper, 0.5), width: 2 * size - 1, butt: true });
-        pen.disc(at, size, metal);
-        if (joint.kind !== "revolute") pen.path(ends, { stroke: colours.edge, width: 2 });
-      } else pen.disc(at, size, metal);
-      return;
-    }
-    case "spherical":
-      pen.disc(at, size * 1.15, metal);
-      pen.disc(at, size * 0.5, { fill: colours.edge });
-      return;
-    case "universal":
-      pen.disc(at, size * 1.1, metal);
-      pen.path(
-        [
-          [at[0] - size, at[1]],
-          [at[0] + size, at[1]],
-        ],
-        { stroke: colours.edge, width: 2 },
-      );
-      pen.path(
-        [
-          [at[0], at[1] - size],
-          [at[0], at[1] + size],
-        ],
-        { stroke: colours.edge, width: 2 },
-      );
-      return;
-    case "prismatic":
-    case "point-on-line": {
-      if (axis) rail(pen, eye, point, axis, size, colours);
-      pen.path(square(at, 0.9 * size), metal, true);
-      return;
-    }
-    case "planar":
-    case "point-in-plane":
-    case "fixed":
-      pen.path(square(at, size), metal, true);
-      return;
-    default:
-      pen.disc(at, 0.7 * size, metal);
-  }
-}
-
-/** The line along which something slides. */
-function rail(pen: Pen, eye: Eye, point: Vec3, axis: Vec3, size: number, colours: Palette): void {
-  const long = (9 * size) / eye.perMetre;
-  const ends = [-1, 1].map((sense) => eye.project(add(point, scale(axis, sense * long))));
-  pen.path(ends, { stroke: colours.edge, width: 1.8, dash: [7, 5] });
-}
-
-const square = ([x, y]: Point, half: number): Point[] => [
-  [x - half, y - half],
-  [x + half, y - half],
-  [x + half, y + half],
-  [x - half, y + half],
-];
-
-/** A grid below the mechanism, and the shadows that fall on it: they tell how far away things are. */
-function drawFloor(pen: Pen, shown: Shown, height: number): void {
-  const { eye, state, parts, colours } = shown;
-  const down = (p: Vec3): Vec3 => add(p, scale(eye.up, height - dot(p, eye.up)));
-  const [e1, e2] = floorAxes(eye.up);
-  const span = Math.min(eye.width, eye.height) / eye.perMetre;
-  const spacing = roundDown(span / 6);
-  const bodies = state.bodies.map((body) => down(body.position));
-  const joints = parts.joints.map((joint) => down(inWorld(state, joint.body, joint.point)));
-  const all = [...bodies, ...joints];
-  const mean = (axis: Vec3): number => {
-    const sum = all.reduce((total, p) => total + dot(p, axis), 0);
-    return Math.round(sum / Math.max(1, all.length) / spacing) * spacing;
-  };
-  const [m1, m2] = [mean(e1), mean(e2)];
-  const corner = (i: number, j: number): Vec3 =>
-    add(scale(eye.up, height), add(scale(e1, m1 + i * spacing), scale(e2, m2 + j * spacing)));
-  const n = FLOOR_LINES;
-  pen.path(
-    [corner(-n, -n), corner(n, -n), corner(n, n), corner(-n, n)].map((p) => eye.project(p)),
-    { fill: colours.grid, alpha: 0.45 },
-    true,
-  );
-  for (let k = -n; k <= n; k += 1) {
-    for (const line of [
-      [corner(k, -n), corner(k, n)],
-      [corner(-n, k), corner(n, k)],
-    ])
-      pen.path(
-        line.map((p) => eye.project(p)),
-        { stroke: mix(colours.grid, colours.edge, 0.25), width: 1, alpha: 0.8 },
-      );
-  }
-  const shadow = { stroke: colours.ink, alpha: 0.1 };
-  for (const solid of parts.solids) {
-    const at = (point: Vec3): Point => eye.project(down(inWorld(state, solid.body, point)));
-    if (solid.kind === "ball")
-      pen.disc(at(solid.center), Math.max(THIN, solid.radius * eye.perMetre) * 0.8, {
-        fill: colours.ink,
-        alpha: 0.1,
-      });
-    else if (solid.kind === "rod")
-      pen.path([at(solid.from), at(solid.to)], {
-        ...shadow,
-        width: Math.max(THIN, 1.6 * solid.radius * eye.perMetre),
-      });
-    else pen.path(hull(solid.corners.map(at)), { fill: colours.ink, alpha: 0.1 }, true);
-  }
-}
-
-/** Two horizontal axes of the world. */
-function floorAxes(up: Vec3): [Vec3, Vec3] {
-  const first: Vec3 = Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
-  const e1 = unit(sub(first, scale(up, dot(first, up))));
-  return [e1, cross(up, e1)];
-}
-
-/** The points around all others, in turn. */
-function hull(points: Point[]): Point[] {
-  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  const half = (list: Point[]): Point[] => {
-    const kept: Point[] = [];
-    for (const p of list) {
-      for (;;) {
-        const [a, b] = [kept.at(-2), kept.at(-1)];
-        if (!a || !b || (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
-        kept.pop();
-      }
-      kept.push(p);
-    }
-    kept.pop();
-    return kept;
-  };
-  return [...half(sorted), ...half(sorted.reverse())];
 }
 
 /** The axes x, y, z of the world, in the corner of the picture. */

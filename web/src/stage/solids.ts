@@ -70,6 +70,17 @@ export function direction(state: SessionState, body: number, along: Vec3): Vec3 
   return frame ? out([frame.u, frame.v, frame.w], along) : along;
 }
 
+/** The points that a solid spans, along the axes of its body. */
+export const spanned = (solid: Solid): Vec3[] =>
+  solid.kind === "rod" ? [solid.from, solid.to] : solid.kind === "ball" ? [solid.center] : solid.corners;
+
+/** The middle of a solid in the world. */
+export function middleOf(state: SessionState, solid: Solid): Vec3 {
+  const points = spanned(solid);
+  const sum = points.reduce((total, point) => add(total, point));
+  return inWorld(state, solid.body, scale(sum, 1 / points.length));
+}
+
 /** The parts of a scene, of which `state` is the first. */
 export function partsOf(scene: Scene | undefined, state: SessionState): Parts {
   const frames = state.bodies.map((frame) => {
