@@ -107,8 +107,8 @@ impl Book {
         let entry = self.of(person, &lesson.slug).unwrap_or(&none);
         let assignment = self.assignment(&lesson.slug).unwrap_or(&open);
         let mut stands = standing(&case(assignment, entry, lesson), now);
-        if stands.decided.is_none() {
-            stands.points += self.predicted(person, lesson);
+        if stands.score.decided.is_none() {
+            stands.score.points += self.predicted(person, lesson);
         }
         stands
     }

@@ -121,20 +121,20 @@ fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(S
     let entry = book.of(person, &lesson.slug)?;
     let stands = book.standing(person, lesson, now);
     let predicted = book.predicted(person, lesson);
-    if stands.last.is_none() && stands.decided.is_none() && predicted == 0.0 {
+    if stands.last.is_none() && stands.score.decided.is_none() && predicted == 0.0 {
         return None;
     }
     let one = Reached {
-        points: stands.points,
-        earned: stands.earned,
+        points: stands.score.points,
+        earned: stands.score.earned,
         predicted,
-        attempts: stands.attempts,
-        passed: stands.passed,
-        late: stands.late,
+        attempts: stands.turn.attempts,
+        passed: stands.score.passed,
+        late: stands.score.late,
         last: stands.last,
         extended: entry.extension.is_some(),
         asked: asks(entry),
-        decided: stands.decided,
+        decided: stands.score.decided,
     };
     Some((lesson.slug.clone(), one))
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_lessons::{Course, Lesson};
 
-use crate::policy::{Decided, Extension, LateStep, Moment, Phase, Policy, Revealed, Standing};
+use crate::policy::{Extension, LateStep, Moment, Policy, Score, Standing, Turn};
 use crate::problem::Problem;
 use crate::store::{Assignment, Decision, DecisionKind, Member, RegradeRow, Regraded, Store};
 
@@ -54,47 +54,12 @@ pub struct LessonRecord {
 /// Where a person stands, without what is held back from them.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ToldStanding {
-    /// Whether it can be handed in.
-    pub phase: Phase,
-    /// Until when it counts in full for this person.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub due: Option<Moment>,
-    /// Until when this person can hand in.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub closes: Option<Moment>,
-    /// What share of its points an attempt would count now.
-    pub worth: f64,
-    /// Attempts that were made.
-    pub attempts: u32,
-    /// Attempts that are left.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub attempts_left: Option<u32>,
-    /// From when the next attempt can be made.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub next_attempt: Option<Moment>,
-    /// What is told of the verdicts.
-    pub revealed: Revealed,
+    /// Whether and until when it can be handed in.
+    #[serde(flatten)]
+    pub turn: Turn,
     /// The points; left out while they are held back.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub points: Option<ToldPoints>,
-}
-
-/// The points of a person in a lesson.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ToldPoints {
-    /// Those that count.
-    pub points: f64,
-    /// Most points of an attempt.
-    pub earned: f64,
-    /// Whether they are enough to pass.
-    pub passed: bool,
-    /// Whether what counts came late.
-    pub late: bool,
-    /// The decision that holds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decided: Option<Decided>,
-    /// What each attempt counts.
-    pub credits: Vec<crate::policy::Credit>,
+    pub points: Option<Score>,
 }
 
 /// Something that was decided or said.
@@ -134,17 +99,9 @@ pub struct RegradeNote {
 
 /// A standing as it is told; `all`: to those who teach.
 pub fn told(standing: Standing, all: bool) -> ToldStanding {
-    let Standing { phase, due, closes, worth, attempts, attempts_left, next_attempt, revealed, .. } =
-        standing;
-    let points = (all || revealed.points).then_some(ToldPoints {
-        points: standing.points,
-        earned: standing.earned,
-        passed: standing.passed,
-        late: standing.late,
-        decided: standing.decided,
-        credits: standing.credits,
-    });
-    ToldStanding { phase, due, closes, worth, attempts, attempts_left, next_attempt, revealed, points }
+    let Standing { turn, score, .. } = standing;
+    let points = (all || turn.revealed.points).then_some(score);
+    ToldStanding { turn, points }
 }
 
 /// A person's work in all lessons; `all`: with what is held back from students.

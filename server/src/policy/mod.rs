@@ -13,4 +13,4 @@ mod tests;
 pub use admission::{Refusal, admit};
 pub use moment::Moment;
 pub use rules::{Extension, InvalidPolicy, LateStep, Policy, Reveal, Times, When};
-pub use standing::{Case, Credit, Decided, Handed, Phase, Revealed, Standing, standing};
+pub use standing::{Case, Credit, Decided, Handed, Phase, Revealed, Score, Standing, Turn, standing};

@@ -109,6 +109,20 @@ pub struct Credit {
 /// Where a person stands in an exercise.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Standing {
+    /// Whether and until when it can be handed in.
+    #[serde(flatten)]
+    pub turn: Turn,
+    /// The points.
+    #[serde(flatten)]
+    pub score: Score,
+    /// When the last submission came.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last: Option<Moment>,
+}
+
+/// Whether a person can hand in, until when, and what is told of it: held back from nobody.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Turn {
     /// Whether it can be handed in.
     pub phase: Phase,
     /// Until when it counts in full for this person.
@@ -127,22 +141,24 @@ pub struct Standing {
     /// From when the next attempt can be made, where one has to wait.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub next_attempt: Option<Moment>,
+    /// What the student is told.
+    pub revealed: Revealed,
+}
+
+/// The points of a person in an exercise.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Score {
+    /// Those that count.
+    pub points: f64,
     /// Most points of an attempt, as its verdict says.
     pub earned: f64,
-    /// The points that count.
-    pub points: f64,
     /// Whether they are enough to pass.
     pub passed: bool,
     /// Whether the attempt that counts came late.
     pub late: bool,
-    /// When the last submission came.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub last: Option<Moment>,
     /// The decision that holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub decided: Option<Decided>,
-    /// What the student is told.
-    pub revealed: Revealed,
     /// What each attempt counts, the first at the beginning.
     pub credits: Vec<Credit>,
 }
@@ -169,23 +185,25 @@ pub fn standing(case: &Case<'_>, now: Moment) -> Standing {
     let points = decided.and_then(|one| one.points).unwrap_or(counted);
     let attempts = u32::try_from(judged.len()).unwrap_or(u32::MAX);
     let made: Vec<Moment> = judged.iter().map(|one| one.at).collect();
-    Standing {
+    let turn = Turn {
         phase: phase(&times, now),
+        due: times.due,
+        closes: times.closes,
         worth: times.share(now) * share_of(policy, most, attempts.saturating_add(1)),
         attempts,
         attempts_left: most.map(|most| most.saturating_sub(attempts)),
         next_attempt: next_attempt(policy, &made).filter(|next| *next > now),
-        earned: judged.iter().map(|one| one.earned).fold(0.0, f64::max),
+        revealed: revealed(case, &times, now),
+    };
+    let score = Score {
         points,
+        earned: judged.iter().map(|one| one.earned).fold(0.0, f64::max),
         passed: (last.is_some() || decided.is_some()) && points >= case.pass,
         late: best.is_some_and(|best| best.on_time < 1.0),
-        last,
         decided: decided.cloned(),
-        revealed: revealed(case, &times, now),
         credits,
-        due: times.due,
-        closes: times.closes,
-    }
+    };
+    Standing { turn, score, last }
 }
 
 fn credit(policy: &Policy, times: &Times, most: Option<u32>, attempt: u32, one: &Handed) -> Credit {

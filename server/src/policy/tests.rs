@@ -68,9 +68,9 @@ proptest! {
         let none = standing(&case(&policy, &handed, None), now);
         let some = standing(&case(&policy, &handed, Some(&some)), now);
         let more = standing(&case(&policy, &handed, Some(&more)), now);
-        prop_assert!(none.points <= some.points && some.points <= more.points, "{none:?} {some:?} {more:?}");
-        prop_assert!(none.worth <= some.worth && some.worth <= more.worth);
-        prop_assert!(none.closes <= some.closes || none.closes.is_none());
+        prop_assert!(none.score.points <= some.score.points && some.score.points <= more.score.points, "{none:?} {some:?} {more:?}");
+        prop_assert!(none.turn.worth <= some.turn.worth && some.turn.worth <= more.turn.worth);
+        prop_assert!(none.turn.closes <= some.turn.closes || none.turn.closes.is_none());
     }
 
     #[test]
@@ -83,9 +83,9 @@ proptest! {
         let mut before = 0.0;
         for k in 0..=sorted.len() {
             let now = standing(&case(&policy, &sorted[..k], Some(&extension)), END);
-            prop_assert!(now.points >= before && now.points <= now.earned, "{now:?}");
-            prop_assert_eq!(now.credits.len(), usize::try_from(now.attempts).unwrap_or_default());
-            before = now.points;
+            prop_assert!(now.score.points >= before && now.score.points <= now.score.earned, "{now:?}");
+            prop_assert_eq!(now.score.credits.len(), usize::try_from(now.turn.attempts).unwrap_or_default());
+            before = now.score.points;
         }
     }
 
@@ -95,8 +95,8 @@ proptest! {
     ) {
         let (a, b) = (Moment(a.min(b)), Moment(a.max(b)));
         let (then, later) = (standing(&case(&policy, &handed, None), a), standing(&case(&policy, &handed, None), b));
-        prop_assert!(then.points <= later.points && then.worth >= later.worth);
-        prop_assert!(!then.revealed.points || later.revealed.points);
+        prop_assert!(then.score.points <= later.score.points && then.turn.worth >= later.turn.worth);
+        prop_assert!(!then.turn.revealed.points || later.turn.revealed.points);
     }
 
     #[test]
@@ -106,13 +106,13 @@ proptest! {
         let made: Vec<Moment> = before.iter().filter(|one| one.judged).map(|one| one.at).collect();
         let said = standing(&case(&policy, &before, None), now);
         let admitted = admit(&policy, None, &made, true, now);
-        prop_assert_eq!(admitted.is_ok(), !matches!(said.phase, Phase::NotOpen | Phase::Closed) && said.attempts_left != Some(0));
+        prop_assert_eq!(admitted.is_ok(), !matches!(said.turn.phase, Phase::NotOpen | Phase::Closed) && said.turn.attempts_left != Some(0));
         if admitted.is_ok() {
             let mut with = before;
             with.push(Handed { id: "new".into(), n: i64::MAX, at: now, judged: true, earned: 10.0 });
-            let credits = standing(&case(&policy, &with, None), now).credits;
+            let credits = standing(&case(&policy, &with, None), now).score.credits;
             let new = credits.iter().find(|one| one.id == "new").map(|one| one.points);
-            prop_assert_eq!(new, Some(10.0 * said.worth));
+            prop_assert_eq!(new, Some(10.0 * said.turn.worth));
         }
     }
 }
@@ -135,11 +135,14 @@ fn lateness_and_attempts_multiply_and_the_best_counts() {
     };
     let handed = [earned(9, 5.0), earned(11, 10.0), earned(13, 10.0), earned(15, 10.0)];
     let of = |n: usize| standing(&case(&policy, &handed[..n], None), END);
-    assert_eq!((of(1).points, of(2).points, of(4).points), (5.0, 10.0 * (0.8 * 0.9), 10.0 * (0.8 * 0.9)));
-    assert!(of(2).late && !of(1).late && of(2).passed && !of(1).passed);
+    assert_eq!(
+        (of(1).score.points, of(2).score.points, of(4).score.points),
+        (5.0, 10.0 * (0.8 * 0.9), 10.0 * (0.8 * 0.9))
+    );
+    assert!(of(2).score.late && !of(1).score.late && of(2).score.passed && !of(1).score.passed);
     let ill = extension(Some(11 * DAY), 0);
     let moved = standing(&case(&policy, &handed, Some(&ill)), at(12));
-    assert_eq!((moved.points, moved.due, moved.phase), (9.0, Some(at(11)), Phase::Late));
+    assert_eq!((moved.score.points, moved.turn.due, moved.turn.phase), (9.0, Some(at(11)), Phase::Late));
 }
 
 #[test]
@@ -148,7 +151,8 @@ fn decisions_count_from_when_they_are_made_until_they_are_taken_back() {
     let handed = [earned(1, 5.0)];
     let decide = |day, points| Decided { points, reason: "why".into(), by: "T".into(), at: at(day) };
     let decided = [decide(4, None), decide(2, Some(3.0)), decide(3, Some(9.0))];
-    let on = |day| standing(&Case { decided: &decided, ..case(&policy, &handed, None) }, at(day)).points;
+    let on =
+        |day| standing(&Case { decided: &decided, ..case(&policy, &handed, None) }, at(day)).score.points;
     assert_eq!((on(1), on(2), on(3), on(4)), (5.0, 3.0, 9.0, 5.0));
 }
 
@@ -158,7 +162,7 @@ fn what_is_held_back_is_told_when_it_is_due() {
     let policy = Policy { due: Some(at(10)), reveal, ..Policy::default() };
     let ill = extension(Some(12 * DAY), 0);
     let of = |extension, released, day| {
-        standing(&Case { released, ..case(&policy, &[], extension) }, at(day)).revealed
+        standing(&Case { released, ..case(&policy, &[], extension) }, at(day)).turn.revealed
     };
     assert!(!of(None, None, 10).points && of(None, None, 11).points && !of(Some(&ill), None, 11).points);
     assert!(!of(None, None, 99).messages && of(None, Some(at(20)), 20).messages);

@@ -1,5 +1,7 @@
 //! Grading again what was handed in, with the lesson that graded it then.
 
+mod told;
+
 mod preview;
 
 use std::collections::HashMap;
@@ -13,7 +15,8 @@ use crate::problem::Problem;
 use crate::store::{Recorded, Store, StoredSubmission};
 use crate::variants::Variants;
 
-pub use preview::{Changed, Counts, PersonChange, Preview, Previews, SubmissionChange, preview};
+pub use preview::{Previews, preview};
+pub use told::{Changed, Counts, PersonChange, Preview, SubmissionChange};
 
 /// What came of grading a course again.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]

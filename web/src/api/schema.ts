@@ -3161,6 +3161,27 @@ export interface components {
         } | {
             scene: string;
         };
+        /** @description The points of a person in an exercise. */
+        Score: {
+            /** @description What each attempt counts, the first at the beginning. */
+            credits: components["schemas"]["Credit"][];
+            /** @description The decision that holds. */
+            decided?: components["schemas"]["Decided"] | null;
+            /**
+             * Format: double
+             * @description Most points of an attempt, as its verdict says.
+             */
+            earned: number;
+            /** @description Whether the attempt that counts came late. */
+            late: boolean;
+            /** @description Whether they are enough to pass. */
+            passed: boolean;
+            /**
+             * Format: double
+             * @description Those that count.
+             */
+            points: number;
+        };
         /** @description An axis with its sense. */
         Sense: "+x" | "-x" | "+y" | "-y" | "+z" | "-z";
         /** @description The text messages to a watcher. */
@@ -3600,7 +3621,7 @@ export interface components {
             phase: components["schemas"]["Phase"];
             /**
              * Format: double
-             * @description The points that count.
+             * @description Those that count.
              */
             points: number;
             /** @description What the student is told. */
@@ -3761,27 +3782,6 @@ export interface components {
              */
             right: number | null;
         };
-        /** @description The points of a person in a lesson. */
-        ToldPoints: {
-            /** @description What each attempt counts. */
-            credits: components["schemas"]["Credit"][];
-            /** @description The decision that holds. */
-            decided?: components["schemas"]["Decided"] | null;
-            /**
-             * Format: double
-             * @description Most points of an attempt.
-             */
-            earned: number;
-            /** @description Whether what counts came late. */
-            late: boolean;
-            /** @description Whether they are enough to pass. */
-            passed: boolean;
-            /**
-             * Format: double
-             * @description Those that count.
-             */
-            points: number;
-        };
         /** @description The outcome for one question, without what is held back. */
         ToldQuestion: {
             /**
@@ -3825,13 +3825,13 @@ export interface components {
             closes?: string | null;
             /** @description Until when it counts in full for this person. */
             due?: string | null;
-            /** @description From when the next attempt can be made. */
+            /** @description From when the next attempt can be made, where one has to wait. */
             next_attempt?: string | null;
             /** @description Whether it can be handed in. */
             phase: components["schemas"]["Phase"];
             /** @description The points; left out while they are held back. */
-            points?: components["schemas"]["ToldPoints"] | null;
-            /** @description What is told of the verdicts. */
+            points?: components["schemas"]["Score"] | null;
+            /** @description What the student is told. */
             revealed: components["schemas"]["Revealed"];
             /**
              * Format: double

@@ -293,7 +293,7 @@ async fn told_of(
     let people = app.store.people(CLASS).await?;
     let seed = people.iter().find(|one| one.id == person).map(|one| app.access.seed_of(one));
     let (app, lesson) = (app.clone(), lesson.clone());
-    let (policy, revealed) = (assignment.policy.clone(), standing.revealed);
+    let (policy, revealed) = (assignment.policy.clone(), standing.turn.revealed);
     blocking(move || {
         let own = app.variants.of(&lesson, &seed.unwrap_or_default())?;
         told::tell(&own, &policy, revealed, &mut verdict)?;

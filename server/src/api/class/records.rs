@@ -150,7 +150,7 @@ async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse
     let book = Book::open(&app.store, CLASS, Some(id)).await?;
     let told = |lesson: &str| {
         let standing = app.course.lesson(lesson).map(|lesson| book.standing(id, lesson, Moment::now()));
-        standing.map_or(Revealed::NOTHING, |standing| standing.revealed)
+        standing.map_or(Revealed::NOTHING, |standing| standing.turn.revealed)
     };
     let mut found = app.store.list(&query).await?;
     for one in &mut found {

@@ -178,7 +178,7 @@ async fn seen(app: &App, member: &Member, id: &str) -> Result<(Vec<VerdictHistor
     }
     let lesson = lessons::find(app, &first.lesson)?;
     let book = Book::open(&app.store, CLASS, Some(&member.id)).await?;
-    let revealed = book.standing(&member.id, lesson, Moment::now()).revealed;
+    let revealed = book.standing(&member.id, lesson, Moment::now()).turn.revealed;
     Ok((found, revealed))
 }
 

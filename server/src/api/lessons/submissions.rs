@@ -344,7 +344,7 @@ async fn own(
     blocking(move || {
         for one in &mut found {
             let Some(lesson) = app.course.lesson(&one.lesson) else { continue };
-            let revealed = book.standing(&member.id, lesson, now).revealed;
+            let revealed = book.standing(&member.id, lesson, now).turn.revealed;
             let policy = book.assignment(&one.lesson).map(|assignment| assignment.policy.clone());
             match policy.filter(|policy| revealed.reference && policy.reveal.reference != When::AtOnce) {
                 Some(policy) => {

@@ -150,5 +150,5 @@ pub(in crate::api) async fn revealed(
 ) -> Result<Revealed, Problem> {
     let Some(person) = person.filter(|_| app.access.is_class()) else { return Ok(Revealed::ALL) };
     let book = crate::grades::Book::open(&app.store, crate::store::CLASS, Some(person)).await?;
-    Ok(book.standing(person, lesson, crate::policy::Moment::now()).revealed)
+    Ok(book.standing(person, lesson, crate::policy::Moment::now()).turn.revealed)
 }

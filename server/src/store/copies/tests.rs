@@ -12,23 +12,14 @@ use super::super::*;
 
 /// A submission with a name, a file and a verdict that says who it is about.
 fn new(student: &str, after: i64) -> HandIn {
-    let id = identifier();
+    let plain = tests::new(student);
     let question = json!({"id": "q", "earned": 0.1, "possible": 1.0, "verdict": "wrong", "message_html": "<p>You wrote 7.</p>"});
     HandIn {
-        id: id.clone(),
-        course: HOME.into(),
-        lesson: "pendulum".into(),
-        whose: Whose::Named,
-        student: student.into(),
-        received_at: now(),
         answers: json!({"q": {"file": "the work of a student"}}).to_string(),
-        verdict: json!({"id": id, "student": student, "earned": 0.1, "possible": 1.0, "passed": false, "questions": [question],
+        verdict: json!({"id": plain.id, "student": student, "earned": 0.1, "possible": 1.0, "passed": false, "questions": [question],
             "provenance": {"seed": student, "parameters": {}}}),
-        seed: student.into(),
-        counted: true,
         after,
-        key: None,
-        bundle: "the lesson".into(),
+        ..plain
     }
 }
 
