@@ -147,13 +147,22 @@ async function first() {
   say(`the viewer shows ${drawn} colours`);
   await picture("viewer");
 
+  // In slow motion, so that the end of the run is far however slow a machine draws the viewer.
+  const speed = page.getByRole("combobox", { name: "Speed" });
+  await speed.selectOption("0.1");
   await control("Play").click();
   const playing = await clock();
-  await until("playing moves the clock", clock, (time) => time > playing + 0.5);
+  await until("playing moves the clock", clock, (time) => time > playing + 0.1);
+  await control("Pause").click();
+  await control("Play").waitFor();
   await picture("playing");
+  await speed.selectOption("4");
+  await control("Play").click();
   await page.locator("#prediction").getByText("What happened: Three times the weight").waitFor();
   await picture("predicted");
-  await control("Pause").click();
+  // Paused or at its end: both rest, so that the picture of before the reset can be compared.
+  await page.locator(".clock").fill("3");
+  await page.locator(".clock").press("Enter");
   await control("Play").waitFor();
   say("played and paused; the prediction stands beside what happened");
   const before = await viewer.screenshot();

@@ -6,11 +6,15 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 use triad_tests::program::Server;
 use triad_tests::root;
 
 /// Where Debian's package puts the browser.
 const CHROMIUM: &str = "/usr/bin/chromium";
+
+/// One browser at a time: several that draw by the processor starve each other.
+static BROWSER: Mutex<()> = Mutex::new(());
 
 /// Runs a command; its output is shown if it fails.
 fn must(what: &str, command: &mut Command) -> String {
@@ -33,6 +37,7 @@ fn scripts() -> PathBuf {
 
 #[test]
 fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
+    let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = scripts();
     let home = tempfile::tempdir().unwrap();
     let profile = home.path().join("profile");
@@ -58,6 +63,7 @@ fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
 
 /// Runs a script against a server of its own.
 fn run(script: &str) {
+    let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = scripts();
     let home = tempfile::tempdir().unwrap();
     let server = Server::start(home.path());
