@@ -52,7 +52,8 @@ mod tests;
 pub use answers::{Answer, Submission, SubmissionError};
 pub use check::{Fault, check_course, check_course_files, check_lesson, check_lessons, reference_submission};
 pub use exercise::Parameters;
-pub use grading::{GradeError, Understood, grade, understand};
+pub use grading::closed::chosen;
+pub use grading::{GradeError, Understood, grade, near, understand};
 pub use lesson::{
     Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, NotionGraph, VariantError,
 };

@@ -30,6 +30,8 @@ pub mod work;
 pub mod access;
 pub mod grades;
 
+pub mod analysis;
+
 pub mod regrade;
 
 pub mod app;

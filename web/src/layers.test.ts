@@ -17,6 +17,7 @@ const LAYERS = [
   "stage",
   "inspector",
   "workbench",
+  "class",
   "pages",
 ];
 /** For unit tests only. */

@@ -38,25 +38,31 @@ function start(head: HTMLElement, main: HTMLElement): void {
       },
       {
         pattern: /^\/(join|setup|return)$/,
-        open: lazily("Your class", () => import("./pages/join").then((page) => page.joinClassPage)),
+        open: lazily("Your class", () => import("./class/join").then((page) => page.joinClassPage)),
       },
       {
         pattern: /^\/class$/,
-        open: lazily("Class", () => import("./pages/class").then((page) => page.classPage)),
+        open: lazily("Class", () => import("./class/overview").then((page) => page.classPage)),
       },
       {
         pattern: /^\/class\/lessons\/([^/]+)$/,
         open: lazily("Lesson of the class", () =>
-          import("./pages/assignment").then((page) => page.assignmentPage),
+          import("./class/assignment").then((page) => page.assignmentPage),
+        ),
+      },
+      {
+        pattern: /^\/class\/lessons\/([^/]+)\/questions\/([^/]+)$/,
+        open: lazily("Question of the class", () =>
+          import("./class/question").then((page) => page.questionPage),
         ),
       },
       {
         pattern: /^\/record$/,
-        open: lazily("Your work", () => import("./pages/record").then((page) => page.recordPage)),
+        open: lazily("Your work", () => import("./class/record").then((page) => page.recordPage)),
       },
       {
         pattern: /^\/class\/([^/]+)$/,
-        open: lazily("Student", () => import("./pages/student").then((page) => page.studentPage)),
+        open: lazily("Student", () => import("./class/student").then((page) => page.studentPage)),
       },
       {
         pattern: /^\/scenes$/,

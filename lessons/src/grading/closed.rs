@@ -27,7 +27,7 @@ pub(crate) fn choice(
 }
 
 /// The option that an answer names, in small letters.
-pub(super) fn chosen(answer: &Answer) -> Option<String> {
+pub fn chosen(answer: &Answer) -> Option<String> {
     text(answer).map(id)
 }
 

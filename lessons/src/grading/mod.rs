@@ -122,6 +122,15 @@ pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judg
     Ok(judgements)
 }
 
+/// How many tolerances an answer lies from the right one: at most 1 where it is right. None where it cannot be read, or the
+/// question is answered by no numbers, or only by exact ones.
+pub fn near(lesson: &Lesson, question: &str, answer: &Answer) -> Option<f64> {
+    match &lesson.question(question)?.body {
+        QuestionBody::Quantity(body) => quantity::tolerances(body, answer),
+        _ => None,
+    }
+}
+
 /// How a typed answer is understood, before anything is compared; `None` for a question whose answer is not typed.
 pub fn understand(question: &Question, answer: &Answer) -> Option<Understood> {
     reading::understood(question, answer).map(|read| match read {

@@ -81,6 +81,13 @@ pub(super) fn values(question: &QuantityQuestion, answer: &Answer) -> Option<Vec
     reading.mismatch.is_none().then_some(reading.values)
 }
 
+/// How many tolerances an answer lies from the reference; none where it cannot be read or only the exact number counts.
+pub(super) fn tolerances(question: &QuantityQuestion, answer: &Answer) -> Option<f64> {
+    let allowed = question.tolerance.allowed(norm(&question.reference));
+    let values = values(question, answer)?;
+    (allowed > 0.0).then(|| distance(&values, &question.reference) / allowed)
+}
+
 /// The numbers of an answer if they can be read: in the question's unit, or as they are beside a unit of another dimension.
 pub(super) fn magnitudes(question: &QuantityQuestion, answer: &Answer) -> Option<Vec<f64>> {
     reading::read(question, answer).ok().map(|reading| reading.values)

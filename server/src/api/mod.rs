@@ -68,6 +68,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(class::people::routes(&mut schemas))
                 .merge(class::assignments::routes(&mut schemas))
                 .merge(class::grades::routes(&mut schemas))
+                .merge(class::analysis::routes(&mut schemas))
                 .merge(class::records::routes(&mut schemas))
                 .merge(class::regrades::routes(&mut schemas))
                 .merge(class::standing::routes(&mut schemas))

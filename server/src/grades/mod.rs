@@ -151,7 +151,6 @@ pub fn asks(entry: &Entry) -> bool {
 ///
 /// Errors if it cannot be written, which memory does not do.
 pub fn csv(table: &GradeTable, format: Format, title: &str) -> Result<String, Problem> {
-    let mut writer = WriterBuilder::new().quote_style(QuoteStyle::Always).from_writer(Vec::new());
     let lead: &[&str] = match format {
         Format::Plain => &["Student", "Id"],
         Format::Canvas => &["Student", "ID", "SIS User ID", "SIS Login ID", "Section"],
@@ -178,6 +177,14 @@ pub fn csv(table: &GradeTable, format: Format, title: &str) -> Result<String, Pr
         row.extend(table.lessons.iter().map(|lesson| points(lesson).unwrap_or_default()));
         rows.push(row);
     }
+    sheet(&rows)
+}
+
+/// Rows as CSV: every cell quoted, none taken for a formula.
+///
+/// Errors if it cannot be written, which memory does not do.
+pub fn sheet(rows: &[Vec<String>]) -> Result<String, Problem> {
+    let mut writer = WriterBuilder::new().quote_style(QuoteStyle::Always).from_writer(Vec::new());
     for row in rows {
         writer.write_record(row.iter().map(|cell| harmless(cell))).map_err(Problem::internal)?;
     }

@@ -3,6 +3,7 @@
 // The exemption of the lints for tests does not reach the helpers beside them.
 #![allow(clippy::expect_used, clippy::panic)]
 
+mod analysis;
 mod bad_input;
 mod changes;
 mod class;

@@ -23,6 +23,7 @@ import type {
   KeptSubmission,
   LectureState,
   Lesson,
+  LessonFigures,
   LessonSummary,
   Me,
   ModesAbout,
@@ -33,6 +34,7 @@ import type {
   PredictionCounts,
   PresenterState,
   Problem,
+  QuestionAnalysis,
   Reactions,
   RegradePreview,
   Scene,
@@ -189,6 +191,15 @@ export const api = {
     call<void>("DELETE", `/assignments/${id(slug)}/extensions/${id(person)}`),
   previewPolicy: (slug: string, body: { policy?: Policy; person?: string; at?: string }) =>
     call<PolicyPreview>("POST", `/assignments/${id(slug)}/preview`, body),
+  figures: (slug: string) => call<LessonFigures>("GET", `/assignments/${id(slug)}/questions`),
+  figuresUrl: (slug: string, kind: "csv" | "json"): string =>
+    `${BASE}/assignments/${id(slug)}/questions${kind === "csv" ? ".csv" : ""}`,
+  analysis: (slug: string, question: string) =>
+    call<QuestionAnalysis>("GET", `/assignments/${id(slug)}/questions/${id(question)}`),
+  analysisUrl: (slug: string, question: string): string =>
+    `${BASE}/assignments/${id(slug)}/questions/${id(question)}`,
+  answersUrl: (slug: string, question: string): string =>
+    `${BASE}/assignments/${id(slug)}/questions/${id(question)}/answers.csv`,
   previewRegrade: (slug: string) => call<RegradePreview>("POST", `/assignments/${id(slug)}/regrades`),
   regrades: () => call<AppliedRegrade[]>("GET", "/regrades"),
   bothVerdicts: (regrade: string, submission: string) =>

@@ -403,6 +403,25 @@ export interface components {
         };
         /** @description What counts of a regrade. */
         Choice: "replace" | "better";
+        /** @description An option and how often it was chosen. */
+        ChoiceCount: {
+            /**
+             * Format: uint
+             * @description Students who chose it first.
+             */
+            first: number;
+            /** @description The option, as safe HTML. */
+            html: string;
+            /** @description Id of the option. */
+            id: string;
+            /**
+             * Format: uint
+             * @description Students who chose it last.
+             */
+            last: number;
+            /** @description Whether it is right. */
+            right: boolean;
+        };
         /** @description An option as a student sees it. */
         ChoiceOption: {
             /** @description The option as safe HTML. */
@@ -661,6 +680,33 @@ export interface components {
         } | {
             body: string;
         };
+        /** @description Facility of first answers by halves of the class: those who drew a small number, and those who drew a large one. */
+        DrawnNumber: {
+            /** @description The others. */
+            above: [
+                number,
+                number
+            ];
+            /** @description Students below, and their facility. */
+            below: [
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description The upper half begins here.
+             */
+            border: number;
+            /**
+             * Format: double
+             * @description The difference in standard errors; absent where nothing varies.
+             */
+            deviations?: number | null;
+            /** @description Name of the number. */
+            name: string;
+            /** @description Whether that is more than chance. */
+            unequal: boolean;
+        };
         /**
          * @description What moves as prescribed. Points and vectors of bodies are in the frame of their body, those of the ground in the
          *     world.
@@ -871,6 +917,8 @@ export interface components {
              */
             pointer: string;
         };
+        /** @description What to look at in a question. */
+        Flag: "easy" | "hard" | "weak";
         /**
          * @description Friction along one freedom of a joint: −(viscous ẋ + (coulomb + coefficient · radius · N) tanh(ẋ / smoothing)), where the
          *     joint's own reaction presses with N.
@@ -910,6 +958,21 @@ export interface components {
              * @default 0
              */
             viscous?: number;
+        };
+        /** @description An answer that was given. */
+        GivenAnswer: {
+            /** @description The answer in one line. */
+            answer: string;
+            /** @description When. */
+            at: string;
+            /** @description Whether the person has earned all points since. */
+            mended: boolean;
+            /** @description The name. */
+            name: string;
+            /** @description The person's id. */
+            person: string;
+            /** @description The submission. */
+            submission: string;
         };
         /** @description A prediction that was made, or skipped, with what the run shows. */
         GivenPrediction: {
@@ -1592,6 +1655,25 @@ export interface components {
             /** @description Title. */
             title: string;
         };
+        /** @description The questions of a lesson in figures. */
+        LessonFigures: {
+            /**
+             * Format: uint32
+             * @description Its place in the course.
+             */
+            number: number;
+            /** @description The questions, in the order of the lesson. */
+            questions: components["schemas"]["QuestionFigures"][];
+            /** @description Slug of the lesson. */
+            slug: string;
+            /**
+             * Format: uint
+             * @description Students who handed in.
+             */
+            students: number;
+            /** @description Its title. */
+            title: string;
+        };
         /** @description The lessons of a course. */
         LessonList: components["schemas"]["LessonSummary"][];
         /** @description One person's work in one lesson. */
@@ -1840,6 +1922,40 @@ export interface components {
             mode: string;
             /** @description Who is signed in. */
             person?: components["schemas"]["Somebody"] | null;
+        };
+        /** @description A mistake with the answers behind it. */
+        MistakeAnswers: {
+            /** @description The answers, by name. */
+            answers: components["schemas"]["GivenAnswer"][];
+            /** @description Its name; empty: not recognised. */
+            name: string;
+            /**
+             * Format: uint
+             * @description Students whose last answer still has it.
+             */
+            still: number;
+            /**
+             * Format: uint
+             * @description Students who made it at least once.
+             */
+            students: number;
+            /** @description What the first of them was told, as safe HTML. */
+            told_html: string;
+        };
+        /** @description A mistake and how many made it. */
+        MistakeCount: {
+            /** @description Its name; empty: not recognised. */
+            name: string;
+            /**
+             * Format: uint
+             * @description Students whose last answer still has it.
+             */
+            still: number;
+            /**
+             * Format: uint
+             * @description Students who made it at least once.
+             */
+            students: number;
         };
         /** @description One mode, moving as e^(λt). */
         Mode: {
@@ -2769,6 +2885,104 @@ export interface components {
             tuning?: components["schemas"]["TuningChoices"] | null;
             /** @description Unit that is assumed unless another is given; absent for choices and where the unit is asked. */
             unit?: string | null;
+        };
+        /** @description What the answers of a class say about a question. */
+        QuestionAnalysis: {
+            /**
+             * Format: uint
+             * @description Students with a wrong answer within three tolerances of the right one; absent where there is no tolerance.
+             */
+            almost?: number | null;
+            /** @description How often each option was chosen; empty but for choices. */
+            choices: components["schemas"]["ChoiceCount"][];
+            /** @description Whether the numbers that were drawn are equally hard. */
+            drawn: components["schemas"]["DrawnNumber"][];
+            /** @description The figures. */
+            figures: components["schemas"]["QuestionFigures"];
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description Mistakes with the answers behind each, the most frequent first. */
+            mistakes: components["schemas"]["MistakeAnswers"][];
+            /**
+             * Format: uint32
+             * @description Its place in the course.
+             */
+            number: number;
+            /**
+             * Format: uint
+             * @description The question's place in the lesson, from 1.
+             */
+            place: number;
+            /** @description What is asked, with the numbers that everybody sees, as safe HTML. */
+            prompt_html: string;
+            /** @description Ids of the questions of the lesson, in order. */
+            questions: string[];
+            /**
+             * Format: uint
+             * @description Students with an answer that was sent back.
+             */
+            sent_back: number;
+            /** @description Title of the lesson. */
+            title: string;
+        };
+        /** @description A question in figures. */
+        QuestionFigures: {
+            /**
+             * Format: uint
+             * @description Of these, those who gave an answer that could be judged.
+             */
+            answered: number;
+            /**
+             * Format: uint
+             * @description Students who handed in and were asked it.
+             */
+            asked: number;
+            /**
+             * Format: double
+             * @description Correlation of first answers with those to all other questions of the lesson.
+             */
+            discrimination?: number | null;
+            /**
+             * Format: double
+             * @description Mean share of the points of first answers.
+             */
+            facility?: number | null;
+            /**
+             * Format: double
+             * @description Mean share of the points of best answers.
+             */
+            facility_best?: number | null;
+            /** @description What to look at; nothing below ten students. */
+            flags: components["schemas"]["Flag"][];
+            /** @description The question's id. */
+            id: string;
+            /** @description Its kind. */
+            kind: components["schemas"]["QuestionKind"];
+            /** @description Mistakes by the number of students who made them, the most frequent first. An empty name: not recognised. */
+            mistakes: components["schemas"]["MistakeCount"][];
+            /**
+             * Format: double
+             * @description Its points.
+             */
+            points: number;
+            /**
+             * Format: uint
+             * @description Those who earned all points by now.
+             */
+            right: number;
+            /** @description Students who needed 1, 2, 3, 4, and 5 or more different answers. */
+            until_right: [
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Facility among the 27 % who are best at the other questions, less that among the 27 % who are worst.
+             */
+            upper_less_lower?: number | null;
         };
         /** @description Kind of a question. */
         QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "diagram" | "implement" | "trajectory" | "model" | "tuning";

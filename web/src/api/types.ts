@@ -70,3 +70,6 @@ export type Policy = Schemas["Policy"];
 export type PolicyPreview = Schemas["PolicyPreview"];
 export type PersonRecord = Schemas["Record"];
 export type RegradePreview = Schemas["Preview"];
+export type LessonFigures = Schemas["LessonFigures"];
+export type QuestionAnalysis = Schemas["QuestionAnalysis"];
+export type QuestionFigures = Schemas["QuestionFigures"];

@@ -1,5 +1,6 @@
 //! The class: who is in it, coming in, and what everybody has reached.
 
+pub(in crate::api) mod analysis;
 pub(in crate::api) mod assignments;
 pub(in crate::api) mod grades;
 pub(in crate::api) mod people;

@@ -289,7 +289,7 @@ pub(crate) fn starter_of(
     Ok((known.file(), text))
 }
 
-fn unknown_question(lesson: &Lesson, id: &str) -> Problem {
+pub(in crate::api) fn unknown_question(lesson: &Lesson, id: &str) -> Problem {
     Problem::new(
         StatusCode::NOT_FOUND,
         "unknown-question",

@@ -109,7 +109,7 @@ function histogram({ histogram_before: before, histogram_after: after }: Regrade
     );
   return h(
     "table",
-    { class: "data histogram" },
+    { class: "data tenths" },
     h("caption", null, "Students by tenths of the points that count"),
     h(
       "thead",

@@ -7,6 +7,7 @@ import { dateTime, plural, points } from "../core/format";
 import type { Page } from "../core/router";
 import { pointsOf } from "../exercise/verdict";
 import { problemNotice, skeleton } from "../ui/notice";
+import { figuresSection } from "./figures";
 import { regradeSection } from "./regrade";
 
 export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
@@ -22,6 +23,7 @@ export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
       root.replaceChildren(
         h("p", null, h("a", { href: "/class" }, "← Class")),
         h("header", { class: "page-head" }, h("h1", null, `${lesson.number} ${lesson.title}`)),
+        figuresSection(lesson),
         policySection(lesson, students, () => void load()),
         extensionSection(lesson, students, () => void load()),
         regradeSection(lesson),

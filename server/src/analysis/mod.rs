@@ -1,0 +1,16 @@
+//! What the answers of a class say about the questions: which are hard, which tell the strong from the weak, which mistakes
+//! are made, and by whom.
+//!
+//! In reading order: the statistics as pure functions of numbers, one student's work at a question as it is kept, and what
+//! both say about a question.
+
+mod figures;
+mod question;
+mod sheets;
+pub mod statistics;
+mod work;
+
+pub use figures::{Flag, LessonFigures, MistakeCount, QuestionFigures};
+pub use question::{ChoiceCount, DrawnNumber, GivenAnswer, MistakeAnswers, QuestionAnalysis};
+pub use sheets::{answers_csv, figures_csv};
+pub use work::{Class, Try, Work};
