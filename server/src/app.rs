@@ -8,6 +8,7 @@ use triad_lessons::Course;
 use crate::access::Access;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
+use crate::motion::Shelf;
 use crate::regrade::Previews;
 use crate::session::Registry;
 use crate::store::Store;
@@ -32,6 +33,8 @@ pub struct App {
     pub lectures: Arc<Lectures>,
     /// Places for what is computed on request.
     pub work: Arc<Work>,
+    /// Recorded runs that were asked for.
+    pub motions: Arc<Shelf>,
     /// Regrades that were looked at and not applied yet.
     pub regrades: Arc<Previews>,
     /// Who may do what.
@@ -54,6 +57,7 @@ impl App {
             sessions: Arc::default(),
             lectures: Arc::default(),
             work: Arc::default(),
+            motions: Arc::default(),
             regrades: Arc::default(),
             access: Arc::new(Access::home(false, [])),
             limits: Arc::new(limits),

@@ -27,6 +27,8 @@ pub mod live;
 
 pub mod work;
 
+pub mod motion;
+
 pub mod access;
 pub mod grades;
 

@@ -15,6 +15,8 @@ const LAYERS = [
   "lecture",
   "prediction",
   "stage",
+  "player",
+  "gallery",
   "inspector",
   "workbench",
   "class",

@@ -14,11 +14,17 @@ if (location.pathname.startsWith("/lessons/")) void loadMaths();
 const head = document.getElementById("header");
 const main = document.getElementById("main");
 if (head && main) {
-  void loadMe().finally(() => start(head, main));
+  // In a frame of another site nobody is signed in, and there is nowhere to go.
+  if (location.pathname.startsWith("/embed/")) routes(main);
+  else void loadMe().finally(() => start(head, main));
 }
 
 function start(head: HTMLElement, main: HTMLElement): void {
   header(head);
+  routes(main);
+}
+
+function routes(main: HTMLElement): void {
   startRouter(
     main,
     [
@@ -71,6 +77,10 @@ function start(head: HTMLElement, main: HTMLElement): void {
       {
         pattern: /^\/scenes\/([^/]+)$/,
         open: lazily("Scene", () => import("./pages/scene").then((page) => page.scenePage)),
+      },
+      {
+        pattern: /^\/embed\/(lessons|scenes)\/([^/]+)$/,
+        open: lazily("Mechanism", () => import("./pages/embed").then((page) => page.embedPage)),
       },
     ],
     notFoundPage,

@@ -27,6 +27,19 @@ pub struct CourseFile {
     /// When the right answer to a question is shown. Without it, never.
     #[serde(default)]
     pub opens: OpensFile,
+    /// The parts of the course, in order: headings over its lessons.
+    #[serde(default)]
+    pub parts: Vec<PartFile>,
+}
+
+/// A part of a course: the lessons from one on, to where the next part begins.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartFile {
+    /// Title of the part.
+    pub title: String,
+    /// Slug of its first lesson.
+    pub from: String,
 }
 
 /// When the right answer to a question and its source are shown to a student, whichever comes first. From then on the points

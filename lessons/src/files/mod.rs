@@ -21,7 +21,7 @@ pub use exercise::{
     ExerciseFile, MisconceptionFile, OptionFile, ParameterFile, PatchFile, QuestionFile, QuestionKind,
     ToleranceFile,
 };
-pub use lesson::{CourseFile, LessonFile, OpensFile, StepFile, StepKind};
+pub use lesson::{CourseFile, LessonFile, OpensFile, PartFile, StepFile, StepKind};
 pub use measured::{Component, CountKind, MeasuredFile, MotionKind};
 pub use prediction::{PredictionFile, PredictionOptionFile};
 pub use reference::{ProvenanceKind, ReferenceFile, WrongFile};

@@ -39,6 +39,8 @@ pub struct Lesson {
     pub seed: String,
     /// When right answers are shown.
     pub opens: OpensFile,
+    /// Title of the part of its course that it stands in.
+    pub part: Option<String>,
     /// What the numbers were drawn from: the name, or its keyed fingerprint where the class has a secret.
     pub(crate) drawn_from: String,
     pub(crate) sources: QuestionSources,
@@ -122,6 +124,7 @@ impl Lesson {
             parameters,
             seed: String::new(),
             opens: OpensFile::default(),
+            part: None,
             drawn_from: String::new(),
             sources,
             files: Arc::new(files),

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::content::Lesson;
 use super::numbering::Places;
 use super::reader::LessonError;
-use crate::files::{CourseFile, Files};
+use crate::files::{CourseFile, Files, PartFile};
 
 include!(concat!(env!("OUT_DIR"), "/embedded.rs"));
 
@@ -124,6 +124,7 @@ impl Course {
         }
         lessons.sort_by_key(|l| l.number);
         let others = order.map_or_else(Vec::new, |order| lessons.split_off(order.len()));
+        divide(&mut lessons, &head.parts)?;
         Ok(Self { title: head.title, assumes: head.assumes, lessons, others, stray })
     }
 
@@ -163,6 +164,23 @@ fn head(files: &Files) -> Result<CourseFile, CourseError> {
         return Err(CourseError::Head { problem });
     }
     Ok(head)
+}
+
+/// Gives each lesson the title of the part that it stands in.
+fn divide(lessons: &mut [Lesson], parts: &[PartFile]) -> Result<(), CourseError> {
+    for part in parts {
+        let Some(first) = lessons.iter().position(|lesson| lesson.slug == part.from) else {
+            let problem = format!(
+                "parts begins \"{}\" from {}, which is none of the lessons that are taken; correct the name",
+                part.title, part.from
+            );
+            return Err(CourseError::Head { problem });
+        };
+        for lesson in &mut lessons[first..] {
+            lesson.part = Some(part.title.clone());
+        }
+    }
+    Ok(())
 }
 
 /// The files of each folder, and those that lie beside the folders.

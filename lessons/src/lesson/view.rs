@@ -20,6 +20,7 @@ impl Lesson {
         LessonSummary {
             slug: self.slug.clone(),
             number: self.number,
+            part: self.part.clone(),
             title: self.about.title.clone(),
             summary: self.about.summary.clone(),
             minutes: self.about.minutes,
@@ -60,6 +61,9 @@ pub struct LessonSummary {
     pub slug: String,
     /// Place in the course, from 1.
     pub number: u32,
+    /// Title of the part of the course that it stands in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
     /// Title.
     pub title: String,
     /// One sentence.

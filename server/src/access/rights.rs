@@ -83,6 +83,10 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     // What computes belongs to the class.
     ("GET", "/api/v1/scenes", Anyone),
     ("GET", "/api/v1/scenes/{name}", Anyone),
+    // Computed once for all who look, of few bodies: they play in other sites too, where nobody is signed in.
+    ("GET", "/api/v1/scenes/{name}/motion", Anyone),
+    ("GET", "/api/v1/lessons/{slug}/motion", Anyone),
+    ("GET", "/api/v1/pictures", Anyone),
     ("GET", "/api/v1/schema/scene", Anyone),
     ("POST", "/api/v1/check", STUDENT),
     ("POST", "/api/v1/import/urdf", STUDENT),

@@ -12,6 +12,7 @@ use axum::response::{IntoResponse, Response};
 
 use crate::access::rights;
 use crate::app::App;
+use crate::page;
 use crate::problem::Problem;
 use crate::store::{CLASS, Member};
 
@@ -131,6 +132,7 @@ fn same_origin(headers: &HeaderMap, host: Option<&str>) -> Result<(), Problem> {
 /// Nothing of what is sent is to be guessed at, framed by others, or told where a link leads.
 fn secured(mut response: Response) -> Response {
     let headers = response.headers_mut();
+    let framed = headers.get(header::CONTENT_SECURITY_POLICY).is_some_and(page::may_be_framed);
     for (name, value) in [
         // What is no page of ours runs and loads nothing.
         (header::CONTENT_SECURITY_POLICY, "default-src 'none'; frame-ancestors 'none'"),
@@ -138,7 +140,9 @@ fn secured(mut response: Response) -> Response {
         (header::REFERRER_POLICY, "same-origin"),
         (header::X_FRAME_OPTIONS, "SAMEORIGIN"),
     ] {
-        headers.entry(name).or_insert(HeaderValue::from_static(value));
+        if !(framed && name == header::X_FRAME_OPTIONS) {
+            headers.entry(name).or_insert(HeaderValue::from_static(value));
+        }
     }
     response
 }

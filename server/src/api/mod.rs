@@ -81,6 +81,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(sessions::changes::routes(&mut schemas))
                 .merge(scenes::analyses::routes(&mut schemas))
                 .merge(scenes::table::routes(&mut schemas))
+                .merge(scenes::motion::routes(&mut schemas))
                 .merge(sessions::reactions::routes(&mut schemas))
                 .merge(sessions::matrices::routes(&mut schemas))
                 .merge(sessions::stream::routes(&mut schemas))

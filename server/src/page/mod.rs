@@ -11,22 +11,32 @@ use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::problem::Problem;
-use asset::{Asset, find};
+use asset::{Asset, Encoding, find};
 
 /// First words of the addresses that the page has a view for: those of `web/src/main.ts`.
-const VIEWS: [&str; 8] = ["lessons", "room", "join", "setup", "return", "class", "record", "scenes"];
+const VIEWS: [&str; 9] = ["lessons", "room", "join", "setup", "return", "class", "record", "scenes", "embed"];
+/// The view that pages of other sites may show in a frame: it plays a recorded run, and has no cookie and no session.
+const FRAMED: &str = "embed";
 
 /// What may run and load in the page: only what this server sent. The viewer is WebAssembly in a worker. Not every browser
 /// takes 'self' for WebSockets: they are named by the server's own name.
-fn policy(request: &HeaderMap) -> HeaderValue {
+///
+/// `framed`: pages of other sites may show it.
+fn policy(request: &HeaderMap, framed: bool) -> HeaderValue {
     let host = request.get(header::HOST).and_then(|host| host.to_str().ok()).filter(|host| is_host(host));
     let streams = host.map_or(String::new(), |host| format!(" ws://{host} wss://{host}"));
     let policy = format!(
         "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src 'self' blob:; style-src 'self' \
          'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'{streams} data: blob:; \
-         object-src 'none'; frame-ancestors 'self'; base-uri 'self'; form-action 'self'"
+         object-src 'none'; frame-ancestors {}; base-uri 'self'; form-action 'self'",
+        if framed { "*" } else { "'self'" }
     );
     HeaderValue::try_from(policy).unwrap_or(HeaderValue::from_static("default-src 'none'"))
+}
+
+/// Whether a policy lets pages of other sites show what it came with.
+pub fn may_be_framed(policy: &HeaderValue) -> bool {
+    policy.to_str().is_ok_and(|policy| policy.contains("frame-ancestors *"))
 }
 
 /// Whether it has no character that would end a source in a policy.
@@ -41,7 +51,7 @@ pub async fn serve(request: Request) -> Response {
     }
     let path = request.uri().path().trim_start_matches('/');
     if let Some(asset) = find(if path.is_empty() { "index.html" } else { path }) {
-        return respond(asset, request.headers()).await;
+        return respond(asset, request.headers(), false).await;
     }
     let first = path.split('/').next().unwrap_or(path);
     // Addresses without a file name belong to the page, which says of most that there is nothing.
@@ -49,7 +59,7 @@ pub async fn serve(request: Request) -> Response {
     let is_page = !["api", "assets"].contains(&first) && !last.contains('.');
     match find("index.html").filter(|_| is_page) {
         Some(page) => {
-            let mut response = respond(page, request.headers()).await;
+            let mut response = respond(page, request.headers(), first == FRAMED).await;
             if !VIEWS.contains(&first) && response.status() == StatusCode::OK {
                 *response.status_mut() = StatusCode::NOT_FOUND;
             }
@@ -76,7 +86,7 @@ pub fn method_not_allowed() -> Response {
     .into_response()
 }
 
-async fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
+async fn respond(asset: &'static Asset, request: &HeaderMap, framed: bool) -> Response {
     let cache =
         if asset.path.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
     let mut headers = HeaderMap::new();
@@ -87,7 +97,7 @@ async fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
     set(header::VARY, "accept-encoding");
     set(header::X_CONTENT_TYPE_OPTIONS, "nosniff");
     // Scripts too: a worker is bound by the policy of its own file.
-    headers.insert(header::CONTENT_SECURITY_POLICY, policy(request));
+    headers.insert(header::CONTENT_SECURITY_POLICY, policy(request, framed));
     let known = request.get(header::IF_NONE_MATCH).and_then(|value| value.to_str().ok());
     if known.is_some_and(|known| known.split(',').any(|tag| tag.trim().trim_start_matches("W/") == asset.tag))
     {
@@ -101,6 +111,11 @@ async fn respond(asset: &'static Asset, request: &HeaderMap) -> Response {
         headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static(encoding.name()));
     }
     (headers, body).into_response()
+}
+
+/// Whether the caller reads gzip.
+pub fn reads_gzip(request: &HeaderMap) -> bool {
+    accepts(request, Encoding::Gzip.name())
 }
 
 /// Whether the caller reads `encoding`: named, and not with a weight of zero.
@@ -152,7 +167,7 @@ mod tests {
         let of = |host: &'static str| {
             let mut headers = HeaderMap::new();
             headers.insert(header::HOST, HeaderValue::from_static(host));
-            policy(&headers).to_str().expect("text").to_owned()
+            policy(&headers, false).to_str().expect("text").to_owned()
         };
         assert!(of("[::1]:8080").contains(" ws://[::1]:8080 wss://[::1]:8080 "));
         for host in ["a; script-src *", "a, b", "a b"] {

@@ -28,7 +28,7 @@ pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};
 pub use sample::{Pose, Sample, SampledReaction};
 pub use scale::Scale;
-pub use track::Track;
+pub use track::{Track, block};
 
 /// Name under which the viewer knows the recordings.
 pub const APPLICATION: &str = "triad";

@@ -60,7 +60,8 @@ impl Track {
     }
 }
 
-fn block(samples: &[Sample], joints: usize) -> Vec<u8> {
+/// Samples as one block, with the reactions of so many joints.
+pub fn block(samples: &[Sample], joints: usize) -> Vec<u8> {
     let bodies = samples.first().map_or(0, |sample| sample.poses.len());
     let frame = size_of::<f64>() + size_of::<f32>() * (OF_BODY * bodies + OF_JOINT * joints);
     let mut block = Vec::with_capacity(16 + frame * samples.len());

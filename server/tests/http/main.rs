@@ -11,6 +11,7 @@ mod described;
 mod document;
 mod generated;
 mod lessons;
+mod motion;
 mod policy;
 mod predictions;
 mod regrade;

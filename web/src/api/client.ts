@@ -27,8 +27,10 @@ import type {
   LessonSummary,
   Me,
   ModesAbout,
+  Motion,
   OpenedLecture,
   PersonRecord,
+  Pictures,
   Policy,
   PolicyPreview,
   PredictionCounts,
@@ -257,6 +259,11 @@ export const api = {
 
   scenes: (signal?: AbortSignal) => call<SceneEntry[]>("GET", "/scenes", undefined, signal),
   scene: (name: string, signal?: AbortSignal) => call<Scene>("GET", `/scenes/${id(name)}`, undefined, signal),
+  /** The first seconds of a run, recorded: no session is needed. */
+  motion: (of: "scenes" | "lessons", name: string, signal?: AbortSignal) =>
+    call<Motion>("GET", `/${of}/${id(name)}/motion`, undefined, signal),
+  /** All scenes and lessons at their starts. */
+  pictures: (signal?: AbortSignal) => call<Pictures>("GET", "/pictures", undefined, signal),
   check: (sceneText: string, signal?: AbortSignal) => call<CheckReport>("POST", "/check", sceneText, signal),
 
   analyse: <T>(

@@ -1638,6 +1638,8 @@ export interface components {
             number: number;
             /** @description What the student can do afterwards. */
             objectives: string[];
+            /** @description Title of the part of the course that it stands in. */
+            part?: string | null;
             /** @description What is predicted before the scenario runs; may be empty. */
             predictions: components["schemas"]["Prediction"][];
             /** @description Slugs of the lessons that come before. */
@@ -1732,6 +1734,8 @@ export interface components {
             number: number;
             /** @description What the student can do afterwards. */
             objectives: string[];
+            /** @description Title of the part of the course that it stands in. */
+            part?: string | null;
             /** @description Stable name for addresses. */
             slug: string;
             /** @description One sentence. */
@@ -2128,6 +2132,15 @@ export interface components {
             /** @description The formula: numbers, t, pi, + - * / ^, brackets, and sin, cos, tan, asin, acos, atan, sqrt, exp, ln. */
             value: string;
         } | number;
+        /** @description A joint of a recorded run. */
+        MotionJoint: {
+            /** @description The body at the other side. */
+            by: string;
+            /** @description The joint or driver. */
+            joint: string;
+            /** @description The body that its reaction acts on. */
+            on: string;
+        };
         /** @description One multiplier λ of eq. (6.6) with the label of its equation. */
         Multiplier: {
             /** @description Label of the equation within its joint. */
@@ -2476,6 +2489,17 @@ export interface components {
         };
         /** @description Whether an exercise can be handed in. */
         Phase: "not_open" | "open" | "late" | "practice" | "closed";
+        /** @description The scenes at their starts: what a list of them shows. */
+        Pictures: {
+            /** @description Of the lessons, by their slugs. */
+            lessons: {
+                [key: string]: components["schemas"]["RecordedMotion"];
+            };
+            /** @description Of the built-in scenes, by the names to run them by. */
+            scenes: {
+                [key: string]: components["schemas"]["RecordedMotion"];
+            };
+        };
         /** @description A place in the scene. */
         Place: string | {
             /**
@@ -3153,6 +3177,44 @@ export interface components {
             lessons: components["schemas"]["LessonRecord"][];
             /** @description The name. */
             name: string;
+        };
+        /** @description A recorded run. */
+        RecordedMotion: {
+            /** @description Names of the bodies, in the scene's order. */
+            bodies: string[];
+            /**
+             * Format: double
+             * @description Length of a force's arrow, m/N.
+             */
+            force_scale: number;
+            /** @description The joints and drivers whose reactions are recorded. */
+            joints: components["schemas"]["MotionJoint"][];
+            /**
+             * Format: double
+             * @description The longest arrow, m.
+             */
+            longest: number;
+            /**
+             * Format: double
+             * @description Radius of a moment's circle, m/(N m).
+             */
+            moment_scale: number;
+            /** @description What of the scene is drawn: bodies, joints, markers, gravity. */
+            scene: components["schemas"]["Scene"];
+            /**
+             * Format: double
+             * @description Simulated seconds by second at which it is watched well.
+             */
+            speed: number;
+            /** @description Title of the scene. */
+            title: string;
+            /** @description One block of the stream of numbers, as base64. */
+            track: string;
+            /**
+             * Format: double
+             * @description End of what is recorded, s.
+             */
+            until: number;
         };
         /**
          * @description A set of joints and drivers whose rows repeat each other.

@@ -48,6 +48,9 @@ export type Tally = Schemas["Tally"];
 export type MatrixPart = Schemas["MatrixPart"];
 export type ModesAbout = Schemas["ModesAbout"];
 export type Output = Schemas["Output"];
+/** A run that was recorded; `Motion` of the schema is what drives something in a scene. */
+export type Motion = Schemas["RecordedMotion"];
+export type Pictures = Schemas["Pictures"];
 export type OpenedLecture = Schemas["OpenedLecture"];
 export type PresenterState = Schemas["PresenterState"];
 export type ImportedRobot = Schemas["ImportedRobot"];

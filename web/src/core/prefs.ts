@@ -22,6 +22,17 @@ export function recall(key: Key): string | null {
   }
 }
 
+/** Whether something is kept under one of these names, or under one of them with more behind a colon. */
+export function recallsAny(...names: string[]): boolean {
+  try {
+    return Object.keys(localStorage).some((key) =>
+      names.some((name) => key === `triad:${name}` || key.startsWith(`triad:${name}:`)),
+    );
+  } catch {
+    return false;
+  }
+}
+
 export function remember(key: Key, value: string | null): void {
   try {
     if (value === null) localStorage.removeItem(`triad:${key}`);

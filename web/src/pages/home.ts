@@ -1,99 +1,193 @@
-// The list of lessons, written like the contents page of a book, with how far one has come.
+// The list of lessons in their parts, with how far one has come, under a mechanism that moves.
 import { api } from "../api/client";
-import type { GradedSubmission, LessonSummary } from "../api/types";
+import type { LessonSummary } from "../api/types";
 import { h } from "../core/dom";
-import { plural, points } from "../core/format";
+import { plural } from "../core/format";
 import { student } from "../core/prefs";
 import type { Page } from "../core/router";
-import { heroDrawing } from "../ui/hero";
+import type { HomePictures } from "../gallery/home-pictures";
+import { begun, type Standing, standingLabel, standings } from "../gallery/standing";
 import { icon } from "../ui/icons";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { lastBookmark } from "./reading-position";
-
-interface Best {
-  earned: number;
-  possible: number;
-  passed: boolean;
-  attempts: number;
-}
 
 /** Submissions that are asked for to show the progress: more than a student hands in. */
 const MAX_SUBMISSIONS = 200;
 
 export function homePage(outlet: HTMLElement): Page {
-  const leaving = new AbortController();
-  const list = h("div", { class: "contents", "aria-busy": "true" }, skeleton(8));
-  const progress = h("p", { class: "contents-progress" });
-  outlet.append(
-    h(
+  const page = new HomePage();
+  outlet.append(page.root);
+  return { title: "Triad", dispose: () => page.dispose() };
+}
+
+class HomePage {
+  readonly root: HTMLElement;
+  private readonly list = h("div", { class: "contents", "aria-busy": "true" }, skeleton(8));
+  private readonly progress = h("p", { class: "contents-progress" });
+  /** Keeps the place of the mechanism, so that nothing jumps when it comes. */
+  private readonly picture = h("div", { class: "hero-picture" });
+  private readonly gallery = h("section", { class: "home-gallery", "aria-label": "Mechanisms to watch" });
+  private readonly start = h(
+    "a",
+    { class: "button primary large", href: "#lessons-title" },
+    "Start with the first lesson",
+  );
+  private readonly leaving = new AbortController();
+  private pictures: HomePictures | undefined;
+  private readonly renamed = (): void => void this.load();
+
+  constructor() {
+    this.root = h(
       "div",
       { class: "page home" },
-      hero(),
+      this.hero(),
       h(
         "section",
         { "aria-labelledby": "lessons-title" },
-        h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), progress),
-        list,
+        h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), this.progress),
+        this.list,
       ),
+      this.gallery,
       ownScene(),
-    ),
-  );
+    );
+    addEventListener("triad:student", this.renamed);
+    void this.load();
+    void this.draw();
+  }
 
-  const load = async (): Promise<void> => {
+  dispose(): void {
+    this.leaving.abort();
+    this.pictures?.dispose();
+    removeEventListener("triad:student", this.renamed);
+  }
+
+  private hero(): HTMLElement {
+    const place = lastBookmark();
+    if (place) {
+      this.start.href = place.href;
+      this.start.textContent = `Go on with “${place.title}”`;
+    }
+    return h(
+      "section",
+      { class: "hero" },
+      h(
+        "div",
+        { class: "hero-text" },
+        h("h1", null, "Mechanisms in space, one constraint at a time"),
+        h(
+          "p",
+          { class: "lead" },
+          "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
+          "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
+        ),
+        h(
+          "p",
+          { class: "go-on" },
+          this.start,
+          h("a", { class: "button large", href: "/scenes" }, "Watch mechanisms"),
+        ),
+      ),
+      this.picture,
+    );
+  }
+
+  private async draw(): Promise<void> {
+    const { signal } = this.leaving;
+    const { homePictures } = await import("../gallery/home-pictures");
+    if (signal.aborted) return;
+    this.pictures = await homePictures(this.picture, this.list, this.gallery, signal);
+    if (signal.aborted) this.pictures.dispose();
+    else this.pictures.lessons();
+  }
+
+  private async load(): Promise<void> {
+    const { signal } = this.leaving;
     let lessons: LessonSummary[];
     try {
-      lessons = await api.lessons(leaving.signal);
+      lessons = await api.lessons(signal);
     } catch (error) {
-      if (leaving.signal.aborted) return;
-      list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      if (signal.aborted) return;
+      this.list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void this.load() }]));
       return;
     }
-    paint(list, progress, lessons, new Map());
+    this.paint(lessons, new Map());
     const who = student.get();
     if (!who) return;
     // Progress is a nicety: without it the list stays as it is.
-    const verdicts = await api
-      .submissions({ student: who, limit: MAX_SUBMISSIONS }, leaving.signal)
-      .catch(() => []);
-    if (!leaving.signal.aborted) paint(list, progress, lessons, bestOf(verdicts));
-  };
-  const renamed = (): void => void load();
-  addEventListener("triad:student", renamed);
-  void load();
+    const verdicts = await api.submissions({ student: who, limit: MAX_SUBMISSIONS }, signal).catch(() => []);
+    if (!signal.aborted) this.paint(lessons, standings(verdicts));
+  }
 
-  return {
-    title: "Triad",
-    dispose: () => {
-      leaving.abort();
-      removeEventListener("triad:student", renamed);
-    },
-  };
+  private paint(lessons: LessonSummary[], known: Map<string, Standing>): void {
+    this.list.removeAttribute("aria-busy");
+    const [first] = lessons;
+    if (!first) {
+      this.start.hidden = true;
+      this.list.replaceChildren(
+        empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."),
+      );
+      return;
+    }
+    if (!lastBookmark()) this.start.href = hrefOf(first);
+    const passed = lessons.filter((lesson) => known.get(lesson.slug)?.is === "passed").length;
+    this.progress.textContent = student.get()
+      ? `${passed} of ${lessons.length} passed`
+      : plural(lessons.length, "lesson");
+    this.list.replaceChildren(...parts(lessons, known));
+    this.pictures?.lessons();
+  }
 }
 
-function hero(): HTMLElement {
-  const place = lastBookmark();
+const hrefOf = (lesson: LessonSummary): string => `/lessons/${encodeURIComponent(lesson.slug)}`;
+
+/** The lessons under the headings of their parts. */
+function parts(lessons: LessonSummary[], known: Map<string, Standing>): HTMLElement[] {
+  const found: { title: string | null | undefined; lessons: LessonSummary[] }[] = [];
+  for (const lesson of lessons) {
+    const last = found.at(-1);
+    if (last && last.title === lesson.part) last.lessons.push(lesson);
+    else found.push({ title: lesson.part, lessons: [lesson] });
+  }
+  return found.map(({ title, lessons: own }) => {
+    const passed = own.filter((lesson) => known.get(lesson.slug)?.is === "passed").length;
+    const rows = h(
+      "ol",
+      { class: "lesson-list" },
+      ...own.map((lesson) => row(lesson, known.get(lesson.slug))),
+    );
+    if (!title) return rows;
+    return h(
+      "section",
+      { class: "lesson-part" },
+      h(
+        "h3",
+        { class: "group-title" },
+        title,
+        passed > 0 ? h("span", { class: "group-count" }, `${passed} of ${own.length} passed`) : null,
+      ),
+      rows,
+    );
+  });
+}
+
+function row(lesson: LessonSummary, known: Standing | undefined): HTMLElement {
+  const standing = known ?? { is: begun(lesson.slug) ? "begun" : "new" };
   return h(
-    "section",
-    { class: "hero" },
+    "li",
+    { class: "lesson-row" },
+    h("div", { class: "lesson-picture", "aria-hidden": "true", "data-picture": lesson.slug }),
     h(
       "div",
-      { class: "hero-text" },
-      h("h1", null, "Mechanisms in space, one constraint at a time"),
+      { class: "lesson-what" },
       h(
-        "p",
-        { class: "lead" },
-        "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
-        "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
+        !lesson.part ? "h3" : "h4",
+        null,
+        h("span", { class: "lesson-number", "aria-hidden": "true" }, String(lesson.number)),
+        h("a", { href: hrefOf(lesson) }, lesson.title),
       ),
-      place
-        ? h(
-            "p",
-            { class: "go-on" },
-            h("a", { class: "button primary", href: place.href }, `Go on with “${place.title}”`),
-          )
-        : null,
+      h("p", null, lesson.summary),
     ),
-    heroDrawing(),
+    h("div", { class: "lesson-meta" }, h("span", null, `${lesson.minutes} min`), standingLabel(standing)),
   );
 }
 
@@ -114,63 +208,4 @@ function ownScene(): HTMLElement {
     ),
     h("a", { class: "button", href: "/scenes" }, icon("cube"), "Open the scenes"),
   );
-}
-
-function paint(
-  list: HTMLElement,
-  progress: HTMLElement,
-  lessons: LessonSummary[],
-  best: Map<string, Best>,
-): void {
-  list.removeAttribute("aria-busy");
-  if (lessons.length === 0) {
-    list.replaceChildren(
-      empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."),
-    );
-    return;
-  }
-  const passed = lessons.filter((lesson) => best.get(lesson.slug)?.passed).length;
-  progress.textContent = student.get()
-    ? `${passed} of ${lessons.length} passed`
-    : plural(lessons.length, "lesson");
-  list.replaceChildren(
-    h("ol", { class: "lesson-list" }, ...lessons.map((lesson) => row(lesson, best.get(lesson.slug)))),
-  );
-}
-
-function bestOf(verdicts: GradedSubmission[]): Map<string, Best> {
-  const best = new Map<string, Best>();
-  for (const verdict of verdicts) {
-    // What could not be judged earns nothing and is no attempt, but the lesson is begun.
-    const before = best.get(verdict.lesson);
-    best.set(verdict.lesson, {
-      earned: Math.max(before?.earned ?? 0, verdict.gradable ? (verdict.earned ?? 0) : 0),
-      possible: verdict.possible,
-      passed: (before?.passed ?? false) || (verdict.passed ?? false),
-      attempts: (before?.attempts ?? 0) + (verdict.gradable ? 1 : 0),
-    });
-  }
-  return best;
-}
-
-function row(lesson: LessonSummary, best: Best | undefined): HTMLElement {
-  return h(
-    "li",
-    { class: "lesson-row" },
-    h("span", { class: "lesson-number", "aria-hidden": "true" }, String(lesson.number)),
-    h(
-      "div",
-      { class: "lesson-what" },
-      h("h3", null, h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, lesson.title)),
-      h("p", null, lesson.summary),
-    ),
-    h("div", { class: "lesson-meta" }, h("span", null, `${lesson.minutes} min`), standing(best)),
-  );
-}
-
-function standing(best: Best | undefined): HTMLElement {
-  if (!best) return h("span", { class: "standing" }, "Not started");
-  const score = `${points(best.earned)} of ${points(best.possible)}`;
-  if (best.passed) return h("span", { class: "standing is-right" }, icon("check"), `Passed, ${score}`);
-  return h("span", { class: "standing is-open" }, icon("dash"), `${score} so far`);
 }

@@ -1,21 +1,18 @@
 // The gallery of built-in mechanisms, and the way to a scene of one's own.
 import { api } from "../api/client";
-import type { SceneEntry } from "../api/types";
 import { h } from "../core/dom";
 import { recall } from "../core/prefs";
 import type { Page } from "../core/router";
 import { urdfImport } from "../editor/import";
+import { cards } from "../gallery/cards";
+import { grouped } from "../gallery/groups";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 
 export const OWN_SCENE = "own";
 
-/** A family of scenes takes a number in place of N. */
-const FAMILY = /^(.+):N$/;
-/** The number with which the link to a family begins. */
-const FAMILY_START = "2";
-
 export function scenesPage(outlet: HTMLElement): Page {
   const leaving = new AbortController();
+  const kept: { dispose: () => void }[] = [];
   const list = h("div", { class: "gallery", "aria-busy": "true" }, skeleton(6));
   outlet.append(
     h(
@@ -28,7 +25,7 @@ export function scenesPage(outlet: HTMLElement): Page {
         h(
           "p",
           { class: "lead" },
-          "Mechanisms without a lesson. Open one, run it, change its text and run it again.",
+          "Mechanisms without a lesson. Point at one to see it move; open it to run it, change its text and run it again.",
         ),
         h(
           "p",
@@ -49,35 +46,40 @@ export function scenesPage(outlet: HTMLElement): Page {
 
   const load = async (): Promise<void> => {
     try {
-      const scenes = await api.scenes(leaving.signal);
+      const groups = await sceneGroups(leaving.signal, kept);
       list.removeAttribute("aria-busy");
-      list.replaceChildren(
-        scenes.length === 0
-          ? empty("No built-in scenes", "This server offers none. You can still write your own.")
-          : h("ul", { class: "scene-list" }, ...scenes.map(card)),
-      );
+      list.replaceChildren(groups);
     } catch (error) {
       if (!leaving.signal.aborted)
         list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
     }
   };
   void load();
-  return { title: "Scenes", dispose: () => leaving.abort() };
+  return {
+    title: "Scenes",
+    dispose: () => {
+      leaving.abort();
+      for (const one of kept) one.dispose();
+    },
+  };
 }
 
-function card(scene: SceneEntry): HTMLElement {
-  const family = FAMILY.exec(scene.name)?.[1];
-  const name = family ? `${family}:${FAMILY_START}` : scene.name;
+async function sceneGroups(signal: AbortSignal, kept: { dispose: () => void }[]): Promise<HTMLElement> {
+  const [scenes, pictures] = await Promise.all([
+    api.scenes(signal),
+    // Pictures are a nicety.
+    api.pictures(signal).then(
+      (all) => all.scenes,
+      () => ({}),
+    ),
+  ]);
+  if (scenes.length === 0)
+    return empty("No built-in scenes", "This server offers none. You can still write your own.");
   return h(
-    "li",
-    { class: "scene-row" },
-    h("h2", null, h("a", { href: `/scenes/${encodeURIComponent(name)}` }, titled(family ?? scene.name))),
-    h("p", null, scene.summary),
-    h("code", null, scene.name),
+    "div",
+    { class: "scene-groups" },
+    ...grouped(scenes).map(([title, list]) =>
+      h("section", null, h("h2", { class: "group-title" }, title), cards(list, pictures, "h3", kept)),
+    ),
   );
 }
-
-const titled = (name: string): string => {
-  const words = name.replaceAll("-", " ");
-  return words.charAt(0).toUpperCase() + words.slice(1);
-};

@@ -5,7 +5,8 @@ import { h } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { type Arrow, arrows } from "../mechanics/forces";
 import { add, dot, norm, scale, unit } from "../mechanics/vec";
-import type { Session } from "../session/session";
+import type { Watched } from "../session/watched";
+import { circle, outline, pointsOf } from "./extent";
 import { type Box, boxOf, Eye } from "./eye";
 import { drawForces } from "./forces-picture";
 import { distanceTo, drawMechanism, drawWorldAxes } from "./mechanism";
@@ -13,7 +14,7 @@ import { type Palette, palette } from "./palette";
 import { CanvasPen, type Pen, type Point, SvgPen } from "./pen";
 import { drawPull } from "./pull-picture";
 import type { Shown } from "./shown";
-import { inWorld, middleOf, type Parts, partsOf, planeOf, spanned } from "./solids";
+import { inWorld, middleOf, type Parts, partsOf, planeOf } from "./solids";
 
 /** Where one reaches for a joint or a body, CSS pixels about it; fingers are thicker than this. */
 const REACH = 14;
@@ -57,8 +58,10 @@ export class Drawing {
 
   constructor(
     private scene: Scene | undefined,
-    private readonly session: Session,
+    private readonly session: Watched,
     private readonly still: () => boolean,
+    /** Without axes and names. */
+    private readonly plain = false,
   ) {
     this.eye = Eye.under(scene?.gravity);
     this.watch = new ResizeObserver(() => this.resize());
@@ -187,10 +190,10 @@ export class Drawing {
   }
 
   private shown(): Shown | undefined {
-    const { state, parts, eye, floor } = this;
+    const { state, parts, eye, floor, plain } = this;
     if (!state || !parts) return undefined;
     this.colours ??= palette();
-    return { eye, state, parts, colours: this.colours, joint: this.session.joint, floor };
+    return { eye, state, parts, colours: this.colours, joint: this.session.joint, floor, plain };
   }
 
   private paint(): void {
@@ -211,7 +214,7 @@ export class Drawing {
     drawMechanism(pen, shown);
     drawPull(pen, this.session, state, eye, colours);
     drawForces(pen, this.session, state, eye, colours);
-    drawWorldAxes(pen, eye, colours);
+    if (!this.plain) drawWorldAxes(pen, eye, colours);
   }
 
   private resize(): void {
@@ -330,7 +333,8 @@ export class Drawing {
   /** Says what is to be seen, for those who do not see it; seldom while it moves. */
   private tell(state: SessionState): void {
     const now = performance.now();
-    if (this.session.moving && now - this.toldAt < TELL_MS) return;
+    const said = this.root.hasAttribute("aria-label");
+    if (said && this.session.moving && now - this.toldAt < TELL_MS) return;
     this.toldAt = now;
     const bodies = state.bodies
       .slice(0, 4)
@@ -339,38 +343,4 @@ export class Drawing {
     const label = `Drawing of the mechanism at ${seconds(state.time)}: ${bodies.join("; ")}${more}.`;
     if (this.root.getAttribute("aria-label") !== label) this.root.setAttribute("aria-label", label);
   }
-}
-
-/** Points about the parts of a mechanism on the plane of the picture. */
-function outline(parts: Parts, state: SessionState, eye: Eye): Point[] {
-  const round = parts.solids.flatMap((solid) => {
-    if (solid.kind === "box") return [];
-    return spanned(solid).flatMap((end): Point[] => {
-      const [x, y] = eye.flat(inWorld(state, solid.body, end));
-      return [
-        [x - solid.radius, y - solid.radius],
-        [x + solid.radius, y + solid.radius],
-      ];
-    });
-  });
-  return [...round, ...pointsOf(parts, state).map((p) => eye.flat(p))];
-}
-
-/** Where the parts of a mechanism are. */
-function pointsOf(parts: Parts, state: SessionState): Vec3[] {
-  return [
-    ...parts.solids.flatMap((solid) => spanned(solid).map((point) => inWorld(state, solid.body, point))),
-    ...[...parts.joints, ...parts.markers].map((one) => inWorld(state, one.body, one.point)),
-  ];
-}
-
-/** Mechanisms swing about their ground: the circle about it that holds all points. */
-function circle(fixed: Point[], points: Point[]): Point[] {
-  const mean = (k: 0 | 1): number => fixed.reduce((sum, p) => sum + p[k], 0) / fixed.length;
-  const [x, y] = [mean(0), mean(1)];
-  const radius = Math.max(...points.map((p) => Math.hypot(p[0] - x, p[1] - y)));
-  return [
-    [x - radius, y - radius],
-    [x + radius, y + radius],
-  ];
 }

@@ -4,7 +4,7 @@ import type { SessionState } from "../api/types";
 import { num } from "../core/format";
 import { type Arrow, arrows, roundDown } from "../mechanics/forces";
 import { add, cross, norm, scale, unit } from "../mechanics/vec";
-import type { Session } from "../session/session";
+import type { Watched } from "../session/watched";
 import type { Eye } from "./eye";
 import type { Palette } from "./palette";
 import type { Pen, Point } from "./pen";
@@ -49,7 +49,7 @@ interface Sizes {
 
 export function drawForces(
   pen: Pen,
-  session: Session,
+  session: Watched,
   state: SessionState,
   eye: Eye,
   colours: Palette,

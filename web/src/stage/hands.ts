@@ -120,6 +120,28 @@ function touches(session: Session, drawing: Drawing): void {
   );
 }
 
+/** Lets pointer, wheel and keys look from elsewhere; nothing is chosen or pulled. */
+export function turning(drawing: Drawing): void {
+  const { root } = drawing;
+  let held: Point | undefined;
+  root.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    held = [event.offsetX, event.offsetY];
+    root.setPointerCapture(event.pointerId);
+  });
+  root.addEventListener("pointermove", (event) => {
+    if (!held) return;
+    const [x, y] = held;
+    held = [event.offsetX, event.offsetY];
+    drawing.turn(-TURN_PER_PIXEL * (held[0] - x), TURN_PER_PIXEL * (held[1] - y));
+  });
+  for (const end of ["pointerup", "pointercancel"] as const)
+    root.addEventListener(end, () => {
+      held = undefined;
+    });
+  looking(drawing);
+}
+
 /** Turns the picture and comes closer, by wheel and keys. */
 function looking(drawing: Drawing): void {
   const { root } = drawing;

@@ -31,10 +31,11 @@ export function drawMechanism(pen: Pen, shown: Shown): void {
   const items = [
     ...shown.parts.solids.map((solid) => drawnSolid(pen, shown, solid)),
     ...shown.parts.joints.flatMap((joint) => drawnJoint(pen, shown, joint)),
-    ...shown.state.bodies.map((_, body) => drawnAxes(pen, shown, body)),
+    ...(shown.plain ? [] : shown.state.bodies.map((_, body) => drawnAxes(pen, shown, body))),
   ];
   items.sort((a, b) => a.near - b.near);
   for (const item of items) item.draw();
+  if (shown.plain) return;
   for (const marker of shown.parts.markers) {
     const at = shown.eye.project(inWorld(shown.state, marker.body, marker.point));
     const { colours } = shown;

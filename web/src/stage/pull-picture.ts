@@ -2,7 +2,7 @@
 
 import type { SessionState } from "../api/types";
 import { add, out } from "../mechanics/vec";
-import type { Session } from "../session/session";
+import type { Watched } from "../session/watched";
 import type { Eye } from "./eye";
 import type { Palette } from "./palette";
 import type { Pen, Point } from "./pen";
@@ -14,7 +14,7 @@ const PIECES = 20;
 /** Distance of the corners of a spring from its axis, CSS pixels. */
 const WIDTH = 5;
 
-export function drawPull(pen: Pen, session: Session, state: SessionState, eye: Eye, colours: Palette): void {
+export function drawPull(pen: Pen, session: Watched, state: SessionState, eye: Eye, colours: Palette): void {
   const pull = session.latest?.pull;
   const body = pull && state.bodies.find((entry) => entry.name === pull.body);
   if (!pull || !body) return;

@@ -17,6 +17,8 @@ export interface Shown {
   joint: string | null;
   /** Height of the floor along the upward axis, m; none where nothing says what is down. */
   floor: number | undefined;
+  /** Without axes and names: a small picture in a list. */
+  plain?: boolean;
 }
 
 export interface Item {

@@ -2,6 +2,7 @@
 
 pub(in crate::api) mod analyses;
 pub(in crate::api) mod import;
+pub(in crate::api) mod motion;
 pub(in crate::api) mod table;
 
 use axum::Json as Answer;

@@ -1,0 +1,134 @@
+// The first page, the gallery and a frame in another site. Started by tests/tests/browser.rs:
+//   node first-page.mjs http://127.0.0.1:PORT PICTURE_FOLDER
+// What moves there is recorded: no session is started until somebody opens a mechanism; less motion is respected; each
+// lesson and scene has its picture; a page of another origin may show /embed/ in a frame and nothing else; axe finds nothing.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const [address, pictures] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium", headless: true,
+  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
+});
+const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
+const complaints = [];
+/** Sessions that were asked for. */
+let sessions = 0;
+let page;
+
+async function visit(more = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...more });
+  page = await context.newPage();
+  page.setDefaultTimeout(60_000);
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("request", (request) => { sessions += Number(request.method() === "POST" && request.url().endsWith("/sessions")); });
+}
+async function until(what, read, good) {
+  const end = performance.now() + 60_000;
+  let last;
+  while (performance.now() < end) {
+    last = await read();
+    if (good(last)) return last;
+    await page.waitForTimeout(50);
+  }
+  throw new Error(`${what}: still ${JSON.stringify(last)}`);
+}
+async function noFaults(view) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  assert.deepEqual(violations.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" "))]), [], `axe on ${view}`);
+}
+/** The moment that a recorded run shows; NaN while there is none. */
+const moment = (within) => page.locator(`${within} canvas.drawing`).evaluateAll((all) => Number(all[0]?.dataset.time ?? NaN));
+
+async function home() {
+  await visit();
+  await page.goto(address);
+  await until("the mechanism at the top moves", () => moment(".hero"), (time) => time > 0.3);
+  await page.locator(".hero").getByRole("button", { name: "Pause" }).click();
+  const stopped = await moment(".hero");
+  await page.waitForTimeout(300);
+  assert.equal(await moment(".hero"), stopped, "a pause holds it");
+  const counts = () => page.evaluate(() => [".lesson-row", ".lesson-picture svg", ".home-gallery .picture svg"].map((what) => document.querySelectorAll(what).length));
+  const [lessons, drawn] = await until("the pictures", counts, ([rows, , cards]) => rows > 0 && cards >= 10);
+  assert.equal(drawn, lessons, "each lesson has its picture");
+  assert(await page.locator(".lesson-part").count() > 1, "the lessons stand in parts");
+  await noFaults("the first page");
+  await page.screenshot({ path: join(pictures, "home.png") });
+  const card = page.locator(".scene-card", { hasText: "RSSR" });
+  await card.getByRole("button", { name: /^Play/ }).click();
+  await until("the picture of a card moves", () => moment(".scene-card"), (time) => time > 0.2);
+  await card.getByRole("button", { name: /^Stop/ }).click();
+  await until("and stands", () => card.locator("canvas").count(), (count) => count === 0);
+  assert.equal(sessions, 0, "nothing was computed for this visitor");
+  await page.getByRole("link", { name: "Start with the first lesson" }).click();
+  await page.getByRole("heading", { level: 1, name: /rigid body/i }).waitFor();
+  say("the first page moves, by what was recorded");
+}
+
+async function begunAndCalm() {
+  await visit({ reducedMotion: "reduce", colorScheme: "dark" });
+  await page.addInitScript(() => localStorage.setItem("triad:draft:simple-pendulum", "{}"));
+  await page.goto(address);
+  await until("the mechanism at the top is drawn", () => moment(".hero"), (time) => time === 0);
+  const row = page.locator(".lesson-row", { hasText: "The simple pendulum" });
+  await row.getByText("Begun").waitFor();
+  assert.equal(await moment(".hero"), 0, "who asked for less motion sees it stand");
+  await page.locator(".hero").getByRole("button", { name: "Play" }).click();
+  await until("and may play it", () => moment(".hero"), (time) => time > 0.1);
+  await page.goto(`${address}/scenes`);
+  await until("the gallery", () => page.locator(".scene-card .picture svg").count(), (count) => count >= 18);
+  await noFaults("the gallery, dark");
+  say("less motion is respected; what was begun is told");
+}
+
+async function framed() {
+  await visit();
+  // A page of another origin: another port is one.
+  const frame = (path) => `<iframe title="t" width="640" height="400" src="${address}${path}"></iframe>`;
+  const other = createServer((request, answer) => {
+    answer.setHeader("content-type", "text/html");
+    answer.end(`<!doctype html><html lang="en"><title>slides</title>${frame(request.url)}`);
+  });
+  await new Promise((done) => { other.listen(0, "127.0.0.1", done); });
+  try {
+    const slides = `http://127.0.0.1:${other.address().port}`;
+    await page.goto(`${slides}/embed/scenes/rssr?play=1&forces=all`);
+    const inside = page.frameLocator("iframe");
+    const drawn = () => inside.locator("canvas.drawing").evaluateAll((all) => Number(all[0]?.dataset.time ?? NaN));
+    await until("it plays in the frame", drawn, (time) => time > 0.2);
+    assert.equal(await inside.locator("#header a").count(), 0, "there is nowhere to go in it");
+    assert.equal(await inside.getByRole("link", { name: "Open in Triad" }).getAttribute("target"), "_blank");
+    await page.screenshot({ path: join(pictures, "embed.png") });
+    for (const path of ["/", "/scenes/rssr", "/room"]) {
+      const refused = page.waitForEvent("console", (message) => /frame-ancestors|X-Frame-Options/i.test(message.text()));
+      await page.goto(`${slides}${path}`);
+      await refused;
+    }
+    await page.goto(`${address}/embed/lessons/simple-pendulum?theme=dark`);
+    await page.locator("canvas.drawing").waitFor();
+    await noFaults("the frame");
+    await page.goto(`${address}/embed/scenes/nowhere`);
+    await page.getByText("nowhere").first().waitFor();
+    assert.equal(sessions, 0, "a frame has no session");
+  } finally {
+    other.close();
+  }
+  say("another site shows the recorded run in a frame, and nothing else of the page");
+}
+
+try {
+  for (const part of [home, begunAndCalm, framed]) await part();
+  assert.deepEqual(complaints, [], "errors in the page");
+} catch (error) {
+  await page?.screenshot({ path: join(pictures, "first-page-failed.png") }).catch(() => {});
+  throw error;
+} finally {
+  await browser.close();
+}

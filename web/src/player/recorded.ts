@@ -1,0 +1,99 @@
+// A run that was recorded, watched as a live one is.
+import type { Camera, Motion, Scene, SessionState, Vec3 } from "../api/types";
+import type { Drawn, ReactionConvention } from "../session/events";
+import { Track } from "../session/track";
+import type { Watched } from "../session/watched";
+
+const NOWHERE: Vec3 = [0, 0, 0];
+
+export class Recorded implements Watched {
+  readonly joint = null;
+  readonly convention: ReactionConvention = { on: "j", about: "joint", in: "world" };
+  readonly pose = undefined;
+  readonly past: { all: SessionState[] };
+  readonly scene: Scene;
+  moving = false;
+  private readonly track = new Track();
+  /** Names and scales; bodies and forces come from the track. */
+  private readonly frame: SessionState;
+
+  constructor(
+    readonly motion: Motion,
+    readonly drawn: Drawn = { what: "none" },
+    readonly camera: Camera = "corner",
+  ) {
+    this.scene = motion.scene;
+    this.track.add(bytesOf(motion.track));
+    this.frame = frameOf(motion, camera);
+    this.past = { all: [this.moment(0)] };
+  }
+
+  get latest(): SessionState {
+    return this.frame;
+  }
+
+  moment(time: number): SessionState {
+    const within = Math.max(0, Math.min(this.motion.until, time));
+    return this.track.at(within, this.frame) ?? this.frame;
+  }
+}
+
+function bytesOf(base64: string): Uint8Array {
+  return Uint8Array.from(atob(base64), (sign) => sign.charCodeAt(0));
+}
+
+/** What a motion states once, as a state at its end whose bodies stand nowhere. */
+function frameOf(motion: Motion, camera: Camera): SessionState {
+  const { title, until, scene, force_scale, moment_scale, longest } = motion;
+  return {
+    id: "",
+    title,
+    source: { builtin: "" },
+    links: { self: "", stream: "", scene: "", jacobian: "", multipliers: "" },
+    time: until,
+    duration: until,
+    playing: false,
+    finished: true,
+    speed: motion.speed,
+    q: [],
+    q_dot: [],
+    energy: 0,
+    energy_drift: 0,
+    position_violation: 0,
+    velocity_violation: 0,
+    steps: 0,
+    rejected: 0,
+    evaluations: 0,
+    factorizations: 0,
+    projections: 0,
+    frames: 0,
+    frames_encoded: 0,
+    watchers: 0,
+    changes: 0,
+    pull: null,
+    notes: [],
+    gravity: (scene.gravity ?? NOWHERE) as Vec3,
+    drawing: {
+      on: "j",
+      about: "joint",
+      drawn: "all",
+      marked: null,
+      force_scale,
+      moment_scale,
+      longest,
+      camera,
+    },
+    bodies: motion.bodies.map((name) => ({
+      name,
+      position: NOWHERE,
+      u: [1, 0, 0],
+      v: [0, 1, 0],
+      w: [0, 0, 1],
+      velocity: NOWHERE,
+      angular_velocity: NOWHERE,
+      acceleration: NOWHERE,
+      mass: 0,
+    })),
+    forces: motion.joints.map((joint) => ({ ...joint, at: NOWHERE, force: NOWHERE, moment: NOWHERE })),
+  };
+}

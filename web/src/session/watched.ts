@@ -1,0 +1,19 @@
+// What a picture of a run is made from: a live session, or a run that was recorded.
+import type { Camera, SessionState } from "../api/types";
+import type { Drawn, ReactionConvention } from "./events";
+
+export interface Watched {
+  /** The newest state: its time is how far the run has come. */
+  readonly latest: SessionState | undefined;
+  readonly past: { readonly all: readonly SessionState[] };
+  readonly joint: string | null;
+  readonly convention: ReactionConvention;
+  readonly drawn: Drawn;
+  readonly camera: Camera;
+  /** What is shown in place of the run. */
+  readonly pose: unknown;
+  /** Whether what is shown goes on by itself. */
+  readonly moving: boolean;
+  /** The mechanism as it was at a time. */
+  moment(time: number): SessionState | undefined;
+}
