@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::missing_panics_doc)]
 
 pub mod accuracy;
+#[cfg(unix)]
+pub mod postgres;
 pub mod probe;
 pub mod program;
 pub mod random;

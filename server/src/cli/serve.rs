@@ -15,7 +15,7 @@ use crate::app::{App, REPORTS};
 use crate::limits::Limits;
 use crate::live::{self, Which};
 use crate::problem::Problem;
-use crate::store::{CLASS, Quotas, Role, Store};
+use crate::store::{CLASS, Location, Quotas, Role, Store};
 
 /// How long the end of the program waits for the gradebook.
 const CLOSING: Duration = Duration::from_secs(5);
@@ -28,9 +28,9 @@ pub(in crate::cli) struct Serve {
     /// Port to listen at; 0 takes any free one.
     #[arg(long, default_value_t = 8080, env = "TRIAD_PORT")]
     pub(in crate::cli) port: u16,
-    /// The gradebook; made if it is not there.
-    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
-    pub(in crate::cli) database: PathBuf,
+    /// The gradebook: a file, made if it is not there, or a database of a PostgreSQL server, as postgres://user@host/name.
+    #[arg(long, default_value = "triad.db", value_name = "PLACE", env = "TRIAD_DATABASE")]
+    pub(in crate::cli) database: Location,
     /// Live simulations at a time.
     #[arg(long, default_value_t = 64, value_name = "N")]
     pub(in crate::cli) max_sessions: usize,
@@ -40,7 +40,7 @@ pub(in crate::cli) struct Serve {
     /// Megabytes of answers and files that are kept of one person.
     #[arg(long, default_value_t = 64, value_name = "MB")]
     pub(in crate::cli) person_quota: u64,
-    /// Megabytes that the whole gradebook may have.
+    /// Megabytes that the whole gradebook may have, if it is a file.
     #[arg(long, default_value_t = 16_384, value_name = "MB")]
     pub(in crate::cli) quota: u64,
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
@@ -78,7 +78,7 @@ impl Default for Serve {
         Self {
             host: IpAddr::from([127, 0, 0, 1]),
             port: 8080,
-            database: "triad.db".into(),
+            database: Location::File("triad.db".into()),
             max_sessions: 64,
             max_bodies: 500,
             person_quota: 64,
@@ -124,7 +124,7 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
             file_bytes: options.quota.saturating_mul(1 << 20),
             ..Quotas::default()
         };
-        let store = Store::open(&options.database).await?.with_quotas(quotas);
+        let store = Store::at(&options.database).await?.with_quotas(quotas);
         let access = if options.class {
             let class = store.ensure_course(CLASS, &course.title).await?;
             Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
@@ -133,7 +133,10 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
         };
         let access = access.behind(options.proxy.iter().copied());
         let app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
-        let app = app.with_live(&live::beside(&options.database));
+        let app = match live_file(options) {
+            Some(file) => app.with_live(&file),
+            None => app,
+        };
         let coming = app.clone();
         crate::blocking(move || {
             Ok(coming
@@ -146,6 +149,16 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
     // What still computes for callers that are gone is not waited for.
     runtime.shutdown_background();
     served.map(|()| Outcome::Done)
+}
+
+/// Where sessions and rooms outlive the server: beside the gradebook, or, where that is on another machine, in a file of this
+/// port.
+fn live_file(options: &Serve) -> Option<PathBuf> {
+    match &options.database {
+        Location::File(path) => Some(live::beside(path)),
+        Location::Server(_) if options.port == 0 => None,
+        Location::Server(_) => Some(format!("triad-{}.live", options.port).into()),
+    }
 }
 
 async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
@@ -163,7 +176,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         "Triad is at http://{address}  ({} lessons; Ctrl-C stops it)",
         app.course.lessons().len()
     ));
-    print_line(&format!("Submissions are kept in {}", options.database.display()));
+    print_line(&format!("Submissions are kept in {}", options.database));
     tell_use(options, &app, address).await?;
     let house = tokio::spawn(crate::api::keep_house(app.clone()));
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use axum::http::StatusCode;
+use sqlx::postgres::PgDatabaseError;
 
+use super::database::Location;
 use crate::policy::Refusal;
 use crate::problem::Problem;
 
@@ -32,6 +34,25 @@ pub enum StoreError {
     /// The file at its path is not the one that was opened.
     #[error("the database {} was moved, removed or replaced while it is in use", .0.display())]
     Moved(PathBuf),
+    /// The database of a server cannot be opened.
+    #[error("cannot open the gradebook at {place}: {cause}")]
+    Connect {
+        /// Its address, without the password.
+        place: String,
+        /// What the server or the system said.
+        cause: String,
+        /// What to try.
+        hint: &'static str,
+    },
+    /// The server of the database does not answer, or has ended the connection.
+    #[error("the database server does not answer: {0}")]
+    Gone(String),
+    /// A text has a character that no text of the server can have: the one with the code 0.
+    #[error("the gradebook does not take every character of this: {0}")]
+    Letters(String),
+    /// What only a gradebook in a file can.
+    #[error("a gradebook on a PostgreSQL server is not {0} by this program")]
+    FileOnly(&'static str),
     /// Another program holds the file.
     #[error("another program has kept the database locked for some seconds")]
     Busy,
@@ -79,6 +100,10 @@ pub enum StoreError {
 impl From<sqlx::Error> for StoreError {
     fn from(error: sqlx::Error) -> Self {
         let said = error.to_string();
+        if let Some(refused) = error.as_database_error().and_then(|e| e.try_downcast_ref::<PgDatabaseError>())
+        {
+            return Self::of_server(refused.code(), said);
+        }
         let code = error.as_database_error().and_then(sqlx::error::DatabaseError::code);
         // SQLite's extended codes keep the kind of error in their lowest byte: https://sqlite.org/rescode.html
         match code.and_then(|code| code.parse::<u32>().ok()).map(|code| code & 0xff) {
@@ -87,16 +112,71 @@ impl From<sqlx::Error> for StoreError {
             Some(11 | 26) => Self::Damaged(said),
             Some(13) => Self::Full,
             _ if matches!(error, sqlx::Error::PoolTimedOut) => Self::Busy,
+            _ if matches!(error, sqlx::Error::Io(_) | sqlx::Error::Tls(_) | sqlx::Error::PoolClosed) => {
+                Self::Gone(said)
+            }
             _ => Self::Sql(said),
         }
     }
 }
 
+/// Code and hint of what keeps a database of a server from being opened.
+const CONNECTING: [(&str, &str); 3] = [
+    (
+        "28",
+        "check the user and the password of --database; a password can also stand in ~/.pgpass or PGPASSWORD",
+    ),
+    ("3D", "make the database first: createdb NAME, with the user of --database as its owner"),
+    ("53300", "the server allows no more connections: raise its max_connections, or start fewer programs"),
+];
+
 impl StoreError {
+    /// What a server said, by the class of its SQLSTATE: PostgreSQL, appendix A.
+    fn of_server(code: &str, said: String) -> Self {
+        match code {
+            "53100" => Self::Full,
+            // No lock in time, two that wait for each other, too many connections: it may pass.
+            "55P03" | "40P01" | "40001" | "53300" => Self::Busy,
+            "25006" | "42501" => Self::ReadOnly(said),
+            "22021" => Self::Letters(said),
+            "XX001" | "XX002" => Self::Damaged(said),
+            // It is starting, stopping, or has ended the connection.
+            "57P01" | "57P02" | "57P03" | "25P03" => Self::Gone(said),
+            _ if code.starts_with("08") => Self::Gone(said),
+            _ => Self::Sql(said),
+        }
+    }
+
+    /// The same, told of the server whose tables were to be made.
+    pub(super) fn making(self, location: &Location) -> Self {
+        let hint = match self {
+            Self::ReadOnly(_) => {
+                "let the user of --database make tables there: make it the owner of the database"
+            }
+            Self::Sql(_) => {
+                "check that the database has nothing else in it and takes letters of all languages (UTF8)"
+            }
+            other => return other,
+        };
+        Self::Connect { place: location.to_string(), cause: self.to_string(), hint }
+    }
+
+    /// Why the database of a server could not be opened.
+    pub(super) fn connecting(error: &sqlx::Error, location: &Location) -> Self {
+        let code = error.as_database_error().and_then(sqlx::error::DatabaseError::code);
+        let known =
+            CONNECTING.iter().find(|(start, _)| code.as_deref().is_some_and(|code| code.starts_with(start)));
+        let hint =
+            known.map_or("start PostgreSQL, or check host, port and name of --database", |(_, hint)| hint);
+        Self::Connect { place: location.to_string(), cause: error.to_string(), hint }
+    }
+
     /// The same, told of the file that was to be opened.
     pub(super) fn opening(self, path: &std::path::Path) -> Self {
         match self {
-            Self::Newer { .. } | Self::Open { .. } | Self::Moved(_) | Self::Foreign(_) => self,
+            Self::Newer { .. } | Self::Open { .. } | Self::Moved(_) | Self::Foreign(_) | Self::Exists(_) => {
+                self
+            }
             other => Self::Open { path: path.to_owned(), cause: other.to_string() },
         }
     }
@@ -138,6 +218,22 @@ impl From<StoreError> for Problem {
                 StatusCode::SERVICE_UNAVAILABLE,
                 "database-moved",
                 "nothing counts as kept: put the file back with its -wal and -shm, restart the server, then send again",
+            ),
+            StoreError::Connect { hint, .. } => (FAILED, "database-unreachable", *hint),
+            StoreError::Gone(_) => (
+                StatusCode::SERVICE_UNAVAILABLE,
+                "database-gone",
+                "nothing was kept: send again in a moment; if it lasts, look whether PostgreSQL runs",
+            ),
+            StoreError::Letters(_) => (
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "unusual-character",
+                "leave out the character with the code 0: nobody sees it",
+            ),
+            StoreError::FileOnly(_) => (
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "not-a-file",
+                "use PostgreSQL's own pg_dump and pg_restore; `triad class export` and `triad class import` move a class",
             ),
             StoreError::Busy => (
                 StatusCode::SERVICE_UNAVAILABLE,

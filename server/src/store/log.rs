@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::error::StoreError;
 use super::hash::sha256;
@@ -25,10 +25,16 @@ pub(super) struct Event<'a> {
     pub(super) detail: &'a str,
 }
 
+/// Holds the course until the end of the transaction: what looks before it writes finds what others wrote at the same time.
+pub(super) async fn hold(connection: &mut AnyConnection, course: &str) -> Result<(), StoreError> {
+    sqlx::query(sql::HOLD_COURSE).bind(course).execute(connection).await?;
+    Ok(())
+}
+
 /// Adds an entry; its number. The course is held until the end of the transaction, so that whatever follows in it is done
 /// by one at a time.
 pub(super) async fn append(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     at: i64,
     event: &Event<'_>,
@@ -55,10 +61,7 @@ type Row = (i64, i64, String, String, String, String, String);
 /// those that were logged. Empty if everything is as it was written.
 ///
 /// Errors if the file cannot be read.
-pub(super) async fn faults(
-    connection: &mut SqliteConnection,
-    course: &str,
-) -> Result<Vec<String>, StoreError> {
+pub(super) async fn faults(connection: &mut AnyConnection, course: &str) -> Result<Vec<String>, StoreError> {
     let mut found = Vec::new();
     let mut before = String::new();
     let (mut sealed, mut predicted, mut erased) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
@@ -120,7 +123,7 @@ pub(super) async fn faults(
 
 /// Predictions that are not those that were logged, by who made them, place and hash; of whom was erased nothing is asked.
 async fn wrong_predictions(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     mut logged: BTreeSet<(String, String, String)>,
     erased: &BTreeSet<String>,

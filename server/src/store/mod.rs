@@ -1,15 +1,19 @@
-//! The gradebook: people, what they handed in, what it earned and who decided what, in one SQLite file.
+//! The gradebook: people, what they handed in, what it earned and who decided what, in one SQLite file or in a database of a
+//! PostgreSQL server.
 //!
 //! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: each
 //! submission is one transaction, written through before it returns.
 
 mod class;
 mod copies;
+mod database;
 mod error;
 mod file;
 pub mod hash;
 mod log;
 pub mod names;
+#[cfg(all(test, unix))]
+mod on_both;
 mod people;
 mod predictions;
 mod quotas;
@@ -23,10 +27,9 @@ mod tests;
 mod transaction;
 
 use std::path::Path;
-use std::time::Duration;
 
-use sqlx::SqlitePool;
-use sqlx::sqlite::{SqliteConnectOptions, SqlitePoolOptions, SqliteSynchronous};
+use sqlx::Any;
+use sqlx::pool::PoolConnection;
 
 pub use class::{
     Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded,
@@ -35,6 +38,8 @@ pub use class::{
 pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};
 #[cfg(test)]
 use copies::{LEFT, OF_COURSE};
+pub use database::Location;
+use database::{Kind, Pools};
 pub use error::StoreError;
 use file::Place;
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
@@ -45,16 +50,12 @@ use transaction::Transaction;
 
 /// The course of those who use the workbench without accounts.
 pub const HOME: &str = "home";
-/// How long a statement waits for another program that writes.
-const PATIENCE: Duration = Duration::from_secs(5);
-/// Connections that read; one more writes.
-const READERS: u32 = 4;
 
 /// The gradebook.
 #[derive(Debug)]
 pub struct Store {
-    writer: SqlitePool,
-    readers: SqlitePool,
+    pools: Pools,
+    /// Where it is a file of its own.
     place: Option<Place>,
     quotas: Quotas,
 }
@@ -69,37 +70,51 @@ impl Store {
     }
 
     async fn open_file(file: &Path) -> Result<Self, StoreError> {
-        let options = SqliteConnectOptions::new()
-            .filename(file)
-            .busy_timeout(PATIENCE)
-            .synchronous(SqliteSynchronous::Full)
-            .foreign_keys(true)
-            // What is erased is overwritten, not only forgotten.
-            .pragma("secure_delete", "ON");
-        let writer = pool(1).connect_lazy_with(options.clone());
-        write_ahead(&writer).await?;
-        let (whole,): (String,) = sqlx::query_as("PRAGMA quick_check(1)").fetch_one(&writer).await?;
+        let pools = Pools::of_file(file)?;
+        database::write_ahead(&pools.writer).await?;
+        let (whole,): (String,) = sqlx::query_as("PRAGMA quick_check(1)").fetch_one(&pools.writer).await?;
         if whole != "ok" {
             return Err(StoreError::Damaged(whole));
         }
-        let mut transaction = Transaction::begin(&writer).await?;
-        schema::migrate(&mut transaction).await?;
-        transaction.commit().await?;
-        let readers = pool(READERS).connect_lazy_with(options.read_only(true));
-        Ok(Self { writer, readers, place: Some(Place::remember(file.to_owned())), quotas: Quotas::default() })
+        migrate(&pools).await?;
+        Ok(Self { place: Some(Place::remember(file.to_owned())), ..Self::of(pools) })
+    }
+
+    /// Opens a file as [`Self::open`] does, or a database of a server.
+    ///
+    /// Errors if it cannot be opened or written, is no gradebook, or is of a later version.
+    pub async fn at(location: &Location) -> Result<Self, StoreError> {
+        match location {
+            Location::File(path) => Self::open(path).await,
+            Location::Server(url) => {
+                let pools = Pools::to_server(url)?;
+                let connected = pools.writer.acquire().await;
+                drop(connected.map_err(|error| StoreError::connecting(&error, location))?);
+                migrate(&pools).await.map_err(|error| error.making(location))?;
+                Ok(Self::of(pools))
+            }
+        }
+    }
+
+    fn of(pools: Pools) -> Self {
+        Self { pools, place: None, quotas: Quotas::default() }
     }
 
     /// A gradebook that is forgotten when it is dropped.
     pub fn in_memory() -> Self {
-        // Each connection to memory has a database of its own: there is one, for as long as the store.
-        let options = SqliteConnectOptions::new().in_memory(true).foreign_keys(true);
-        let first = pool(1).after_connect(|connection, _| {
+        Self::of(Pools::in_memory(|connection| {
             Box::pin(async move {
-                schema::migrate(connection).await.map_err(|error| sqlx::Error::Protocol(error.to_string()))
+                let made = schema::migrate(connection).await;
+                made.map_err(|error| sqlx::Error::Protocol(error.to_string()))
             })
-        });
-        let writer = first.connect_lazy_with(options);
-        Self { readers: writer.clone(), writer, place: None, quotas: Quotas::default() }
+        }))
+    }
+
+    /// A gradebook of a server whose tables are as this program makes them: nothing is asked before it is used.
+    ///
+    /// Errors if that is no address.
+    pub fn of_server(url: &str) -> Result<Self, StoreError> {
+        Ok(Self::of(Pools::to_server(url)?))
     }
 
     /// The same gradebook, keeping so much.
@@ -110,7 +125,15 @@ impl Store {
 
     /// Begins a transaction that writes.
     async fn write(&self) -> Result<Transaction, StoreError> {
-        Transaction::begin(&self.writer).await
+        Transaction::begin(&self.pools.writer).await
+    }
+
+    /// A connection that reads everything as of one moment; that ends as it goes back.
+    async fn snapshot(&self) -> Result<PoolConnection<Any>, StoreError> {
+        let mut connection = self.pools.readers.acquire().await?;
+        let begin = Kind::of(&connection).snapshot();
+        sqlx::query(begin).execute(&mut *connection).await?;
+        Ok(connection)
     }
 
     /// Errors if the file is no longer where it was opened.
@@ -140,45 +163,27 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn faults(&self) -> Result<Vec<String>, StoreError> {
-        let courses: Vec<(String,)> = sqlx::query_as(sql::COURSES).fetch_all(&self.readers).await?;
+        let mut connection = self.snapshot().await?;
+        let courses: Vec<(String,)> = sqlx::query_as(sql::COURSES).fetch_all(&mut *connection).await?;
         let mut found = Vec::new();
-        let mut connection = self.readers.acquire().await?;
         for (course,) in courses {
             found.extend(log::faults(&mut connection, &course).await?);
         }
         Ok(found)
     }
 
-    /// Finishes what is being written and lets go of the file.
+    /// Finishes what is being written and lets go of the database.
     pub async fn close(&self) {
-        self.readers.close().await;
-        self.writer.close().await;
+        self.pools.readers.close().await;
+        self.pools.writer.close().await;
     }
 }
 
-/// Connections that stay: a store in memory lives in one, and opening a file again costs more than keeping it. What a
-/// request that was given up left half-done is undone.
-fn pool(most: u32) -> SqlitePoolOptions {
-    let stays = SqlitePoolOptions::new().max_connections(most).idle_timeout(None).max_lifetime(None);
-    stays.test_before_acquire(false).after_release(|connection, _| {
-        Box::pin(async move {
-            transaction::undo(connection).await;
-            Ok(true)
-        })
-    })
-}
-
-/// Changes go to a log beside the file, so that readers do not wait. Several programs that open a new file at once get in
-/// each other's way here, where SQLite does not wait by itself.
-async fn write_ahead(writer: &SqlitePool) -> Result<(), StoreError> {
-    let mut tries = 0;
-    loop {
-        match sqlx::query("PRAGMA journal_mode = WAL").execute(writer).await.map_err(StoreError::from) {
-            Err(StoreError::Busy) if tries < 50 => tries += 1,
-            other => return other.map(drop),
-        }
-        tokio::time::sleep(PATIENCE / 50).await;
-    }
+/// Brings the tables up to date, in one transaction.
+async fn migrate(pools: &Pools) -> Result<(), StoreError> {
+    let mut transaction = Transaction::begin(&pools.writer).await?;
+    schema::migrate(&mut transaction).await?;
+    transaction.commit().await
 }
 
 /// Now, in milliseconds since 1970.

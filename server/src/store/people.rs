@@ -1,6 +1,6 @@
 //! People of a course: how they come in, come back, and what they may do.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::class::members::known;
 use super::error::StoreError;
@@ -111,7 +111,7 @@ impl Store {
     ///
     /// Errors if it is not there.
     pub async fn course(&self, id: &str) -> Result<CourseRow, StoreError> {
-        let find = sqlx::query_as(sql::COURSE).bind(id).fetch_optional(&self.readers).await?;
+        let find = sqlx::query_as(sql::COURSE).bind(id).fetch_optional(&self.pools.readers).await?;
         let (title, join_code, open, secret): (String, String, i64, String) =
             find.ok_or(StoreError::Unknown("course"))?;
         Ok(CourseRow { title, join_code, join_open: open == 1, secret })
@@ -153,7 +153,7 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn has_owner(&self, course: &str) -> Result<bool, StoreError> {
-        let count = sqlx::query_as(sql::OWNERS).bind(course).fetch_one(&self.readers).await?;
+        let count = sqlx::query_as(sql::OWNERS).bind(course).fetch_one(&self.pools.readers).await?;
         let (owners,): (i64,) = count;
         Ok(owners > 0)
     }
@@ -177,10 +177,9 @@ impl Store {
     /// Errors if there is no such invitation, or the name is taken.
     pub async fn accept(&self, token: &str, name: &str, back: &Return) -> Result<Member, StoreError> {
         let mut transaction = self.write().await?;
-        let find = sqlx::query_as(sql::INVITATION).bind(sha256(token)).bind(now());
+        let find = sqlx::query_as(sql::USE_INVITATION).bind(sha256(token)).bind(now());
         let found: Option<(String, String)> = find.fetch_optional(&mut *transaction).await?;
         let (course, role) = found.ok_or(StoreError::Unknown("invitation, or it is used or a week old"))?;
-        sqlx::query(sql::REMOVE_INVITATION).bind(sha256(token)).execute(&mut *transaction).await?;
         let role = Role::named(&role).unwrap_or(Role::Student);
         let joined = enrol(&mut transaction, &course, name, role, back).await?;
         transaction.commit().await?;
@@ -202,14 +201,14 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn phrase_of(&self, course: &str, name: &str) -> Result<Option<(String, String)>, StoreError> {
         let find = sqlx::query_as(sql::PHRASE).bind(course).bind(names::key(name));
-        Ok(find.fetch_optional(&self.readers).await?)
+        Ok(find.fetch_optional(&self.pools.readers).await?)
     }
 
     /// Whose link that is.
     ///
     /// Errors if the file cannot be read.
     pub async fn person_of_link(&self, link: &str) -> Result<Option<String>, StoreError> {
-        let found = sqlx::query_as(sql::LINK).bind(sha256(link)).fetch_optional(&self.readers).await?;
+        let found = sqlx::query_as(sql::LINK).bind(sha256(link)).fetch_optional(&self.pools.readers).await?;
         Ok(found.map(|(person,): (String,)| person))
     }
 
@@ -253,7 +252,7 @@ impl Store {
         let hash = sha256(token);
         let find = sqlx::query_as(sql::SESSION).bind(&hash).bind(course).bind(now()).bind(now() - IDLE);
         let found: Option<(String, String, String, String, i64, i64)> =
-            find.fetch_optional(&self.readers).await?;
+            find.fetch_optional(&self.pools.readers).await?;
         let Some((id, name, role, seed, joined_at, seen_at)) = found else { return Ok(None) };
         if seen_at < now() - SEEN {
             let mut transaction = self.write().await?;
@@ -276,7 +275,8 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn people(&self, course: &str) -> Result<Vec<Member>, StoreError> {
-        let rows: Vec<MemberRow> = sqlx::query_as(sql::PEOPLE).bind(course).fetch_all(&self.readers).await?;
+        let rows: Vec<MemberRow> =
+            sqlx::query_as(sql::PEOPLE).bind(course).fetch_all(&self.pools.readers).await?;
         Ok(rows.into_iter().map(member).collect())
     }
 
@@ -305,7 +305,7 @@ impl Store {
 }
 
 async fn enrol(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     name: &str,
     role: Role,
@@ -328,7 +328,7 @@ async fn enrol(
 }
 
 async fn add_identities(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     person: &str,
     back: &Return,
 ) -> Result<(), StoreError> {

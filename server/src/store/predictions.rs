@@ -1,6 +1,6 @@
 //! What people said before a run: kept once, never changed.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::error::StoreError;
 use super::log::{self, Event};
@@ -77,7 +77,7 @@ impl Store {
         lesson: Option<&str>,
     ) -> Result<Vec<KeptPrediction>, StoreError> {
         let list = sqlx::query_as(sql::PREDICTIONS).bind(course).bind(person).bind(lesson);
-        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
+        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let kept = |(person, name, lesson, prediction, choice, why, given_at)| KeptPrediction {
             person,
             name,
@@ -91,10 +91,8 @@ impl Store {
     }
 }
 
-async fn predict(
-    connection: &mut SqliteConnection,
-    new: &NewPrediction,
-) -> Result<(bool, String), StoreError> {
+async fn predict(connection: &mut AnyConnection, new: &NewPrediction) -> Result<(bool, String), StoreError> {
+    log::hold(connection, &new.course).await?;
     let at = now();
     let person = match &new.whose {
         Whose::Person(id) => id.clone(),
@@ -110,7 +108,6 @@ async fn predict(
         given_at: at,
     };
     let event = Event { actor: &person, what: "predicted", subject: &row.subject(), detail: &row.hash() };
-    // It holds the course, so that of two requests at once the second finds the first.
     let n = log::append(connection, &new.course, at, &event).await?;
     let find = sqlx::query_as(sql::PREDICTED).bind(&row.course).bind(&row.person).bind(&row.slug);
     let (before,): (i64,) = find.bind(&row.prediction).fetch_one(&mut *connection).await?;

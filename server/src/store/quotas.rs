@@ -1,6 +1,6 @@
 //! How much is kept, of each person and in all: a disk that somebody fills on purpose would keep nobody's work.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::error::StoreError;
 use super::file::Place;
@@ -40,7 +40,7 @@ impl Quotas {
     /// Errors if the person has handed in as much as is kept of one, with `more` bytes.
     pub(super) async fn check_person(
         &self,
-        connection: &mut SqliteConnection,
+        connection: &mut AnyConnection,
         person: &str,
         more: usize,
     ) -> Result<(), StoreError> {

@@ -1,8 +1,8 @@
 //! What is never changed: rows of submissions, predictions and verdicts, with a hash over all that they say.
 
 use serde_json::{Value, json};
-use sqlx::sqlite::SqliteRow;
-use sqlx::{FromRow, Row, SqliteConnection};
+use sqlx::any::AnyRow;
+use sqlx::{AnyConnection, FromRow, Row};
 
 use super::error::StoreError;
 use super::hash::sha256;
@@ -22,8 +22,8 @@ pub(super) struct SubmissionRow {
     pub(super) counted: i64,
 }
 
-impl FromRow<'_, SqliteRow> for SubmissionRow {
-    fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
+impl FromRow<'_, AnyRow> for SubmissionRow {
+    fn from_row(row: &AnyRow) -> Result<Self, sqlx::Error> {
         Ok(Self {
             id: row.try_get("id")?,
             assignment: row.try_get("assignment")?,
@@ -46,7 +46,7 @@ impl SubmissionRow {
     }
 
     /// Adds it as the entry `n` of its course's log says.
-    pub(super) async fn add(&self, connection: &mut SqliteConnection, n: i64) -> Result<(), StoreError> {
+    pub(super) async fn add(&self, connection: &mut AnyConnection, n: i64) -> Result<(), StoreError> {
         let add = sqlx::query(sql::ADD_SUBMISSION).bind(&self.id).bind(&self.assignment).bind(&self.person);
         let add = add.bind(n).bind(self.received_at).bind(&self.student).bind(&self.answers);
         add.bind(&self.request_key).bind(self.counted).execute(connection).await?;
@@ -67,8 +67,8 @@ pub(super) struct PredictionRow {
     pub(super) given_at: i64,
 }
 
-impl FromRow<'_, SqliteRow> for PredictionRow {
-    fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
+impl FromRow<'_, AnyRow> for PredictionRow {
+    fn from_row(row: &AnyRow) -> Result<Self, sqlx::Error> {
         Ok(Self {
             course: row.try_get("course")?,
             person: row.try_get("person")?,
@@ -94,7 +94,7 @@ impl PredictionRow {
     }
 
     /// Adds it as the entry `n` of its course's log says.
-    pub(super) async fn add(&self, connection: &mut SqliteConnection, n: i64) -> Result<(), StoreError> {
+    pub(super) async fn add(&self, connection: &mut AnyConnection, n: i64) -> Result<(), StoreError> {
         let add = sqlx::query(sql::ADD_PREDICTION).bind(&self.course).bind(&self.person).bind(&self.slug);
         let add = add.bind(&self.prediction).bind(&self.choice).bind(&self.why).bind(n).bind(self.given_at);
         add.execute(connection).await?;
@@ -128,8 +128,8 @@ pub(super) struct VerdictRow {
     pub(super) counted: Option<i64>,
 }
 
-impl FromRow<'_, SqliteRow> for VerdictRow {
-    fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
+impl FromRow<'_, AnyRow> for VerdictRow {
+    fn from_row(row: &AnyRow) -> Result<Self, sqlx::Error> {
         Ok(Self {
             submission: row.try_get("submission")?,
             run: row.try_get("run")?,
@@ -189,7 +189,7 @@ impl VerdictRow {
     }
 
     /// Adds it.
-    pub(super) async fn add(&self, connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    pub(super) async fn add(&self, connection: &mut AnyConnection) -> Result<(), StoreError> {
         let add = sqlx::query(sql::ADD_VERDICT).bind(&self.submission).bind(self.run).bind(&self.body);
         let add = add.bind(&self.lesson_sha256).bind(&self.build).bind(&self.seed).bind(&self.parameters);
         let add = add.bind(self.earned).bind(self.possible).bind(self.passed).bind(self.made_at);

@@ -1,7 +1,8 @@
 //! Bringing a database to the tables of this version.
 
-use sqlx::{Row, SqliteConnection};
+use sqlx::{AnyConnection, AssertSqlSafe, Row};
 
+use super::database::{self, Kind};
 use super::error::StoreError;
 use super::log::{self, Event};
 use super::records::{self, SubmissionRow, VerdictRow};
@@ -11,45 +12,46 @@ use super::{HOME, now, sql};
 pub(super) const FORMAT: i64 = 4;
 
 /// Makes the tables, or carries those of earlier formats over, within a transaction: another program that opens the
-/// same file meanwhile waits.
-pub(super) async fn migrate(transaction: &mut SqliteConnection) -> Result<(), StoreError> {
-    let (found,): (i64,) = sqlx::query_as("PRAGMA user_version").fetch_one(&mut *transaction).await?;
+/// same gradebook meanwhile waits.
+pub(super) async fn migrate(transaction: &mut AnyConnection) -> Result<(), StoreError> {
+    let found = database::format(transaction).await?;
     if found > FORMAT {
         return Err(StoreError::Newer { found, known: FORMAT });
     }
+    database::prepare(transaction).await?;
     if found == 1 {
-        for statement in OUT_OF_THE_WAY {
-            sqlx::query(statement).execute(&mut *transaction).await?;
-        }
+        make(transaction, &OUT_OF_THE_WAY).await?;
     }
     if found < 2 {
-        for statement in sql::TABLES.iter().chain(sql::RECORDS) {
-            sqlx::query(*statement).execute(&mut *transaction).await?;
-        }
+        make(transaction, sql::TABLES).await?;
+        make(transaction, sql::RECORDS).await?;
         add_course(transaction, HOME, "At home").await?;
     }
     if found < 3 {
-        for statement in sql::ADDED {
-            sqlx::query(*statement).execute(&mut *transaction).await?;
-        }
+        make(transaction, sql::ADDED).await?;
     }
     if found == 1 {
         carry_over(transaction).await?;
         sqlx::query("DROP TABLE submission_1").execute(&mut *transaction).await?;
     }
     if found < 4 {
-        for statement in sql::ADDED_4 {
-            sqlx::query(*statement).execute(&mut *transaction).await?;
-        }
+        make(transaction, sql::ADDED_4).await?;
     }
-    // Written each time: a file that cannot be written is found out before anybody hands in.
-    sqlx::query("PRAGMA user_version = 4").execute(&mut *transaction).await?;
+    database::set_format(transaction, FORMAT).await
+}
+
+/// Makes tables and triggers, in the words of the database.
+async fn make(connection: &mut AnyConnection, statements: &[&str]) -> Result<(), StoreError> {
+    let kind = Kind::of(connection);
+    for statement in statements {
+        sqlx::query(AssertSqlSafe(kind.making(statement))).execute(&mut *connection).await?;
+    }
     Ok(())
 }
 
 /// Adds a course, if it is not there.
 pub(super) async fn add_course(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     id: &str,
     title: &str,
 ) -> Result<(), StoreError> {
@@ -68,7 +70,7 @@ const OUT_OF_THE_WAY: [&str; 5] = [
 ];
 
 /// Each row of format 1 becomes a submission, its verdict and an event, in the order in which they came.
-async fn carry_over(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+async fn carry_over(connection: &mut AnyConnection) -> Result<(), StoreError> {
     const ROWS: &str =
         "SELECT id, lesson, student, submitted_at, answers, verdict FROM submission_1 ORDER BY rowid";
     for row in sqlx::query(ROWS).fetch_all(&mut *connection).await? {

@@ -72,7 +72,7 @@ pub(super) const ADDED_4: &[&str] = &[
      BEGIN SELECT RAISE(ABORT, 'predictions are kept'); END",
 ];
 
-/// What is a record is added to and never changed. In SQLite's words; PostgreSQL says it by rights of the role.
+/// What is a record is added to and never changed. In SQLite's words: `database.rs` says them in PostgreSQL's.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
      BEGIN SELECT RAISE(ABORT, 'submissions are immutable'); END",
@@ -106,6 +106,8 @@ statements! {
         VALUES ($1, $2, $3, $4, $5, $6, 0, '') ON CONFLICT (id) DO NOTHING";
     // The first statement of everything that is logged: it holds the course until the end of the transaction.
     NEXT_EVENT = "UPDATE course SET events = events + 1 WHERE id = $1 RETURNING events, chain";
+    // For what looks before it is logged.
+    HOLD_COURSE = "UPDATE course SET events = events WHERE id = $1";
     SET_CHAIN = "UPDATE course SET chain = $2 WHERE id = $1";
     ADD_EVENT = "INSERT INTO event (course, n, at, actor, what, subject, detail, sha256) \
         VALUES ($1, $2, $3, $4, $5, $6, $7, $8)";
@@ -172,8 +174,8 @@ statements! {
     SET_COURSE = "UPDATE course SET title = $2, join_code = $3, join_open = $4 WHERE id = $1";
     OWNERS = "SELECT COUNT(*) FROM membership WHERE course = $1 AND role = 'owner'";
     ADD_INVITATION = "INSERT INTO invitation (token_sha256, course, role, ends_at) VALUES ($1, $2, $3, $4)";
-    INVITATION = "SELECT course, role FROM invitation WHERE token_sha256 = $1 AND ends_at > $2";
-    REMOVE_INVITATION = "DELETE FROM invitation WHERE token_sha256 = $1";
+    // One statement: of two who follow it at once only one finds it.
+    USE_INVITATION = "DELETE FROM invitation WHERE token_sha256 = $1 AND ends_at > $2 RETURNING course, role";
     ADD_IDENTITY = "INSERT INTO identity (kind, subject, person, secret) VALUES ($1, $2, $3, $4)";
     REMOVE_IDENTITIES = "DELETE FROM identity WHERE person = $1";
     PHRASE = "SELECT i.person, i.secret FROM identity i JOIN membership m ON m.person = i.person \

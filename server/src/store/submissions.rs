@@ -1,7 +1,7 @@
 //! Handing in, and what was handed in.
 
 use serde_json::Value;
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::class::Assignment;
 use super::class::assignments::{ensured, extension_of};
@@ -146,7 +146,7 @@ impl Store {
         self.place_is_right()?;
         // Asked for first: what comes between the two is then found out as the next submission is kept.
         let last = sqlx::query_as(sql::LAST_SUBMISSION).bind(course).bind(lesson).bind(person);
-        let (last,): (i64,) = last.fetch_one(&self.readers).await?;
+        let (last,): (i64,) = last.fetch_one(&self.pools.readers).await?;
         let mut found = self
             .list(&Query {
                 course: course.to_owned(),
@@ -164,7 +164,7 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn person_named(&self, course: &str, name: &str) -> Result<Option<String>, StoreError> {
         let find = sqlx::query_as(sql::MEMBER_BY_NAME).bind(course).bind(names::key(name));
-        let found: Option<(String,)> = find.fetch_optional(&self.readers).await?;
+        let found: Option<(String,)> = find.fetch_optional(&self.pools.readers).await?;
         Ok(found.map(|(id,)| id))
     }
 
@@ -175,7 +175,7 @@ impl Store {
         let limit = i64::try_from(query.limit).unwrap_or(i64::MAX);
         let list = sqlx::query_as(sql::SUBMISSIONS).bind(&query.course).bind(&query.person);
         let rows: Vec<(String, String, String, String, String)> =
-            list.bind(&query.lesson).bind(limit).fetch_all(&self.readers).await?;
+            list.bind(&query.lesson).bind(limit).fetch_all(&self.pools.readers).await?;
         let read = |(id, lesson, student, answers, verdict): (String, String, String, String, String)| {
             let parsed = (serde_json::from_str(&answers), serde_json::from_str(&verdict));
             let (Ok(answers), Ok(verdict)) = parsed else {
@@ -193,7 +193,7 @@ impl Store {
     pub async fn recorded(&self, course: &str, lesson: Option<&str>) -> Result<Vec<Recorded>, StoreError> {
         type Row = (String, String, String, String, String, String, String, String, i64);
         let list = sqlx::query_as(sql::REBUILDABLE).bind(course).bind(lesson);
-        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
+        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let recorded = |(id, person, lesson, answers, body, lesson_sha256, seed, build, at)| Recorded {
             id,
             person,
@@ -212,17 +212,18 @@ impl Store {
     ///
     /// Errors if it is not kept or the file cannot be read.
     pub async fn lesson_version(&self, sha256: &str) -> Result<String, StoreError> {
-        let found = sqlx::query_as(sql::LESSON).bind(sha256).fetch_optional(&self.readers).await?;
+        let found = sqlx::query_as(sql::LESSON).bind(sha256).fetch_optional(&self.pools.readers).await?;
         found.map(|(bundle,)| bundle).ok_or(StoreError::Unknown("version of a lesson"))
     }
 }
 
 /// Keeps it, unless an earlier request of the same key did: then nothing of this transaction is wanted.
 async fn keep(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     new: &HandIn,
     quotas: &Quotas,
 ) -> Result<(Kept, bool), StoreError> {
+    log::hold(connection, &new.course).await?;
     let person = match &new.whose {
         Whose::Person(id) => id.clone(),
         Whose::Named => person_of(connection, &new.course, &new.student, new.received_at).await?,
@@ -273,7 +274,7 @@ async fn keep(
 
 /// What an earlier request of the same key kept.
 async fn repeated(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     assignment: &str,
     person: &str,
     id: &str,
@@ -288,7 +289,7 @@ async fn repeated(
 
 /// The person of that name; at home whoever types a name is known by it from then on.
 pub(super) async fn person_of(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     name: &str,
     at: i64,

@@ -6,19 +6,21 @@
 use std::ops::{Deref, DerefMut};
 
 use sqlx::pool::PoolConnection;
-use sqlx::{Sqlite, SqliteConnection, SqlitePool};
+use sqlx::{Any, AnyConnection, AnyPool};
 
+use super::database::Kind;
 use super::error::StoreError;
 
 /// A transaction. Dropped before it is committed, it is undone as its connection goes back.
 #[derive(Debug)]
-pub(super) struct Transaction(PoolConnection<Sqlite>);
+pub(super) struct Transaction(PoolConnection<Any>);
 
 impl Transaction {
     /// Begins one, and waits for others here and not at the first change.
-    pub(super) async fn begin(writer: &SqlitePool) -> Result<Self, StoreError> {
+    pub(super) async fn begin(writer: &AnyPool) -> Result<Self, StoreError> {
         let mut connection = writer.acquire().await?;
-        sqlx::query("BEGIN IMMEDIATE").execute(&mut *connection).await?;
+        let begin = Kind::of(&connection).begin();
+        sqlx::query(begin).execute(&mut *connection).await?;
         Ok(Self(connection))
     }
 
@@ -36,21 +38,21 @@ impl Transaction {
 }
 
 /// Undoes what was begun on a connection, if anything was.
-pub(super) async fn undo(connection: &mut SqliteConnection) {
-    // Without a transaction there is nothing to undo, and SQLite says so.
+pub(super) async fn undo(connection: &mut AnyConnection) {
+    // Without a transaction there is nothing to undo, and the database says so.
     drop(sqlx::query("ROLLBACK").execute(connection).await);
 }
 
 impl Deref for Transaction {
-    type Target = SqliteConnection;
+    type Target = AnyConnection;
 
-    fn deref(&self) -> &SqliteConnection {
+    fn deref(&self) -> &AnyConnection {
         &self.0
     }
 }
 
 impl DerefMut for Transaction {
-    fn deref_mut(&mut self) -> &mut SqliteConnection {
+    fn deref_mut(&mut self) -> &mut AnyConnection {
         &mut self.0
     }
 }

@@ -30,10 +30,28 @@ use triad::app::App;
 use triad::limits::Limits;
 use triad::store::Store;
 use triad_lessons::Course;
+use triad_tests::postgres::{self, Postgres};
 
-/// A server with the built-in course and a gradebook in memory.
+/// A server with the built-in course and a gradebook in memory, or in a database of its own where PostgreSQL is given.
 fn state(limits: Limits) -> App {
-    App::new(Course::embedded().expect("a course"), Store::in_memory(), limits)
+    let store = postgres::given()
+        .map_or_else(Store::in_memory, |server| Store::of_server(&server.database()).expect("an address"));
+    App::new(Course::embedded().expect("a course"), store, limits)
+}
+
+/// Every test of this program that asks something of the gradebook once more, with PostgreSQL.
+#[test]
+fn the_whole_interface_is_the_same_on_postgresql() {
+    // These ask nothing of the gradebook, and take long.
+    const WITHOUT: [&str; 4] =
+        ["the_whole_interface_is_the_same_on_postgresql", "streams::", "sessions::", "changes::"];
+    let Some(server) = Postgres::start("the HTTP interface on PostgreSQL") else { return };
+    let runtime = tokio::runtime::Runtime::new().expect("a runtime");
+    runtime.block_on(async {
+        let template = server.template().parse().expect("an address");
+        Store::at(&template).await.expect("makes its tables").close().await;
+    });
+    server.again(&[], &WITHOUT);
 }
 
 fn server() -> Router {

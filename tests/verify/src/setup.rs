@@ -16,6 +16,9 @@ pub fn run(root: &Path) -> Result<(), String> {
     if !starts("octave-cli") && std::env::var_os("TRIAD_SKIP_OCTAVE").is_none() {
         missing.push("octave");
     }
+    if !starts("pg_config") && !Path::new("/usr/lib/postgresql").exists() {
+        missing.push("postgresql");
+    }
     if !missing.is_empty() {
         install(&missing)?;
     }

@@ -1,6 +1,6 @@
 //! `triad grades`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use axum::http::StatusCode;
 use clap::Args;
@@ -11,13 +11,13 @@ use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::grades::{Format, GradeTable, csv, table};
 use crate::policy::Moment;
 use crate::problem::Problem;
-use crate::store::{CLASS, HOME, Store};
+use crate::store::{CLASS, HOME, Location, Store};
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Grades {
-    /// The gradebook.
-    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
-    pub(in crate::cli) database: PathBuf,
+    /// The gradebook: a file, or postgres://user@host/name.
+    #[arg(long, default_value = "triad.db", value_name = "PLACE", env = "TRIAD_DATABASE")]
+    pub(in crate::cli) database: Location,
     /// Print the table as CSV.
     #[arg(long)]
     pub(in crate::cli) csv: bool,
@@ -33,7 +33,7 @@ pub(in crate::cli) struct Grades {
 pub(in crate::cli) fn grades(options: &Grades, course: &Course, json: bool) -> Result<Outcome, Problem> {
     let runtime = Builder::new_current_thread().enable_all().build().map_err(Problem::internal)?;
     runtime.block_on(async {
-        let store = Store::open(existing(&options.database)?).await?;
+        let store = Store::at(existing(&options.database)?).await?;
         if options.check {
             return check(&store, json).await;
         }
@@ -48,8 +48,16 @@ pub(in crate::cli) fn grades(options: &Grades, course: &Course, json: bool) -> R
     })
 }
 
-/// A path at which there is something: looking makes no gradebook.
-pub(super) fn existing(path: &Path) -> Result<&Path, Problem> {
+/// A gradebook that is there: looking makes none. What is on a server is found out by opening it.
+pub(super) fn existing(location: &Location) -> Result<&Location, Problem> {
+    if let Location::File(path) = location {
+        file(path)?;
+    }
+    Ok(location)
+}
+
+/// A path at which there is something.
+pub(super) fn file(path: &Path) -> Result<&Path, Problem> {
     if path.exists() {
         return Ok(path);
     }

@@ -10,18 +10,18 @@ use serde_json::json;
 use tokio::runtime::Builder;
 use tokio::sync::mpsc;
 
-use super::grades::{existing, kept_course};
+use super::grades::{existing, file as present, kept_course};
 use crate::cli::output::unwritable;
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::problem::Problem;
-use crate::store::{Copied, Pieces, Query, Store, StoreError};
+use crate::store::{Copied, Location, Pieces, Query, Store, StoreError};
 
 /// Where the gradebook is.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Database {
-    /// The gradebook.
-    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
-    database: PathBuf,
+    /// The gradebook: a file, or postgres://user@host/name.
+    #[arg(long, default_value = "triad.db", value_name = "PLACE", env = "TRIAD_DATABASE")]
+    database: Location,
 }
 
 #[derive(Debug, Args)]
@@ -101,7 +101,7 @@ pub(in crate::cli) enum Class {
 /// Copies the gradebook.
 pub(in crate::cli) fn backup(options: &Backup, json: bool) -> Result<Outcome, Problem> {
     run(async {
-        let store = Store::open(existing(&options.of.database)?).await?;
+        let store = Store::at(existing(&options.of.database)?).await?;
         tell(&options.file, store.backup(&options.file).await?, json);
         Ok(Outcome::Done)
     })
@@ -110,8 +110,11 @@ pub(in crate::cli) fn backup(options: &Backup, json: bool) -> Result<Outcome, Pr
 /// Brings a copy back.
 pub(in crate::cli) fn restore(options: &Restore, json: bool) -> Result<Outcome, Problem> {
     run(async {
-        let copied = crate::store::restore(existing(&options.file)?, &options.to.database).await?;
-        tell(&options.to.database, copied, json);
+        let Location::File(to) = &options.to.database else {
+            return Err(StoreError::FileOnly("made of a backup").into());
+        };
+        let copied = crate::store::restore(present(&options.file)?, to).await?;
+        tell(to, copied, json);
         Ok(Outcome::Done)
     })
 }
@@ -134,11 +137,11 @@ pub(in crate::cli) fn class(command: Class, json: bool) -> Result<Outcome, Probl
     run(async {
         match command {
             Class::Export { file, of } => {
-                let store = Store::open(existing(&of.database)?).await?;
+                let store = Store::at(existing(&of.database)?).await?;
                 export(&store, &file, json).await
             }
             Class::Import { file, to } => {
-                let imported = Store::open(&to.database).await?.import(existing(&file)?).await?;
+                let imported = Store::at(&to.database).await?.import(present(&file)?).await?;
                 if json {
                     print_json(&imported);
                 } else if imported.rows == 0 {
@@ -149,13 +152,13 @@ pub(in crate::cli) fn class(command: Class, json: bool) -> Result<Outcome, Probl
                 Ok(Outcome::Done)
             }
             Class::Copy { name, file, of } => {
-                let store = Store::open(existing(&of.database)?).await?;
+                let store = Store::at(existing(&of.database)?).await?;
                 let text = data_of(&store, &name).await?;
                 new_file(&file)?.write_all(text.as_bytes()).map_err(|error| unwritable(&file, &error))?;
                 Ok(said(&format!("{}: {} kB", file.display(), text.len().div_ceil(1024)), json))
             }
             Class::Erase { name, reason, answers_stay, of } => {
-                let store = Store::open(existing(&of.database)?).await?;
+                let store = Store::at(existing(&of.database)?).await?;
                 let (course, _) = kept_course(&store).await;
                 let person = person(&store, course, &name).await?;
                 store.erase(course, "triad", &person, &reason, answers_stay).await?;

@@ -1,7 +1,5 @@
 //! `triad regrade`.
 
-use std::path::PathBuf;
-
 use axum::http::StatusCode;
 use clap::{ArgGroup, Args, ValueEnum};
 use tokio::runtime::Builder;
@@ -11,14 +9,14 @@ use super::grades::{existing, kept_course};
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::problem::Problem;
 use crate::regrade::{self, Preview, Rebuilt};
-use crate::store::{Role, Store};
+use crate::store::{Location, Role, Store};
 
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).args(["check", "lesson", "undo"]))]
 pub(in crate::cli) struct Regrade {
-    /// The gradebook.
-    #[arg(long, default_value = "triad.db", value_name = "PATH", env = "TRIAD_DATABASE")]
-    pub(in crate::cli) database: PathBuf,
+    /// The gradebook: a file, or postgres://user@host/name.
+    #[arg(long, default_value = "triad.db", value_name = "PLACE", env = "TRIAD_DATABASE")]
+    pub(in crate::cli) database: Location,
     /// Grade everything again with the lesson that graded it, compare byte for byte, and write nothing.
     #[arg(long)]
     pub(in crate::cli) check: bool,
@@ -49,7 +47,7 @@ pub(in crate::cli) enum Choice {
 pub(in crate::cli) fn regrade(options: &Regrade, course: &Course, json: bool) -> Result<Outcome, Problem> {
     let runtime = Builder::new_current_thread().enable_all().build().map_err(Problem::internal)?;
     runtime.block_on(async {
-        let store = Store::open(existing(&options.database)?).await?;
+        let store = Store::at(existing(&options.database)?).await?;
         let (id, _) = kept_course(&store).await;
         if let Some(slug) = &options.lesson {
             return of_lesson(&store, id, course, slug, options, json).await;

@@ -1,6 +1,6 @@
 //! How lessons are assigned: policies, releases, extensions.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use crate::policy::{Extension, Moment, Policy};
 use crate::store::error::StoreError;
@@ -42,7 +42,8 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn assignments(&self, course: &str) -> Result<Vec<Assignment>, StoreError> {
-        let rows: Vec<Row> = sqlx::query_as(sql::ASSIGNMENTS).bind(course).fetch_all(&self.readers).await?;
+        let rows: Vec<Row> =
+            sqlx::query_as(sql::ASSIGNMENTS).bind(course).fetch_all(&self.pools.readers).await?;
         rows.into_iter().map(assignment).collect()
     }
 
@@ -51,7 +52,7 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn assignment(&self, course: &str, lesson: &str) -> Result<Assignment, StoreError> {
         let find = sqlx::query_as(sql::ASSIGNMENT).bind(course).bind(lesson);
-        let found: Option<Row> = find.fetch_optional(&self.readers).await?;
+        let found: Option<Row> = find.fetch_optional(&self.pools.readers).await?;
         found.map_or_else(|| Ok(Assignment::of(lesson)), assignment)
     }
 
@@ -100,7 +101,8 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn extensions(&self, course: &str) -> Result<Vec<(String, String, Extension)>, StoreError> {
         type Row = (String, String, Option<i64>, i64, String, String, i64);
-        let rows: Vec<Row> = sqlx::query_as(sql::EXTENSIONS).bind(course).fetch_all(&self.readers).await?;
+        let rows: Vec<Row> =
+            sqlx::query_as(sql::EXTENSIONS).bind(course).fetch_all(&self.pools.readers).await?;
         let read = |(person, lesson, until, attempts, reason, by, at): Row| {
             (person, lesson, extension((until, attempts, reason, by, at)))
         };
@@ -145,7 +147,7 @@ fn extension((until, attempts, reason, by, at): (Option<i64>, i64, String, Strin
 
 /// What somebody is allowed beyond the others.
 pub(in crate::store) async fn extension_of(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     assignment: &str,
     person: &str,
 ) -> Result<Option<Extension>, StoreError> {
@@ -155,7 +157,7 @@ pub(in crate::store) async fn extension_of(
 
 /// The assignment of a lesson; made when it is first needed.
 pub(in crate::store) async fn ensured(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     slug: &str,
 ) -> Result<Assignment, StoreError> {

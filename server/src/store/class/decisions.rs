@@ -76,7 +76,7 @@ impl Store {
     ) -> Result<Vec<HandedRow>, StoreError> {
         type Row = (String, String, String, i64, i64, i64, f64);
         let list = sqlx::query_as(sql::HANDED).bind(course).bind(person).bind(lesson);
-        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
+        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let read = |(person, lesson, id, n, at, judged, earned)| {
             let handed = Handed { id, n, at: Moment(at), judged: judged == 1, earned };
             HandedRow { person, lesson, handed }
@@ -89,7 +89,8 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn decisions(&self, course: &str) -> Result<Vec<Decision>, StoreError> {
         type Row = (String, String, String, Option<f64>, String, String, i64);
-        let rows: Vec<Row> = sqlx::query_as(sql::DECISIONS).bind(course).fetch_all(&self.readers).await?;
+        let rows: Vec<Row> =
+            sqlx::query_as(sql::DECISIONS).bind(course).fetch_all(&self.pools.readers).await?;
         let read = |(person, lesson, kind, points, reason, by, at): Row| Decision {
             person,
             lesson,

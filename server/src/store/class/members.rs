@@ -1,13 +1,13 @@
 //! Who belongs to a course.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use crate::store::error::StoreError;
 use crate::store::sql;
 
 /// Errors if the person is not in the course.
 pub(in crate::store) async fn known(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     person: &str,
 ) -> Result<(), StoreError> {

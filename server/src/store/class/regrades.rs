@@ -1,7 +1,7 @@
 //! Regrades: new verdicts on what was handed in, all at once, and all taken back at once.
 
 use serde_json::Value;
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use crate::policy::Moment;
 use crate::store::error::StoreError;
@@ -170,7 +170,8 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn regrades(&self, course: &str) -> Result<Vec<RegradeRow>, StoreError> {
         type Row = (String, String, String, String, String, i64, Option<i64>);
-        let rows: Vec<Row> = sqlx::query_as(sql::REGRADES).bind(course).fetch_all(&self.readers).await?;
+        let rows: Vec<Row> =
+            sqlx::query_as(sql::REGRADES).bind(course).fetch_all(&self.pools.readers).await?;
         let read = |(id, lesson, choice, reason, by, at, undone): Row| RegradeRow {
             id,
             lesson,
@@ -188,7 +189,7 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn regraded(&self, course: &str, person: Option<&str>) -> Result<Vec<Regraded>, StoreError> {
         let list = sqlx::query_as(sql::REGRADED).bind(course).bind(person);
-        let rows: Vec<(String, String, f64, f64)> = list.fetch_all(&self.readers).await?;
+        let rows: Vec<(String, String, f64, f64)> = list.fetch_all(&self.pools.readers).await?;
         let read = |(regrade, person, before, after)| Regraded { regrade, person, before, after };
         Ok(rows.into_iter().map(read).collect())
     }
@@ -203,7 +204,7 @@ impl Store {
     ) -> Result<Vec<VerdictHistory>, StoreError> {
         type Row = (String, String, i64, i64, String);
         let list = sqlx::query_as(sql::VERDICTS_GIVEN).bind(course).bind(submission);
-        let rows: Vec<Row> = list.fetch_all(&self.readers).await?;
+        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         if rows.is_empty() {
             return Err(StoreError::Unknown("submission"));
         }
@@ -215,14 +216,14 @@ impl Store {
     }
 }
 
-async fn latest(connection: &mut SqliteConnection, submission: &str) -> Result<VerdictRow, StoreError> {
+async fn latest(connection: &mut AnyConnection, submission: &str) -> Result<VerdictRow, StoreError> {
     let find = sqlx::query_as(sql::VERDICT_IN_FORCE).bind(submission).fetch_optional(connection).await?;
     find.ok_or(StoreError::Unknown("submission"))
 }
 
 /// Adds a verdict that follows others, with its place in the log.
 async fn append(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     actor: &str,
     mut verdict: VerdictRow,

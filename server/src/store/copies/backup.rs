@@ -4,9 +4,9 @@ use std::fs::{self, File, OpenOptions};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use sqlx::sqlite::SqliteConnectOptions;
-use sqlx::{ConnectOptions, SqliteConnection};
+use sqlx::AnyConnection;
 
+use super::super::database;
 use super::super::error::StoreError;
 use super::super::{Store, sql};
 
@@ -25,10 +25,14 @@ impl Store {
     /// Copies the whole gradebook into a new file as it stands at one moment, while others use it, and looks at every record
     /// of the copy.
     ///
-    /// Errors if there is such a file, it cannot be written, or the copy has a fault: then there is none.
+    /// Errors if there is such a file, it cannot be written, the copy has a fault, or the gradebook is not a file itself: then
+    /// there is none.
     pub async fn backup(&self, to: &Path) -> Result<Copied, StoreError> {
-        self.place_is_right()?;
-        let mut connection = self.readers.acquire().await?;
+        let Some(place) = &self.place else {
+            return Err(StoreError::FileOnly("copied into another file"));
+        };
+        place.check()?;
+        let mut connection = self.pools.readers.acquire().await?;
         copy(&mut connection, to).await
     }
 }
@@ -45,11 +49,10 @@ pub async fn restore(from: &Path, to: &Path) -> Result<Copied, StoreError> {
     }
     // One on a disk that cannot be written needs no log of its own.
     let whole = !named(from, "-wal").exists();
-    let options = SqliteConnectOptions::new().filename(from).read_only(true).immutable(whole);
-    let opening = |error: sqlx::Error| StoreError::from(error).opening(from);
-    let mut connection = options.connect().await.map_err(opening)?;
-    let format = sqlx::query_as("PRAGMA user_version").fetch_one(&mut connection).await.map_err(opening)?;
-    let (format,): (i64,) = format;
+    let opening = |error: StoreError| error.opening(from);
+    let absolute = from.canonicalize().map_err(|cause| refused(from, &cause))?;
+    let mut connection = database::reading(&absolute, whole).await.map_err(opening)?;
+    let format = database::format(&mut connection).await.map_err(opening)?;
     if format == 0 {
         return Err(StoreError::Foreign(format!("{} is no gradebook", from.display())));
     }
@@ -57,12 +60,12 @@ pub async fn restore(from: &Path, to: &Path) -> Result<Copied, StoreError> {
 }
 
 /// Copies the database of a connection into a new file that its owner alone can read.
-async fn copy(connection: &mut SqliteConnection, to: &Path) -> Result<Copied, StoreError> {
+async fn copy(connection: &mut AnyConnection, to: &Path) -> Result<Copied, StoreError> {
     reserve(to)?;
     let part = named(to, ".part");
     let copied = async {
         reserve(&part)?;
-        sqlx::query("VACUUM INTO $1").bind(part.to_string_lossy()).execute(connection).await?;
+        sqlx::query("VACUUM INTO $1").bind(part.to_string_lossy().into_owned()).execute(connection).await?;
         let copied = looked_at(&part).await?;
         File::open(&part).and_then(|file| file.sync_all()).map_err(|cause| refused(&part, &cause))?;
         // The name was taken above: nobody else's file is replaced.
@@ -82,14 +85,15 @@ async fn copy(connection: &mut SqliteConnection, to: &Path) -> Result<Copied, St
 /// Opens a copy as it would be used, and looks at everything in it.
 async fn looked_at(path: &Path) -> Result<Copied, StoreError> {
     let store = Store::open(path).await?;
-    let (whole,): (String,) = sqlx::query_as("PRAGMA integrity_check(1)").fetch_one(&store.readers).await?;
+    let (whole,): (String,) =
+        sqlx::query_as("PRAGMA integrity_check(1)").fetch_one(&store.pools.readers).await?;
     if whole != "ok" {
         return Err(StoreError::Damaged(whole));
     }
     if let Some(fault) = store.faults().await?.into_iter().next() {
         return Err(StoreError::Damaged(fault));
     }
-    let (submissions, events) = sqlx::query_as(sql::SIZES).fetch_one(&store.readers).await?;
+    let (submissions, events) = sqlx::query_as(sql::SIZES).fetch_one(&store.pools.readers).await?;
     store.close().await;
     let bytes = path.metadata().map_or(0, |about| about.len());
     Ok(Copied { submissions, events, bytes })

@@ -12,12 +12,12 @@ use axum::body::Bytes;
 use futures_util::TryStreamExt;
 use serde_json::json;
 use sha2::{Digest, Sha256};
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 use tokio::sync::mpsc;
 
 use super::super::error::StoreError;
 use super::super::hash::hexadecimal;
-use super::super::{Store, now, schema, transaction};
+use super::super::{Store, now, schema};
 use super::tables::{OF_COURSE, as_json};
 
 /// Bytes that are sent at once, at least.
@@ -32,16 +32,12 @@ impl Store {
     /// Errors if there is no such course or the file cannot be read; what was sent then lacks its last line.
     pub async fn export(&self, course: &str, out: &Pieces) -> Result<(), StoreError> {
         self.course(course).await?;
-        let mut connection = self.readers.acquire().await?;
-        // All of it as of one moment; undone as the connection goes back, however this ends.
-        sqlx::query("BEGIN").execute(&mut *connection).await?;
-        let written = rows(&mut connection, course, out).await;
-        transaction::undo(&mut connection).await;
-        written
+        let mut connection = self.snapshot().await?;
+        rows(&mut connection, course, out).await
     }
 }
 
-async fn rows(connection: &mut SqliteConnection, course: &str, out: &Pieces) -> Result<(), StoreError> {
+async fn rows(connection: &mut AnyConnection, course: &str, out: &Pieces) -> Result<(), StoreError> {
     let mut lines = Lines { out, hash: Sha256::new(), chunk: Vec::new() };
     let head = json!({"triad": "course", "format": schema::FORMAT, "course": course, "at": now()});
     lines.add(&head.to_string()).await;

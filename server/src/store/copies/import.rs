@@ -1,6 +1,6 @@
 //! A course that was exported comes into a gradebook.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -8,8 +8,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
-use sqlx::{AssertSqlSafe, SqliteConnection};
+use sqlx::{AnyConnection, AssertSqlSafe};
 
+use super::super::database::Kind;
 use super::super::error::StoreError;
 use super::super::hash::hexadecimal;
 use super::super::log::{self, Event};
@@ -118,7 +119,7 @@ fn foreign(what: &str) -> StoreError {
 ///
 /// Errors if another course stands there, or the same one went another way.
 async fn makes_room(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     row: &Map<String, Value>,
 ) -> Result<bool, StoreError> {
@@ -145,21 +146,23 @@ async fn makes_room(
     )))
 }
 
+/// A value of a column, or that there is none there; `None` if it is of another type.
+fn read<'a, T>(value: &'a Value, as_type: impl Fn(&'a Value) -> Option<T>) -> Option<Option<T>> {
+    if value.is_null() { Some(None) } else { as_type(value).map(Some) }
+}
+
 /// Adds a row, if all its columns are ours.
 async fn add(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     table: &str,
     row: &Map<String, Value>,
 ) -> Result<(), StoreError> {
     if !OF_COURSE.iter().any(|(known, _)| *known == table) {
         return Err(foreign(&format!("there is no table {table} in a course")));
     }
-    let columns: Vec<(String,)> = sqlx::query_as("SELECT name FROM pragma_table_info($1)")
-        .bind(table)
-        .fetch_all(&mut *connection)
-        .await?;
-    let columns: BTreeSet<&str> = columns.iter().map(|(name,)| name.as_str()).collect();
-    if let Some(unknown) = row.keys().find(|name| !columns.contains(name.as_str())) {
+    let columns = sqlx::query_as(Kind::of(connection).columns()).bind(table);
+    let columns: BTreeMap<String, String> = columns.fetch_all(&mut *connection).await?.into_iter().collect();
+    if let Some(unknown) = row.keys().find(|name| !columns.contains_key(name.as_str())) {
         return Err(foreign(&format!("there is no column {unknown} in {table}")));
     }
     let names: Vec<&str> = row.keys().map(String::as_str).collect();
@@ -169,15 +172,13 @@ async fn add(
     // Made of names of our own tables and columns alone: compared with them above.
     let text = format!("INSERT INTO {table} ({}) VALUES ({}){again}", names.join(", "), places.join(", "));
     let mut insert = sqlx::query(AssertSqlSafe(text));
-    for value in row.values() {
-        insert = match value {
-            Value::Null => insert.bind(None::<String>),
-            Value::Number(number) => match number.as_i64() {
-                Some(whole) => insert.bind(whole),
-                None => insert.bind(number.as_f64()),
-            },
-            Value::String(text) => insert.bind(text.as_str()),
-            _ => return Err(foreign(&format!("a row of {table} has what no column holds"))),
+    for (name, value) in row {
+        let wrong = || foreign(&format!("a row of {table} has what its column {name} does not hold"));
+        // Each value with the type of its column, also where there is none: PostgreSQL takes no other.
+        insert = match columns.get(name).map(String::as_str) {
+            Some("BIGINT") => insert.bind(read(value, Value::as_i64).ok_or_else(wrong)?),
+            Some("DOUBLE PRECISION") => insert.bind(read(value, Value::as_f64).ok_or_else(wrong)?),
+            _ => insert.bind(read(value, |value| value.as_str().map(str::to_owned)).ok_or_else(wrong)?),
         };
     }
     insert.execute(connection).await?;

@@ -6,7 +6,7 @@ mod import;
 mod person;
 mod tables;
 #[cfg(test)]
-mod tests;
+pub(in crate::store) mod tests;
 
 pub use backup::{Copied, restore};
 pub use export::Pieces;

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value, json};
-use sqlx::{AssertSqlSafe, SqliteConnection};
+use sqlx::AnyConnection;
 
 use super::super::class::members::known;
+use super::super::database;
 use super::super::error::StoreError;
 use super::super::log::{self, ERASED, Event};
 use super::super::{Store, now, sql};
@@ -27,7 +28,7 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn events_of(&self, course: &str, person: &str) -> Result<Vec<OwnEvent>, StoreError> {
         let rows: Vec<(i64, String, String)> =
-            sqlx::query_as(sql::EVENTS_OF).bind(course).bind(person).fetch_all(&self.readers).await?;
+            sqlx::query_as(sql::EVENTS_OF).bind(course).bind(person).fetch_all(&self.pools.readers).await?;
         Ok(rows.into_iter().map(|(at, actor, what)| OwnEvent { at, what, own: actor == person }).collect())
     }
 
@@ -63,7 +64,7 @@ impl Store {
 }
 
 /// Takes the name and the ways in away.
-async fn forget(connection: &mut SqliteConnection, course: &str, person: &str) -> Result<(), StoreError> {
+async fn forget(connection: &mut AnyConnection, course: &str, person: &str) -> Result<(), StoreError> {
     for statement in [sql::REMOVE_IDENTITIES, sql::REMOVE_SESSIONS] {
         sqlx::query(statement).bind(person).execute(&mut *connection).await?;
     }
@@ -81,16 +82,12 @@ async fn forget(connection: &mut SqliteConnection, course: &str, person: &str) -
 /// Takes names, and what was handed in, out of the records. The only change that records ever see: the triggers that keep
 /// them stand aside within this transaction, and the log says that it was done.
 async fn strip(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     course: &str,
     person: &str,
     answers_stay: bool,
 ) -> Result<(), StoreError> {
-    const ASIDE: [&str; 4] =
-        ["submission_is_immutable", "verdict_is_immutable", "seed_is_immutable", "prediction_is_immutable"];
-    for trigger in ASIDE {
-        sqlx::query(AssertSqlSafe(format!("DROP TRIGGER {trigger}"))).execute(&mut *connection).await?;
-    }
+    database::stand_aside(connection, true).await?;
     // At home the seed is the name.
     if course == super::super::HOME {
         sqlx::query(sql::UNSEED).bind(course).bind(person).execute(&mut *connection).await?;
@@ -110,14 +107,7 @@ async fn strip(
             sqlx::query(sql::REPLACE_VERDICT).bind(&submission).bind(run).bind(told.to_string()).bind(seed);
         set.execute(&mut *connection).await?;
     }
-    for statement in sql::RECORDS
-        .iter()
-        .chain(sql::ADDED_4)
-        .filter(|text| ASIDE.iter().any(|trigger| text.contains(trigger)))
-    {
-        sqlx::query(*statement).execute(&mut *connection).await?;
-    }
-    Ok(())
+    database::stand_aside(connection, false).await
 }
 
 /// The verdict without who it is about and, unless the answers stay, without what it says of them.

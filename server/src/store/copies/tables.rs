@@ -1,8 +1,8 @@
 //! What belongs to a course, table by table.
 
 use serde_json::{Map, Value};
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Column, Row, TypeInfo, ValueRef};
+use sqlx::any::{AnyRow, AnyTypeInfoKind};
+use sqlx::{Column, Row, ValueRef};
 
 use super::super::error::StoreError;
 
@@ -59,19 +59,18 @@ pub(in crate::store) const LEFT: &[&str] = &["session", "invitation"];
 /// A row as JSON, by the names of its columns.
 ///
 /// Errors if something stands in it that no column of ours has.
-pub(super) fn as_json(row: &SqliteRow) -> Result<Map<String, Value>, StoreError> {
+pub(super) fn as_json(row: &AnyRow) -> Result<Map<String, Value>, StoreError> {
     let value = |index: usize| -> Result<Value, sqlx::Error> {
         let raw = row.try_get_raw(index)?;
         if raw.is_null() {
             return Ok(Value::Null);
         }
-        Ok(match raw.type_info().name() {
-            "INTEGER" => Value::from(row.try_get_unchecked::<i64, _>(index)?),
-            "REAL" => Value::from(row.try_get_unchecked::<f64, _>(index)?),
+        Ok(match raw.type_info().kind() {
+            AnyTypeInfoKind::BigInt => Value::from(row.try_get_unchecked::<i64, _>(index)?),
+            AnyTypeInfoKind::Double => Value::from(row.try_get_unchecked::<f64, _>(index)?),
             _ => Value::from(row.try_get_unchecked::<String, _>(index)?),
         })
     };
-    let named =
-        |column: &sqlx::sqlite::SqliteColumn| Ok((column.name().to_owned(), value(column.ordinal())?));
-    row.columns().iter().map(named).collect::<Result<_, sqlx::Error>>().map_err(StoreError::from)
+    let named = row.columns().iter().map(|column| Ok((column.name().to_owned(), value(column.ordinal())?)));
+    named.collect::<Result<_, sqlx::Error>>().map_err(StoreError::from)
 }

@@ -11,7 +11,7 @@ use tokio::sync::mpsc;
 use super::super::*;
 
 /// A submission with a name, a file and a verdict that says who it is about.
-fn new(student: &str, after: i64) -> HandIn {
+pub(in crate::store) fn new(student: &str, after: i64) -> HandIn {
     let plain = tests::new(student);
     let question = json!({"id": "q", "earned": 0.1, "possible": 1.0, "verdict": "wrong", "message_html": "<p>You wrote 7.</p>"});
     HandIn {
@@ -58,11 +58,11 @@ async fn open(path: &Path) -> Store {
     Store::open(path).await.expect("opens")
 }
 
-async fn all(store: &Store) -> Vec<StoredSubmission> {
+pub(in crate::store) async fn all(store: &Store) -> Vec<StoredSubmission> {
     store.list(&Query { course: HOME.into(), limit: 1000, ..Query::default() }).await.expect("lists")
 }
 
-async fn whole(store: &Store) -> bool {
+pub(in crate::store) async fn whole(store: &Store) -> bool {
     store.faults().await.expect("looks").is_empty()
 }
 
@@ -120,7 +120,7 @@ async fn a_backup_that_is_damaged_or_none_is_not_restored() {
     assert!(matches!(restore(&copy, &back).await, Err(StoreError::Exists(_))));
 }
 
-async fn exported(store: &Store, to: &Path) {
+pub(in crate::store) async fn exported(store: &Store, to: &Path) {
     let (pieces, mut received): (Pieces, _) = mpsc::channel(4);
     let (sent, ()) = tokio::join!(
         async {

@@ -1,0 +1,324 @@
+//! The databases that keep a gradebook: SQLite in a file or in memory, or a PostgreSQL server. Everything in which they
+//! differ stands here; the statements of `sql.rs` are in words that both understand.
+
+use std::fmt::{self, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Once;
+use std::time::Duration;
+
+use futures_util::future::BoxFuture;
+use sqlx::any::{AnyConnectOptions, AnyPoolOptions};
+use sqlx::{AnyConnection, AnyPool, AssertSqlSafe, ConnectOptions};
+
+use super::error::StoreError;
+use super::transaction;
+
+/// How long a statement waits for another program that writes.
+pub(super) const PATIENCE: Duration = Duration::from_secs(5);
+/// Connections that read a file; one more writes.
+const READERS: u32 = 4;
+/// Connections of one program to a server that read, and as many that write: a server allows some hundred in all.
+const TO_SERVER: u32 = 8;
+/// What every program that makes or changes tables on a server holds meanwhile: a number that nothing else there uses.
+const MIGRATING: i64 = 0x7472_6961_6401;
+
+/// Where a gradebook is: the path of a file, or the address of a server, as `--database` has it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Location {
+    /// A file of SQLite.
+    File(PathBuf),
+    /// A database of a PostgreSQL server, as `postgres://user@host/name`.
+    Server(String),
+}
+
+impl FromStr for Location {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if ["postgres://", "postgresql://"].iter().any(|scheme| text.starts_with(scheme)) {
+            return match AnyConnectOptions::from_str(text) {
+                Ok(_) => Ok(Self::Server(text.to_owned())),
+                Err(error) => Err(format!("{error}; as in postgres://triad@localhost/grades")),
+            };
+        }
+        if let Some((scheme, _)) = text.split_once("://") {
+            return Err(format!("{scheme} is no database for a gradebook: name a file, or postgres://…"));
+        }
+        Ok(Self::File(text.into()))
+    }
+}
+
+impl fmt::Display for Location {
+    /// Without the password: this is printed and logged.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(path) => path.display().fmt(f),
+            Self::Server(url) => {
+                let (scheme, rest) = url.split_once("://").unwrap_or(("postgres", url));
+                // A password may stand before the host or among the parameters.
+                let rest = rest.split_once('?').map_or(rest, |(place, _)| place);
+                let (user, place) = rest.rsplit_once('@').unwrap_or(("", rest));
+                let user = user.split_once(':').map_or(user, |(user, _)| user);
+                let at = if user.is_empty() { "" } else { "@" };
+                write!(f, "{scheme}://{user}{at}{place}")
+            }
+        }
+    }
+}
+
+/// Connections to a gradebook.
+#[derive(Debug)]
+pub(super) struct Pools {
+    pub(super) writer: AnyPool,
+    pub(super) readers: AnyPool,
+}
+
+/// Which database answers on a connection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Sqlite,
+    Postgres,
+}
+
+impl Kind {
+    pub(super) fn of(connection: &AnyConnection) -> Self {
+        if connection.backend_name() == "PostgreSQL" { Self::Postgres } else { Self::Sqlite }
+    }
+
+    /// Begins a transaction that writes, and waits for others there and not at the first change.
+    pub(super) fn begin(self) -> &'static str {
+        match self {
+            Self::Sqlite => "BEGIN IMMEDIATE",
+            // There the first statement holds what the others may not change meanwhile.
+            Self::Postgres => "BEGIN",
+        }
+    }
+
+    /// Begins to read everything as of one moment.
+    pub(super) fn snapshot(self) -> &'static str {
+        match self {
+            Self::Sqlite => "BEGIN",
+            Self::Postgres => "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY",
+        }
+    }
+
+    /// Names and types of the columns of the table `$1`.
+    pub(super) fn columns(self) -> &'static str {
+        match self {
+            Self::Sqlite => "SELECT name, type FROM pragma_table_info($1)",
+            Self::Postgres => {
+                "SELECT CAST(column_name AS TEXT), UPPER(CAST(data_type AS TEXT)) FROM information_schema.columns \
+                 WHERE table_schema = current_schema() AND table_name = $1"
+            }
+        }
+    }
+
+    /// A statement that makes tables, columns or triggers, in this database's words. Ours are SQLite's.
+    pub(super) fn making(self, text: &str) -> String {
+        match self {
+            Self::Sqlite => text.to_owned(),
+            Self::Postgres if text.starts_with("CREATE TRIGGER") => text
+                .replace("BEGIN SELECT RAISE(ABORT, ", "FOR EACH ROW EXECUTE FUNCTION triad_refuse(")
+                .replace("); END", ")"),
+            // Sorted and compared as bytes, whatever the language of the server.
+            Self::Postgres if text.starts_with("CREATE TABLE") || text.starts_with("ALTER TABLE") => {
+                text.replace(" TEXT", " TEXT COLLATE \"C\"")
+            }
+            Self::Postgres => text.to_owned(),
+        }
+    }
+}
+
+/// What refuses changes of records on a server, unless somebody is erased within the transaction.
+const REFUSE: &str = "CREATE OR REPLACE FUNCTION triad_refuse() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN \
+    IF TG_OP = 'UPDATE' AND current_setting('triad.erasing', true) = 'yes' THEN RETURN NEW; END IF; \
+    RAISE EXCEPTION '%', TG_ARGV[0]; END $$";
+
+impl Pools {
+    /// Connections to a file; none is made before it is needed.
+    pub(super) fn of_file(file: &Path) -> Result<Self, StoreError> {
+        let writer = kept_open(1).connect_lazy_with(address(&of_file(file, "mode=rw"))?);
+        let readers = kept_open(READERS).connect_lazy_with(address(&of_file(file, "mode=ro"))?);
+        Ok(Self { writer, readers })
+    }
+
+    /// The one connection to a gradebook in memory: each has a database of its own. `make` makes its tables.
+    #[allow(clippy::expect_used)] // the address stands here
+    pub(super) fn in_memory<F>(make: F) -> Self
+    where
+        F: for<'c> Fn(&'c mut AnyConnection) -> BoxFuture<'c, Result<(), sqlx::Error>>
+            + Send
+            + Sync
+            + 'static,
+    {
+        let options = address("sqlite::memory:").expect("an address");
+        let writer =
+            kept_open(1).after_connect(move |connection, _| make(connection)).connect_lazy_with(options);
+        Self { readers: writer.clone(), writer }
+    }
+
+    /// Connections to a server; none is made before it is needed.
+    pub(super) fn to_server(url: &str) -> Result<Self, StoreError> {
+        let options = address(url)?;
+        // A server that was started again has ended the connections that were kept.
+        let pool = || to_server().connect_lazy_with(options.clone());
+        Ok(Self { writer: pool(), readers: pool() })
+    }
+}
+
+fn address(url: &str) -> Result<AnyConnectOptions, StoreError> {
+    static DRIVERS: Once = Once::new();
+    DRIVERS.call_once(sqlx::any::install_default_drivers);
+    Ok(AnyConnectOptions::from_str(url)?)
+}
+
+/// The address of a file that is there, whatever signs its path has.
+fn of_file(file: &Path, parameters: &str) -> String {
+    let mut url = "sqlite:".to_owned();
+    for byte in file.as_os_str().as_encoded_bytes() {
+        match byte {
+            b'/' | b'\\' | b':' | b'.' | b'-' | b'_' => url.push(char::from(*byte)),
+            _ if byte.is_ascii_alphanumeric() => url.push(char::from(*byte)),
+            _ => drop(write!(url, "%{byte:02X}")),
+        }
+    }
+    format!("{url}?{parameters}")
+}
+
+/// A connection to a file that is only read; with `whole` nobody else writes it.
+pub(super) async fn reading(file: &Path, whole: bool) -> Result<AnyConnection, StoreError> {
+    Ok(address(&of_file(file, &format!("mode=ro&immutable={whole}")))?.connect().await?)
+}
+
+/// Connections that stay: a store in memory lives in one, and opening a file again costs more than keeping it. What a
+/// request that was given up left half-done is undone.
+fn kept_open(most: u32) -> AnyPoolOptions {
+    const SETTINGS: [&str; 4] = [
+        "PRAGMA busy_timeout = 5000",
+        "PRAGMA synchronous = FULL",
+        "PRAGMA foreign_keys = ON",
+        // What is erased is overwritten, not only forgotten.
+        "PRAGMA secure_delete = ON",
+    ];
+    let stays = AnyPoolOptions::new().max_connections(most).idle_timeout(None).max_lifetime(None);
+    set_up(stays.test_before_acquire(false), &SETTINGS)
+}
+
+fn to_server() -> AnyPoolOptions {
+    const SETTINGS: [&str; 2] = [
+        "SET lock_timeout = '5s'",
+        // A program that was stopped in the middle of a transaction does not hold up the others for ever.
+        "SET idle_in_transaction_session_timeout = '30s'",
+    ];
+    let patient = AnyPoolOptions::new().max_connections(TO_SERVER).acquire_timeout(PATIENCE);
+    set_up(patient, &SETTINGS)
+}
+
+fn set_up(options: AnyPoolOptions, settings: &'static [&'static str]) -> AnyPoolOptions {
+    let begun = options.after_connect(move |connection, _| {
+        Box::pin(async move {
+            for setting in settings {
+                let set = sqlx::query(*setting).execute(&mut *connection).await.map_err(StoreError::from);
+                match set {
+                    Ok(_) => {}
+                    // No database, or a damaged one: the first statement says so. What is refused here is tried again for half a
+                    // minute.
+                    Err(StoreError::Damaged(_)) => return Ok(()),
+                    Err(other) => return Err(sqlx::Error::Protocol(other.to_string())),
+                }
+            }
+            Ok(())
+        })
+    });
+    begun.after_release(|connection, _| {
+        Box::pin(async move {
+            transaction::undo(connection).await;
+            Ok(true)
+        })
+    })
+}
+
+/// Changes go to a log beside the file, so that readers do not wait. Several programs that open a new file at once get in
+/// each other's way here, where SQLite does not wait by itself.
+pub(super) async fn write_ahead(writer: &AnyPool) -> Result<(), StoreError> {
+    let mut tries = 0;
+    loop {
+        match sqlx::query("PRAGMA journal_mode = WAL").execute(writer).await.map_err(StoreError::from) {
+            Err(StoreError::Busy) if tries < 50 => tries += 1,
+            other => return other.map(drop),
+        }
+        tokio::time::sleep(PATIENCE / 50).await;
+    }
+}
+
+/// The format of the tables that are there; 0 where there are none. On a server it holds everybody else who asks, until the end
+/// of the transaction.
+pub(super) async fn format(connection: &mut AnyConnection) -> Result<i64, StoreError> {
+    let text = match Kind::of(connection) {
+        Kind::Sqlite => "PRAGMA user_version",
+        Kind::Postgres => {
+            let hold = sqlx::query("SELECT pg_advisory_xact_lock($1)").bind(MIGRATING);
+            hold.execute(&mut *connection).await?;
+            let encoding = sqlx::query_as("SELECT current_setting('server_encoding')");
+            let (encoding,): (String,) = encoding.fetch_one(&mut *connection).await?;
+            if encoding != "UTF8" {
+                return Err(StoreError::Sql(format!(
+                    "its letters are {encoding}: make another with createdb --encoding=UTF8 --template=template0"
+                )));
+            }
+            let make = "CREATE TABLE IF NOT EXISTS triad_format (version BIGINT NOT NULL)";
+            sqlx::query(make).execute(&mut *connection).await?;
+            "SELECT COALESCE(MAX(version), 0) FROM triad_format"
+        }
+    };
+    let (found,): (i64,) = sqlx::query_as(text).fetch_one(&mut *connection).await?;
+    Ok(found)
+}
+
+/// Writes down the format. Each time: a file that cannot be written is found out before anybody hands in.
+pub(super) async fn set_format(connection: &mut AnyConnection, format: i64) -> Result<(), StoreError> {
+    match Kind::of(connection) {
+        Kind::Sqlite => {
+            let text = format!("PRAGMA user_version = {format}");
+            sqlx::query(AssertSqlSafe(text)).execute(connection).await?;
+        }
+        Kind::Postgres => {
+            sqlx::query("DELETE FROM triad_format").execute(&mut *connection).await?;
+            let set = sqlx::query("INSERT INTO triad_format (version) VALUES ($1)").bind(format);
+            set.execute(connection).await?;
+        }
+    }
+    Ok(())
+}
+
+/// Makes what the tables need on a server.
+pub(super) async fn prepare(connection: &mut AnyConnection) -> Result<(), StoreError> {
+    if Kind::of(connection) == Kind::Postgres {
+        sqlx::query(REFUSE).execute(connection).await?;
+    }
+    Ok(())
+}
+
+/// Lets the triggers that keep records stand aside, within this transaction; `begin` false: they keep them again.
+pub(super) async fn stand_aside(connection: &mut AnyConnection, begin: bool) -> Result<(), StoreError> {
+    const ASIDE: [&str; 4] =
+        ["submission_is_immutable", "verdict_is_immutable", "seed_is_immutable", "prediction_is_immutable"];
+    if Kind::of(connection) == Kind::Postgres {
+        let word = if begin { "yes" } else { "" };
+        let set = sqlx::query("SELECT set_config('triad.erasing', $1, true)").bind(word);
+        set.execute(connection).await?;
+        return Ok(());
+    }
+    if begin {
+        for trigger in ASIDE {
+            sqlx::query(AssertSqlSafe(format!("DROP TRIGGER {trigger}"))).execute(&mut *connection).await?;
+        }
+        return Ok(());
+    }
+    let makes = |text: &&&str| ASIDE.iter().any(|trigger| text.contains(trigger));
+    for statement in super::sql::RECORDS.iter().chain(super::sql::ADDED_4).filter(makes) {
+        sqlx::query(*statement).execute(&mut *connection).await?;
+    }
+    Ok(())
+}
