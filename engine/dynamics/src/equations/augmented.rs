@@ -111,7 +111,9 @@ pub fn for_mass_entries(system: &System, at: &State, mut put: impl FnMut(usize, 
         match body.coordinates {
             Coordinates::Full | Coordinates::Shared => {
                 for (k, director) in body.layout.directors.iter().enumerate() {
-                    for (axis, (column, _)) in (0..3).zip(std::iter::repeat(director.column()).flatten()) {
+                    // A director along a fixed direction has no coordinates.
+                    let Some((column, _)) = director.column() else { continue };
+                    for axis in 0..3 {
                         put(column + axis, column + axis, body.ibar[k]);
                     }
                 }

@@ -67,7 +67,19 @@ fn sharing_removes_coordinates_and_rows_but_no_freedom() {
 /// the elimination gives.
 #[test]
 fn the_augmented_system_agree() {
-    let system = System::new(Model::new(&scene("shared")).unwrap());
+    augmented_agrees(&scene("shared"));
+}
+
+/// A director along a fixed direction has no coordinates, and puts no mass anywhere.
+#[test]
+fn the_augmented_system_agrees_where_directors_are_shared_with_the_ground() {
+    let mut scene = catalogue::scene("n-four-bar:2").unwrap();
+    scene.coordinates = Coordinates::Shared;
+    augmented_agrees(&scene);
+}
+
+fn augmented_agrees(scene: &Scene) {
+    let system = System::new(Model::new(scene).unwrap());
     let n = system.coordinates;
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
     system.start(&mut q, &mut v);
