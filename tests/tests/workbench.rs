@@ -160,13 +160,12 @@ fn the_api_describes_itself() {
 }
 
 #[test]
-fn a_run_writes_a_table_and_a_recording_and_says_how_far_it_can_be_trusted() {
+fn a_run_writes_a_table_a_recording_and_a_film_and_says_how_far_it_can_be_trusted() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (csv, rrd) = (at("run.csv"), at("run.rrd"));
-    let arguments =
-        ["run", "simple-pendulum", "--until", "2", "--every", "0.1", "--out", &csv, "--rrd", &rrd];
-    let (exit, report) = run_json(&arguments);
+    let (csv, rrd, svg) = (at("run.csv"), at("run.rrd"), at("run.svg"));
+    let arguments = format!("run simple-pendulum --until 2 --every 0.1 --out {csv} --rrd {rrd} --svg {svg}");
+    let (exit, report) = run_json(&arguments.split(' ').collect::<Vec<_>>());
     assert_eq!(exit, 0);
     assert!(report["summary"]["energy_drift"].as_f64().unwrap().abs() < 1e-7, "{report}");
     assert_eq!(report["summary"]["finished"], true);
@@ -176,6 +175,9 @@ fn a_run_writes_a_table_and_a_recording_and_says_how_far_it_can_be_trusted() {
     assert!(lines[0].contains("bob"), "{}", lines[0]);
     assert!(lines[22].starts_with("2,"), "{}", lines[22]);
     assert!(std::fs::read(&rrd).unwrap().starts_with(b"RRF2"));
+    let film = std::fs::read_to_string(&svg).unwrap();
+    let pictures = film.split("attributeName=\"d\"").nth(1).unwrap().split("values=\"").nth(1).unwrap();
+    assert_eq!(pictures.split('"').next().unwrap().split(';').count(), 21);
 }
 
 #[test]

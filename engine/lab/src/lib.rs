@@ -11,3 +11,5 @@ pub mod paper;
 pub mod bench;
 
 pub mod sweep;
+
+pub mod film;

@@ -214,3 +214,12 @@ impl Style {
         format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\"")
     }
 }
+
+/// A text between tags or in an attribute.
+///
+/// ```
+/// assert_eq!(triad_plot::escaped("\"a<b\" & c"), "&quot;a&lt;b&quot; &amp; c");
+/// ```
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

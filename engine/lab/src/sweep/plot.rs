@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use triad_plot::{Axis, PlotFrame, Style};
+use triad_plot::{Axis, PlotFrame, Style, escaped};
 
 use super::Sweep;
 
@@ -50,9 +50,4 @@ pub fn svg(sweep: &Sweep, column: usize) -> String {
     }
     out.push_str("</svg>\n");
     out
-}
-
-/// A name between tags.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -59,6 +59,9 @@ pub(in crate::cli) struct Run {
     /// Write a recording for the rerun viewer.
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) rrd: Option<PathBuf>,
+    /// Draw the mechanism as an SVG that moves by itself.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) svg: Option<PathBuf>,
     /// Show the run in a native rerun viewer that listens at this address.
     #[arg(long, value_name = "URL", num_args = 0..=1, default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     pub(super) rerun: Option<String>,

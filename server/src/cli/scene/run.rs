@@ -1,5 +1,6 @@
 //! `triad run`.
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use axum::http::StatusCode;
@@ -7,6 +8,7 @@ use triad_engine::EngineError;
 use triad_engine::model::Model;
 use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene, Skip};
+use triad_lab::film::Film;
 use triad_lab::verify::Verifier;
 
 use super::options::Run;
@@ -14,7 +16,7 @@ use super::report::{Found, report};
 use super::table::Table;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::output::{make_room, unwritable};
+use crate::cli::output::{make_room, unwritable, write};
 use crate::cli::terminal::{Outcome, TimeBar, progress};
 use crate::problem::Problem;
 use crate::session::{describe, sample};
@@ -80,7 +82,8 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
         simulation.outputs.clone_from(&options.outputs);
     }
     simulation.error_estimate &= !options.no_estimate;
-    let writes = options.out.is_some() || options.rrd.is_some() || options.rerun.is_some();
+    let writes =
+        options.out.is_some() || options.rrd.is_some() || options.svg.is_some() || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
     if writes && outputs > MAX_OUTPUTS {
         return Err(Problem::new(
@@ -227,6 +230,7 @@ struct Outputs {
     table: Option<Table>,
     recorders: Vec<Recording>,
     waiting: Vec<Sample>,
+    film: Option<(PathBuf, Film)>,
 }
 
 impl Outputs {
@@ -249,12 +253,22 @@ impl Outputs {
             let recorder = recorder.map_err(|error| no_viewer(url, &error))?;
             recorders.push(Recording { recorder, viewer: Some(url.clone()) });
         }
-        Ok(Self { table, recorders, waiting: Vec::new() })
+        let film = match &options.svg {
+            None => None,
+            Some(path) => {
+                make_room(path)?;
+                Some((path.clone(), Film::new(scene, simulation.model())))
+            }
+        };
+        Ok(Self { table, recorders, waiting: Vec::new(), film })
     }
 
     fn write(&mut self, simulation: &Simulation) -> Result<(), Problem> {
         if let Some(table) = &mut self.table {
             table.row(simulation).map_err(|error| output_failed(&error))?;
+        }
+        if let Some((_, film)) = &mut self.film {
+            film.push(simulation.frame());
         }
         if !self.recorders.is_empty() {
             self.waiting.push(sample(simulation));
@@ -278,6 +292,9 @@ impl Outputs {
         self.encode()?;
         for recording in &self.recorders {
             recording.recorder.flush().map_err(|error| recording.failed(&error))?;
+        }
+        if let Some((path, film)) = &self.film {
+            write(path, film.svg(true))?;
         }
         self.table.take().map_or(Ok(()), |table| table.finish().map_err(|error| output_failed(&error)))
     }
