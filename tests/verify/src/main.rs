@@ -6,6 +6,7 @@
 
 mod bits;
 mod deny;
+mod python;
 mod setup;
 
 use std::ffi::OsStr;
@@ -33,12 +34,17 @@ impl Step {
 }
 
 /// The steps in their order.
-const STEPS: [Step; 10] = [
-    Step::new("setup", "install what the tests need: Chromium, Octave, npm packages", setup::run),
+const STEPS: [Step; 11] = [
+    Step::new(
+        "setup",
+        "install what the tests need: Chromium, Octave, packages of npm and Python",
+        setup::run,
+    ),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
     Step::new("bits", "the same results from builds for old and for new processors", bits::run),
     Step::new("size", "the program is at most 43 MB", size),
+    Step::new("python", "the Python module: its wheel, its types, its tests and its notebooks", python::run),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
         cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))

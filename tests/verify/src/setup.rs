@@ -1,6 +1,6 @@
 //! Installs what the tests need and the machine lacks.
 
-use crate::must;
+use crate::{must, python};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -24,7 +24,8 @@ pub fn run(root: &Path) -> Result<(), String> {
     }
     // The page's own build leaves out the tools that check it, so that a time of the lock file says nothing here.
     node_packages(&root.join("web"), "node_modules/.bin/biome")?;
-    node_packages(&root.join("tests/browser"), "node_modules/playwright-core")
+    node_packages(&root.join("tests/browser"), "node_modules/playwright-core")?;
+    python::install(root)
 }
 
 fn starts(program: &str) -> bool {

@@ -1,0 +1,128 @@
+"""Many runs of one scene with varied numbers."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._errors import finite, place, refusal
+from ._scene import Scene, named
+
+if TYPE_CHECKING:
+    import pandas
+
+Values = Union[tuple[float, float, int], tuple[str, float, float]]
+
+
+def grid(start: float, stop: float, count: int) -> Values:
+    """Equally spaced values, both ends included. Grids of several numbers are crossed."""
+    return (start, stop, count)
+
+
+def uniform(low: float, high: float) -> Values:
+    """Values drawn between two numbers."""
+    return ("uniform", low, high)
+
+
+def normal(mean: float, deviation: float) -> Values:
+    """Values drawn from a normal distribution."""
+    return ("normal", mean, deviation)
+
+
+class Sweep:
+    """The runs of a sweep, in the order of its plan: what each gave at its end. ``s["energy"]`` is a column."""
+
+    def __init__(self, found: _native.Sweep) -> None:
+        self._found = found
+        about = json.loads(found.about())
+        self.varied: list[str] = about["varied"]
+        self.columns: list[str] = [name for name, _ in about["columns"]]
+        self.units: dict[str, str] = dict(about["columns"])
+        self.stopped: list[dict[str, Any]] = about["stopped"]
+        """Runs that could not start or go on, each with its number, what was wrong and a hint."""
+        self.values: NDArray[np.float64] = found.values()
+        """The varied numbers: (runs, varied)."""
+        self.outputs: NDArray[np.float64] = found.outputs()
+        """The outputs at the end of each run: (runs, columns); nan where a run stopped."""
+        self.times: NDArray[np.float64] = found.times()
+        """When each run ended, s."""
+        self.doubts: NDArray[np.int64] = np.array(found.doubts())
+        """How many things speak against each result."""
+
+    def __getitem__(self, column: str) -> NDArray[np.float64]:
+        if column in self.varied:
+            return self.values[:, self.varied.index(column)]
+        return self.outputs[:, place("column", column, self.columns)]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Varied numbers and outputs, one row for each run. Needs pandas: ``pip install triad[tables]``."""
+        import pandas
+
+        return pandas.DataFrame(np.hstack([self.values, self.outputs]), columns=[*self.varied, *self.columns])
+
+    def svg(self, column: Optional[str] = None) -> str:
+        """An output over the first varied number, as SVG."""
+        return self._found.svg(0 if column is None else place("column", column, self.columns))
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def __repr__(self) -> str:
+        failed = f", {len(self.stopped)} of them stopped" if self.stopped else ""
+        return f"<triad.Sweep over {', '.join(self.varied)}: {len(self)} runs{failed}>"
+
+
+def sweep(
+    scene: Scene,
+    vary: Mapping[str, Union[Values, Sequence[Any]]],
+    *,
+    samples: int = 1,
+    seed: int = 1,
+    threads: int = 0,
+    until: Optional[float] = None,
+    tolerance: Optional[float] = None,
+    integrator: Optional[str] = None,
+    estimate: Optional[bool] = None,
+    outputs: Optional[Iterable[str]] = None,
+    progress: Optional[Callable[[float, float], object]] = None,
+) -> Sweep:
+    """Runs a scene with varied numbers, on all cores. The results do not depend on the number of threads.
+
+    vary      names of parameters of the scene, or JSON pointers such as "/bodies/0/mass", each with ``grid(1, 2, 11)``,
+              ``uniform(1, 2)`` or ``normal(1, 0.1)``
+    samples   runs with drawn numbers at each point of the grids
+    seed      where drawn numbers come from: the same seed gives the same runs
+    threads   0 takes one for each core
+    progress  called with (runs done, runs) some twenty times a second
+
+    The other options are those of ``run``. Ctrl-C ends the sweep.
+    """
+    options = {
+        "until": until,
+        "tolerance": tolerance,
+        "integrator": integrator,
+        "estimate": estimate,
+        "outputs": None if outputs is None else list(outputs),
+    }
+    finite(options)
+    given = [[name, _values(name, values)] for name, values in vary.items()]
+    kind, text = named(scene)
+    found = _native.sweep(kind, text, json.dumps(options), json.dumps(given), samples, seed, threads, progress)
+    return Sweep(found)
+
+
+def _values(name: str, values: Sequence[Any]) -> dict[str, Any]:
+    parts = list(values)
+    if len(parts) == 3 and parts[0] in ("uniform", "normal"):
+        return {parts[0]: [float(parts[1]), float(parts[2])]}
+    if len(parts) == 3 and not isinstance(parts[0], str) and int(parts[2]) == parts[2] > 0:
+        return {"grid": [float(parts[0]), float(parts[1]), int(parts[2])]}
+    raise refusal("vary", f"{name} cannot vary over {values!r}", "give grid(1, 2, 11), uniform(1, 2) or normal(1, 0.1)")

@@ -1,0 +1,95 @@
+"""The equations of a mechanism at any state, as matrices."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._scene import Scene, named
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+Floats = NDArray[np.float64]
+
+
+class System:
+    """M(q) q̈ + Φ_qᵀ λ = g,  Φ_q q̈ = γ of a scene, in its generalized coordinates, rigid-body rows first.
+
+    ``rows`` and ``columns`` name the rows of Φ and the coordinates. ``q0`` and ``v0`` are the start, assembled: moved onto
+    the constraints if it had to be (``notes`` say so). States that satisfy no constraint are evaluated as well.
+    """
+
+    def __init__(self, scene: Scene, *, coordinates: Optional[Literal["full", "reduced", "shared"]] = None) -> None:
+        self._system = _native.System(*named(scene), coordinates)
+        about = json.loads(self._system.about())
+        self.name: str = about["name"]
+        self.columns: list[str] = about["columns"]
+        self.rows: list[str] = about["rows"]
+        self.bodies: list[str] = about["bodies"]
+        self.rigid_rows: int = about["rigid_rows"]
+        self.notes: list[str] = about["notes"]
+        self.q0: Floats = self._system.q0()
+        self.v0: Floats = self._system.v0()
+
+    def phi(self, q: ArrayLike, t: float = 0.0) -> Floats:
+        """Φ(q, t) of all rows."""
+        return self._system.phi(_numbers(q), t)
+
+    @overload
+    def jacobian(self, q: ArrayLike, t: float = 0.0, *, sparse: Literal[False] = False) -> Floats: ...
+    @overload
+    def jacobian(self, q: ArrayLike, t: float = 0.0, *, sparse: Literal[True]) -> csr_array: ...
+    def jacobian(self, q: ArrayLike, t: float = 0.0, *, sparse: bool = False) -> Union[Floats, csr_array]:
+        """Φ_q(q, t): rows by coordinates; with ``sparse`` as a SciPy array, which keeps places that are zero by chance."""
+        return _matrix(self._system.jacobian(_numbers(q), t), sparse)
+
+    def nu(self, q: ArrayLike, v: ArrayLike, t: float = 0.0) -> Floats:
+        """ν, the rates that drivers prescribe: Φ_q q̇ = ν. Zero without drivers."""
+        return self._system.nu(_numbers(q), _numbers(v), t)
+
+    def gamma(self, q: ArrayLike, v: ArrayLike, t: float = 0.0) -> Floats:
+        """γ, with Φ_q q̈ = γ."""
+        return self._system.gamma(_numbers(q), _numbers(v), t)
+
+    @overload
+    def mass(self, q: Optional[ArrayLike] = None, *, sparse: Literal[False] = False) -> Floats: ...
+    @overload
+    def mass(self, q: Optional[ArrayLike] = None, *, sparse: Literal[True]) -> csr_array: ...
+    def mass(self, q: Optional[ArrayLike] = None, *, sparse: bool = False) -> Union[Floats, csr_array]:
+        """M(q): constant and diagonal for full bodies; of reduced ones it depends on q, that of the start if none is given."""
+        return _matrix(self._system.mass(_numbers(self.q0 if q is None else q)), sparse)
+
+    def force(self, q: ArrayLike, v: ArrayLike, t: float = 0.0) -> Floats:
+        """g: gravity, springs and all other loads, and the velocity terms of reduced bodies. Without dry friction."""
+        return self._system.force(_numbers(q), _numbers(v), t)
+
+    def solve(self, q: ArrayLike, v: ArrayLike, t: float = 0.0) -> tuple[Floats, Floats]:
+        """q̈ and λ of all rows, solved as one dense system; λ of least norm where rows are redundant."""
+        return self._system.solve(_numbers(q), _numbers(v), t)
+
+    def natural(self, q: ArrayLike) -> Floats:
+        """r, u, v, w of each body: (bodies, 12), also where coordinates are reduced or shared."""
+        return self._system.natural(_numbers(q))
+
+    def __repr__(self) -> str:
+        return f"<triad.System of {self.name}: {len(self.bodies)} bodies, {len(self.columns)} coordinates, {len(self.rows)} rows>"
+
+
+def _numbers(given: ArrayLike) -> Floats:
+    return np.ascontiguousarray(given, dtype=np.float64).reshape(-1)
+
+
+def _matrix(parts: Any, sparse: bool) -> Any:
+    rows, columns, numbers, shape = parts
+    if sparse:
+        from scipy.sparse import csr_array
+
+        return csr_array((numbers, (rows, columns)), shape=shape)
+    matrix = np.zeros(shape)
+    matrix[rows, columns] = numbers
+    return matrix

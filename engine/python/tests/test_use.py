@@ -1,0 +1,167 @@
+"""Errors, interruptions, sweeps, analyses and grading."""
+
+import inspect
+import json
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import triad
+
+
+def test_errors_say_what_where_and_what_to_try():
+    with pytest.raises(triad.TriadError) as found:
+        triad.run("simple-pendulm")
+    assert "simple-pendulum" in found.value.hint and str(found.value).count("\n") == 1
+    scene = triad.scene("simple-pendulum")
+    scene["bodies"][0]["mass"] = -1
+    with pytest.raises(triad.TriadError) as found:
+        triad.run(scene)
+    assert found.value.pointer == "/bodies/0/mass" and "  try: " in str(found.value)
+    with pytest.raises(triad.TriadError, match="taylor"):
+        triad.run("simple-pendulum", integrator="euler")
+    with pytest.raises(triad.TriadError, match="bob"):
+        triad.run("simple-pendulum", until=0.1).body("bop")
+    with pytest.raises(triad.TriadError, match="did you mean \"pin\""):
+        triad.run("simple-pendulum", until=0.1).reactions("pim")
+    with pytest.raises(triad.TriadError, match="until is nan"):
+        triad.run("simple-pendulum", until=float("nan"))
+    with pytest.raises(triad.TriadError, match="no file"):
+        triad.run("no-such.json")
+    with pytest.raises(triad.TriadError, match="would run by"):
+        triad.run("simple-pendulum", integrator="taylor", treatment="baumgarte")
+    with pytest.raises(TypeError, match="not int"):
+        triad.run(5)
+
+
+def test_what_was_reached_before_an_error_is_kept():
+    with pytest.raises(triad.TriadError) as found:
+        triad.run("n-four-bar:2", until=5, every=0.1, most_steps=4)
+    partial = found.value.partial
+    assert found.value.code == "step-limit" and 1 < len(partial) < 51
+    whole = triad.run("n-four-bar:2", until=5, every=0.1)
+    assert np.array_equal(partial.q[: len(partial) - 1], whole.q[: len(partial) - 1])
+
+
+def interrupted(action):
+    """Does something that would take hours, and sends Ctrl-C after a moment."""
+    # Once Python's own handler is asked, the signal has come from outside.
+    signal.signal(signal.SIGALRM, lambda *_: signal.default_int_handler(signal.SIGINT, None))
+    signal.setitimer(signal.ITIMER_REAL, 0.3)
+    try:
+        with pytest.raises(KeyboardInterrupt) as found:
+            action()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    return found.value
+
+
+def test_ctrl_c_ends_a_run_and_keeps_what_was_reached():
+    stopped = interrupted(lambda: triad.run("n-four-bar:40", until=1e5, every=0.1, outputs=[]))
+    assert 1 < len(stopped.partial) < 1_000_000
+
+
+def test_ctrl_c_ends_a_sweep():
+    interrupted(lambda: triad.sweep("n-four-bar:10", {"/gravity/1": triad.grid(-10, -1, 100_000)}))
+
+
+def test_progress_is_told_and_may_end_a_run():
+    told = []
+    triad.run("n-four-bar:4", until=2, progress=lambda t, end: told.append((t, end)))
+    assert told[-1] == (2.0, 2.0) and told == sorted(told)
+
+    def stop(done, all):
+        raise RuntimeError(f"{done} of {all}")
+
+    with pytest.raises(RuntimeError, match="of 3"):
+        triad.sweep("simple-pendulum", {"/gravity/1": triad.grid(-10, -1, 3)}, progress=stop)
+
+
+def test_other_threads_go_on_while_a_run_computes():
+    inside, over, turns = threading.Event(), threading.Event(), []
+
+    def other():
+        while not over.is_set():
+            if inside.is_set():
+                turns.append(1)
+            time.sleep(0)
+
+    thread = threading.Thread(target=other)
+    thread.start()
+    inside.set()
+    triad.run("n-four-bar:40", until=10, every=0.01)
+    inside.clear()
+    over.set()
+    thread.join()
+    assert len(turns) > 100
+
+
+def test_a_sweep_is_its_runs_whatever_the_number_of_threads():
+    vary = {"/bodies/0/mass": triad.grid(1, 2, 3), "/gravity/1": triad.normal(-9.81, 0.1)}
+    options = {"samples": 4, "seed": 7, "until": 0.5, "outputs": ["energy", "joints"]}
+    one, many = (triad.sweep("simple-pendulum", vary, threads=n, **options) for n in (1, 3))
+    assert np.array_equal(one.values, many.values) and np.array_equal(one.outputs, many.outputs)
+    assert len(one) == 12 and sorted(set(one["/bodies/0/mass"])) == [1.0, 1.5, 2.0]
+    scene = triad.scene("simple-pendulum")
+    scene["bodies"][0]["mass"], scene["gravity"][1] = one.values[5]
+    alone = triad.run(scene, until=0.5, outputs=["energy", "joints"])
+    assert np.array_equal(one.outputs[5], [alone[name][-1] for name in one.columns])
+    assert one.svg("energy").startswith("<svg") and not one.stopped
+    assert list(one.to_pandas().columns) == [*one.varied, *one.columns]
+
+
+def test_a_sweep_names_the_runs_that_stopped():
+    found = triad.sweep("simple-pendulum", {"/bodies/0/mass": triad.grid(-1, 1, 3)}, until=0.1)
+    assert [stop["run"] for stop in found.stopped] == [0, 1] and found.stopped[0]["hint"]
+    assert np.isnan(found.outputs[0]).all() and not np.isnan(found.outputs[2]).any()
+    with pytest.raises(triad.TriadError, match="cannot vary"):
+        triad.sweep("simple-pendulum", {"/bodies/0/mass": (1, 2)})
+
+
+def test_analyses_answer_as_the_command_line_does(program):
+    scene = "spatial-double-pendulum"
+    for word, found in [
+        ("check", triad.check(scene)),
+        ("equilibrium", triad.equilibrium(scene)),
+        ("modes", triad.modes(scene)),
+    ]:
+        told = json.loads(program(word, scene, "--json"))
+        told.pop("seconds")
+        assert found == told, word
+    told = json.loads(program("kinematics", "crank-rocker", "--in", "joint", "--json"))
+    told.pop("seconds")
+    assert triad.kinematics("crank-rocker", frame="joint") == told
+    assert triad.modes("simple-pendulum")["modes"][0]["frequency"] == pytest.approx(np.sqrt(9.81) / (2 * np.pi))
+    assert triad.assemble(scene, keep=triad.run(scene, until=0.01).bodies[:1])["left"] < 1e-9
+
+
+def test_answers_are_graded_as_by_the_program(program, tmp_path):
+    lesson = next(found for found in triad.lessons() if found["slug"] == "simple-pendulum")
+    answers = {question: {"value": "29.43", "unit": "N"} for question in lesson["questions"][:1]}
+    verdict = triad.grade("simple-pendulum", answers, student="ada")
+    (tmp_path / "answers.json").write_text(json.dumps({"student": "ada", "answers": answers}))
+    told = json.loads(program("grade", "simple-pendulum", str(tmp_path / "answers.json"), "--json"))
+    assert verdict == told and verdict["possible"] > 0
+    assert verdict != triad.grade("simple-pendulum", answers, student="grace")
+    with pytest.raises(triad.TriadError, match="simple-pendulum"):
+        triad.grade("simple-pendulm", {})
+    with pytest.raises(triad.TriadError, match="has no question"):
+        triad.grade("simple-pendulum", {"nothing": 1})
+
+
+def test_a_course_of_ones_own_is_taken(program, tmp_path):
+    program("lesson", "new", "mine", "--into", str(tmp_path))
+    assert [lesson["slug"] for lesson in triad.lessons(tmp_path)] == ["mine"]
+    assert triad.grade("mine", {}, course=tmp_path)["passed"] is False
+    with pytest.raises(triad.TriadError, match="cannot be read"):
+        triad.lessons(tmp_path / "nowhere")
+
+
+def test_everything_public_is_documented():
+    for name in triad.__all__:
+        thing = getattr(triad, name)
+        if inspect.isclass(thing) or inspect.isfunction(thing):
+            assert inspect.getdoc(thing), name
