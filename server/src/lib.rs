@@ -38,7 +38,7 @@ pub mod regrade;
 
 pub mod app;
 
-pub mod guide;
+pub mod docs;
 pub mod page;
 pub mod reports;
 

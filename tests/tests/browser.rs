@@ -1,13 +1,14 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
 //! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
-//! without a graphics card and with busy cores; then the first page and frames in other sites. What it saw is kept in `tests/output/`.
+//! without a graphics card and with busy cores; then the first page and frames in other sites; then the
+//! documentation. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
-use triad_tests::program::Server;
+use triad_tests::program::{self, Server};
 use triad_tests::root;
 
 /// Where Debian's package puts the browser.
@@ -61,8 +62,8 @@ fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
     visit("later", &server);
 }
 
-/// Runs a script against a server of its own.
-fn run(script: &str) {
+/// Runs a script against a server of its own, with what it needs besides.
+fn run(script: &str, more: &[&Path]) {
     let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = scripts();
     let home = tempfile::tempdir().unwrap();
@@ -72,6 +73,7 @@ fn run(script: &str) {
         Command::new("node")
             .args([script, &format!("http://{}", server.address)])
             .arg(root().join("tests/output"))
+            .args(more)
             .current_dir(&folder),
     );
     println!("{said}");
@@ -80,15 +82,23 @@ fn run(script: &str) {
 
 #[test]
 fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_in_trouble() {
-    run("workbench.mjs");
+    run("workbench.mjs", &[]);
 }
 
 #[test]
 fn the_first_page_moves_without_a_session_and_another_site_frames_what_is_recorded_alone() {
-    run("first-page.mjs");
+    run("first-page.mjs", &[]);
 }
 
 #[test]
 fn the_drawing_shows_the_moment_of_the_clock_without_a_graphics_card_and_with_busy_cores() {
-    run("drawing.mjs");
+    run("drawing.mjs", &[]);
+}
+
+#[test]
+fn the_documentation_is_searched_and_read_in_light_and_dark_on_a_phone_and_from_a_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = program::run(&["export", "docs", folder.path().to_str().unwrap()]);
+    assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
+    run("docs.mjs", &[folder.path()]);
 }

@@ -25,7 +25,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 
 use crate::app::App;
-use crate::guide;
+use crate::docs;
 use crate::live::{self, Which};
 use crate::page;
 use crate::problem::{Problem, ProblemDocument};
@@ -100,8 +100,8 @@ pub fn openapi() -> Value {
 
 /// The whole server: page, interface and streams on one port.
 pub fn router(app: App) -> Router {
-    let (routes, document) = described();
-    let document = Bytes::from(document.to_string());
+    let (routes, described) = described();
+    let document = Bytes::from(described.to_string());
     let limit = app.limits.request_bytes;
     routes
         .route(
@@ -113,7 +113,7 @@ pub fn router(app: App) -> Router {
         .route("/readyz", get(health::ready))
         .route("/bench", get(reports::bench))
         .route("/stress", get(reports::stress))
-        .route("/guide", get(guide::show))
+        .merge(docs::routes(described))
         .fallback(page::serve)
         .method_not_allowed_fallback(|| async { page::method_not_allowed() })
         .layer(DefaultBodyLimit::max(limit))

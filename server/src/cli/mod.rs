@@ -3,6 +3,7 @@
 mod choice;
 mod clock;
 mod course;
+mod export;
 mod interrupt;
 mod measure;
 mod output;
@@ -224,6 +225,9 @@ enum Command {
     #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
         triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html\n  triad stress --treatments --svg treatments.svg")]
     Stress(stress::Stress),
+    /// Write what the workbench serves as files that any web server, or a disk, holds.
+    #[command(subcommand)]
+    Export(Export),
     /// Print a JSON Schema, for editors: of a scene, or of an author's file.
     #[command(
         after_help = "Examples:\n  triad schema > scene.schema.json\n  triad schema exercise > exercise.schema.json"
@@ -232,6 +236,16 @@ enum Command {
         /// Of what: scene, course, lesson, exercise, reference (reference/answers.toml) or wrong (wrong/*.toml).
         #[arg(default_value = "scene")]
         of: String,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+enum Export {
+    /// The documentation: pages with a search, read without a server.
+    #[command(after_help = "Example:\n  triad export docs site/docs      (then open site/docs/index.html)")]
+    Docs {
+        /// The folder; made if it is not there. Files of the same names are replaced.
+        dir: PathBuf,
     },
 }
 
@@ -338,6 +352,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Bench(options) => bench::bench(options, json),
         Command::Sweep(options) => sweep::run(&options, json),
         Command::Stress(options) => stress::stress(&options, json),
+        Command::Export(Export::Docs { dir }) => export::docs(&dir, json),
         Command::Schema { of } => lesson::schema(&of),
     }
 }

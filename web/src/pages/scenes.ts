@@ -36,7 +36,7 @@ export function scenesPage(outlet: HTMLElement): Page {
             recall("scene-draft") ? "Continue your own scene" : "Write your own scene",
           ),
           " ",
-          h("a", { href: "/guide", target: "_blank", rel: "noopener" }, "How a scene is written"),
+          h("a", { href: "/docs/scenes.html", target: "_blank", rel: "noopener" }, "How a scene is written"),
         ),
         urdfImport(`/scenes/${OWN_SCENE}`),
       ),

@@ -202,6 +202,13 @@ function help(): void {
     h(
       "p",
       { class: "help" },
+      "Words, equations, scenes, Python: ",
+      h("a", { href: "/docs/" }, "the documentation"),
+      ".",
+    ),
+    h(
+      "p",
+      { class: "help" },
       "In the drawing: drag beside the mechanism to look from elsewhere, drag a body to pull it, Ctrl and the wheel to come " +
         "closer; with the keys, when it has the focus: Shift and the arrows, + and −.",
     ),

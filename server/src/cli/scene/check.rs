@@ -7,7 +7,7 @@ use triad_engine::catalogue;
 use super::source::Source;
 use crate::cli::clock::{Clock, Timed};
 use crate::cli::terminal::{Outcome, print_json, print_line};
-use crate::guide::GUIDE;
+use crate::docs::GUIDE;
 use crate::problem::Problem;
 use crate::scenes;
 
