@@ -1,7 +1,7 @@
 import { statSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
-import { compressAhead, onlyWoff2 } from "./build/plugins";
+import { compressAhead, offlinePlayer, onlyWoff2 } from "./build/plugins";
 
 const viewerWasm = fileURLToPath(
   new URL("./node_modules/@rerun-io/web-viewer/re_viewer_bg.wasm", import.meta.url),
@@ -9,7 +9,7 @@ const viewerWasm = fileURLToPath(
 const server = process.env.TRIAD_SERVER ?? "http://127.0.0.1:8080";
 
 export default defineConfig({
-  plugins: [onlyWoff2(), compressAhead()],
+  plugins: [onlyWoff2(), compressAhead(), offlinePlayer()],
   define: {
     // The unpacked size, for an honest progress bar: over the wire the length is the packed one.
     __VIEWER_BYTES__: JSON.stringify(statSync(viewerWasm).size),

@@ -1,7 +1,7 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
 //! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
-//! without a graphics card and with busy cores; then the first page and frames in other sites; then the
-//! documentation. What it saw is kept in `tests/output/`.
+//! without a graphics card and with busy cores; then the first page, frames in other sites, and what is taken along; then
+//! the documentation. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
@@ -88,6 +88,11 @@ fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_i
 #[test]
 fn the_first_page_moves_without_a_session_and_another_site_frames_what_is_recorded_alone() {
     run("first-page.mjs", &[]);
+}
+
+#[test]
+fn pictures_a_film_a_page_that_plays_offline_and_a_lesson_on_paper_are_taken_along() {
+    run("take-along.mjs");
 }
 
 #[test]

@@ -49,7 +49,7 @@ const GLOBAL: [&str; 2] = ["--json", "--course"];
 /// The calls for one scene, without its name: the command, then the options.
 fn calls(scene: &Scene, folder: &Path, index: usize) -> Vec<Vec<String>> {
     let file = |ending: &str| folder.join(format!("{index}.{ending}")).to_string_lossy().into_owned();
-    let (table, recording, film) = (file("csv"), file("rrd"), file("svg"));
+    let (table, recording, film, page) = (file("csv"), file("rrd"), file("svg"), file("html"));
     let body = scene.bodies.first().map_or("none", |body| body.name.as_str());
     let mut calls: Vec<Vec<String>> = Vec::new();
     let mut add = |command: &str, options: &[&str]| {
@@ -89,7 +89,7 @@ fn calls(scene: &Scene, folder: &Path, index: usize) -> Vec<Vec<String>> {
         add("run", &["--tolerance", tolerance, "--verify", "--explain"]);
     }
     add("run", &["--step", "1e-3", "--no-skip", "all", "--most-seconds", "10"]);
-    add("run", &["--every", "0.004", "--out", &table, "--rrd", &recording, "--svg", &film]);
+    add("run", &["--every", "0.004", "--out", &table, "--rrd", &recording, "--svg", &film, "--html", &page]);
     let words: Vec<String> = OutputKind::ALL.map(|kind| kind.to_string()).to_vec();
     add("run", &["--outputs", &words.join(","), "--out", &file("all.csv")]);
     calls

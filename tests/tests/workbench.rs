@@ -163,8 +163,9 @@ fn the_api_describes_itself() {
 fn a_run_writes_a_table_a_recording_and_a_film_and_says_how_far_it_can_be_trusted() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (csv, rrd, svg) = (at("run.csv"), at("run.rrd"), at("run.svg"));
-    let arguments = format!("run simple-pendulum --until 2 --every 0.1 --out {csv} --rrd {rrd} --svg {svg}");
+    let (csv, rrd, svg, html) = (at("run.csv"), at("run.rrd"), at("run.svg"), at("run.html"));
+    let outputs = format!("--out {csv} --rrd {rrd} --svg {svg} --html {html}");
+    let arguments = format!("run simple-pendulum --until 2 --every 0.1 {outputs}");
     let (exit, report) = run_json(&arguments.split(' ').collect::<Vec<_>>());
     assert_eq!(exit, 0);
     assert!(report["summary"]["energy_drift"].as_f64().unwrap().abs() < 1e-7, "{report}");
@@ -178,6 +179,12 @@ fn a_run_writes_a_table_a_recording_and_a_film_and_says_how_far_it_can_be_truste
     let film = std::fs::read_to_string(&svg).unwrap();
     let pictures = film.split("attributeName=\"d\"").nth(1).unwrap().split("values=\"").nth(1).unwrap();
     assert_eq!(pictures.split('"').next().unwrap().split(';').count(), 21);
+    let page = std::fs::read_to_string(&html).unwrap();
+    let data =
+        page.split_once(r#"id="motion">"#).and_then(|(_, rest)| rest.split_once("</script>")).unwrap().0;
+    let played: Value = serde_json::from_str(data).unwrap();
+    assert_eq!((&played["motion"]["until"], &played["motion"]["bodies"]), (&json!(2.0), &json!(["bob"])));
+    assert!(page.len() < 300_000, "{} bytes", page.len());
 }
 
 #[test]

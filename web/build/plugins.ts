@@ -3,7 +3,7 @@ import { readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { brotliCompress, constants } from "node:zlib";
-import type { Plugin } from "vite";
+import { build, type Plugin } from "vite";
 
 const toBrotli = promisify(brotliCompress);
 
@@ -57,4 +57,57 @@ export function compressAhead(): Plugin {
       }
     },
   };
+}
+
+const PLAYER = "player.html";
+
+/** Makes player.html beside the page: a file that plays a recorded run by itself, once a motion is put into it. */
+export function offlinePlayer(): Plugin {
+  let root = "";
+  let outDir = "dist";
+  return {
+    name: "triad-offline-player",
+    configResolved(config) {
+      root = config.root;
+      outDir = join(config.root, config.build.outDir);
+    },
+    configureServer(server) {
+      server.middlewares.use(`/${PLAYER}`, (_, answer) => {
+        playerFile(root).then(
+          (text) => answer.setHeader("content-type", "text/html").end(text),
+          (error: unknown) => answer.writeHead(500).end(String(error)),
+        );
+      });
+    },
+    async closeBundle() {
+      await writeFile(join(outDir, PLAYER), await playerFile(root));
+    },
+  };
+}
+
+async function playerFile(root: string): Promise<string> {
+  const built = await build({
+    configFile: false,
+    root,
+    logLevel: "error",
+    build: {
+      write: false,
+      target: "es2022",
+      modulePreload: false,
+      rollupOptions: {
+        input: join(root, "src/player/file.ts"),
+        output: { format: "iife", inlineDynamicImports: true },
+      },
+    },
+  });
+  const [one] = Array.isArray(built) ? built : [built];
+  const chunk = one && "output" in one ? one.output[0] : undefined;
+  if (chunk?.type !== "chunk") throw new Error("the player was not built");
+  // The place for the motion is that of src/player/played.ts.
+  return (
+    `<!doctype html><html lang="en"><head><meta charset="utf-8">` +
+    `<meta name="viewport" content="width=device-width, initial-scale=1"><title>Triad</title></head><body>` +
+    `<script type="application/json" id="motion"></script>` +
+    `<script>${chunk.code.replaceAll("</script", "<\\/script")}</script></body></html>\n`
+  );
 }

@@ -31,6 +31,8 @@ const SLOW: f64 = 4.0;
 const MOST_BYTES: usize = 150_000;
 /// Fewer frames than these are no motion: where they do not fit either, reactions are left out.
 const FEWEST: usize = 40;
+/// Samples of a film that are held: more than fit into any motion. Beyond them every second one goes.
+const MOST_SAMPLES: usize = 4096;
 /// Integrator steps between two looks at the clock.
 const PIECE: u64 = 64;
 
@@ -77,21 +79,50 @@ pub struct Film {
     scene: Value,
     description: SceneDescription,
     samples: Vec<Sample>,
+    /// One of so many that are offered is taken.
+    stride: usize,
+    offered: usize,
+    /// The last that was offered and not taken.
+    last: Option<Sample>,
 }
 
 impl Film {
     /// Of a simulation of that scene, at its start.
     pub fn new(scene: &Scene, simulation: &Simulation) -> Self {
-        Self { scene: drawn(scene), description: describe(scene, simulation), samples: Vec::new() }
+        Self {
+            scene: drawn(scene),
+            description: describe(scene, simulation),
+            samples: Vec::new(),
+            stride: 1,
+            offered: 0,
+            last: None,
+        }
     }
 
     /// Records the simulation as it stands.
     pub fn take(&mut self, simulation: &Simulation) {
-        self.samples.push(sample(simulation));
+        let sample = sample(simulation);
+        let wanted = self.offered.is_multiple_of(self.stride);
+        self.offered += 1;
+        if !wanted {
+            self.last = Some(sample);
+            return;
+        }
+        self.last = None;
+        self.samples.push(sample);
+        if self.samples.len() > MOST_SAMPLES {
+            let mut index = 0;
+            self.samples.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.stride *= 2;
+        }
     }
 
     /// The motion: every frame, or as many at equal distances as fit.
     pub fn develop(mut self) -> Motion {
+        self.samples.extend(self.last.take());
         let description = &self.description;
         let (bodies, all) = (description.bodies.len(), description.joints.len());
         let frame = |joints: usize| 8 + 4 * (12 * bodies + 9 * joints);
@@ -210,6 +241,25 @@ mod tests {
         let many = of(&many, Duration::from_mins(1)).expect("runs");
         let (head, bytes) = numbers(&many);
         assert!(bytes <= MOST_BYTES + 6000 && head[2] >= FEWEST as u32, "{head:?}: {bytes} bytes");
+    }
+
+    #[test]
+    fn a_long_film_keeps_its_start_its_end_and_equal_distances() {
+        let scene = catalogue::scene("simple-pendulum").expect("built in");
+        let mut run = Simulation::new(&scene).expect("stands");
+        let mut film = Film::new(&scene, &run);
+        film.take(&run);
+        let count = 3 * MOST_SAMPLES;
+        for index in 1..=count {
+            run.advance_to(index as f64 * 1e-4).expect("runs");
+            film.take(&run);
+        }
+        assert!(film.samples.len() <= MOST_SAMPLES + 1, "{}", film.samples.len());
+        let gaps = film.samples.windows(2).map(|pair| pair[1].time - pair[0].time);
+        let (least, most) = gaps.fold((f64::MAX, 0.0_f64), |(a, b), gap| (a.min(gap), b.max(gap)));
+        assert!(most - least < 1e-9, "{least} to {most}");
+        let motion = film.develop();
+        assert!((motion.until - count as f64 * 1e-4).abs() < 1e-9, "{}", motion.until);
     }
 
     #[test]

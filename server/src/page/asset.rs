@@ -64,6 +64,14 @@ impl Asset {
         Self { path, tag, stored, gzip: OnceCell::const_new() }
     }
 
+    /// A file that is kept as text.
+    pub fn text(&'static self) -> Option<&'static str> {
+        match self.stored {
+            Stored::Plain(plain) => std::str::from_utf8(plain).ok(),
+            Stored::Brotli(_) => None,
+        }
+    }
+
     /// The file in the smallest encoding that the caller reads.
     pub async fn bytes(
         &'static self,

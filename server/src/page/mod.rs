@@ -5,6 +5,7 @@
 //! their own, browsers take gzip only: what they ask for is packed once more when it is first asked for, and kept.
 
 mod asset;
+mod player;
 
 use axum::extract::Request;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
@@ -12,6 +13,7 @@ use axum::response::{IntoResponse, Response};
 
 use crate::problem::Problem;
 use asset::{Asset, Encoding, find};
+pub use player::playing;
 
 /// First words of the addresses that the page has a view for: those of `web/src/main.ts`.
 const VIEWS: [&str; 9] = ["lessons", "room", "join", "setup", "return", "class", "record", "scenes", "embed"];

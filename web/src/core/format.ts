@@ -57,3 +57,10 @@ export function dateTime(iso: string): string {
   const date = new Date(iso);
   return Number.isNaN(date.getTime()) ? iso : stamp.format(date);
 }
+
+/** Words as the name of a file. */
+export const fileName = (words: string): string =>
+  words
+    .toLowerCase()
+    .replace(/[^a-z0-9.]+/g, "-")
+    .replace(/^-+|-+$/g, "") || "mechanism";

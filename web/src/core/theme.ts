@@ -40,4 +40,20 @@ export function onTheme(listener: (theme: Theme) => void): () => void {
   return () => themeListeners.delete(listener);
 }
 
+/** Calls back when the page is about to be printed, in light colours, until the returned function is called. */
+export function onPrint(listener: () => void): () => void {
+  const before = (): void => {
+    document.documentElement.dataset.theme = "light";
+    document.documentElement.removeAttribute("data-projector");
+    for (const each of themeListeners) each("light");
+    listener();
+  };
+  addEventListener("beforeprint", before);
+  addEventListener("afterprint", applyTheme);
+  return () => {
+    removeEventListener("beforeprint", before);
+    removeEventListener("afterprint", applyTheme);
+  };
+}
+
 systemDark.addEventListener("change", applyTheme);

@@ -56,6 +56,8 @@ export function questionField(
     inputs.root,
     readingLine(lesson.slug, question, inputs),
     h("p", { class: "rule", id: ruleId }, question.rule),
+    // On paper alone.
+    h("div", { class: "handout-space", "aria-hidden": "true" }),
     question.hints_available > 0 ? opened.root : null,
     verdict,
   );

@@ -10,6 +10,7 @@ import { predictionCounts } from "../prediction/counts";
 import { PredictionPanel } from "../prediction/panel";
 import { requestedView } from "../session/requested-view";
 import { problemNotice, skeleton } from "../ui/notice";
+import { handoutHead, printButton } from "./handout";
 import { trackReadingPosition } from "./reading-position";
 import { steps } from "./steps";
 
@@ -93,7 +94,10 @@ class LessonPage {
 
   /** Shows text and exercise. */
   private async show(lesson: Lesson): Promise<void> {
+    const head = handoutHead(lesson);
+    this.undo.push(head.dispose);
     showText(this.text, lesson);
+    this.text.prepend(head.root);
     this.exercise.replaceChildren();
     const counts = predictionCounts(lesson);
     if (counts) this.text.append(counts);
@@ -195,6 +199,7 @@ function showText(place: HTMLElement, lesson: Lesson): void {
         { class: "lesson-kicker" },
         h("a", { href: "/" }, "Lessons"),
         ` / ${lesson.number}, about ${lesson.minutes} minutes`,
+        printButton(),
       ),
       h("h1", null, lesson.title),
       lesson.prerequisites.length > 0

@@ -8,7 +8,6 @@ const NOWHERE: Vec3 = [0, 0, 0];
 
 export class Recorded implements Watched {
   readonly joint = null;
-  readonly convention: ReactionConvention = { on: "j", about: "joint", in: "world" };
   readonly pose = undefined;
   readonly past: { all: SessionState[] };
   readonly scene: Scene;
@@ -21,6 +20,7 @@ export class Recorded implements Watched {
     readonly motion: Motion,
     readonly drawn: Drawn = { what: "none" },
     readonly camera: Camera = "corner",
+    readonly convention: ReactionConvention = { on: "j", about: "joint", in: "world" },
   ) {
     this.scene = motion.scene;
     this.track.add(bytesOf(motion.track));

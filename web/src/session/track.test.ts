@@ -76,3 +76,17 @@ it("a run that goes on from an earlier time replaces what came after it, and a t
   track.add(block([{ time: 0.6, x: 8, force: 0 }]).subarray(0, 40));
   expect(track.at(0.6, known)).toBeUndefined();
 });
+
+it("packs what it has into one block that reads back, thinned where it would be too large", () => {
+  const track = new Track();
+  track.add(block([0, 1, 2, 3, 4].map((time) => ({ time, x: time, force: 1 }))));
+  const again = new Track();
+  again.add(track.pack(Number.POSITIVE_INFINITY) ?? new Uint8Array());
+  expect(again.at(2.5, state(2.5, 0))).toEqual(track.at(2.5, state(2.5, 0)));
+  const few = track.pack(3 * (8 + 4 * 21)) ?? new Uint8Array();
+  expect(new DataView(few.buffer).getUint32(8, true)).toBe(3);
+  const thin = new Track();
+  thin.add(few);
+  expect(thin.at(4, state(4, 0))?.bodies[0]?.position[0]).toBe(4);
+  expect(new Track().pack(100)).toBeUndefined();
+});

@@ -53,6 +53,26 @@ export class Track {
     }
   }
 
+  /** The motion as one block of at most about so many bytes: every frame, or as many at equal distances as fit. */
+  pack(most: number): Uint8Array | undefined {
+    const last = this.frames.at(-1);
+    if (!last) return undefined;
+    const { bodies, joints } = last;
+    const same = this.frames.filter((frame) => frame.bodies === bodies && frame.joints === joints);
+    const size = OF_BODY * bodies + OF_JOINT * joints;
+    const every = Math.max(1, Math.ceil((same.length * (8 + 4 * size)) / most));
+    const kept = same.filter((frame, k) => k % every === 0 || frame === last);
+    const block = new Uint8Array(HEAD_BYTES + kept.length * (8 + 4 * size));
+    const view = new DataView(block.buffer);
+    for (const [k, count] of [bodies, joints, kept.length].entries()) view.setUint32(4 * k, count, true);
+    for (const [k, { time, numbers }] of kept.entries()) {
+      view.setFloat64(HEAD_BYTES + 8 * k, time, true);
+      const from = HEAD_BYTES + 8 * kept.length + 4 * size * k;
+      for (const [j, number] of numbers.entries()) view.setFloat32(from + 4 * j, number, true);
+    }
+    return block;
+  }
+
   /** `state` with bodies and forces as they were at `time`; `undefined` where that is not recorded. */
   at(time: number, state: SessionState): SessionState | undefined {
     const { frames } = this;

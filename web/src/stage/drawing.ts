@@ -182,6 +182,41 @@ export class Drawing {
     return pen.file(this.eye.width, this.eye.height, title);
   }
 
+  /** The picture as it stands, on paper, with so many pixels for each of the page's. */
+  canvas(ratio: number): HTMLCanvasElement {
+    const { width, height } = this.eye;
+    const canvas = h("canvas", { width: Math.round(width * ratio), height: Math.round(height * ratio) });
+    const context = canvas.getContext("2d");
+    if (context) {
+      context.setTransform(ratio, 0, 0, ratio, 0, 0);
+      this.onPaper(context);
+    }
+    return canvas;
+  }
+
+  /** Paints a moment on a canvas of another size, on paper, from the side from which this one is looked at. */
+  film(canvas: HTMLCanvasElement, like: Drawing): (state: SessionState) => void {
+    const context = canvas.getContext("2d");
+    [this.eye.width, this.eye.height] = [canvas.width, canvas.height];
+    return (state) => {
+      const first = this.state === undefined;
+      this.state = state;
+      this.parts ??= partsOf(this.scene, state);
+      if (first) {
+        this.eye.like(like.eye);
+        this.fit(false);
+      }
+      if (context) this.onPaper(context);
+    };
+  }
+
+  private onPaper(context: CanvasRenderingContext2D): void {
+    this.colours ??= palette();
+    context.fillStyle = this.colours.paper;
+    context.fillRect(0, 0, this.eye.width, this.eye.height);
+    this.draw(new CanvasPen(context));
+  }
+
   /** Turns the picture so that a plane mechanism is seen from the front. */
   private face(state: SessionState): void {
     const normal = this.parts && planeOf(this.parts, state);

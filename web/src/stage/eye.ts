@@ -57,6 +57,12 @@ export class Eye {
     return new Eye(gravity && norm(gravity) > 0 ? unit(scale(gravity, -1)) : [0, 0, 1]);
   }
 
+  /** Looks as another eye does. */
+  like(other: Eye): void {
+    [this.turn, this.tilt] = [other.turn, other.tilt];
+    this.axes = this.made();
+  }
+
   lookFrom(side: Camera): void {
     [this.turn, this.tilt] = side === "corner" ? this.corner : SIDES[side];
     this.axes = this.made();

@@ -1,10 +1,10 @@
 // Where the mechanism is seen: the drawing, and in its place the rerun viewer for whoever opens it.
 
 import type { Scene } from "../api/types";
-import { h, setText } from "../core/dom";
+import { authored, h, setText } from "../core/dom";
 import { seconds } from "../core/format";
 import { recall, reducedMotion, remember } from "../core/prefs";
-import { onTheme } from "../core/theme";
+import { onPrint, onTheme } from "../core/theme";
 import type { Session } from "../session/session";
 import { icon } from "../ui/icons";
 import { cameras } from "./cameras";
@@ -36,8 +36,10 @@ export class Stage {
   private readonly button = h("button", { type: "button", class: "button quiet small" });
   private readonly host = h("div", { class: "viewer-host", hidden: true, "data-viewer": true });
   private readonly behind = h("p", { class: "stage-behind", role: "status", hidden: true });
+  /** The picture on paper, for the printed page alone. */
+  private readonly printed = h("figure", { class: "stage-printed" });
   private readonly loading = new Loading();
-  private readonly drawing: Drawing;
+  readonly drawing: Drawing;
   private readonly legend: ReturnType<typeof legend>;
   private readonly undo: (() => void)[];
 
@@ -82,6 +84,7 @@ export class Stage {
       tools.root,
       this.behind,
       this.loading.root,
+      this.printed,
     );
     this.button.addEventListener("click", () => this.change());
     this.undo = [...this.listen(), tools.dispose, views.dispose, () => this.drawing.dispose()];
@@ -125,6 +128,7 @@ export class Stage {
       }),
       session.on("selected", () => this.draw()),
       session.on("scene", () => this.rebuild()),
+      onPrint(() => this.print()),
       onTheme(() => {
         this.drawing.recolour();
         // The viewer takes its theme when it starts: it is started again, from the browser's cache.
@@ -176,6 +180,14 @@ export class Stage {
     this.button.title = this.wanted
       ? ""
       : "The run in the rerun viewer: plots, the Jacobian, every quantity (11 MB once)";
+  }
+
+  private print(): void {
+    const state = this.session.shown;
+    if (!state) return;
+    const words = `${state.title} at t = ${seconds(state.time)}`;
+    authored(this.printed, this.drawing.svg(words));
+    this.printed.append(h("figcaption", null, words));
   }
 
   private draw(): void {

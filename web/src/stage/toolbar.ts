@@ -1,6 +1,7 @@
 // The small buttons over the drawing: fit, whole screen, picture as a file.
 
 import { h, saveFile } from "../core/dom";
+import { fileName } from "../core/format";
 import { bind } from "../core/keys";
 import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
@@ -19,8 +20,7 @@ export function toolbar(
   const save = (): void => {
     const state = session.shown;
     const title = state ? `${state.title}, ${state.time.toFixed(3)} s` : "mechanism";
-    const name = title.toLowerCase().replace(/[^a-z0-9.]+/g, "-");
-    saveFile(new Blob([drawing.svg(title)], { type: "image/svg+xml" }), `${name}.svg`);
+    saveFile(new Blob([drawing.svg(title)], { type: "image/svg+xml" }), `${fileName(title)}.svg`);
   };
   const release = bind([
     { keys: ["0"], shown: "0", does: "Show all of the mechanism, as large as it fits", run: fit },

@@ -8,6 +8,7 @@ import type { Asked } from "../prediction/panel";
 import { Session } from "../session/session";
 import { restore, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
+import { takeAlongButton } from "../share/dialog";
 import { Stage } from "../stage/stage";
 import { trouble } from "./run-problems";
 import { Transport } from "./transport";
@@ -50,6 +51,7 @@ export function mountWorkbench(
     { class: "row tight" },
     lecture?.button ?? null,
     session.controls ? shareButton(shared) : null,
+    takeAlongButton({ session, drawing: picture.drawing, scene: options.scene }),
     picture.toggle,
   );
   const controls = new Transport(session, options.scene?.simulation?.duration, more);

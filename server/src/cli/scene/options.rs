@@ -62,6 +62,9 @@ pub(in crate::cli) struct Run {
     /// Draw the mechanism as an SVG that moves by itself.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) svg: Option<PathBuf>,
+    /// Write a page that plays the run by itself, without a server and without a network; at most 300 kB.
+    #[arg(long, value_name = "FILE.html")]
+    pub(super) html: Option<PathBuf>,
     /// Show the run in a native rerun viewer that listens at this address.
     #[arg(long, value_name = "URL", num_args = 0..=1, default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     pub(super) rerun: Option<String>,

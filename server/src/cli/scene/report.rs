@@ -73,7 +73,7 @@ pub(super) fn report(
     for line in left_out.iter().flatten().map(explanation) {
         say(&line);
     }
-    for file in [&options.out, &options.rrd, &options.svg].into_iter().flatten() {
+    for file in [&options.out, &options.rrd, &options.svg, &options.html].into_iter().flatten() {
         say(&format!("  written                {}", file.display()));
     }
     if let Some(problem) = stopped {

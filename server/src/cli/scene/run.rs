@@ -18,6 +18,8 @@ use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::{make_room, unwritable, write};
 use crate::cli::terminal::{Outcome, TimeBar, progress};
+use crate::motion::Film as RecordedFilm;
+use crate::page::playing;
 use crate::problem::Problem;
 use crate::session::{describe, sample};
 use crate::stream::{RecordError, Recorder, Sample};
@@ -82,8 +84,8 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
         simulation.outputs.clone_from(&options.outputs);
     }
     simulation.error_estimate &= !options.no_estimate;
-    let writes =
-        options.out.is_some() || options.rrd.is_some() || options.svg.is_some() || options.rerun.is_some();
+    let writes = [&options.out, &options.rrd, &options.svg, &options.html].iter().any(|file| file.is_some())
+        || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
     if writes && outputs > MAX_OUTPUTS {
         return Err(Problem::new(
@@ -231,6 +233,8 @@ struct Outputs {
     recorders: Vec<Recording>,
     waiting: Vec<Sample>,
     film: Option<(PathBuf, Film)>,
+    /// A page that plays, and what it will show.
+    page: Option<(PathBuf, RecordedFilm)>,
 }
 
 impl Outputs {
@@ -260,7 +264,12 @@ impl Outputs {
                 Some((path.clone(), Film::new(scene, simulation.model())))
             }
         };
-        Ok(Self { table, recorders, waiting: Vec::new(), film })
+        let mut page = None;
+        if let Some(path) = &options.html {
+            make_room(path)?;
+            page = Some((path.clone(), RecordedFilm::new(scene, simulation)));
+        }
+        Ok(Self { table, recorders, waiting: Vec::new(), film, page })
     }
 
     fn write(&mut self, simulation: &Simulation) -> Result<(), Problem> {
@@ -269,6 +278,9 @@ impl Outputs {
         }
         if let Some((_, film)) = &mut self.film {
             film.push(simulation.frame());
+        }
+        if let Some((_, film)) = &mut self.page {
+            film.take(simulation);
         }
         if !self.recorders.is_empty() {
             self.waiting.push(sample(simulation));
@@ -290,6 +302,9 @@ impl Outputs {
 
     fn finish(&mut self) -> Result<(), Problem> {
         self.encode()?;
+        if let Some((path, film)) = self.page.take() {
+            write(&path, playing(&film.develop())?)?;
+        }
         for recording in &self.recorders {
             recording.recorder.flush().map_err(|error| recording.failed(&error))?;
         }
