@@ -92,7 +92,7 @@ fn the_first_page_moves_without_a_session_and_another_site_frames_what_is_record
 
 #[test]
 fn pictures_a_film_a_page_that_plays_offline_and_a_lesson_on_paper_are_taken_along() {
-    run("take-along.mjs");
+    run("take-along.mjs", &[]);
 }
 
 #[test]
