@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use tokio::sync::Semaphore;
 use triad_lessons::Course;
 
 use crate::access::Access;
@@ -35,6 +36,8 @@ pub struct App {
     pub work: Arc<Work>,
     /// Recorded runs that were asked for.
     pub motions: Arc<Shelf>,
+    /// Places for grading what is answered at once, where graders share the gradebook.
+    pub at_once: Arc<Semaphore>,
     /// Regrades that were looked at and not applied yet.
     pub regrades: Arc<Previews>,
     /// Who may do what.
@@ -58,6 +61,7 @@ impl App {
             lectures: Arc::default(),
             work: Arc::default(),
             motions: Arc::default(),
+            at_once: Arc::new(Semaphore::new(std::thread::available_parallelism().map_or(1, usize::from))),
             regrades: Arc::default(),
             access: Arc::new(Access::home(false, [])),
             limits: Arc::new(limits),

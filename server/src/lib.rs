@@ -18,6 +18,9 @@ pub mod table;
 pub mod variants;
 
 pub mod grading;
+pub mod handing;
+
+pub mod grader;
 
 pub mod session;
 

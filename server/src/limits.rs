@@ -25,6 +25,8 @@ pub struct Limits {
     pub recording_bytes: usize,
     /// A viewer that takes no data for this long is disconnected.
     pub stalled_viewer: Duration,
+    /// What cannot be graded within this is graded later, where graders share the gradebook.
+    pub at_once: Duration,
     /// Submissions returned by one request.
     pub submissions: usize,
     /// Lectures at a time.
@@ -49,6 +51,7 @@ impl Default for Limits {
             command_time: Duration::from_mins(1),
             recording_bytes: 128 << 20,
             stalled_viewer: Duration::from_secs(30),
+            at_once: Duration::from_millis(300),
             submissions: 1000,
             lectures: 16,
             followers: 500,

@@ -80,6 +80,7 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/lessons/{slug}/predictions/counts", GRADER),
     ("POST", "/api/v1/lessons/{slug}/submissions", STUDENT),
     ("GET", "/api/v1/submissions", STUDENT),
+    ("GET", "/api/v1/submissions/{id}", STUDENT),
     // What computes belongs to the class.
     ("GET", "/api/v1/scenes", Anyone),
     ("GET", "/api/v1/scenes/{name}", Anyone),

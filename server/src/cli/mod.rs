@@ -4,6 +4,7 @@ mod choice;
 mod clock;
 mod course;
 mod export;
+mod grader;
 mod interrupt;
 mod measure;
 mod output;
@@ -170,6 +171,14 @@ enum Command {
     #[command(after_help = "Examples:\n  triad grades\n  triad grades --csv > grades.csv\n  \
         triad grades --csv --for canvas --database /srv/triad/grades.db\n  triad grades --check")]
     Grades(grades::Grades),
+    /// Grade what waits in a gradebook that servers share, beside them or on another machine.
+    ///
+    /// A server answers at once what it can grade in 0.3 s; the rest waits in the database, and each grader takes the next, of
+    /// whom has fewest before them. What a grader had when it ended is taken over by another. What has ended its grader three
+    /// times is put aside, without using an attempt.
+    #[command(after_help = "Examples:\n  triad grader --database postgres://triad@db.example.org/grades\n  \
+        triad grader --look --database postgres://triad@db.example.org/grades")]
+    Grader(grader::Options),
     /// Rebuild every verdict of a gradebook: with the same lesson, seed and answers each must come out byte for byte.
     ///
     /// Or look at what the lesson as it is now makes of what was handed in, for each student; apply it, and take it back.
@@ -337,6 +346,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Scenes { name: None, .. } => Ok(check::list(json)),
         Command::Grade { lesson, submission } => grade::grade(&course()?, &lesson, &submission, json),
         Command::Grades(options) => grades::grades(&options, &course()?, json),
+        Command::Grader(options) => grader::grader(&options, json),
         Command::Backup(options) => records::backup(&options, json),
         Command::Restore(options) => records::restore(&options, json),
         Command::Class(options) => records::class(options, json),

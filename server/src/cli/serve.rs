@@ -2,6 +2,7 @@
 
 use std::net::{IpAddr, SocketAddr, UdpSocket};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::http::StatusCode;
@@ -12,6 +13,7 @@ use triad_lessons::Course;
 use super::terminal::{Outcome, print_line};
 use crate::access::Access;
 use crate::app::{App, REPORTS};
+use crate::grader::{Grader, LEASE};
 use crate::limits::Limits;
 use crate::live::{self, Which};
 use crate::problem::Problem;
@@ -46,6 +48,10 @@ pub(in crate::cli) struct Serve {
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
     #[arg(long, default_value = REPORTS, value_name = "DIR")]
     pub(in crate::cli) reports: PathBuf,
+    /// Milliseconds in which a submission is graded in its request; what takes longer waits in the database for any grader. With a
+    /// gradebook on a server only.
+    #[arg(long, default_value_t = 300, value_name = "MS")]
+    pub(in crate::cli) at_once: u64,
     /// Lecture rooms at a time.
     #[arg(long, default_value_t = 16, value_name = "N")]
     pub(in crate::cli) max_rooms: usize,
@@ -84,6 +90,7 @@ impl Default for Serve {
             person_quota: 64,
             quota: 16_384,
             reports: REPORTS.into(),
+            at_once: 300,
             max_rooms: 16,
             max_followers: 500,
             class: false,
@@ -113,6 +120,7 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
         sessions: options.max_sessions,
         bodies: options.max_bodies,
         lectures: options.max_rooms,
+        at_once: Duration::from_millis(options.at_once),
         followers: options.max_followers,
         ..Limits::default()
     };
@@ -179,6 +187,10 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     print_line(&format!("Submissions are kept in {}", options.database));
     tell_use(options, &app, address).await?;
     let house = tokio::spawn(crate::api::keep_house(app.clone()));
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let slots = processors.saturating_sub(1).max(1);
+    let grader = Grader::new(app.store.clone(), app.variants.clone(), slots, LEASE);
+    let grading = tokio::spawn(Arc::clone(&grader).run());
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
     // Open streams end with their sessions; otherwise they would keep the server up.
     let live_at = app.live.clone();
@@ -186,6 +198,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         // It would write what is left when everybody has gone.
         house.abort();
         drop(house.await);
+        grading.abort();
         if let Some(path) = live_at
             && let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await
         {
@@ -196,6 +209,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     };
     let store = app.store.clone();
     crate::listen::serve(listener, crate::app(app), stopped, ending).await;
+    drop(tokio::time::timeout(CLOSING, grader.finish(slots)).await);
     // What is being written is finished; whoever hangs beyond that has not been answered.
     drop(tokio::time::timeout(CLOSING, store.close()).await);
     Ok(())
@@ -246,7 +260,7 @@ fn reached_at(address: SocketAddr) -> SocketAddr {
 }
 
 /// Waits for Ctrl-C, or for the system's request to end.
-async fn stopped() {
+pub(super) async fn stopped() {
     #[cfg(unix)]
     {
         use tokio::signal::unix::{SignalKind, signal};

@@ -276,6 +276,16 @@ pub(super) async fn format(connection: &mut AnyConnection) -> Result<i64, StoreE
     Ok(found)
 }
 
+/// The time, in milliseconds since 1970: on a server its own, for all who ask it.
+pub(super) async fn clock(connection: &mut AnyConnection) -> Result<i64, StoreError> {
+    if Kind::of(connection) == Kind::Sqlite {
+        return Ok(jiff::Timestamp::now().as_millisecond());
+    }
+    let time = sqlx::query_as("SELECT CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000 AS BIGINT)");
+    let (now,): (i64,) = time.fetch_one(connection).await?;
+    Ok(now)
+}
+
 /// Writes down the format. Each time: a file that cannot be written is found out before anybody hands in.
 pub(super) async fn set_format(connection: &mut AnyConnection, format: i64) -> Result<(), StoreError> {
     match Kind::of(connection) {

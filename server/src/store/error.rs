@@ -74,6 +74,15 @@ pub enum StoreError {
     /// Another submission of the same person to the lesson came first: the verdict does not know of it.
     #[error("another submission of the same person came first")]
     Overtaken,
+    /// Another grader has taken over what this one was grading.
+    #[error("another grader has taken this over")]
+    Fenced,
+    /// Earlier submissions of the person to the lesson wait for their verdicts: this one has to wait behind them.
+    #[error("earlier answers of the same person wait for their verdicts")]
+    Behind,
+    /// Attempts of the person wait for their verdicts, and with them all are used.
+    #[error("earlier answers to this exercise are still being graded")]
+    BeingGraded,
     /// Somebody, or everybody together, has handed in as much as is kept.
     #[error("{0}")]
     QuotaUsed(String),
@@ -131,6 +140,9 @@ const CONNECTING: [(&str, &str); 3] = [
 ];
 
 impl StoreError {
+    /// The code of a lost claim.
+    pub const FENCED: &str = "fenced";
+
     /// What a server said, by the class of its SQLSTATE: PostgreSQL, appendix A.
     fn of_server(code: &str, said: String) -> Self {
         match code {
@@ -267,6 +279,17 @@ impl From<StoreError> for Problem {
             StoreError::Overtaken => {
                 (StatusCode::SERVICE_UNAVAILABLE, "overtaken", "nothing was kept: send it again in a moment")
             }
+            StoreError::Fenced => {
+                (StatusCode::CONFLICT, StoreError::FENCED, "nothing is lost: the other one keeps the verdict")
+            }
+            StoreError::Behind => {
+                (StatusCode::SERVICE_UNAVAILABLE, "behind", "nothing was kept: send it again in a moment")
+            }
+            StoreError::BeingGraded => (
+                StatusCode::CONFLICT,
+                "being-graded",
+                "your answers stay in this browser: wait for the verdict, then hand them in",
+            ),
             StoreError::QuotaUsed(_) => (
                 StatusCode::INSUFFICIENT_STORAGE,
                 "quota-used",

@@ -14,8 +14,11 @@ mod log;
 pub mod names;
 #[cfg(all(test, unix))]
 mod on_both;
+#[cfg(all(test, unix))]
+mod on_both_queue;
 mod people;
 mod predictions;
+mod queue;
 mod quotas;
 mod random;
 mod records;
@@ -30,6 +33,7 @@ use std::path::Path;
 
 use sqlx::Any;
 use sqlx::pool::PoolConnection;
+use tokio::sync::Notify;
 
 pub use class::{
     Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded,
@@ -44,6 +48,7 @@ pub use error::StoreError;
 use file::Place;
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
 pub use predictions::{KeptPrediction, NewPrediction};
+pub use queue::{Accept, Accepted, Bell, Claim, Job, STARTS, Waiting};
 pub use quotas::Quotas;
 pub use submissions::{HandIn, Kept, Query, Recorded, StoredSubmission, Whose};
 use transaction::Transaction;
@@ -58,6 +63,10 @@ pub struct Store {
     /// Where it is a file of its own.
     place: Option<Place>,
     quotas: Quotas,
+    /// The address of the server that keeps it.
+    server: Option<String>,
+    /// Wakes graders in this program.
+    work: Notify,
 }
 
 impl Store {
@@ -91,13 +100,13 @@ impl Store {
                 let connected = pools.writer.acquire().await;
                 drop(connected.map_err(|error| StoreError::connecting(&error, location))?);
                 migrate(&pools).await.map_err(|error| error.making(location))?;
-                Ok(Self::of(pools))
+                Ok(Self { server: Some(url.clone()), ..Self::of(pools) })
             }
         }
     }
 
     fn of(pools: Pools) -> Self {
-        Self { pools, place: None, quotas: Quotas::default() }
+        Self { pools, place: None, quotas: Quotas::default(), server: None, work: Notify::new() }
     }
 
     /// A gradebook that is forgotten when it is dropped.
@@ -114,7 +123,12 @@ impl Store {
     ///
     /// Errors if that is no address.
     pub fn of_server(url: &str) -> Result<Self, StoreError> {
-        Ok(Self::of(Pools::to_server(url)?))
+        Ok(Self { server: Some(url.to_owned()), ..Self::of(Pools::to_server(url)?) })
+    }
+
+    /// Whether other programs keep it too: then graders elsewhere take over what is too much here.
+    pub fn is_shared(&self) -> bool {
+        self.server.is_some()
     }
 
     /// The same gradebook, keeping so much.

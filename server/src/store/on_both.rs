@@ -12,7 +12,7 @@ use super::*;
 use crate::policy::{Policy, Refusal};
 
 /// An empty gradebook: in memory, or where PostgreSQL is given in a database of its own.
-async fn fresh() -> Store {
+pub(super) async fn fresh() -> Store {
     match postgres::given() {
         None => Store::in_memory(),
         Some(server) => at(&server.database()).await,
@@ -26,7 +26,7 @@ async fn at(address: &str) -> Store {
 #[test]
 fn everything_here_holds_on_postgresql_too() {
     let Some(server) = Postgres::start("the gradebook on PostgreSQL") else { return };
-    server.again(&["store::on_both::"], &["everything_here_holds_on_postgresql_too"]);
+    server.again(&["store::on_both"], &["everything_here_holds_on_postgresql_too"]);
 }
 
 /// Several programs make the tables at once; one of a later version is refused.

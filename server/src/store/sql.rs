@@ -72,6 +72,18 @@ pub(super) const ADDED_4: &[&str] = &[
      BEGIN SELECT RAISE(ABORT, 'predictions are kept'); END",
 ];
 
+/// What format 5 adds: what was accepted and is not graded yet. Of those that wait, whoever has fewest before them comes first.
+pub(super) const ADDED_5: &[&str] = &[
+    "CREATE TABLE grading (id TEXT PRIMARY KEY NOT NULL, course TEXT NOT NULL REFERENCES course(id), \
+     assignment TEXT NOT NULL REFERENCES assignment(id), person TEXT NOT NULL REFERENCES person(id), n BIGINT NOT NULL, \
+     received_at BIGINT NOT NULL, student TEXT NOT NULL, body TEXT NOT NULL, request_key TEXT, seed TEXT, \
+     lesson_sha256 TEXT NOT NULL REFERENCES lesson_version(sha256), fair BIGINT NOT NULL, state TEXT NOT NULL, \
+     not_before BIGINT NOT NULL, starts BIGINT NOT NULL, fence BIGINT NOT NULL, lease_until BIGINT NOT NULL, \
+     worker TEXT NOT NULL, error TEXT NOT NULL, UNIQUE (assignment, person, request_key))",
+    "CREATE INDEX grading_by_turn ON grading (fair, n)",
+    "CREATE INDEX grading_by_person ON grading (person, assignment, n)",
+];
+
 /// What is a record is added to and never changed. In SQLite's words: `database.rs` says them in PostgreSQL's.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
@@ -91,6 +103,25 @@ pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER seed_is_immutable BEFORE UPDATE OF seed ON membership \
      BEGIN SELECT RAISE(ABORT, 'seeds are immutable'); END",
 ];
+
+/// Claims the next grading: `id = (SELECT …)` and not `IN`, which may be evaluated more than once.
+macro_rules! claim {
+    ($lock:literal) => {
+        concat!(
+            "UPDATE grading SET state = 'running', fence = fence + 1, starts = starts + 1, lease_until = $3, worker = $4 \
+             WHERE id = (SELECT g.id FROM grading g WHERE g.starts < $2 AND (g.state = 'queued' AND g.not_before <= $1 \
+             OR g.state = 'running' AND g.lease_until < $1) AND NOT EXISTS (SELECT 1 FROM grading e \
+             WHERE e.person = g.person AND e.assignment = g.assignment AND e.n < g.n AND e.state <> 'dead') \
+             ORDER BY g.fair, g.n LIMIT 1",
+            $lock,
+            ") RETURNING id, fence, starts, course, (SELECT slug FROM assignment a WHERE a.id = assignment), person, student, \
+             body, lesson_sha256, request_key, seed, worker, received_at"
+        )
+    };
+}
+
+/// The claim where many claim at once: what another is about to claim is passed over.
+pub(super) const CLAIM_OF_MANY: &str = claim!(" FOR UPDATE OF g SKIP LOCKED");
 
 /// All statements with their names, for the test that prepares them.
 macro_rules! statements {
@@ -165,6 +196,9 @@ statements! {
         FROM verdict v JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment \
         WHERE a.course = $1 AND (CAST($2 AS TEXT) IS NULL OR a.slug = $2) \
         ORDER BY CASE WHEN v.run = 0 THEN s.n ELSE v.n END";
+    IN_FORCE = "SELECT s.id, a.slug, s.student, s.answers, v.body, s.person FROM submission s \
+        JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
+        WHERE a.course = $1 AND s.id = $2 ORDER BY v.run DESC LIMIT 1";
     // Whether what stands there is what was written.
     RECORDED = "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n";
     VERDICTS = "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission \
@@ -239,4 +273,26 @@ statements! {
     SET_UNDONE = "UPDATE regrade SET undone_by = $2, undone_at = $3 WHERE id = $1";
     VERDICTS_GIVEN = "SELECT s.person, a.slug, v.run, v.made_at, v.body FROM verdict v JOIN submission s ON s.id = v.submission \
         JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 AND s.id = $2 ORDER BY v.run";
+
+    // The queue; see `queue.rs`. A person's gradings of one lesson follow each other: each knows of those before.
+    OPEN_GRADINGS = "SELECT COUNT(*) FROM grading WHERE state <> 'dead'";
+    GRADINGS = "SELECT COALESCE(SUM(CASE WHEN state <> 'dead' THEN 1 ELSE 0 END), 0), \
+        COALESCE(SUM(CASE WHEN state = 'dead' THEN 1 ELSE 0 END), 0) FROM grading";
+    NEXT_GRADING = "SELECT COALESCE(MAX(n), 0) + 1, COALESCE(SUM(CASE WHEN person = $2 AND state <> 'dead' THEN 1 ELSE 0 END), 0) \
+        FROM grading WHERE course = $1";
+    OPEN_OF = "SELECT received_at FROM grading WHERE assignment = $1 AND person = $2 AND state <> 'dead'";
+    GRADING_BY_KEY = "SELECT id FROM grading WHERE assignment = $1 AND person = $2 AND request_key = $3";
+    ADD_GRADING = "INSERT INTO grading (id, course, assignment, person, n, received_at, student, body, request_key, seed, \
+        lesson_sha256, fair, state, not_before, starts, fence, lease_until, worker, error) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, 'queued', 0, 0, 0, 0, '', '')";
+    CLAIM = claim!("");
+    RENEW = "UPDATE grading SET lease_until = $3 WHERE id = $1 AND fence = $2 AND state = 'running'";
+    CLOSE = "DELETE FROM grading WHERE id = $1 AND fence = $2 AND state = 'running'";
+    GIVE_BACK = "UPDATE grading SET state = $3, not_before = $4, error = $5 WHERE id = $1 AND fence = $2 AND state = 'running'";
+    PUT_ASIDE = "UPDATE grading SET state = 'dead', error = 'its graders ended' \
+        WHERE state = 'running' AND lease_until < $1 AND starts >= $2";
+    GRADE_AGAIN = "UPDATE grading SET state = 'queued', not_before = 0, starts = 0 WHERE state = 'dead'";
+    PLACE = "SELECT g.person, g.state, (SELECT COUNT(*) FROM grading e WHERE e.state <> 'dead' \
+        AND (e.fair < g.fair OR e.fair = g.fair AND e.n < g.n)) FROM grading g WHERE g.id = $1";
+    REMOVE_GRADINGS = "DELETE FROM grading WHERE person = $1";
 }

@@ -187,6 +187,24 @@ impl Store {
         Ok(rows.into_iter().filter_map(read).collect())
     }
 
+    /// A submission with its person, by id.
+    ///
+    /// Errors if it cannot be read.
+    pub async fn submission(
+        &self,
+        course: &str,
+        id: &str,
+    ) -> Result<Option<(String, StoredSubmission)>, StoreError> {
+        type Row = (String, String, String, String, String, String);
+        let find = sqlx::query_as(sql::IN_FORCE).bind(course).bind(id);
+        let found: Option<Row> = find.fetch_optional(&self.pools.readers).await?;
+        let Some((id, lesson, student, answers, verdict, person)) = found else { return Ok(None) };
+        let read =
+            |text: &str| serde_json::from_str(text).map_err(|cause| StoreError::Damaged(cause.to_string()));
+        let (answers, verdict) = (read(&answers)?, read(&verdict)?);
+        Ok(Some((person, StoredSubmission { id, lesson, student, answers, verdict })))
+    }
+
     /// Every verdict of a course, or of one lesson, with what it is about, in the order in which they were given.
     ///
     /// Errors if the file cannot be read.
@@ -224,15 +242,57 @@ async fn keep(
     quotas: &Quotas,
 ) -> Result<(Kept, bool), StoreError> {
     log::hold(connection, &new.course).await?;
-    let person = match &new.whose {
-        Whose::Person(id) => id.clone(),
-        Whose::Named => person_of(connection, &new.course, &new.student, new.received_at).await?,
-    };
+    let person = person(connection, new).await?;
     let Assignment { id: assignment, policy, .. } = ensured(connection, &new.course, &new.lesson).await?;
+    if let Some(key) = &new.key
+        && let Some(kept) = of_key(connection, &assignment, &person, key).await?
+    {
+        return Ok((kept, false));
+    }
+    let made = attempts(connection, &assignment, &person).await?;
+    let extension = extension_of(connection, &assignment, &person).await?;
+    admit(&policy, extension.as_ref(), &made, new.counted, Moment(new.received_at))?;
+    quotas.check_person(connection, &person, new.answers.len()).await?;
+    let waits = sqlx::query_as(sql::OPEN_OF).bind(&assignment).bind(&person).fetch_optional(&mut *connection);
+    let waits: Option<(i64,)> = waits.await?;
+    if waits.is_some() {
+        return Err(StoreError::Behind);
+    }
+    write(connection, new, &assignment, &person).await?;
+    let attempts = made.len() + usize::from(new.counted);
+    Ok((Kept { attempts, verdict: new.verdict.clone() }, true))
+}
+
+/// Keeps what was admitted when it was accepted.
+pub(super) async fn keep_accepted(connection: &mut AnyConnection, new: &HandIn) -> Result<(), StoreError> {
+    let person = person(connection, new).await?;
+    let assignment = ensured(connection, &new.course, &new.lesson).await?.id;
+    write(connection, new, &assignment, &person).await
+}
+
+async fn person(connection: &mut AnyConnection, new: &HandIn) -> Result<String, StoreError> {
+    match &new.whose {
+        Whose::Person(id) => Ok(id.clone()),
+        Whose::Named => person_of(connection, &new.course, &new.student, new.received_at).await,
+    }
+}
+
+/// Writes a submission with its verdict and its entry in the log, if the verdict knows of all before it.
+async fn write(
+    connection: &mut AnyConnection,
+    new: &HandIn,
+    assignment: &str,
+    person: &str,
+) -> Result<(), StoreError> {
+    let last = sqlx::query_as(sql::LAST_SUBMISSION).bind(&new.course).bind(&new.lesson).bind(person);
+    let (last,): (i64,) = last.fetch_one(&mut *connection).await?;
+    if last != new.after {
+        return Err(StoreError::Overtaken);
+    }
     let submission = SubmissionRow {
         id: new.id.clone(),
-        assignment: assignment.clone(),
-        person: person.clone(),
+        assignment: assignment.to_owned(),
+        person: person.to_owned(),
         received_at: new.received_at,
         student: new.student.clone(),
         answers: new.answers.clone(),
@@ -244,32 +304,36 @@ async fn keep(
         VerdictRow::first(&new.id, new.verdict.to_string(), lesson.clone(), crate::BUILD, now());
     verdict.seed.clone_from(&new.seed);
     let detail = records::seal(&submission, &verdict);
-    let event = Event { actor: &person, what: "submitted", subject: &new.id, detail: &detail };
+    let event = Event { actor: person, what: "submitted", subject: &new.id, detail: &detail };
     let n = log::append(connection, &new.course, new.received_at, &event).await?;
-    if let Some(key) = &new.key {
-        let find = sqlx::query_as(sql::BY_KEY).bind(&assignment).bind(&person).bind(key);
-        let earlier: Option<(String, i64)> = find.fetch_optional(&mut *connection).await?;
-        if let Some((id, n)) = earlier {
-            return Ok((repeated(connection, &assignment, &person, &id, n).await?, false));
-        }
-    }
-    let list = sqlx::query_as(sql::ATTEMPTS).bind(&assignment).bind(&person);
-    let made: Vec<(i64,)> = list.fetch_all(&mut *connection).await?;
-    let made: Vec<Moment> = made.into_iter().map(|(at,)| Moment(at)).collect();
-    let extension = extension_of(connection, &assignment, &person).await?;
-    admit(&policy, extension.as_ref(), &made, new.counted, Moment(new.received_at))?;
-    quotas.check_person(connection, &person, new.answers.len()).await?;
-    let last = sqlx::query_as(sql::LAST_SUBMISSION).bind(&new.course).bind(&new.lesson).bind(&person);
-    let (last,): (i64,) = last.fetch_one(&mut *connection).await?;
-    if last != new.after {
-        return Err(StoreError::Overtaken);
-    }
     let add = sqlx::query(sql::ADD_LESSON).bind(lesson).bind(&new.lesson).bind(&new.bundle);
     add.bind(now()).execute(&mut *connection).await?;
     submission.add(connection, n).await?;
-    verdict.add(connection).await?;
-    let attempts = made.len() + usize::from(new.counted);
-    Ok((Kept { attempts, verdict: new.verdict.clone() }, true))
+    verdict.add(connection).await
+}
+
+/// When the attempts of a person at a lesson were made, by the verdicts in force.
+pub(super) async fn attempts(
+    connection: &mut AnyConnection,
+    assignment: &str,
+    person: &str,
+) -> Result<Vec<Moment>, StoreError> {
+    let list = sqlx::query_as(sql::ATTEMPTS).bind(assignment).bind(person);
+    let made: Vec<(i64,)> = list.fetch_all(connection).await?;
+    Ok(made.into_iter().map(|(at,)| Moment(at)).collect())
+}
+
+/// What an earlier request of the same key kept, if one did.
+pub(super) async fn of_key(
+    connection: &mut AnyConnection,
+    assignment: &str,
+    person: &str,
+    key: &str,
+) -> Result<Option<Kept>, StoreError> {
+    let find = sqlx::query_as(sql::BY_KEY).bind(assignment).bind(person).bind(key);
+    let earlier: Option<(String, i64)> = find.fetch_optional(&mut *connection).await?;
+    let Some((id, n)) = earlier else { return Ok(None) };
+    repeated(connection, assignment, person, &id, n).await.map(Some)
 }
 
 /// What an earlier request of the same key kept.

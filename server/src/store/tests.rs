@@ -191,7 +191,7 @@ async fn a_database_of_a_later_version_is_refused() {
     let store = open(&path).await;
     sqlx::query("PRAGMA user_version = 99").execute(&store.pools.writer).await.expect("writes");
     store.close().await;
-    assert!(matches!(Store::open(&path).await, Err(StoreError::Newer { found: 99, known: 4 })));
+    assert!(matches!(Store::open(&path).await, Err(StoreError::Newer { found: 99, known: schema::FORMAT })));
 }
 
 #[tokio::test]

@@ -14,12 +14,15 @@ mod lessons;
 mod motion;
 mod policy;
 mod predictions;
+mod queue;
 mod regrade;
 mod schema;
 mod secrets;
 mod sessions;
 mod streams;
 mod variants;
+
+use std::time::Duration;
 
 use axum::Router;
 use axum::body::{Body, Bytes, to_bytes};
@@ -36,7 +39,10 @@ use triad_tests::postgres::{self, Postgres};
 fn state(limits: Limits) -> App {
     let store = postgres::given()
         .map_or_else(Store::in_memory, |server| Store::of_server(&server.database()).expect("an address"));
-    App::new(Course::embedded().expect("a course"), store, limits)
+    // What these tests hand in is answered at once, however busy the machine is.
+    let usual = limits.at_once == Limits::default().at_once;
+    let at_once = if usual { Duration::from_hours(1) } else { limits.at_once };
+    App::new(Course::embedded().expect("a course"), store, Limits { at_once, ..limits })
 }
 
 /// Every test of this program that asks something of the gradebook once more, with PostgreSQL.

@@ -44,6 +44,7 @@ import type {
   SessionScene,
   SessionState,
   Somebody,
+  SubmissionState,
   SymmetricMatrix,
   TableRequest,
   Understood,
@@ -143,6 +144,26 @@ async function ask(
 }
 
 const id = encodeURIComponent;
+
+/** Asks for what waits to be graded until it is: soon at first, then every two seconds. */
+async function graded(
+  state: SubmissionState,
+  waiting: (before: number) => void,
+  pause = 200,
+): Promise<GradedSubmission> {
+  if (state.verdict) return state.verdict;
+  if (state.state === "failed")
+    throw new ApiError({
+      title: "Not graded",
+      code: "not-graded",
+      detail: "Your answers are kept, but the server could not grade them. That is its fault, not yours.",
+      hint: "No attempt is used. Tell your teacher; there is nothing to send again.",
+    });
+  waiting(state.before ?? 0);
+  await new Promise((done) => setTimeout(done, pause));
+  const next = await call<SubmissionState>("GET", `/submissions/${id(state.id)}`);
+  return graded(next, waiting, Math.min(2000, pause * 1.5));
+}
 const when = (at: number | undefined): string => (at === undefined ? "" : `?at=${at}`);
 
 /** Whose numbers: a student's name, or another seed. */
@@ -246,10 +267,19 @@ export const api = {
   starterUrl: (slug: string, question: string, language: string): string =>
     `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
   /** A request that is sent again under the same name is one submission. */
-  submit: (slug: string, body: Handed, name: string) =>
-    call<GradedSubmission>("POST", `/lessons/${id(slug)}/submissions`, own(body), undefined, undefined, {
+  submit: (
+    slug: string,
+    body: Handed,
+    name: string,
+    waiting: (before: number) => void,
+  ): Promise<GradedSubmission> =>
+    ask("POST", `/lessons/${id(slug)}/submissions`, own(body), undefined, undefined, {
       "idempotency-key": name,
-    }),
+    }).then(async (response) =>
+      response.status === 202
+        ? graded(await response.json(), waiting)
+        : ((await response.json()) as GradedSubmission),
+    ),
   submissions: (query: { student: string; lesson?: string; limit?: number }, signal?: AbortSignal) => {
     const search = new URLSearchParams(who.known() ? {} : { student: query.student });
     if (query.lesson) search.set("lesson", query.lesson);

@@ -3992,6 +3992,20 @@ export interface components {
         };
         /** @description Submissions, newest first. */
         SubmissionList: components["schemas"]["KeptSubmission"][];
+        /** @description A submission that has no verdict yet, or has one by now. */
+        SubmissionState: {
+            /**
+             * Format: int64
+             * @description How many come before it.
+             */
+            before?: number | null;
+            /** @description Its name. */
+            id: string;
+            /** @description `waiting`, `graded`, or `failed`: it could not be graded, which is not the student's fault and uses no attempt. */
+            state: string;
+            /** @description What it earned. */
+            verdict?: components["schemas"]["GradedSubmission"] | null;
+        };
         /** @description A symmetric matrix: what stands on and below its diagonal. */
         SymmetricMatrix: {
             /**

@@ -15,6 +15,7 @@ export type CheckReport = Schemas["CheckReport"];
 export type Drag = Schemas["Drag"];
 export type Drawing = Schemas["Drawing"];
 export type GradedSubmission = Schemas["GradedSubmission"];
+export type SubmissionState = Schemas["SubmissionState"];
 export type Jacobian = Schemas["Jacobian"];
 export type Joint = Schemas["Joint"];
 export type IntegratorKind = Schemas["IntegratorKind"];

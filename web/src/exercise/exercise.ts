@@ -144,7 +144,9 @@ class ExerciseSection {
       const body = hasVariants ? { student: who, seed, answers } : { student: who, answers };
       const text = JSON.stringify(body);
       if (this.sent?.text !== text) this.sent = { text, name: requestName() };
-      const verdict = await api.submit(slug, body, this.sent.name);
+      const verdict = await api.submit(slug, body, this.sent.name, (before) => {
+        this.send.textContent = before > 0 ? `Waiting, ${before} before you…` : "Being graded…";
+      });
       this.sent = undefined;
       await this.showVerdict(verdict);
       this.history.add(verdict);

@@ -17,12 +17,13 @@ use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::submissions::{Who, who};
+use super::submissions::who;
 use super::{find, variant};
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::app::App;
+use crate::handing::Who;
 use crate::policy::Moment;
 use crate::problem::{Problem, suggest};
 use crate::store::{CLASS, HOME, KeptPrediction, NewPrediction, Role};
@@ -95,7 +96,7 @@ async fn predict(
     let document = serde_json::to_value(&body).map_err(Problem::internal)?;
     let Who { course, whose, student, .. } = who(&app, caller.clone(), &document)?;
     let new = NewPrediction {
-        course: course.to_owned(),
+        course: course.clone(),
         whose,
         student: student.clone(),
         lesson: lesson.slug.clone(),
@@ -105,7 +106,7 @@ async fn predict(
     };
     let (is_new, person) = app.store.predict(&new).await?;
     let own = variant(&app, &slug, (course == HOME).then_some(student.as_str()), &caller)?;
-    let kept = app.store.predictions(course, Some(&person), Some(&lesson.slug)).await?;
+    let kept = app.store.predictions(&course, Some(&person), Some(&lesson.slug)).await?;
     let given = kept.into_iter().find(|one| one.prediction == body.prediction);
     let given = given.and_then(|one| told(&own, one));
     let given = given.ok_or_else(|| Problem::internal("a prediction that was kept is not there"))?;

@@ -8,13 +8,14 @@ use std::sync::Arc;
 
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode};
-use axum::response::IntoResponse;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use tokio::time::timeout;
 use triad_lessons::answers::{RunSettings, TypedValue};
-use triad_lessons::{Lesson, Submission, Verdict};
+use triad_lessons::{Lesson, Submission};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -25,13 +26,15 @@ use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::api::lessons::told::{self, GradedSubmission};
 use crate::app::App;
+use crate::blocking;
 use crate::grades::{Book, assigned};
-use crate::policy::{Moment, When};
+use crate::handing::{self, Judged, Who};
+use crate::policy::{Moment, Policy, When};
 use crate::problem::Problem;
 use crate::store::{
-    CLASS, HOME, HandIn, Kept, Member, Query, StoreError, StoredSubmission, Whose, identifier, names,
+    Accept, Accepted, CLASS, HOME, Kept, Member, Query, StoreError, StoredSubmission, Whose, identifier,
+    names,
 };
-use crate::{blocking, grading};
 
 /// Where a client names its request: a request that is repeated under the same name is one submission.
 const KEY: &str = "idempotency-key";
@@ -42,16 +45,8 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<Submission>();
     schemas.answer::<GradedSubmission>();
     schemas.answer::<SubmissionList>();
-    OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list))
-}
-
-/// A verdict with what names its submission, as it is kept.
-#[derive(Debug, Serialize)]
-struct KeptVerdict {
-    id: String,
-    submitted_at: String,
-    #[serde(flatten)]
-    verdict: Verdict,
+    schemas.answer::<SubmissionState>();
+    OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list)).routes(routes!(state))
 }
 
 /// Hand in answers to a lesson's exercise.
@@ -67,6 +62,7 @@ struct KeptVerdict {
     responses(
     (status = 201, description = "Graded and kept", body = ref(of::<GradedSubmission>())),
     (status = 200, description = "Kept, but not gradable: says what to correct", body = ref(of::<GradedSubmission>())),
+    (status = 202, description = "Kept, and graded in its turn: `Location` says where to ask", body = ref(of::<SubmissionState>())),
     (status = 404, description = "No such lesson", body = ref(PROBLEM)),
     (status = 409, description = "Not open, closed, too soon, or all attempts are used", body = ref(PROBLEM)),
     (status = 422, description = "Not a submission", body = ref(PROBLEM)),
@@ -77,40 +73,159 @@ async fn submit(
     headers: HeaderMap,
     caller: Caller,
     Json(body): Json<Value>,
-) -> Result<impl IntoResponse, Problem> {
+) -> Result<Response, Problem> {
     let key = request_key(&headers)?;
     let lesson = lessons::find(&app, &slug)?;
     let who = who(&app, caller, &body)?;
-    let policy = app.store.assignment(who.course, &lesson.slug).await?.policy;
+    let policy = app.store.assignment(&who.course, &lesson.slug).await?.policy;
     let lesson = assigned(lesson, &policy);
     let person = who.person();
-    let grading = app.clone();
-    let judged = Arc::new(blocking(move || judged(&grading, lesson, &body, who, key)).await?);
-    let (new, kept) = keep(&app, &judged).await?;
-    let status = if new.counted { StatusCode::CREATED } else { StatusCode::OK };
-    let revealed = told::revealed(&app, person.as_deref(), &judged.lesson).await?;
-    let document = blocking(move || {
-        let mut verdict = kept.verdict;
-        let own = app.variants.of(&judged.lesson, &new.seed)?;
-        told::tell(&own, &policy, revealed, &mut verdict)?;
-        serde_json::from_value::<GradedSubmission>(verdict).map_err(Problem::internal)
-    });
-    Ok((status, Answer(document.await?)))
+    let kept = match at_once(&app, &lesson, body.to_string(), &who, key.as_deref()).await? {
+        Some((seed, kept)) => (seed, kept.verdict),
+        None => match later(&app, &lesson, body.to_string(), &who, key).await? {
+            Accepted::Waiting(id) => return waiting(&app, id).await,
+            // Repeated, and graded meanwhile.
+            Accepted::Kept(kept) => (seed_of(&who, &kept.verdict), kept.verdict),
+        },
+    };
+    let status = if kept.1["gradable"] == true { StatusCode::CREATED } else { StatusCode::OK };
+    Ok((status, Answer(told(&app, lesson, policy, person, kept).await?)).into_response())
 }
 
-/// Settles what was judged with what its author handed in before, and keeps it. Where another submission of theirs comes
-/// between the two, it is settled again with that one.
-async fn keep(app: &App, judged: &Arc<Judged>) -> Result<(HandIn, Kept), Problem> {
+/// What a student is told of a verdict, with the seed of its numbers.
+async fn told(
+    app: &App,
+    lesson: Lesson,
+    policy: Policy,
+    person: Option<String>,
+    (seed, mut verdict): (String, Value),
+) -> Result<GradedSubmission, Problem> {
+    let revealed = told::revealed(app, person.as_deref(), &lesson).await?;
+    let variants = Arc::clone(&app.variants);
+    blocking(move || {
+        let own = variants.of(&lesson, &seed)?;
+        told::tell(&own, &policy, revealed, &mut verdict)?;
+        serde_json::from_value(verdict).map_err(Problem::internal)
+    })
+    .await
+}
+
+/// What the numbers of a verdict were drawn from: the class knows it, at home the verdict tells it.
+fn seed_of(who: &Who, verdict: &Value) -> String {
+    let told = || verdict["provenance"]["seed"].as_str().unwrap_or_default().to_owned();
+    who.seed.clone().unwrap_or_else(told)
+}
+
+/// Grades and keeps what is handed in; `None` where that has to wait: for a place, or behind others of the same person.
+async fn at_once(
+    app: &App,
+    lesson: &Lesson,
+    body: String,
+    who: &Who,
+    key: Option<&str>,
+) -> Result<Option<(String, Kept)>, Problem> {
+    let (variants, lesson, who) = (Arc::clone(&app.variants), lesson.clone(), who.clone());
+    let (key, places) = (key.map(str::to_owned), Arc::clone(&app.at_once));
+    let is_shared = app.store.is_shared();
+    let judging = async move {
+        // Where nobody else grades, everybody waits here.
+        let place =
+            if is_shared { Some(places.acquire_owned().await.map_err(Problem::internal)?) } else { None };
+        blocking(move || {
+            let _place = place;
+            Judged::new(&variants, lesson, &body, who, key).map(Arc::new)
+        })
+        .await
+    };
+    let judged = if is_shared {
+        let Ok(judged) = timeout(app.limits.at_once, judging).await else { return Ok(None) };
+        judged?
+    } else {
+        judging.await?
+    };
     loop {
-        let (earlier, after) = earlier(app, judged).await?;
-        let settling = Arc::clone(judged);
-        let new = blocking(move || settled(&settling, earlier, after)).await?;
+        let new = handing::settled(&app.store, &judged, identifier(), jiff::Timestamp::now()).await?;
         match app.store.hand_in(&new).await {
             // Each time around, one more of theirs is kept.
             Err(StoreError::Overtaken) => {}
-            other => return Ok((new, other?)),
+            Err(StoreError::Behind) => return Ok(None),
+            other => return Ok(Some((new.seed, other?))),
         }
     }
+}
+
+/// Puts what is handed in into the queue.
+async fn later(
+    app: &App,
+    lesson: &Lesson,
+    body: String,
+    who: &Who,
+    key: Option<String>,
+) -> Result<Accepted, Problem> {
+    // What nobody could grade is refused now.
+    Submission::from_json(&body)?;
+    let accept = Accept {
+        course: who.course.clone(),
+        lesson: lesson.slug.clone(),
+        whose: who.whose.clone(),
+        student: who.student.clone(),
+        body,
+        seed: who.seed.clone(),
+        key,
+        bundle: lesson.bundle(),
+    };
+    Ok(app.store.enqueue(&accept).await?)
+}
+
+/// A submission that has no verdict yet, or has one by now.
+#[derive(Debug, Serialize, JsonSchema)]
+struct SubmissionState {
+    /// Its name.
+    id: String,
+    /// `waiting`, `graded`, or `failed`: it could not be graded, which is not the student's fault and uses no attempt.
+    state: &'static str,
+    /// How many come before it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    before: Option<i64>,
+    /// What it earned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verdict: Option<GradedSubmission>,
+}
+
+/// The answer to what waits for its verdict.
+async fn waiting(app: &App, id: String) -> Result<Response, Problem> {
+    let location = format!("/api/v1/submissions/{id}");
+    let before = app.store.waiting(&id).await?.and_then(|waiting| waiting.before);
+    let state = SubmissionState { id, state: "waiting", before, verdict: None };
+    Ok((StatusCode::ACCEPTED, [(header::LOCATION, location)], Answer(state)).into_response())
+}
+
+/// Where a submission stands.
+///
+/// For what is graded later: ask until it is graded.
+#[utoipa::path(get, path = "/submissions/{id}", operation_id = "get_submission", tag = "submissions", params(("id" = String, Path)), responses(
+    (status = 200, description = "Waiting with its place, graded with its verdict, or failed", body = ref(of::<SubmissionState>())),
+    (status = 404, description = "There is no such submission of whoever asks", body = ref(PROBLEM))))]
+async fn state(
+    State(app): State<App>,
+    PathParameters(id): PathParameters<String>,
+    caller: Caller,
+) -> Result<Answer<SubmissionState>, Problem> {
+    let member = if app.access.is_class() { Some(caller.member()?) } else { None };
+    let is_theirs = |person: &str| member.as_ref().is_none_or(|member| member.id == person);
+    if let Some(waiting) = app.store.waiting(&id).await?.filter(|waiting| is_theirs(&waiting.person)) {
+        let state = if waiting.before.is_some() { "waiting" } else { "failed" };
+        return Ok(Answer(SubmissionState { id, state, before: waiting.before, verdict: None }));
+    }
+    let course = if member.is_some() { CLASS } else { HOME };
+    let found = app.store.submission(course, &id).await?.filter(|(person, _)| is_theirs(person));
+    let (person, kept) = found.ok_or(StoreError::Unknown("submission"))?;
+    let policy = app.store.assignment(course, &kept.lesson).await?.policy;
+    let lesson = assigned(lessons::find(&app, &kept.lesson)?, &policy);
+    let own = kept.verdict["provenance"]["seed"].as_str().unwrap_or_default().to_owned();
+    let seed = member.as_ref().map_or(own, |member| app.access.seed_of(member));
+    let verdict = told(&app, lesson, policy, Some(person), (seed, kept.verdict)).await?;
+    Ok(Answer(SubmissionState { id, state: "graded", before: None, verdict: Some(verdict) }))
 }
 
 /// The name that the client gave to the request.
@@ -123,30 +238,11 @@ fn request_key(headers: &HeaderMap) -> Result<Option<String>, Problem> {
     })
 }
 
-/// Who hands in.
-pub(super) struct Who {
-    pub(super) course: &'static str,
-    pub(super) whose: Whose,
-    pub(super) student: String,
-    /// The class decides whose numbers these are; at home the submission says it.
-    seed: Option<String>,
-}
-
-impl Who {
-    /// The person's id, where it is known.
-    fn person(&self) -> Option<String> {
-        match &self.whose {
-            Whose::Person(id) => Some(id.clone()),
-            Whose::Named => None,
-        }
-    }
-}
-
 /// At home whoever the submission names, in a class the caller: there a submission names nobody.
 pub(super) fn who(app: &App, caller: Caller, body: &Value) -> Result<Who, Problem> {
     if !app.access.is_class() {
         let student = student(body.get("student").and_then(Value::as_str))?;
-        return Ok(Who { course: HOME, whose: Whose::Named, student, seed: None });
+        return Ok(Who { course: HOME.to_owned(), whose: Whose::Named, student, seed: None });
     }
     if body.get("seed").is_some() || body.get("student").is_some() {
         return Err(Problem::new(
@@ -159,67 +255,7 @@ pub(super) fn who(app: &App, caller: Caller, body: &Value) -> Result<Who, Proble
     let member = caller.member()?;
     app.access.check_submissions(&member.id)?;
     let seed = Some(app.access.seed_of(&member));
-    Ok(Who { course: CLASS, whose: Whose::Person(member.id), student: member.name, seed })
-}
-
-/// What a student has handed in to the lesson, the oldest first, and the last entry of it in the log.
-async fn earlier(app: &App, judged: &Judged) -> Result<(Vec<StoredSubmission>, i64), Problem> {
-    let who = &judged.who;
-    let person = match &who.whose {
-        Whose::Person(id) => Some(id.clone()),
-        Whose::Named => app.store.person_named(HOME, &who.student).await?,
-    };
-    let Some(person) = person else { return Ok((Vec::new(), 0)) };
-    Ok(app.store.earlier(who.course, &person, &judged.lesson.slug).await?)
-}
-
-/// What is handed in, judged for itself.
-struct Judged {
-    /// As it is assigned.
-    lesson: Lesson,
-    who: Who,
-    key: Option<String>,
-    submission: Submission,
-    verdict: Verdict,
-    seed: String,
-}
-
-/// Judges what is handed in: without what came before, and without the right answers.
-fn judged(app: &App, lesson: Lesson, body: &Value, who: Who, key: Option<String>) -> Result<Judged, Problem> {
-    let (submission, mut verdict) =
-        grading::grade(&lesson, &app.variants, &body.to_string(), who.seed.as_deref())?;
-    verdict.student = Some(who.student.clone());
-    let seed = verdict.provenance.seed.clone();
-    if who.seed.is_some() {
-        // It would let others compute these numbers.
-        verdict.provenance.seed.clear();
-    }
-    Ok(Judged { lesson, who, key, submission, verdict, seed })
-}
-
-/// What is kept of it, after what came before: up to the entry `after` of the log.
-fn settled(judged: &Judged, earlier: Vec<StoredSubmission>, after: i64) -> Result<HandIn, Problem> {
-    let Judged { lesson, who, key, submission, seed, .. } = judged;
-    let mut verdict = judged.verdict.clone();
-    grading::settle(lesson, earlier, submission, &mut verdict)?;
-    let received = jiff::Timestamp::now();
-    let counted = verdict.gradable;
-    let told = KeptVerdict { id: identifier(), submitted_at: format!("{received:.3}"), verdict };
-    Ok(HandIn {
-        id: told.id.clone(),
-        course: who.course.to_owned(),
-        lesson: lesson.slug.clone(),
-        whose: who.whose.clone(),
-        student: who.student.clone(),
-        seed: seed.clone(),
-        received_at: received.as_millisecond(),
-        answers: serde_json::to_string(&submission.answers).map_err(Problem::internal)?,
-        verdict: serde_json::to_value(told).map_err(Problem::internal)?,
-        counted,
-        after,
-        key: key.clone(),
-        bundle: lesson.bundle(),
-    })
+    Ok(Who { course: CLASS.to_owned(), whose: Whose::Person(member.id), student: member.name, seed })
 }
 
 /// Who hands in: a name of reasonable length, without control characters.

@@ -49,7 +49,7 @@ pub(in crate::cli) fn grades(options: &Grades, course: &Course, json: bool) -> R
 }
 
 /// A gradebook that is there: looking makes none. What is on a server is found out by opening it.
-pub(super) fn existing(location: &Location) -> Result<&Location, Problem> {
+pub(in crate::cli) fn existing(location: &Location) -> Result<&Location, Problem> {
     if let Location::File(path) = location {
         file(path)?;
     }

@@ -65,7 +65,8 @@ impl Store {
 
 /// Takes the name and the ways in away.
 async fn forget(connection: &mut AnyConnection, course: &str, person: &str) -> Result<(), StoreError> {
-    for statement in [sql::REMOVE_IDENTITIES, sql::REMOVE_SESSIONS] {
+    // What waits has no grade yet: nothing is to be proved with it.
+    for statement in [sql::REMOVE_IDENTITIES, sql::REMOVE_SESSIONS, sql::REMOVE_GRADINGS] {
         sqlx::query(statement).bind(person).execute(&mut *connection).await?;
     }
     let number = person.get(..6).unwrap_or(person);

@@ -23,7 +23,7 @@ pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
         "lesson_version",
         "SELECT * FROM lesson_version WHERE sha256 IN (SELECT v.lesson_sha256 FROM verdict v \
          JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment WHERE a.course = $1) \
-         ORDER BY sha256",
+         OR sha256 IN (SELECT lesson_sha256 FROM grading WHERE course = $1) ORDER BY sha256",
     ),
     ("assignment", "SELECT * FROM assignment WHERE course = $1 ORDER BY id"),
     (
@@ -49,6 +49,7 @@ pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
          ORDER BY d.regrade, d.person",
     ),
     ("prediction", "SELECT * FROM prediction WHERE course = $1 ORDER BY n"),
+    ("grading", "SELECT * FROM grading WHERE course = $1 ORDER BY n"),
     ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n"),
 ];
 

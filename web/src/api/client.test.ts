@@ -1,0 +1,50 @@
+import { afterEach, expect, test, vi } from "vitest";
+import { ApiError, api } from "./client";
+
+afterEach(() => {
+  vi.unstubAllGlobals();
+  vi.useRealTimers();
+});
+
+/** A server that gives these answers, one after the other; the addresses that were asked. */
+function answering(...answers: [number, unknown][]): string[] {
+  const asked: string[] = [];
+  vi.useFakeTimers();
+  vi.stubGlobal("fetch", (path: string, request: { method: string }) => {
+    asked.push(`${request.method} ${path}`);
+    const [status, body] = answers[asked.length - 1] ?? [500, {}];
+    return Promise.resolve(new Response(JSON.stringify(body), { status }));
+  });
+  return asked;
+}
+
+async function submitted(waits: number[]) {
+  const done = api.submit("screw", { student: "ada", answers: {} }, "a name", (before) => waits.push(before));
+  const settled = done.catch((error: unknown) => error);
+  await vi.runAllTimersAsync();
+  return settled;
+}
+
+test("what is graded at once is told at once", async () => {
+  const asked = answering([201, { id: "s" }]);
+  expect(await submitted([])).toEqual({ id: "s" });
+  expect(asked).toEqual(["POST /api/v1/lessons/screw/submissions"]);
+});
+
+test("what waits is asked for until it is graded, and its place is told", async () => {
+  const waits: number[] = [];
+  const asked = answering(
+    [202, { id: "s", state: "waiting", before: 2 }],
+    [200, { id: "s", state: "waiting", before: 0 }],
+    [200, { id: "s", state: "graded", verdict: { id: "s", earned: 1 } }],
+  );
+  expect(await submitted(waits)).toEqual({ id: "s", earned: 1 });
+  expect(waits).toEqual([2, 0]);
+  expect(asked.slice(1)).toEqual(["GET /api/v1/submissions/s", "GET /api/v1/submissions/s"]);
+});
+
+test("what could not be graded is the server's fault", async () => {
+  answering([202, { id: "s", state: "waiting", before: 0 }], [200, { id: "s", state: "failed" }]);
+  const error = await submitted([]);
+  expect(error instanceof ApiError && error.problem.code).toBe("not-graded");
+});
