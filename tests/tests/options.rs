@@ -218,6 +218,7 @@ fn others(folder: &Path) -> Vec<Vec<String>> {
         &["scenes", "--guide"],
         &["scenes", "free-fell"],
         &["schema", "scene"],
+        &["export", "docs", &file("docs")],
         &["import", &data("arm.urdf"), "--out", &file("arm.json")],
         &["import", &data("problems/mimic/mimic.urdf"), "--with", &data("problems/mimic/side.json")],
         &[

@@ -55,6 +55,8 @@ pub(super) fn read(text: &str, address: &dyn Fn(&str) -> Option<String>) -> Arti
     }
     let Reader { mut article, out, .. } = reader;
     html::push_html(&mut article.html, out.into_iter());
+    // A heading without words is none.
+    article.html = article.html.replace("<th></th>", "<td></td>");
     article
 }
 
@@ -144,9 +146,11 @@ impl<'e> Reader<'_, 'e> {
             Event::InlineHtml(tag) if tag.starts_with("<math") => self.in_maths = true,
             Event::InlineHtml(tag) if tag.starts_with("</math") => self.in_maths = false,
             Event::Text(text) | Event::Code(text) if !self.in_maths => section.words.push_str(text),
-            Event::SoftBreak | Event::HardBreak | Event::End(_) if !section.words.ends_with(' ') => {
-                section.words.push(' ');
-            }
+            Event::SoftBreak
+            | Event::HardBreak
+            | Event::End(
+                TagEnd::Paragraph | TagEnd::Heading(_) | TagEnd::Item | TagEnd::TableCell | TagEnd::CodeBlock,
+            ) if !section.words.ends_with(' ') => section.words.push(' '),
             _ => {}
         }
     }

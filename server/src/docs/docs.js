@@ -40,7 +40,11 @@ dark.addEventListener("change", apply);
 /** Words as they are compared: small letters without accents. */
 const plain = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 
-/** The sections that have all words, the best first: a word in a heading counts more than in the text. */
+/** How often a word of a text counts: then it is about it. */
+const MOST = 6;
+
+/** The sections that have all words, the best first: a word in a heading counts more than in the text, words that stand
+ * together more than apart. */
 function matches(sections, query) {
   const words = plain(query).split(/\s+/).filter((word) => word.length > 0);
   if (words.length === 0) return [];
@@ -50,13 +54,15 @@ function matches(sections, query) {
     let score = 0;
     for (const word of words) {
       const whole = head.split(/[^\p{L}\p{N}]+/u).includes(word);
-      const own = (whole ? 20 : head.includes(word) ? 8 : 0) + (body.includes(word) ? 1 : 0);
+      const often = Math.min(body.split(word).length - 1, MOST);
+      const own = (whole ? 20 : head.includes(word) ? 8 : 0) + often;
       if (own === 0) {
         score = 0;
         break;
       }
       score += own;
     }
+    if (score > 0 && body.includes(words.join(" "))) score += 10;
     if (score > 0) found.push({ address, page, heading, text, score });
   }
   return found.sort((a, b) => b.score - a.score).slice(0, 12);
@@ -66,7 +72,8 @@ function matches(sections, query) {
 function excerpt(text, query) {
   const word = plain(query).split(/\s+/).find((part) => part.length > 0) ?? "";
   const at = Math.max(0, plain(text).indexOf(word) - 50);
-  return (at > 0 ? "… " : "") + text.slice(at, at + 150).trim();
+  const part = text.slice(at, at + 150);
+  return at > 0 ? `… ${part.replace(/^\S*\s/, "")}` : part;
 }
 
 function show(sections, query) {

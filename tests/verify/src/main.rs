@@ -35,11 +35,7 @@ impl Step {
 
 /// The steps in their order.
 const STEPS: [Step; 11] = [
-    Step::new(
-        "setup",
-        "install what the tests need: Chromium, Octave, packages of npm and Python",
-        setup::run,
-    ),
+    Step::new("setup", "install what the tests need: Chromium, Octave, packages of npm and PyPI", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
     Step::new("bits", "the same results from builds for old and for new processors", bits::run),
