@@ -7,6 +7,7 @@ use tokio::sync::Semaphore;
 use triad_lessons::Course;
 
 use crate::access::Access;
+use crate::glance::Presence;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
 use crate::motion::Shelf;
@@ -40,6 +41,8 @@ pub struct App {
     pub at_once: Arc<Semaphore>,
     /// Regrades that were looked at and not applied yet.
     pub regrades: Arc<Previews>,
+    /// Who of the class was here a moment ago.
+    pub presence: Arc<Presence>,
     /// Who may do what.
     pub access: Arc<Access>,
     /// What this server allows.
@@ -63,6 +66,7 @@ impl App {
             motions: Arc::default(),
             at_once: Arc::new(Semaphore::new(std::thread::available_parallelism().map_or(1, usize::from))),
             regrades: Arc::default(),
+            presence: Arc::default(),
             access: Arc::new(Access::home(false, [])),
             limits: Arc::new(limits),
             reports: Path::new(REPORTS).into(),

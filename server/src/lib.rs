@@ -36,6 +36,7 @@ pub mod access;
 pub mod grades;
 
 pub mod analysis;
+pub mod glance;
 
 pub mod regrade;
 

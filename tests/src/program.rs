@@ -85,8 +85,23 @@ impl Server {
 
     /// The same, on a given port.
     pub fn start_at(folder: &Path, port: &str) -> Self {
+        Self::launch(folder, &["--port", port]).0
+    }
+
+    /// Starts a server for a class; with the link with which its teacher comes in.
+    pub fn start_class(folder: &Path) -> (Self, String) {
+        let (server, mut lines) = Self::launch(folder, &["--port", "0", "--class"]);
+        let line = lines.find(|line| line.contains("/setup#")).expect("a link for the teacher");
+        let link = line.split_whitespace().find(|word| word.contains("/setup#"));
+        (server, link.unwrap_or_default().to_owned())
+    }
+
+    /// Starts a server; with the lines that it says after the first.
+    fn launch(folder: &Path, options: &[&str]) -> (Self, impl Iterator<Item = String> + use<>) {
         let mut child = Command::new(triad())
-            .args(["serve", "--port", port, "--database"])
+            .arg("serve")
+            .args(options)
+            .arg("--database")
             .arg(folder.join("grades.db"))
             .current_dir(folder)
             .stdin(Stdio::null())
@@ -100,8 +115,14 @@ impl Server {
         let at = line.split("http://").nth(1).and_then(|rest| rest.split_whitespace().next());
         let address = at.unwrap_or_else(|| panic!("the server said {line:?}")).to_owned();
         // Whatever else it says must not fill the pipe.
-        std::thread::spawn(move || std::io::copy(&mut lines, &mut std::io::sink()));
-        Self { child, address }
+        let (said, heard) = std::sync::mpsc::channel();
+        std::thread::spawn(move || {
+            for line in lines.lines().map_while(Result::ok) {
+                // Nobody need listen.
+                drop(said.send(line));
+            }
+        });
+        (Self { child, address }, heard.into_iter())
     }
 
     /// Asks it to stop, as a system would, and waits.

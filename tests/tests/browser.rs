@@ -1,10 +1,11 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
 //! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
 //! without a graphics card and with busy cores; then the first page, frames in other sites, and what is taken along; then
-//! the documentation. What it saw is kept in `tests/output/`.
+//! the documentation; then a class as its teacher runs it. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
@@ -64,16 +65,21 @@ fn lesson_two_from_the_first_look_to_the_grade_and_after_a_restart() {
 
 /// Runs a script against a server of its own, with what it needs besides.
 fn run(script: &str, more: &[&Path]) {
+    visit(script, |home| (Server::start(home), more.iter().map(OsString::from).collect()));
+}
+
+/// The same with a server that is started for it, and what that says besides.
+fn visit(script: &str, start: impl FnOnce(&Path) -> (Server, Vec<OsString>)) {
     let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = scripts();
     let home = tempfile::tempdir().unwrap();
-    let server = Server::start(home.path());
+    let (server, besides) = start(home.path());
     let said = must(
         "the browser",
         Command::new("node")
             .args([script, &format!("http://{}", server.address)])
             .arg(root().join("tests/output"))
-            .args(more)
+            .args(besides)
             .current_dir(&folder),
     );
     println!("{said}");
@@ -106,4 +112,12 @@ fn the_documentation_is_searched_and_read_in_light_and_dark_on_a_phone_and_from_
     let written = program::run(&["export", "docs", folder.path().to_str().unwrap()]);
     assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
     run("docs.mjs", &[folder.path()]);
+}
+
+#[test]
+fn a_class_from_the_setup_link_to_the_mistakes_of_its_students() {
+    visit("class.mjs", |home| {
+        let (server, link) = Server::start_class(home);
+        (server, vec![link.into()])
+    });
 }

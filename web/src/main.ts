@@ -51,6 +51,14 @@ function routes(main: HTMLElement): void {
         open: lazily("Class", () => import("./class/overview").then((page) => page.classPage)),
       },
       {
+        pattern: /^\/class\/now$/,
+        open: lazily("At a glance", () => import("./class/glance").then((page) => page.glancePage)),
+      },
+      {
+        pattern: /^\/class\/people$/,
+        open: lazily("People", () => import("./class/people").then((page) => page.peoplePage)),
+      },
+      {
         pattern: /^\/class\/lessons\/([^/]+)$/,
         open: lazily("Lesson of the class", () =>
           import("./class/assignment").then((page) => page.assignmentPage),

@@ -55,6 +55,9 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("POST", "/api/v1/invitations", OWNER),
     ("GET", "/api/v1/standings", GRADER),
     ("GET", "/api/v1/standings.csv", GRADER),
+    ("GET", "/api/v1/standings.jsonl", GRADER),
+    ("POST", "/api/v1/standings/canvas", GRADER),
+    ("GET", "/api/v1/glance", GRADER),
     ("GET", "/api/v1/people/{person}/submissions", GRADER),
     ("POST", "/api/v1/people/{person}/decisions", GRADER),
     // What leaves the gradebook.

@@ -12,7 +12,9 @@ use axum::response::{IntoResponse, Response};
 
 use crate::access::rights;
 use crate::app::App;
+use crate::glance::lesson_of;
 use crate::page;
+use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::{CLASS, Member};
 
@@ -104,6 +106,9 @@ async fn admitted(app: &App, request: &Parts) -> Result<Caller, Problem> {
         None => None,
     };
     rights::check(request.method.as_str(), address, member.as_ref())?;
+    if let Some(member) = &member {
+        app.presence.note(&member.id, lesson_of(request.uri.path()), Moment::now());
+    }
     Ok(Caller(member))
 }
 

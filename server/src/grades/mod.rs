@@ -1,13 +1,14 @@
 //! The table of a class: students and what each has reached in every lesson, for the page and for other programs.
 
 mod book;
+mod canvas;
+mod exports;
 mod record;
 
 use std::collections::HashMap;
 
-use csv::{QuoteStyle, WriterBuilder};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use triad_lessons::{Course, Lesson};
 
 use crate::policy::{Decided, Moment};
@@ -15,6 +16,8 @@ use crate::problem::Problem;
 use crate::store::{DecisionKind, Member, Role, Store};
 
 pub use book::{Book, Entry, assigned, case, pass_points, possible};
+pub use canvas::{Filled, fill};
+pub use exports::{Format, csv, lines, sheet};
 pub use record::{LessonRecord, Record, record, told};
 
 /// Students by lessons.
@@ -78,19 +81,6 @@ pub struct Reached {
     pub decided: Option<Decided>,
 }
 
-/// For which program a table is written.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, clap::ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Format {
-    /// A spreadsheet.
-    #[default]
-    Plain,
-    /// Canvas: Grades, Import.
-    Canvas,
-    /// Moodle: Grades, Import, CSV file.
-    Moodle,
-}
-
 /// The table of a course, as it is at a moment.
 ///
 /// Errors if the gradebook cannot be read.
@@ -145,97 +135,4 @@ pub fn asks(entry: &Entry) -> bool {
     let last_said = entry.said.last();
     last_said
         .is_some_and(|said| said.kind == DecisionKind::Request && last_decided.is_none_or(|at| at < said.at))
-}
-
-/// The table as CSV. A cell without an entry is left empty, which other programs take as "leave it"; 0 is a grade.
-///
-/// Errors if it cannot be written, which memory does not do.
-pub fn csv(table: &GradeTable, format: Format, title: &str) -> Result<String, Problem> {
-    let lead: &[&str] = match format {
-        Format::Plain => &["Student", "Id"],
-        Format::Canvas => &["Student", "ID", "SIS User ID", "SIS Login ID", "Section"],
-        Format::Moodle => &["Full name", "ID number"],
-    };
-    let named = |lesson: &GradedLesson| format!("{:02} {}", lesson.number, lesson.title);
-    let mut rows: Vec<Vec<String>> = Vec::with_capacity(table.students.len() + 2);
-    rows.push(lead.iter().map(|text| (*text).to_owned()).chain(table.lessons.iter().map(named)).collect());
-    if format == Format::Canvas {
-        let empty = std::iter::repeat_n(String::new(), lead.len() - 1);
-        let points = table.lessons.iter().map(|lesson| lesson.possible.to_string());
-        rows.push(std::iter::once("    Points Possible".to_owned()).chain(empty).chain(points).collect());
-    }
-    for student in &table.students {
-        let mut row = vec![student.name.clone()];
-        match format {
-            Format::Plain => row.push(student.id.clone()),
-            // The columns that these programs know people by: the teacher fills in one of them.
-            Format::Canvas => row.extend([String::new(), String::new(), String::new(), title.to_owned()]),
-            Format::Moodle => row.push(String::new()),
-        }
-        let points =
-            |lesson: &GradedLesson| student.lessons.get(&lesson.slug).map(|one| one.points.to_string());
-        row.extend(table.lessons.iter().map(|lesson| points(lesson).unwrap_or_default()));
-        rows.push(row);
-    }
-    sheet(&rows)
-}
-
-/// Rows as CSV: every cell quoted, none taken for a formula.
-///
-/// Errors if it cannot be written, which memory does not do.
-pub fn sheet(rows: &[Vec<String>]) -> Result<String, Problem> {
-    let mut writer = WriterBuilder::new().quote_style(QuoteStyle::Always).from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(row.iter().map(|cell| harmless(cell))).map_err(Problem::internal)?;
-    }
-    let bytes = writer.into_inner().map_err(Problem::internal)?;
-    String::from_utf8(bytes).map_err(Problem::internal)
-}
-
-/// A cell that no spreadsheet takes for a formula.
-fn harmless(cell: &str) -> String {
-    if cell.starts_with(['=', '+', '-', '@', '\t', '\r']) { format!("'{cell}") } else { cell.to_owned() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn small() -> GradeTable {
-        let lesson =
-            GradedLesson { slug: "a".into(), number: 1, title: "A, \"quoted\"".into(), possible: 12.0 };
-        let reached = Reached {
-            points: 0.0,
-            earned: 0.0,
-            predicted: 0.0,
-            attempts: 1,
-            passed: false,
-            late: false,
-            last: None,
-            extended: false,
-            asked: false,
-            decided: None,
-        };
-        let row = |name: &str, lessons| StudentRow { id: "1".into(), name: name.into(), lessons };
-        GradeTable {
-            lessons: vec![lesson],
-            students: vec![
-                row("=cmd()", HashMap::from([("a".to_owned(), reached)])),
-                row("Zoë", HashMap::new()),
-            ],
-        }
-    }
-
-    #[test]
-    fn tables_are_written_for_other_programs_and_run_no_formula() {
-        let plain = csv(&small(), Format::Plain, "").unwrap();
-        assert_eq!(
-            plain,
-            "\"Student\",\"Id\",\"01 A, \"\"quoted\"\"\"\n\"'=cmd()\",\"1\",\"0\"\n\"Zoë\",\"1\",\"\"\n"
-        );
-        let canvas = csv(&small(), Format::Canvas, "Mechanics").unwrap();
-        assert_eq!(canvas.lines().nth(1), Some(r#""    Points Possible","","","","","12""#));
-        assert_eq!(canvas.lines().nth(3), Some(r#""Zoë","","","","Mechanics","""#));
-        assert!(csv(&small(), Format::Moodle, "").unwrap().starts_with("\"Full name\",\"ID number\","));
-    }
 }

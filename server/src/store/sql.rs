@@ -199,6 +199,10 @@ statements! {
     IN_FORCE = "SELECT s.id, a.slug, s.student, s.answers, v.body, s.person FROM submission s \
         JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
         WHERE a.course = $1 AND s.id = $2 ORDER BY v.run DESC LIMIT 1";
+    EVENT_UNTIL = "SELECT n FROM event WHERE course = $1 AND at <= $2 ORDER BY n DESC LIMIT 1";
+    RECENT = "SELECT s.id, s.person, a.slug, s.answers, v.body, v.lesson_sha256, v.seed, v.build, s.received_at \
+        FROM assignment a JOIN submission s ON s.assignment = a.id JOIN verdict v ON v.submission = s.id \
+        WHERE a.course = $1 AND s.n > $2 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) ORDER BY s.n";
     // Whether what stands there is what was written.
     RECORDED = "SELECT s.* FROM submission s JOIN assignment a ON a.id = s.assignment WHERE a.course = $1 ORDER BY s.n";
     VERDICTS = "SELECT v.* FROM verdict v JOIN submission s ON s.id = v.submission \

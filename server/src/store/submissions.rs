@@ -104,6 +104,13 @@ pub struct Recorded {
     pub at: Moment,
 }
 
+/// Id, person, lesson, answers, verdict, SHA-256 of the lesson, seed, program, when.
+type RecordedRow = (String, String, String, String, String, String, String, String, i64);
+
+fn recorded((id, person, lesson, answers, body, lesson_sha256, seed, build, at): RecordedRow) -> Recorded {
+    Recorded { id, person, lesson, answers, body, lesson_sha256, seed, build, at: Moment(at) }
+}
+
 /// What was kept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kept {
@@ -209,20 +216,20 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn recorded(&self, course: &str, lesson: Option<&str>) -> Result<Vec<Recorded>, StoreError> {
-        type Row = (String, String, String, String, String, String, String, String, i64);
         let list = sqlx::query_as(sql::REBUILDABLE).bind(course).bind(lesson);
-        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
-        let recorded = |(id, person, lesson, answers, body, lesson_sha256, seed, build, at)| Recorded {
-            id,
-            person,
-            lesson,
-            answers,
-            body,
-            lesson_sha256,
-            seed,
-            build,
-            at: Moment(at),
-        };
+        let rows: Vec<RecordedRow> = list.fetch_all(&self.pools.readers).await?;
+        Ok(rows.into_iter().map(recorded).collect())
+    }
+
+    /// What was handed in to a course after a moment, the oldest first, with the verdicts in force.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn recent(&self, course: &str, after: Moment) -> Result<Vec<Recorded>, StoreError> {
+        // The log has the moments in order, so that only its end is read.
+        let last = sqlx::query_as(sql::EVENT_UNTIL).bind(course).bind(after.0);
+        let last: Option<(i64,)> = last.fetch_optional(&self.pools.readers).await?;
+        let list = sqlx::query_as(sql::RECENT).bind(course).bind(last.map_or(0, |(n,)| n));
+        let rows: Vec<RecordedRow> = list.fetch_all(&self.pools.readers).await?;
         Ok(rows.into_iter().map(recorded).collect())
     }
 

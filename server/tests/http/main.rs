@@ -10,6 +10,7 @@ mod class;
 mod described;
 mod document;
 mod generated;
+mod glance;
 mod lessons;
 mod motion;
 mod policy;

@@ -363,8 +363,27 @@ export interface components {
             /** @description As it was told. */
             before: components["schemas"]["GradedSubmission"];
         };
+        /** @description A lesson in which somebody is. */
+        BusyLesson: {
+            /**
+             * Format: uint32
+             * @description Its place in the course.
+             */
+            number: number;
+            /** @description Who, by name. */
+            people: components["schemas"]["Present"][];
+            /** @description Slug of the lesson. */
+            slug: string;
+            /** @description Its title. */
+            title: string;
+        };
         /** @description From where the mechanism is looked at. */
         Camera: "corner" | "front" | "side" | "above";
+        /** @description A gradebook that Canvas exported. */
+        CanvasExport: {
+            /** @description The file as text. */
+            file: string;
+        };
         /** @description How a submission comes out. */
         Changed: "same" | "words" | "up" | "down" | "gradable" | "failed";
         /** @description Bodies, coordinates, rows, rank, degrees of freedom and redundant rows of a scene. */
@@ -917,6 +936,24 @@ export interface components {
              */
             pointer: string;
         };
+        /** @description A table to be imported into Canvas, and what could not be filled in. */
+        Filled: {
+            /**
+             * Format: uint
+             * @description How many grades change.
+             */
+            changed: number;
+            /** @description The table as CSV: the columns about people, and those in which something changed. */
+            csv: string;
+            /** @description Columns of lessons that were found. */
+            found: string[];
+            /** @description Names here that are not in the table. */
+            missing: string[];
+            /** @description Names in the table whom nobody here has. */
+            unknown: string[];
+            /** @description Lessons with grades that have no column: make an assignment of that title in Canvas, and export again. */
+            without_column: string[];
+        };
         /** @description What to look at in a question. */
         Flag: "easy" | "hard" | "weak";
         /**
@@ -995,6 +1032,32 @@ export interface components {
             at: string;
             /** @description What was told. */
             verdict: components["schemas"]["GradedSubmission"];
+        };
+        /** @description A class at a glance. */
+        Glance: {
+            /** @description When. */
+            at: string;
+            /** @description What was handed in within the last twenty minutes, the newest first: at most fifty. */
+            handed: components["schemas"]["JustHanded"][];
+            /**
+             * Format: uint
+             * @description How many that are in all.
+             */
+            handed_in_all: number;
+            /**
+             * Format: uint
+             * @description How many were here within the last five minutes.
+             */
+            here: number;
+            /** @description The lessons in which somebody is, in the order of the course. */
+            lessons: components["schemas"]["BusyLesson"][];
+            /** @description Who has tried one question at least three times of late, and not got it: the most tries first. */
+            stuck: components["schemas"]["Stuck"][];
+            /**
+             * Format: uint
+             * @description Students of the class.
+             */
+            students: number;
         };
         /** @description Students by lessons. */
         GradeTable: {
@@ -1449,6 +1512,33 @@ export interface components {
              * @description Rate of the displacement, m/s.
              */
             speed?: number | null;
+        };
+        /** @description Something that was just handed in. */
+        JustHanded: {
+            /** @description When. */
+            at: string;
+            /**
+             * Format: double
+             * @description Points that it earned.
+             */
+            earned: number;
+            /** @description Whether it could be judged. */
+            gradable: boolean;
+            /** @description The submission. */
+            id: string;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description The name. */
+            name: string;
+            /** @description The person's id. */
+            person: string;
+            /**
+             * Format: double
+             * @description Points that can be earned.
+             */
+            possible: number;
+            /** @description Title of the lesson. */
+            title: string;
         };
         /** @description The answer to one question, as it is kept. */
         KeptAnswer: {
@@ -2679,6 +2769,17 @@ export interface components {
         };
         /** @description What was predicted in a lesson. */
         PredictionTable: components["schemas"]["PredictionCounts"][];
+        /** @description Somebody who is here. */
+        Present: {
+            /** @description When they last did something. */
+            at: string;
+            /** @description The name. */
+            name: string;
+            /** @description The person's id. */
+            person: string;
+            /** @description Whether they are stuck in this lesson. */
+            stuck: boolean;
+        };
         /** @description What only the presenter sees. */
         PresenterState: {
             /**
@@ -3939,6 +4040,28 @@ export interface components {
              * @description Integrator steps, 1 to 100000.
              */
             steps?: number | null;
+        };
+        /** @description Somebody who is stuck. */
+        Stuck: {
+            /** @description When the last one came. */
+            at: string;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description The mistake of the last one, if it was recognised. */
+            mistake?: string | null;
+            /** @description The name. */
+            name: string;
+            /** @description The person's id. */
+            person: string;
+            /** @description Id of the question. */
+            question: string;
+            /** @description Title of the lesson. */
+            title: string;
+            /**
+             * Format: uint
+             * @description Different wrong answers of late, and answers that were sent back.
+             */
+            tries: number;
         };
         /** @description A student's row. */
         StudentRow: {

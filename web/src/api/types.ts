@@ -77,3 +77,5 @@ export type RegradePreview = Schemas["Preview"];
 export type LessonFigures = Schemas["LessonFigures"];
 export type QuestionAnalysis = Schemas["QuestionAnalysis"];
 export type QuestionFigures = Schemas["QuestionFigures"];
+export type Filled = Schemas["Filled"];
+export type Glance = Schemas["Glance"];

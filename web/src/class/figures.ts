@@ -11,7 +11,7 @@ export const percent = (share: number | null | undefined): string =>
 
 /** A correlation, with two decimals. */
 export const correlation = (value: number | null | undefined): string =>
-  value == null ? "·" : value.toFixed(2).replace("-", "−");
+  value == null ? "·" : (Math.round(100 * value) / 100 + 0).toFixed(2).replace("-", "−");
 
 /** A bar for a number that stands beside it. */
 export function shareBar(share: number | null | undefined): HTMLElement {

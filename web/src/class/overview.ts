@@ -1,8 +1,8 @@
 // The class, for those who teach it: how students join, and what everybody has reached.
 import { api } from "../api/client";
 import { me } from "../api/identity";
-import type { ClassView, GradeTable, Reached, StudentRow } from "../api/types";
-import { h } from "../core/dom";
+import type { ClassView, Filled, GradeTable, Reached, StudentRow } from "../api/types";
+import { h, saveFile } from "../core/dom";
 import { dateTime, plural, points } from "../core/format";
 import type { Page } from "../core/router";
 import { qr } from "../lecture/qr";
@@ -11,19 +11,33 @@ import { empty, problemNotice, skeleton } from "../ui/notice";
 export function classPage(outlet: HTMLElement): Page {
   const door = h("section", { class: "class-way-in" });
   const table = h("section", { "aria-label": "What everybody has reached" }, skeleton(6));
+  const lessons = h("section", { class: "student-lesson", hidden: true });
   outlet.append(
     h(
       "div",
       { class: "page wide" },
-      h("header", { class: "page-head" }, h("h1", null, me().course ?? "Class")),
+      h(
+        "header",
+        { class: "page-head row between wrap" },
+        h("h1", null, me().course ?? "Class"),
+        h(
+          "nav",
+          { class: "row", "aria-label": "The class" },
+          h("a", { class: "button", href: "/class/now" }, "At a glance"),
+          h("a", { class: "button", href: "/class/people" }, "People"),
+        ),
+      ),
       door,
       table,
+      lessons,
     ),
   );
   const load = async (): Promise<void> => {
     try {
       paintDoor(door, await api.class());
-      paintTable(table, await api.standings());
+      const grades = await api.standings();
+      paintTable(table, grades);
+      paintLessons(lessons, grades);
     } catch (error) {
       table.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
     }
@@ -63,6 +77,26 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
   );
 }
 
+/** Every lesson, also before anybody has joined. */
+function paintLessons(root: HTMLElement, grades: GradeTable): void {
+  root.hidden = false;
+  root.replaceChildren(
+    h("h2", null, "Lessons"),
+    h("p", { class: "help" }, "Dates, what is told when, questions in figures, regrades:"),
+    h(
+      "ol",
+      { class: "lesson-links" },
+      ...grades.lessons.map((lesson) =>
+        h(
+          "li",
+          { value: lesson.number },
+          h("a", { href: `/class/lessons/${encodeURIComponent(lesson.slug)}` }, lesson.title),
+        ),
+      ),
+    ),
+  );
+}
+
 function paintTable(root: HTMLElement, grades: GradeTable): void {
   const files = (["plain", "canvas", "moodle"] as const).map((format) =>
     h(
@@ -71,17 +105,72 @@ function paintTable(root: HTMLElement, grades: GradeTable): void {
       { plain: "CSV", canvas: "CSV for Canvas", moodle: "CSV for Moodle" }[format],
     ),
   );
+  const said = h("div", { "aria-live": "polite" });
   root.replaceChildren(
     h(
       "div",
       { class: "section-head" },
       h("h2", null, plural(grades.students.length, "student")),
-      h("div", { class: "row wrap" }, ...files),
+      h(
+        "div",
+        { class: "row wrap" },
+        ...files,
+        h(
+          "a",
+          { class: "button small", href: api.standingsLinesUrl, download: "grades.jsonl" },
+          "JSON lines",
+        ),
+        canvasButton(said),
+      ),
     ),
+    said,
     grades.students.length === 0
       ? empty("Nobody has joined yet", "Show the code above: whoever joins appears here.")
       : sheet(grades),
   );
+}
+
+/** Takes a gradebook that Canvas exported, and gives it back with the grades that changed. */
+function canvasButton(said: HTMLElement): HTMLElement {
+  const input = h("input", {
+    type: "file",
+    accept: ".csv,text/csv",
+    hidden: true,
+    "aria-label": "File of Canvas",
+  });
+  const button = h("button", { type: "button", class: "button small" }, "Fill in a file of Canvas…");
+  button.addEventListener("click", () => input.click());
+  input.addEventListener("change", async () => {
+    const file = input.files?.[0];
+    input.value = "";
+    if (!file) return;
+    try {
+      const filled = await api.fillCanvas(await file.text());
+      if (filled.changed > 0) saveFile(new Blob([filled.csv], { type: "text/csv" }), "canvas.csv");
+      said.replaceChildren(...filledIn(filled));
+    } catch (error) {
+      said.replaceChildren(problemNotice(error));
+    }
+  });
+  return h("span", null, input, button);
+}
+
+function filledIn(filled: Filled): HTMLElement[] {
+  const line = (what: string, names: string[]): HTMLElement | null =>
+    names.length > 0 ? h("p", { class: "help" }, `${what}: ${names.join(", ")}.`) : null;
+  const lines = [
+    h(
+      "p",
+      null,
+      filled.changed > 0
+        ? `${plural(filled.changed, "grade")} changed: import the file in Canvas.`
+        : "Canvas has all of these grades already.",
+    ),
+    line("Lessons without a column in the file", filled.without_column),
+    line("In the file, and not in this class", filled.unknown),
+    line("In this class, and not in the file", filled.missing),
+  ];
+  return lines.filter((one) => one !== null);
 }
 
 function sheet(grades: GradeTable): HTMLElement {

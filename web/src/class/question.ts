@@ -191,7 +191,12 @@ function untilRight(found: QuestionAnalysis): HTMLElement {
     "section",
     { class: "student-lesson" },
     h("h2", null, "Different answers until all points"),
-    histogram(names, { counts: [...until_right, answered - right], right: null, revealed: false }),
+    histogram(
+      names,
+      { counts: [...until_right, answered - right], right: null, revealed: false },
+      undefined,
+      "student",
+    ),
   );
 }
 

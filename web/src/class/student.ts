@@ -9,6 +9,7 @@ import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { remarksList } from "./record";
+import { renewWords } from "./words";
 
 export function studentPage(outlet: HTMLElement, params: string[]): Page {
   const id = params[0] ?? "";
@@ -41,7 +42,7 @@ function paint(
 ): void {
   const student = grades.students.find((row) => row.id === id);
   const words = h("button", { type: "button", class: "button small" }, "New words");
-  words.addEventListener("click", () => renew(id, student?.name ?? ""));
+  words.addEventListener("click", () => renewWords(id, student?.name ?? ""));
   const touched = grades.lessons.filter(
     (lesson) => student?.lessons[lesson.slug] || submissions.some((one) => one.lesson === lesson.slug),
   );
@@ -210,28 +211,4 @@ function decide(
     event.preventDefault();
     send(Number(amount.value));
   });
-}
-
-function renew(id: string, name: string): void {
-  const told = h("p", { class: "four-words", "aria-live": "polite" });
-  const button = h("button", { type: "button", class: "button primary" }, "Make new words");
-  button.addEventListener("click", () => {
-    api
-      .newWords(id)
-      .then((fresh) => {
-        told.textContent = fresh.words;
-        button.remove();
-      })
-      .catch((error: unknown) => told.replaceChildren(problemNotice(error)));
-  });
-  dialog(
-    `New words for ${name}`,
-    h(
-      "p",
-      null,
-      "The words and the link of before are worth nothing then, and their browsers are signed out.",
-    ),
-    told,
-    h("div", { class: "row" }, button),
-  );
 }

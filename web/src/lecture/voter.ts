@@ -2,6 +2,7 @@
 import { api } from "../api/client";
 import type { LectureQuestion, Tally } from "../api/types";
 import { h } from "../core/dom";
+import { plural } from "../core/format";
 import { recall, remember } from "../core/prefs";
 import { problemNotice } from "../ui/notice";
 
@@ -79,13 +80,14 @@ export function histogram(
   choices: string[],
   tally: Pick<Tally, "counts" | "right" | "revealed">,
   mine?: number,
+  what = "answer",
 ): HTMLElement {
   const all = tally.counts.reduce((sum, count) => sum + count, 0);
   const most = Math.max(1, ...tally.counts);
   return h(
     "table",
     { class: "histogram" },
-    h("caption", null, `${all} ${all === 1 ? "answer" : "answers"}`),
+    h("caption", null, plural(all, what)),
     h(
       "tbody",
       null,

@@ -5,8 +5,7 @@
 
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::{StatusCode, header};
-use axum::response::IntoResponse;
+use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use utoipa::IntoParams;
@@ -20,7 +19,7 @@ use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::api::lessons::submissions::{SubmissionList, listed};
 use crate::app::App;
-use crate::grades::{Format, GradeTable, csv, possible, table};
+use crate::grades::{GradeTable, possible, table};
 use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::{CLASS, DecisionKind, Query};
@@ -28,11 +27,7 @@ use crate::store::{CLASS, DecisionKind, Query};
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<GradeTable>();
     schemas.request::<NewDecision>();
-    OpenApiRouter::new()
-        .routes(routes!(standings))
-        .routes(routes!(standings_csv))
-        .routes(routes!(of_person))
-        .routes(routes!(decide))
+    OpenApiRouter::new().routes(routes!(standings)).routes(routes!(of_person)).routes(routes!(decide))
 }
 
 /// What everybody has reached: students by lessons.
@@ -40,37 +35,6 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     (status = 200, description = "The table", body = ref(of::<GradeTable>()))))]
 async fn standings(State(app): State<App>) -> Result<Answer<GradeTable>, Problem> {
     Ok(Answer(table(&app.store, CLASS, &app.course, Moment::now()).await?))
-}
-
-/// For which program.
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
-struct For {
-    /// `plain`, `canvas` or `moodle`; `plain` if it is not given.
-    #[serde(default, rename = "for")]
-    #[param(value_type = Option<String>)]
-    format: Format,
-}
-
-/// The same table as CSV.
-#[utoipa::path(get, path = "/standings.csv", operation_id = "get_standings_csv", tag = "class", params(For), responses(
-    (status = 200, description = "The table", body = String, content_type = "text/csv"),
-    (status = 400, description = "No such format", body = ref(PROBLEM))))]
-async fn standings_csv(
-    State(app): State<App>,
-    caller: Caller,
-    QueryParameters(wanted): QueryParameters<For>,
-) -> Result<impl IntoResponse, Problem> {
-    let course = app.store.course(CLASS).await?;
-    let grades = table(&app.store, CLASS, &app.course, Moment::now()).await?;
-    let text = csv(&grades, wanted.format, &course.title)?;
-    app.store.note(CLASS, &caller.member()?.id, "exported", "grades").await?;
-    let headers = [
-        (header::CONTENT_TYPE, "text/csv; charset=utf-8"),
-        (header::CONTENT_DISPOSITION, "attachment; filename=\"grades.csv\""),
-    ];
-    Ok((headers, text))
 }
 
 /// Which submissions of a person.

@@ -2,6 +2,8 @@
 
 pub(in crate::api) mod analysis;
 pub(in crate::api) mod assignments;
+pub(in crate::api) mod exchange;
+pub(in crate::api) mod glance;
 pub(in crate::api) mod grades;
 pub(in crate::api) mod people;
 pub(in crate::api) mod records;

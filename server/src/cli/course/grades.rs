@@ -1,6 +1,6 @@
 //! `triad grades`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
 use clap::Args;
@@ -8,7 +8,7 @@ use tokio::runtime::Builder;
 use triad_lessons::Course;
 
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
-use crate::grades::{Format, GradeTable, csv, table};
+use crate::grades::{Format, GradeTable, csv, fill, lines, table};
 use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::{CLASS, HOME, Location, Store};
@@ -24,8 +24,14 @@ pub(in crate::cli) struct Grades {
     /// For which program the CSV is.
     #[arg(long = "for", value_enum, default_value_t, requires = "csv")]
     pub(in crate::cli) format: Format,
-    /// Look whether every record is as it was written, instead.
+    /// Print a line of JSON for each student and lesson in which there is something.
     #[arg(long, conflicts_with = "csv")]
+    pub(in crate::cli) jsonl: bool,
+    /// Fill in a gradebook that Canvas exported, and print what to import there again: only columns that change.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["csv", "jsonl"])]
+    pub(in crate::cli) canvas: Option<PathBuf>,
+    /// Look whether every record is as it was written, instead.
+    #[arg(long, conflicts_with_all = ["csv", "jsonl", "canvas"])]
     pub(in crate::cli) check: bool,
 }
 
@@ -39,13 +45,40 @@ pub(in crate::cli) fn grades(options: &Grades, course: &Course, json: bool) -> R
         }
         let (id, title) = kept_course(&store).await;
         let grades = table(&store, id, course, Moment::now()).await?;
-        match (json, options.csv) {
-            (true, _) => print_json(&grades),
-            (_, true) => print_line(csv(&grades, options.format, &title)?.trim_end()),
-            _ => print(&grades),
+        match &options.canvas {
+            Some(file) => filled(file, &grades, json)?,
+            None if json => print_json(&grades),
+            None if options.csv => print_line(csv(&grades, options.format, &title)?.trim_end()),
+            None if options.jsonl => print_line(lines(&grades)?.trim_end()),
+            None => print(&grades),
         }
         Ok(Outcome::Done)
     })
+}
+
+/// Fills in a gradebook of Canvas's; what could not be filled in is said beside it.
+fn filled(file: &Path, grades: &GradeTable, json: bool) -> Result<(), Problem> {
+    let exported = std::fs::read_to_string(file).map_err(|error| {
+        let detail = format!("{} cannot be read: {error}", file.display());
+        Problem::new(StatusCode::NOT_FOUND, "no-such-file", detail, "name the file that Canvas exported")
+    })?;
+    let filled = fill(&exported, grades)?;
+    if json {
+        print_json(&filled);
+        return Ok(());
+    }
+    print_line(filled.csv.trim_end());
+    eprintln!("triad: {} changed", counted(filled.changed, "grade"));
+    for (what, names) in [
+        ("not in this class", &filled.unknown),
+        ("not in the file", &filled.missing),
+        ("without a column in the file", &filled.without_column),
+    ] {
+        if !names.is_empty() {
+            eprintln!("triad: {what}: {}", names.join("; "));
+        }
+    }
+    Ok(())
 }
 
 /// A gradebook that is there: looking makes none. What is on a server is found out by opening it.

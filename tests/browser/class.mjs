@@ -1,0 +1,201 @@
+// A class as its teacher runs it, with students in it. Started by tests/tests/browser.rs:
+//   node class.mjs http://127.0.0.1:PORT PICTURE_FOLDER SETUP_LINK
+// From the setup link to lessons without students, people and roles, students who hand in, the class at a glance while they
+// do, a question with the mistakes behind it, and what other programs take along; axe on every page, in light and in dark.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const [address, pictures, setup] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+// Ends a visit that hangs, and decides nothing else.
+const PATIENCE = 300_000;
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium", headless: true,
+  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
+});
+const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
+const complaints = [];
+
+/** A browser of its own. */
+async function visitor(name) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, bypassCSP: true, reducedMotion: "reduce" });
+  const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  page.on("pageerror", (error) => complaints.push(`${name}: ${error}`));
+  return page;
+}
+
+/** Pictures in light and in dark, and no serious fault in either. */
+async function look(page, view) {
+  for (const theme of ["light", "dark"]) {
+    await page.evaluate((wanted) => { document.documentElement.dataset.theme = wanted; }, theme);
+    await page.screenshot({ path: join(pictures, `class-${view}-${theme}.png`), fullPage: true });
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+    const serious = violations.filter((fault) => ["serious", "critical"].includes(fault.impact));
+    assert.deepEqual(serious.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" "))]), [], `axe on ${view}, ${theme}`);
+  }
+  await page.evaluate(() => { document.documentElement.dataset.theme = "light"; });
+  say(`looked at ${view}`);
+}
+
+/** Asks the server as somebody who has come in. */
+async function ask(method, path, cookie, body) {
+  const reply = await fetch(`${address}/api/v1${path}`, {
+    method, headers: { cookie: cookie ?? "", ...(body ? { "content-type": "application/json" } : {}) },
+    body: body ? JSON.stringify(body) : undefined,
+  });
+  const text = await reply.text();
+  assert(reply.ok, `${method} ${path}: ${reply.status} ${text}`);
+  return { cookie: reply.headers.get("set-cookie")?.split(";")[0], json: text ? JSON.parse(text) : undefined };
+}
+
+const LESSON = "simple-pendulum";
+/** A student who hands in the force at the bottom, as multiples of the bob's weight. */
+async function student(name, code, factors, sign) {
+  const { cookie } = await ask("POST", "/join", undefined, { code, name });
+  const lesson = (await ask("GET", `/lessons/${LESSON}`, cookie)).json;
+  const weight = 9.81 * lesson.scene.bodies[0].mass;
+  const handIn = (factor) => ask("POST", `/lessons/${LESSON}/submissions`, cookie, {
+    answers: { "tension-bottom": { value: (factor * weight).toFixed(4), unit: "N" }, "sign-of-lambda": { choice: sign } },
+  });
+  for (const factor of factors) await handIn(factor);
+  return { cookie, handIn };
+}
+
+async function begin() {
+  const page = await visitor("owner");
+  await page.goto(setup);
+  await page.getByLabel("Your name, as students see it").fill("Prof. Newton");
+  await page.getByLabel("Title of the class").fill("Mechanics II");
+  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByText("Welcome, Prof. Newton").waitFor();
+  await page.getByRole("link", { name: "To the class" }).click();
+  await page.getByRole("heading", { name: "Nobody has joined yet" }).or(page.getByText("Nobody has joined yet")).first().waitFor();
+  await look(page, "empty");
+  // Dates and questions are there before anybody has joined.
+  await page.getByRole("link", { name: /simple pendulum/i }).click();
+  await page.getByRole("heading", { name: "When it is handed in, and what is told" }).waitFor();
+  await page.getByRole("link", { name: "tension-bottom" }).click();
+  await page.getByText("Nobody has handed in yet").waitFor();
+  const code = (await page.evaluate(() => fetch("/api/v1/course").then((reply) => reply.json()))).join_code;
+  return { page, code };
+}
+
+async function people(page) {
+  await page.goto(`${address}/class/people`);
+  await page.getByLabel("Who comes with the link is").selectOption("grader");
+  await page.getByRole("button", { name: "Make a link" }).click();
+  const link = await page.getByLabel("Link for a new grader").inputValue();
+  const other = await visitor("grader");
+  await other.goto(link);
+  await other.getByLabel("Your name, as students see it").fill("Gottfried");
+  await other.getByRole("button", { name: "Begin" }).click();
+  await other.getByText("Welcome, Gottfried").waitFor();
+  await page.reload();
+  const role = page.getByLabel("Role of Gottfried");
+  assert.equal(await role.inputValue(), "grader");
+  await role.selectOption("instructor");
+  await look(page, "role");
+  await page.getByRole("button", { name: "Make Gottfried instructor" }).click();
+  await page.waitForFunction(() => document.querySelector("[aria-label='Role of Gottfried']")?.value === "instructor");
+  // Whoever is no owner sees roles and changes none.
+  await other.goto(`${address}/class/people`);
+  await other.getByText("by an owner of the class").waitFor();
+  assert.equal(await other.getByLabel("Role of Prof. Newton").count(), 0);
+  await other.context().close();
+  await page.reload();
+  await role.waitFor();
+  await look(page, "people");
+}
+
+async function glance(page, code) {
+  await page.goto(`${address}/class/now`);
+  await page.getByText("Nobody has read or tried anything").waitFor();
+  const names = ["Ada Lovelace", "Émilie du Châtelet", "Sofia Kovalevskaya", "Leonhard Euler", "Joseph-Louis Lagrange", "Jean d’Alembert",
+    "William Hamilton", "Siméon Poisson", "Carl Jacobi", "Louis Poinsot", "Emmy Noether", "Theodore von Kármán"];
+  const tries = [[3], [1, 3], [1, 1.2, 3], [1, 2, 3], [1, 2], [1], [3.02], [2, 3], [-3, 3], [1.5, 1.7], [1, 3], [3]];
+  const students = [];
+  for (const [k, name] of names.entries()) students.push(await student(name, code, tries[k], "abcb"[k % 4]));
+  // The page sees it by itself.
+  await page.getByText("Here: 12 of 12 students").waitFor();
+  assert.match(await page.getByRole("region", { name: "Just handed in" }).innerText(), /Theodore von Kármán/);
+  await page.getByText("Nobody has tried a question three times").waitFor();
+  await students[9].handIn(1.9);
+  await page.locator(".cards", { hasText: "3 tries at" }).getByText("Louis Poinsot").waitFor();
+  await look(page, "glance");
+  await students[9].handIn(3);
+  await page.getByText("Nobody has tried a question three times").waitFor();
+  say("who is stuck, and no more");
+  return students;
+}
+
+async function question(page) {
+  await page.goto(`${address}/class/lessons/${LESSON}`);
+  const row = page.getByRole("row", { name: /tension-bottom/ });
+  await row.waitFor();
+  assert.match(await row.innerText(), /12 of 12/);
+  await look(page, "lesson");
+  await row.getByRole("link", { name: "tension-bottom" }).click();
+  await page.getByRole("heading", { name: "Mistakes" }).waitFor();
+  const first = page.locator(".mistakes summary").first();
+  assert.match(await first.innerText(), /6 of 12\s+static/);
+  assert.equal(await page.getByText("Émilie").filter({ visible: true }).count(), 0, "no names before a press");
+  await first.focus();
+  await page.keyboard.press("Enter");
+  await page.getByRole("link", { name: "Émilie du Châtelet" }).waitFor();
+  await look(page, "question");
+  await page.getByRole("link", { name: "Next →" }).waitFor();
+  await page.goto(`${address}/class/lessons/${LESSON}/questions/sign-of-lambda`);
+  await page.getByRole("heading", { name: "What was chosen" }).waitFor();
+  await look(page, "choice");
+  await page.goBack();
+  await page.locator(".mistakes summary").first().click();
+  await page.getByRole("link", { name: "Émilie du Châtelet" }).click();
+  await page.getByRole("heading", { name: "Émilie du Châtelet" }).waitFor();
+  await page.locator(".history-entry").first().click();
+  await look(page, "student");
+}
+
+async function exchange(page) {
+  await page.goto(`${address}/class`);
+  await page.getByRole("heading", { name: "12 students" }).waitFor();
+  await look(page, "table");
+  const file = "Student,ID,SIS User ID,SIS Login ID,Section,02 Simple pendulum (4711)\n\"Lovelace, Ada\",9,,,M,\nNobody,10,,,M,3\n";
+  const title = await page.locator(".lesson-links a", { hasText: /simple pendulum/i }).innerText();
+  const download = page.waitForEvent("download");
+  await page.getByLabel("File of Canvas").setInputFiles({
+    name: "canvas.csv", mimeType: "text/csv", buffer: Buffer.from(file.replace("02 Simple pendulum", `02 ${title}`)),
+  });
+  const filled = readFileSync(await (await download).path(), "utf8");
+  assert.match(filled, /"Lovelace, Ada","9","","","M","[1-9]/);
+  await page.getByText("In the file, and not in this class: Nobody.").waitFor();
+  say("a file of Canvas was filled in");
+}
+
+async function own({ cookie }) {
+  const page = await visitor("student");
+  const [name, value] = cookie.split("=");
+  await page.context().addCookies([{ name, value, url: address }]);
+  await page.goto(`${address}/record`);
+  await page.getByText(/pendulum/i).first().waitFor();
+  await look(page, "own");
+  await page.goto(`${address}/class/now`);
+  await page.getByText(/may not do this/).waitFor();
+}
+
+try {
+  const { page, code } = await begin();
+  await people(page);
+  const students = await glance(page, code);
+  await question(page);
+  await exchange(page);
+  await own(students[1]);
+  assert.deepEqual(complaints, [], "errors of the page");
+} finally {
+  await browser.close();
+}
