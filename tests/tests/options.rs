@@ -180,7 +180,7 @@ fn every_option_of_the_help_has_a_case() {
 fn others(folder: &Path) -> Vec<Vec<String>> {
     let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let data = |name: &str| root().join("tests/data").join(name).to_string_lossy().into_owned();
-    let lines: [&[&str]; 12] = [
+    let lines: [&[&str]; 13] = [
         &["run", "simple-pendulum", "--until", UNTIL, "--rerun", "rerun+http://127.0.0.1:1/proxy"],
         &[
             "sweep",
