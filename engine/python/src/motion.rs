@@ -223,7 +223,9 @@ impl Motion {
     fn svg(&self, py: Python<'_>, moving: bool) -> PyResult<String> {
         let frames = self.at_outputs(py, |state| Ok(state.frame()))?;
         let mut film = Film::new(&self.scene, self.run.model());
-        frames.into_iter().for_each(|frame| film.push(frame));
+        for frame in frames {
+            film.push(frame);
+        }
         Ok(film.svg(moving))
     }
 }
@@ -240,7 +242,7 @@ impl Motion {
             let mut found = Vec::with_capacity(self.snapshots.len());
             for snapshot in &self.snapshots {
                 if looked.elapsed() > LOOK {
-                    Python::attach(|py| py.check_signals())?;
+                    Python::attach(|py: Python<'_>| py.check_signals())?;
                     looked = Instant::now();
                 }
                 if let Some(state) = self.run.at_snapshot(snapshot) {
