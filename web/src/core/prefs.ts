@@ -11,6 +11,7 @@ type Key =
   | "scene-draft"
   | `scene-draft:${string}`
   | `said:${string}`
+  | `slides:${string}`
   | "place"
   | "voter";
 

@@ -8,6 +8,7 @@ import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { type NewQuestion, questionDialog } from "./question-dialog";
+import { Slides } from "./slides";
 import { histogram } from "./voter";
 
 /** Time between two messages to the followers, ms. */
@@ -59,6 +60,7 @@ export class PresenterPanel {
   private readonly code = h("b", { class: "presenter-code" });
   private readonly followers = h("span", { class: "presenter-count", role: "status" }, "nobody follows yet");
   private readonly result = h("div", { class: "presenter-result" });
+  private readonly prepared = h("div");
   private readonly trouble = h("div", { "aria-live": "polite" });
   private readonly revealButton = action("Reveal", "button primary", () => void this.reveal());
   private readonly withdrawButton = action("Take it away", "button", () => void this.withdraw());
@@ -71,6 +73,7 @@ export class PresenterPanel {
   /** The session that the followers see. */
   private shownSession = "";
   private sendTimer = 0;
+  private slides: Slides | undefined;
 
   /** `seen` is what the page shows now, as a link would carry it. */
   constructor(
@@ -92,6 +95,7 @@ export class PresenterPanel {
 
   dispose(): void {
     clearTimeout(this.sendTimer);
+    this.slides?.dispose();
     for (const step of this.undo) step();
   }
 
@@ -113,6 +117,7 @@ export class PresenterPanel {
           action("End the lecture", "button quiet", () => void this.end()),
         ),
       ),
+      this.prepared,
       this.result,
       this.trouble,
     );
@@ -122,6 +127,14 @@ export class PresenterPanel {
     this.root.hidden = !this.lecture;
     this.button.hidden = this.lecture !== undefined;
     setText(this.code, this.lecture?.code ?? "");
+    if (this.lecture && !this.slides) {
+      this.slides = new Slides(this.session, this.seen);
+      this.prepared.replaceChildren(this.slides.root);
+    } else if (!this.lecture) {
+      this.slides?.dispose();
+      this.slides = undefined;
+      this.prepared.replaceChildren();
+    }
   }
 
   private async open(): Promise<void> {
@@ -217,11 +230,11 @@ export class PresenterPanel {
       const { followers, tally } = await api.presenterState(code, key);
       const verb = followers === 1 ? "follows" : "follow";
       setText(this.followers, followers === 0 ? "nobody follows yet" : `${followers} ${verb}`);
-      this.showTally(tally);
+      this.showTally(tally, followers);
     });
   }
 
-  private showTally(tally: Tally | null): void {
+  private showTally(tally: Tally | null, followers = 0): void {
     this.revealButton.hidden = !tally || tally.revealed;
     this.withdrawButton.hidden = !tally;
     if (!tally) {
@@ -231,9 +244,19 @@ export class PresenterPanel {
     const choices = this.question?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`);
     this.result.replaceChildren(
       h("p", { class: "presenter-question" }, this.question?.text ?? "The question that is asked"),
-      histogram(choices, tally),
+      // This page is what the projector shows: how the answers stand would sway those who have not answered.
+      tally.revealed ? histogram(choices, tally) : answered(tally, followers),
     );
   }
+}
+
+function answered({ counts }: Tally, followers: number): HTMLElement {
+  const count = counts.reduce((sum, each) => sum + each, 0);
+  return h(
+    "p",
+    { role: "status" },
+    `${count} of ${Math.max(count, followers)} have answered. How they stand is seen when it is revealed.`,
+  );
 }
 
 function action(label: string, cls: string, run: () => void): HTMLButtonElement {

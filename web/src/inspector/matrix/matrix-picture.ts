@@ -24,7 +24,7 @@ export class MatrixPicture {
     role: "application",
     "aria-roledescription": "matrix picture",
     "aria-label":
-      "Matrix: arrow keys move from cell to cell, the value is read out below; Enter selects the joint of a row",
+      "Matrix: arrow keys move from cell to cell, the value is read out above; Enter selects the joint of a row",
   });
   readonly root = h("div", { class: "matrix-holder" }, this.canvas);
   private matrix: Matrix | undefined;

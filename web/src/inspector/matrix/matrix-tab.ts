@@ -123,8 +123,8 @@ export class MatrixTab implements Panel {
       ),
       this.redundant,
       this.trouble,
-      this.picture.root,
       this.readout,
+      this.picture.root,
       this.list,
     );
   }
