@@ -9,10 +9,11 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use tokio::time::timeout;
+use triad_session::KeptSession;
 
 use crate::lecture::{KeptLecture, Lectures};
 use crate::limits::Limits;
-use crate::session::{KeptSession, Registry, Session, bounded};
+use crate::session::{Registry, Session, bounded};
 
 /// How long a session may take to say where it stands: one in the middle of a long step is left behind.
 const PATIENCE: Duration = Duration::from_secs(1);

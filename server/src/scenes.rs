@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
 use triad_engine::EngineError;
-use triad_engine::analysis::AnalysisError;
 use triad_engine::catalogue;
 use triad_engine::scene::{self, Scene};
 use triad_lab::paper::PaperError;
@@ -12,17 +11,6 @@ use triad_urdf::UrdfError;
 
 use crate::limits::Limits;
 use crate::problem::{Problem, suggest};
-
-impl From<AnalysisError> for Problem {
-    fn from(error: AnalysisError) -> Self {
-        match error {
-            AnalysisError::Engine(error) => error.into(),
-            other => {
-                Self::new(StatusCode::UNPROCESSABLE_ENTITY, other.code(), other.to_string(), other.hint())
-            }
-        }
-    }
-}
 
 impl From<PaperError> for Problem {
     fn from(error: PaperError) -> Self {
@@ -63,28 +51,6 @@ impl From<UrdfError> for Problem {
             Some(line) => problem.at(format!("line={line}"), detail),
             None => problem,
         }
-    }
-}
-
-impl From<EngineError> for Problem {
-    fn from(error: EngineError) -> Self {
-        let status = match &error {
-            EngineError::Catalogue(_) => StatusCode::NOT_FOUND,
-            EngineError::Scene(scene::SceneError::TooLong { .. }) => StatusCode::PAYLOAD_TOO_LARGE,
-            _ => StatusCode::UNPROCESSABLE_ENTITY,
-        };
-        let detail = error.to_string();
-        let problem = Self::new(status, error.code(), detail.clone(), error.hint());
-        match error.pointer() {
-            Some(pointer) => problem.at(pointer, detail),
-            None => problem,
-        }
-    }
-}
-
-impl From<scene::SceneError> for Problem {
-    fn from(error: scene::SceneError) -> Self {
-        EngineError::from(error).into()
     }
 }
 

@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+mod arithmetic;
+
 pub mod block_cholesky;
 mod sparse_lu;
 
@@ -9,6 +11,7 @@ mod basis;
 
 pub mod random;
 
+pub use arithmetic::fma;
 pub use basis::orthonormal_basis;
 pub use block_cholesky::BlockCholesky;
 pub use null_space::{independent_rows, left_null_space};

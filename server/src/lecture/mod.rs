@@ -26,9 +26,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use tokio::sync::watch;
+use triad_session::{Links, SceneSource, SessionState};
 
 use crate::problem::Problem;
-use crate::session::{Links, SceneSource, Session, SessionState};
+use crate::session::Session;
 use question::PosedQuestion;
 
 /// Pause between two states that followers are sent: ten a second, as often as tables can be read.

@@ -16,8 +16,7 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
 use crate::problem::Problem;
-use crate::session::{describe, sample};
-use crate::stream::{Sample, SceneDescription, block};
+use triad_session::picture::{Sample, SceneDescription, block, describe, sample};
 
 /// Frames by second of watching: as smooth as a page that draws evenly between them needs.
 const RATE: f64 = 30.0;

@@ -5,12 +5,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use tokio::sync::oneshot;
 use triad_engine::run::StateView;
+use triad_session::change::{Drag, SceneChange, SessionScene};
+use triad_session::drawing::{Arrows, Camera};
+use triad_session::{KeptSession, SessionState};
 
-use super::change::{Drag, SceneChange, SessionScene};
-use super::kept::KeptSession;
-use super::state::SessionState;
 use crate::problem::Problem;
-use crate::stream::{Arrows, Camera};
 
 /// What a caller may ask for; the answer comes back through the sender.
 pub(super) enum Command {

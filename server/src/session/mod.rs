@@ -1,19 +1,11 @@
 //! Live simulations: each in a thread of its own, all of them in one bounded registry.
 
-mod change;
 mod command;
-mod history;
-mod kept;
 mod recording;
 mod registry;
-mod state;
 mod worker;
 
-pub use change::{AfterChange, Drag, SceneChange, SessionParameter, SessionScene};
-pub use kept::KeptSession;
-pub(crate) use recording::{describe, sample};
 pub use registry::{Registry, bounded};
-pub use state::{Drawing, Links, SceneSource, SessionBody, SessionState};
 
 use std::sync::mpsc;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -22,19 +14,18 @@ use std::time::{Duration, Instant};
 use axum::http::StatusCode;
 use serde::Deserialize;
 use tokio::sync::{oneshot, watch};
-use triad_engine::EngineError;
-use triad_engine::model::Model;
-use triad_engine::run::{Simulation, StateView};
+use triad_engine::run::StateView;
 use triad_engine::scene::Scene;
+use triad_session::change::{Drag, SceneChange, SessionScene};
+use triad_session::drawing::{Arrows, Camera};
+use triad_session::{KeptSession, Run, SceneSource, SessionState};
 
 use crate::limits::Limits;
 use crate::problem::Problem;
-use crate::stream::{Arrows, Camera, Hub, Watcher};
-use change::as_it_runs;
+use crate::stream::{Hub, Watcher};
 use command::{Command, Reply, ReplySender, Signals};
-use history::History;
 use recording::Recording;
-use worker::{Play, Worker};
+use worker::{Clock, Worker};
 
 /// Commands that may wait for one session; more are refused.
 const QUEUE: usize = 32;
@@ -63,20 +54,6 @@ impl StreamWish {
     }
 }
 
-/// What a session begins with.
-struct Beginning {
-    id: String,
-    /// Name of its recording.
-    recording: String,
-    source: SceneSource,
-    original: Scene,
-    scene: Scene,
-    changes: u64,
-    simulation: Simulation,
-    play: Option<Play>,
-    speed: f64,
-}
-
 /// A handle on a live simulation; dropping the last one ends its thread.
 #[derive(Debug)]
 pub struct Session {
@@ -98,83 +75,40 @@ impl Session {
         source: SceneSource,
         limits: &Limits,
     ) -> Result<Self, Problem> {
-        let model = Model::new(&original).map_err(EngineError::from)?;
-        let (scene, simulation) = if change.is_empty() {
-            (original.clone(), Simulation::from_model(model)?)
-        } else {
-            let (scene, _) = change.of(&original)?;
-            let simulation = Simulation::new(&as_it_runs(&scene))?;
-            (scene, simulation)
-        };
         let id = uuid::Uuid::new_v4().simple().to_string();
-        let recording = id.clone();
-        Self::begin(
-            Beginning {
-                id,
-                recording,
-                source,
-                original,
-                scene,
-                changes: 0,
-                simulation,
-                play: None,
-                speed: 1.0,
-            },
-            limits,
-        )
+        let run = Run::start(id.clone(), original, change, source, samples_bytes(limits))?;
+        Self::begin(run, &id, Clock::start(), limits)
     }
 
     /// Goes on with a session that was kept, at the time and in the state of its run. Its recording begins anew.
     ///
     /// Errors if its scene is refused by this program, or the state is of another.
     pub fn resume(kept: KeptSession, limits: &Limits) -> Result<Self, Problem> {
-        let KeptSession { id, source, original, scene, changes, state, playing, speed } = kept;
-        let mut simulation = Simulation::new(&as_it_runs(&scene))?;
-        if !simulation.resume(&state) {
+        let clock = Clock::start();
+        let Some(run) = Run::resume(kept, samples_bytes(limits), clock.now())? else {
             return Err(Problem::internal("a session was kept that is none of this program"));
-        }
+        };
         // Viewers would join a recording of the same name to the one before.
         let recording = uuid::Uuid::new_v4().simple().to_string();
-        let play = playing.then(|| Play::from(simulation.time()));
-        Self::begin(
-            Beginning { id, recording, source, original, scene, changes, simulation, play, speed },
-            limits,
-        )
+        Self::begin(run, &recording, clock, limits)
     }
 
     /// Starts the thread of a session.
-    fn begin(start: Beginning, limits: &Limits) -> Result<Self, Problem> {
-        let Beginning { id, recording, source, original, scene, changes, simulation, play, speed } = start;
-        // Samples take half of the bound, their two encoded forms an eighth each, the states a quarter.
+    fn begin(run: Run, recording: &str, clock: Clock, limits: &Limits) -> Result<Self, Problem> {
         let [hub, track] = [(); 2].map(|()| Arc::new(Hub::new(limits.recording_bytes / 8)));
-        let description = describe(&scene, &simulation);
-        let limit = limits.recording_bytes / 2;
-        let mut recording =
-            Recording::new(&recording, description, Arc::clone(&hub), Arc::clone(&track), limit);
-        recording.record(&simulation)?;
-        let mut history = History::new(limits.recording_bytes / 4);
-        history.keep(&simulation);
+        let [hub_of_recording, hub_of_track] = [&hub, &track].map(Arc::clone);
+        let recording =
+            Recording::new(recording, run.samples(), hub_of_recording, hub_of_track, samples_bytes(limits));
         let signals = Arc::new(Signals::default());
-        let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
-        let facts = state::SessionFacts::at_start(&id, &source, &title, Drawing::of(&recording));
-        let (sender, state) = watch::channel(Arc::new(SessionState::of(&simulation, &facts)));
+        let (sender, state) =
+            watch::channel(Arc::new(run.state(recording.streamed(), crate::problem::trace_id)));
         let worker = Worker {
-            id,
-            source,
-            title,
-            original,
-            scene,
-            changes,
-            drag: None,
-            simulation,
+            run,
             recording,
-            history,
+            clock,
             signals: Arc::clone(&signals),
             state: sender,
             command_time: limits.command_time,
-            play,
-            speed,
-            error: None,
         };
         let (commands, received) = mpsc::sync_channel(QUEUE);
         std::thread::Builder::new()
@@ -350,6 +284,11 @@ impl Session {
         // Wakes a thread that waits; one that is busy sees the flag.
         drop(self.commands.try_send(Command::Watched));
     }
+}
+
+/// Samples take half of the bound, their two encoded forms an eighth each, the states a quarter.
+fn samples_bytes(limits: &Limits) -> usize {
+    limits.recording_bytes / 2
 }
 
 fn gone() -> Problem {

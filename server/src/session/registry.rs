@@ -5,8 +5,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use axum::http::StatusCode;
 use triad_engine::scene::Scene;
+use triad_session::bounds::SceneBounds;
+use triad_session::change::SceneChange;
+use triad_session::{KeptSession, SceneSource};
 
-use super::{KeptSession, SceneChange, SceneSource, Session};
+use super::Session;
 use crate::limits::Limits;
 use crate::problem::Problem;
 
@@ -135,27 +138,8 @@ impl Drop for Place<'_> {
 
 /// Refuses a scene that is too large for this server before anything is built from it.
 pub fn bounded(scene: &Scene, limits: &Limits) -> Result<(), Problem> {
-    let connections = scene.joints.len() + scene.drivers.len() + scene.loads.len();
-    // The longest of the lists that are bounded together is the place to mend.
-    let lists =
-        [("joints", scene.joints.len()), ("drivers", scene.drivers.len()), ("loads", scene.loads.len())];
-    let longest = lists.into_iter().max_by_key(|(_, count)| *count).map_or("joints", |(list, _)| list);
-    for (list, what, count, limit) in [
-        ("bodies", "bodies", scene.bodies.len(), limits.bodies),
-        (longest, "joints, drivers and loads", connections, limits.connections),
-    ] {
-        if count > limit {
-            let detail = format!("the scene has {count} {what}, this server takes {limit}");
-            return Err(Problem::new(
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "scene-too-large",
-                detail.clone(),
-                "make the scene smaller, or run it on the command line: triad run SCENE",
-            )
-            .at(format!("/{list}"), detail));
-        }
-    }
-    Ok(())
+    let bounds = SceneBounds { bodies: limits.bodies, connections: limits.connections };
+    Ok(bounds.hold(scene, "this server")?)
 }
 
 fn unknown(id: &str) -> Problem {

@@ -7,9 +7,7 @@ use re_sdk_types::components::{Color, FillMode};
 use re_sdk_types::datatypes::Quaternion;
 use rerun::{EntityPath, EntityPathPart, RecordingStream, RecordingStreamResult};
 use triad_engine::scene::Shape;
-
-use super::arrows::ArrowKind;
-use super::description::{BodyVisual, MarkerVisual, Pattern, SceneDescription};
+use triad_session::picture::{ArrowKind, BodyVisual, MarkerVisual, Pattern, SceneDescription};
 
 /// Colours that stay apart for colour-blind eyes too (Okabe and Ito).
 const PALETTE: [[u8; 3]; 6] =

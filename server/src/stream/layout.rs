@@ -14,10 +14,9 @@ use rerun::log::{Chunk, LogMsg, RowId};
 use rerun::time::{TimePoint, Timeline};
 use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use triad_session::drawing::Camera;
+use triad_session::picture::SceneDescription;
 
-use super::description::SceneDescription;
 use super::geometry::single;
 use super::{APPLICATION, TIMELINE};
 
@@ -84,21 +83,6 @@ impl Layout {
         scratch.disconnect();
         Ok(Self { messages, camera })
     }
-}
-
-/// From where the mechanism is looked at.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Camera {
-    /// Nearly from the front where it hangs in a vertical x-y plane, from above a corner otherwise.
-    #[default]
-    Corner,
-    /// Against the axis that points forward.
-    Front,
-    /// Against the x axis.
-    Side,
-    /// Along gravity.
-    Above,
 }
 
 /// A camera that sees the whole mechanism.

@@ -1,4 +1,5 @@
-//! From samples to pictures: one track of numbers and one recording a session, encoded once however many watch.
+//! From samples to pictures: one track of numbers and one recording a session, encoded once however many watch. The
+//! samples themselves are made in `triad_session::picture`.
 //!
 //! ```text
 //! Sample ─▶ Track ─────▶ blocks ─▶ Hub ─▶ Watcher, Watcher, …   (the page's own drawing, over our own socket)
@@ -7,28 +8,16 @@
 //! ```
 
 mod hub;
-mod sample;
-mod vector;
 
-mod scale;
-
-mod description;
-
-mod arrows;
 mod geometry;
 mod layout;
 
 mod recorder;
 mod track;
 
-pub use arrows::{Arrows, DrawnForces, MomentPoint};
-pub use description::{BodyVisual, JointVisual, Pattern, SceneDescription};
 pub use hub::{Delivery, Hub, Watcher};
-pub use layout::Camera;
 pub use recorder::{RecordError, Recorder};
-pub use sample::{Pose, Sample, SampledReaction};
-pub use scale::Scale;
-pub use track::{Track, block};
+pub use track::Track;
 
 /// Name under which the viewer knows the recordings.
 pub const APPLICATION: &str = "triad";

@@ -10,13 +10,10 @@ use rerun::sink::BinaryStreamStorage;
 use rerun::{
     EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamError, RecordingStreamResult,
 };
+use triad_session::drawing::{Arrows, Camera};
+use triad_session::picture::{Glyphs, Piece, Sample, Scale, SceneDescription};
 
-use super::arrows::{Arrows, Glyphs, Piece};
-use super::description::SceneDescription;
 use super::geometry::{self, FREE_BODY, MARK, color_of, path, single};
-use super::layout::Camera;
-use super::sample::Sample;
-use super::scale::Scale;
 use super::{APPLICATION, TIMELINE, layout};
 
 /// Why a recording could not be written.

@@ -1,8 +1,10 @@
 //! Dense kernels of the block factorization, compiled for the sizes that joints have.
 //!
 //! A block of N rows is an array of N rows of W numbers; W may be larger than the block is wide, so that a row fills a
-//! vector of the processor, and what stands behind its end is zero. Products and sums are fused: the same bits on every
-//! processor.
+//! vector of the processor, and what stands behind its end is zero. Products are added by [`fma`]: the same bits on
+//! every processor.
+
+use crate::arithmetic::fma;
 
 /// Pivots, relative to the diagonal, above which a small block is inverted by its minors, with one division; below, rounding
 /// of the minors would count, and the block is eliminated row by row.
@@ -34,7 +36,7 @@ fn by_minors<const N: usize, const W: usize>(
     reference: &[f64; N],
 ) -> ([[f64; W]; N], [f64; N]) {
     let mut inverse = [[0.0; W]; N];
-    let minor = |a: f64, b: f64, c: f64, d: f64| a.mul_add(b, -(c * d));
+    let minor = |a: f64, b: f64, c: f64, d: f64| fma(a, b, -(c * d));
     let mut relative = [0.0; N];
     relative[0] = block[0][0] / reference[0];
     let second = minor(block[0][0], block[1][1], block[1][0], block[1][0]);
@@ -49,7 +51,7 @@ fn by_minors<const N: usize, const W: usize>(
     let (a, b, c) = (block[0][0], block[1][0], block[1][1]);
     let (d, e, f) = (block[2][0], block[2][1], block[2][2]);
     let first = [minor(c, f, e, e), minor(d, e, b, f), minor(b, e, c, d)];
-    let determinant = a.mul_add(first[0], b.mul_add(first[1], d * first[2]));
+    let determinant = fma(a, first[0], fma(b, first[1], d * first[2]));
     relative[2] = determinant / (second * reference[2]);
     let scale = 1.0 / determinant;
     let (middle, corner) = (minor(a, f, d, d) * scale, minor(b, d, a, e) * scale);
@@ -79,13 +81,13 @@ fn by_elimination<const N: usize, const W: usize>(
         row.copy_from_slice(&block[i][..N]);
         for k in 0..i {
             for p in 0..k {
-                row[k] = (-row[p]).mul_add(l[k][p], row[k]);
+                row[k] = fma(-row[p], l[k][p], row[k]);
             }
         }
         let mut pivot = block[i][i];
         for k in 0..i {
             l[i][k] = row[k] * reciprocal[k];
-            pivot = (-row[k]).mul_add(l[i][k], pivot);
+            pivot = fma(-row[k], l[i][k], pivot);
         }
         if reference[i] == f64::INFINITY {
             continue;
@@ -102,7 +104,7 @@ fn by_elimination<const N: usize, const W: usize>(
         for k in 0..i {
             let mut sum = l[i][k];
             for p in k + 1..i {
-                sum = l[i][p].mul_add(m[p][k], sum);
+                sum = fma(l[i][p], m[p][k], sum);
             }
             m[i][k] = -sum;
         }
@@ -111,7 +113,7 @@ fn by_elimination<const N: usize, const W: usize>(
         for c in 0..=r {
             let mut sum = 0.0;
             for i in r..N {
-                sum = (m[i][r] * reciprocal[i]).mul_add(m[i][c], sum);
+                sum = fma(m[i][r] * reciprocal[i], m[i][c], sum);
             }
             inverse[r][c] = sum;
             inverse[c][r] = sum;
@@ -129,7 +131,7 @@ fn row_times<const N: usize, const W: usize>(a: &[f64; N], matrix: &[[f64; W]; N
     }
     for p in 1..N {
         for c in 0..W {
-            sum[c] = a[p].mul_add(matrix[p][c], sum[c]);
+            sum[c] = fma(a[p], matrix[p][c], sum[c]);
         }
     }
     sum
@@ -159,7 +161,7 @@ pub fn update<const N: usize, const W: usize>(
     for i in 0..N {
         for p in 0..N {
             for c in 0..W {
-                target[i][c] = (-scaled[p][i]).mul_add(block[p][c], target[i][c]);
+                target[i][c] = fma(-scaled[p][i], block[p][c], target[i][c]);
             }
         }
     }
@@ -179,7 +181,7 @@ pub fn forward<const N: usize, const W: usize>(scaled: &[[f64; W]; N], y: &[f64;
 pub fn backward<const N: usize, const W: usize>(scaled: &[[f64; W]; N], source: &[f64; N], x: &mut [f64; N]) {
     for p in 0..N {
         for k in 0..N {
-            x[p] = (-scaled[p][k]).mul_add(source[k], x[p]);
+            x[p] = fma(-scaled[p][k], source[k], x[p]);
         }
     }
 }

@@ -2,6 +2,7 @@
 //! joints of two kinds.
 
 use super::stride;
+use crate::arithmetic::fma;
 
 /// Marks in the diagonal of S, as infinite, so many rows of a symmetric block X/// ones of an elimination whose pivots are the largest, relative to that diagonal. The block is used up.
 pub fn leave_out(count: usize, block: &mut [f64], reference: &mut [f64]) {
@@ -85,7 +86,7 @@ pub fn scale(n: usize, inverse: &[f64], width: usize, columns: usize, block: &[f
         out.fill(0.0);
         for (factor, row) in own.iter().zip(block.chunks_exact(step)).take(n) {
             for (out, x) in out[..columns].iter_mut().zip(row) {
-                *out = factor.mul_add(*x, *out);
+                *out = fma(*factor, *x, *out);
             }
         }
     }
@@ -98,7 +99,7 @@ pub fn update(n: usize, scaled: &[f64], block: &[f64], rows: usize, columns: usi
         let column = scaled[i..].iter().step_by(stride(rows));
         for (factor, row) in column.zip(block.chunks_exact(stride(columns))).take(n) {
             for (out, x) in out[..columns].iter_mut().zip(row) {
-                *out = (-factor).mul_add(*x, *out);
+                *out = fma(-factor, *x, *out);
             }
         }
     }
@@ -109,7 +110,7 @@ pub fn update(n: usize, scaled: &[f64], block: &[f64], rows: usize, columns: usi
 pub fn forward(y: &[f64], scaled: &[f64], columns: usize, target: &mut [f64]) {
     for (y, row) in y.iter().zip(scaled.chunks_exact(stride(columns))) {
         for (out, u) in target[..columns].iter_mut().zip(row) {
-            *out = (-y).mul_add(*u, *out);
+            *out = fma(-y, *u, *out);
         }
     }
 }
@@ -119,7 +120,7 @@ pub fn forward(y: &[f64], scaled: &[f64], columns: usize, target: &mut [f64]) {
 pub fn backward(scaled: &[f64], source: &[f64], x: &mut [f64]) {
     for (x, row) in x.iter_mut().zip(scaled.chunks_exact(stride(source.len()))) {
         for (u, source) in row.iter().zip(source) {
-            *x = (-u).mul_add(*source, *x);
+            *x = fma(-u, *source, *x);
         }
     }
 }

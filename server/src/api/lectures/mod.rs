@@ -11,19 +11,20 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use triad_engine::run::StateView;
+use triad_session::change::SessionScene;
+use triad_session::forces::{MultipliersList, ReactionQuery, ReactionsView};
+use triad_session::matrices::{JacobianView, SymmetricView};
+use triad_session::requests::AtTime;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters, QueryParameters};
-use crate::api::sessions::matrices::{AtTime, JacobianView, SymmetricView, jacobian_of, symmetric_of};
-use crate::api::sessions::reactions::{
-    MultipliersList, ReactionQuery, ReactionsView, multipliers_of, reactions_of,
-};
+use crate::api::sessions::matrices::{jacobian_of, symmetric_of};
+use crate::api::sessions::reactions::{multipliers_of, reactions_of};
 use crate::app::App;
 use crate::lecture::{Lecture, NewQuestion, PresenterState, PublicState, Vote};
 use crate::problem::Problem;
-use crate::session::SessionScene;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<NewLecture>();

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use axum::extract::State;
 use axum::http::StatusCode;
+use triad_session::SessionState;
+use triad_session::change::{Drag, SceneChange, SessionScene};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -11,7 +13,6 @@ use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters};
 use crate::app::App;
 use crate::problem::Problem;
-use crate::session::{Drag, SceneChange, SessionScene, SessionState};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<SessionScene>();

@@ -10,9 +10,9 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::IntoResponse;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use triad_engine::scene::{ConstraintMethod, Scene};
+use triad_engine::scene::Scene;
+use triad_session::requests::{NewSession, PlayRequest, StepRequest, Stretch};
+use triad_session::{SceneSource, SessionState};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -21,13 +21,7 @@ use crate::api::extract::{Json, PathParameters};
 use crate::api::guard::Caller;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::session::{SceneChange, SceneSource, SessionState};
 use crate::{blocking, scenes};
-
-/// Integrator steps that one request may take.
-const MAX_STEPS: u32 = 100_000;
-/// Simulated seconds a second that a session may play.
-const SPEEDS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<NewSession>();
@@ -41,52 +35,6 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
         .routes(routes!(play))
         .routes(routes!(pause))
         .routes(routes!(reset))
-}
-
-/// What to simulate: exactly one of `lesson`, `builtin` and `scene`.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct NewSession {
-    /// The scenario of a lesson, by the lesson's slug.
-    lesson: Option<String>,
-    /// With `lesson`: whose numbers, a student's name or another seed; without it, those that everybody sees.
-    seed: Option<String>,
-    /// A built-in scene, by name.
-    #[schemars(example = "n-four-bar:2")]
-    builtin: Option<String>,
-    /// A scene; its schema is at /api/v1/schema/scene.
-    #[schemars(with = "Option<Scene>")]
-    scene: Option<serde_json::Value>,
-    /// Settings that replace those of the scene.
-    #[serde(default)]
-    overrides: Overrides,
-    /// Changes that are made before the start; undoing them leads back to the scene as it is written.
-    #[serde(default)]
-    change: SceneChange,
-}
-
-/// Settings that replace those of the scene.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-struct Overrides {
-    /// End of the simulation, s.
-    duration: Option<f64>,
-    /// Time between frames, s.
-    every: Option<f64>,
-    /// Tolerance of the integrator.
-    tolerance: Option<f64>,
-    /// How the constraints are kept.
-    stabilization: Option<ConstraintMethod>,
-}
-
-impl Overrides {
-    fn apply(self, scene: &mut Scene) {
-        let simulation = &mut scene.simulation;
-        simulation.duration = self.duration.unwrap_or(simulation.duration);
-        simulation.every = self.every.unwrap_or(simulation.every);
-        simulation.tolerance = self.tolerance.unwrap_or(simulation.tolerance);
-        simulation.constraint_method = self.stabilization.unwrap_or(simulation.constraint_method);
-    }
 }
 
 /// Start a live simulation.
@@ -172,16 +120,6 @@ async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// How far to step: `steps` of the integrator or simulated `seconds`; one step if neither is given.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct StepRequest {
-    /// Integrator steps, 1 to 100000.
-    steps: Option<u32>,
-    /// Simulated seconds, above 0.
-    seconds: Option<f64>,
-}
-
 /// Step a session; it is paused first.
 #[utoipa::path(post, path = "/sessions/{id}/step", operation_id = "step_session", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<StepRequest>())), responses(
@@ -194,49 +132,11 @@ async fn step(
     Json(step): Json<StepRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
-    let state = match (step.steps, step.seconds) {
-        (_, None) => {
-            let steps = step.steps.unwrap_or(1);
-            if !(1..=MAX_STEPS).contains(&steps) {
-                return Err(out_of_range(
-                    "/steps",
-                    format!("steps must be from 1 to {MAX_STEPS}, not {steps}"),
-                ));
-            }
-            session.steps(steps).await?
-        }
-        (None, Some(seconds)) => {
-            if seconds.is_nan() || seconds <= 0.0 || seconds > 1e6 {
-                return Err(out_of_range(
-                    "/seconds",
-                    format!("seconds must be above 0, at most 1e6, not {seconds}"),
-                ));
-            }
-            session.seconds(seconds).await?
-        }
-        (Some(_), Some(_)) => {
-            return Err(out_of_range("/seconds", "give either steps or seconds, not both".into()));
-        }
+    let state = match step.asked()? {
+        Stretch::Steps(count) => session.steps(count).await?,
+        Stretch::Seconds(seconds) => session.seconds(seconds).await?,
     };
     Ok(axum::Json(state))
-}
-
-fn out_of_range(pointer: &str, detail: String) -> Problem {
-    Problem::new(
-        StatusCode::UNPROCESSABLE_ENTITY,
-        "out-of-range",
-        detail.clone(),
-        "send a value within the stated range",
-    )
-    .at(pointer, detail)
-}
-
-/// How fast to play.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct PlayRequest {
-    /// Simulated seconds a second, 0.001 to 1000; 1 if it is not given.
-    speed: Option<f64>,
 }
 
 /// Let time run.
@@ -250,11 +150,7 @@ async fn play(
     Json(play): Json<PlayRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
     let session = app.sessions.get(&id)?;
-    let speed = play.speed.unwrap_or(1.0);
-    if !SPEEDS.contains(&speed) {
-        return Err(out_of_range("/speed", format!("speed must be from 0.001 to 1000, not {speed}")));
-    }
-    Ok(axum::Json(session.play(speed).await?))
+    Ok(axum::Json(session.play(play.asked()?).await?))
 }
 
 /// Stop time.

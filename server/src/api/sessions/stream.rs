@@ -12,10 +12,10 @@ use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::extract::{FromRequestParts, Request, State};
 use axum::http::StatusCode;
 use axum::response::Response;
-use schemars::JsonSchema;
 use serde::Serialize;
 use tokio::sync::watch;
 use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
+use triad_session::{SessionMessage, SessionState};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -23,7 +23,7 @@ use crate::api::describe::{PROBLEM, Schemas};
 use crate::api::extract::{PathParameters, QueryParameters};
 use crate::app::App;
 use crate::problem::Problem;
-use crate::session::{SessionState, StreamWish};
+use crate::session::StreamWish;
 use crate::stream::{Delivery, Watcher};
 
 /// Pause between two states on one socket: ten a second, as often as tables can be read.
@@ -34,18 +34,6 @@ pub(in crate::api) const PING_INTERVAL: Duration = Duration::from_secs(20);
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<SessionMessage<'_>>();
     OpenApiRouter::new().routes(routes!(stream))
-}
-
-/// The text messages to a watcher.
-#[derive(Serialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "kebab-case")]
-enum SessionMessage<'a> {
-    /// The session's state.
-    State(&'a SessionState),
-    /// The recording begins anew: the viewer must forget the old one.
-    Reset,
-    /// The session is closed.
-    Closed,
 }
 
 /// Watch a session: a WebSocket of states (text) and of the motion (binary): numbers for a drawing, or RRD blocks for the rerun viewer.

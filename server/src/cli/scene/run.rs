@@ -10,6 +10,7 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene, Skip};
 use triad_lab::film::Film;
 use triad_lab::verify::Verifier;
+use triad_session::picture::{Sample, describe, sample};
 
 use super::options::Run;
 use super::report::{Found, report};
@@ -21,8 +22,7 @@ use crate::cli::terminal::{Outcome, TimeBar, progress};
 use crate::motion::Film as RecordedFilm;
 use crate::page::playing;
 use crate::problem::Problem;
-use crate::session::{describe, sample};
-use crate::stream::{RecordError, Recorder, Sample};
+use crate::stream::{RecordError, Recorder};
 
 /// Samples that are encoded together.
 const BATCH: usize = 256;

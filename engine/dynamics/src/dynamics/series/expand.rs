@@ -3,6 +3,7 @@
 use super::lanes::times;
 use super::{Bodies, Series};
 use pulp::{Simd, WithSimd};
+use triad_linalg::fma;
 
 /// Iterative refinements of a solution with the factor of a regularized S, which take its effect out again.
 const REFINEMENTS: usize = 2;
@@ -173,8 +174,8 @@ fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -
     for coefficient in coefficients.iter().rev() {
         for ((value, rate), c) in value.iter_mut().zip(rate.iter_mut()).zip(B::lanes(coefficient)) {
             for l in 0..L {
-                rate[l] = rate[l].mul_add(tau, value[l]);
-                value[l] = value[l].mul_add(tau, c[l]);
+                rate[l] = fma(rate[l], tau, value[l]);
+                value[l] = fma(value[l], tau, c[l]);
             }
         }
     }

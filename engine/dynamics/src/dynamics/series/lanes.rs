@@ -1,9 +1,10 @@
 //! Arithmetic on vectors of L bodies at once: component by component, one lane for each body.
 //!
-//! Plain loops of constant length, which the compiler turns into vector instructions. Products and sums are fused, so
-//! that every processor gives the same bits.
+//! Plain loops of constant length, which the compiler turns into vector instructions. Products are added by
+//! [`fma`], so that every processor gives the same bits.
 
 use pulp::Simd;
+use triad_linalg::fma;
 
 /// One number for each lane.
 pub type Lane<const L: usize> = [f64; L];
@@ -42,7 +43,7 @@ pub fn sum<const L: usize>(a: &Lane<L>, b: &Lane<L>) -> Lane<L> {
 pub fn plus<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
     let mut out = [0.0; L];
     for l in 0..L {
-        out[l] = a[l].mul_add(b[l], c[l]);
+        out[l] = fma(a[l], b[l], c[l]);
     }
     out
 }
@@ -52,7 +53,7 @@ pub fn plus<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
 pub fn less<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
     let mut out = [0.0; L];
     for l in 0..L {
-        out[l] = (-a[l]).mul_add(b[l], c[l]);
+        out[l] = fma(-a[l], b[l], c[l]);
     }
     out
 }
@@ -88,7 +89,7 @@ pub fn inverse_root<const L: usize>(a: &Lane<L>) -> Lane<L> {
 pub fn add_dot<const L: usize>(sum: &mut Lane<L>, a: &LaneVector<L>, b: &LaneVector<L>) {
     for c in 0..3 {
         for l in 0..L {
-            sum[l] = a[c][l].mul_add(b[c][l], sum[l]);
+            sum[l] = fma(a[c][l], b[c][l], sum[l]);
         }
     }
 }
@@ -106,7 +107,7 @@ pub fn dot<const L: usize>(a: &LaneVector<L>, b: &LaneVector<L>) -> Lane<L> {
 pub fn add_cross<const L: usize>(sum: &mut LaneVector<L>, a: &LaneVector<L>, b: &LaneVector<L>) {
     for (c, (i, j)) in [(1, 2), (2, 0), (0, 1)].into_iter().enumerate() {
         for l in 0..L {
-            sum[c][l] = a[i][l].mul_add(b[j][l], (-a[j][l]).mul_add(b[i][l], sum[c][l]));
+            sum[c][l] = fma(a[i][l], b[j][l], fma(-a[j][l], b[i][l], sum[c][l]));
         }
     }
 }
@@ -124,7 +125,7 @@ pub fn cross<const L: usize>(a: &LaneVector<L>, b: &LaneVector<L>) -> LaneVector
 pub fn add_scaled<const L: usize>(sum: &mut LaneVector<L>, factor: &Lane<L>, a: &LaneVector<L>) {
     for c in 0..3 {
         for l in 0..L {
-            sum[c][l] = factor[l].mul_add(a[c][l], sum[c][l]);
+            sum[c][l] = fma(factor[l], a[c][l], sum[c][l]);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Vectors in the plane, L side by side, and the convolutions of planar bodies.
 
 use crate::dynamics::series::lanes::{Lane, less, plus, sum, times};
+use triad_linalg::fma;
 
 /// A vector in the plane for each lane.
 pub type Pair<const L: usize> = [Lane<L>; 2];
@@ -20,8 +21,8 @@ pub fn each<const L: usize>(of: impl Fn(usize) -> f64) -> Lane<L> {
 pub fn turned<const L: usize>([a, b]: &Pair<L>, z: &Pair<L>) -> Pair<L> {
     let mut out = [[0.0; L]; 2];
     for l in 0..L {
-        out[0][l] = a[l].mul_add(z[0][l], -(b[l] * z[1][l]));
-        out[1][l] = a[l].mul_add(z[1][l], b[l] * z[0][l]);
+        out[0][l] = fma(a[l], z[0][l], -(b[l] * z[1][l]));
+        out[1][l] = fma(a[l], z[1][l], b[l] * z[0][l]);
     }
     out
 }

@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use triad_linalg::BlockCholesky;
 use triad_linalg::block_cholesky::stride;
+use triad_linalg::fma;
 
 /// A product H_p H_qᵀ that is added to a block of S.
 #[derive(Clone, Copy, Debug)]
@@ -264,7 +265,7 @@ impl Schur {
 fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
     let mut sum = a[0] * b[0];
     for k in 1..W {
-        sum = a[k].mul_add(b[k], sum);
+        sum = fma(a[k], b[k], sum);
     }
     sum
 }

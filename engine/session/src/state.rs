@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_engine::run::{ErrorEstimate, Simulation};
 
-use super::change::Drag;
-use super::recording::Recording;
-use crate::problem::{Problem, ProblemDocument};
-use crate::stream::{Arrows, Camera};
+use crate::change::Drag;
+use crate::drawing::{Arrows, Camera};
+use crate::picture::Samples;
+use crate::refusal::ProblemDocument;
 
 /// Where a session's scene came from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -117,14 +117,14 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    pub(super) fn of(recording: &Recording) -> Self {
-        let (arrows, scale) = recording.arrows();
+    pub(crate) fn of(samples: &Samples) -> Self {
+        let scale = samples.description().scale;
         Self {
-            arrows: arrows.clone(),
+            arrows: samples.arrows().clone(),
             force_scale: scale.force,
             moment_scale: scale.moment,
             longest: scale.longest,
-            camera: recording.camera(),
+            camera: samples.camera(),
         }
     }
 }
@@ -240,9 +240,9 @@ pub struct SessionState {
     pub links: Links,
 }
 
-/// What the worker knows about the session, beside the simulation.
+/// What is known of a session beside its simulation.
 #[derive(Debug, Clone)]
-pub(super) struct SessionFacts {
+pub(crate) struct SessionFacts {
     pub id: String,
     pub source: SceneSource,
     pub title: String,
@@ -254,32 +254,12 @@ pub(super) struct SessionFacts {
     pub drawing: Drawing,
     pub changes: u64,
     pub drag: Option<Drag>,
-    pub error: Option<Problem>,
-}
-
-impl SessionFacts {
-    /// Those of a session that has recorded its first frame.
-    pub(super) fn at_start(id: &str, source: &SceneSource, title: &str, drawing: Drawing) -> Self {
-        Self {
-            id: id.to_owned(),
-            source: source.clone(),
-            title: title.to_owned(),
-            playing: false,
-            speed: 1.0,
-            frames: 1,
-            frames_encoded: 0,
-            watchers: 0,
-            drawing,
-            changes: 0,
-            drag: None,
-            error: None,
-        }
-    }
+    pub error: Option<ProblemDocument>,
 }
 
 impl SessionState {
     /// The state of a simulation.
-    pub(super) fn of(simulation: &Simulation, facts: &SessionFacts) -> Self {
+    pub(crate) fn of(simulation: &Simulation, facts: SessionFacts) -> Self {
         let summary = simulation.summary();
         let frame = simulation.frame();
         let accelerations = simulation.mass_accelerations();
@@ -299,9 +279,10 @@ impl SessionState {
                 mass: body.mass,
             });
         Self {
-            id: facts.id.clone(),
-            source: facts.source.clone(),
-            title: facts.title.clone(),
+            links: Links::new(&facts.id),
+            id: facts.id,
+            source: facts.source,
+            title: facts.title,
             time: simulation.time(),
             duration: simulation.duration(),
             playing: facts.playing,
@@ -323,15 +304,14 @@ impl SessionState {
             frames: facts.frames,
             frames_encoded: facts.frames_encoded,
             watchers: facts.watchers,
-            drawing: facts.drawing.clone(),
+            drawing: facts.drawing,
             changes: facts.changes,
-            pull: facts.drag.clone(),
+            pull: facts.drag,
             notes: [simulation.notes(), &summary.doubts].concat(),
-            error: facts.error.as_ref().map(Problem::document),
+            error: facts.error,
             bodies: bodies.collect(),
             forces,
             gravity: simulation.model().gravity.into(),
-            links: Links::new(&facts.id),
         }
     }
 }
@@ -351,4 +331,16 @@ fn forces(simulation: &Simulation) -> Vec<JointForce> {
             moment: joint.moment,
         })
         .collect()
+}
+
+/// The text messages to a watcher.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum SessionMessage<'a> {
+    /// The session's state.
+    State(&'a SessionState),
+    /// The recording begins anew: the viewer must forget the old one.
+    Reset,
+    /// The session is closed.
+    Closed,
 }

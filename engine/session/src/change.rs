@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use axum::http::StatusCode;
+use http::StatusCode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use triad_engine::model::Model;
 use triad_engine::scene::{Load, OnChange, Scene, WrittenScene};
 
-use crate::problem::Problem;
+use crate::refusal::{Refusal, suggest};
 
 /// Other values for numbers of the scene.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
@@ -64,7 +64,7 @@ impl SceneChange {
     /// The changed scene, and what happens to its run.
     ///
     /// Errors if a name, a place or a value is refused.
-    pub fn of(&self, scene: &Scene) -> Result<(Scene, AfterChange), Problem> {
+    pub fn of(&self, scene: &Scene) -> Result<(Scene, AfterChange), Refusal> {
         let values = self.values.iter().map(|(name, value)| (name.as_str(), *value));
         let places = self.places.iter().map(|(pointer, value)| (pointer.as_str(), value));
         let changed = scene.changed(values, places)?;
@@ -77,7 +77,7 @@ impl SceneChange {
 
 /// A changed scene as the engine is given it: the ranges of its parameters are the author's promise about the scene as
 /// written, and an expert may leave them.
-pub(super) fn as_it_runs(scene: &Scene) -> Scene {
+pub(crate) fn as_it_runs(scene: &Scene) -> Scene {
     Scene { parameters: Vec::new(), ..scene.clone() }
 }
 
@@ -164,15 +164,15 @@ impl Drag {
     /// The scene with the spring in it.
     ///
     /// Errors if there is no such body, or the stiffness is not positive.
-    pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Problem> {
+    pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Refusal> {
         let wrong = |pointer: &str, detail: String, hint: String| {
-            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "cannot-pull", detail.clone(), hint)
+            Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, "cannot-pull", detail.clone(), hint)
                 .at(pointer, detail)
         };
         let Some(body) = model.bodies.iter().find(|body| body.name == self.body) else {
             let names = model.bodies.iter().map(|body| body.name.as_str());
             let detail = format!("there is no body \"{}\"", self.body);
-            return Err(wrong("/body", detail, crate::problem::suggest(&self.body, names)));
+            return Err(wrong("/body", detail, suggest(&self.body, names)));
         };
         let total: f64 = model.bodies.iter().map(|body| body.mass).sum();
         let rate = std::f64::consts::TAU / DRAG_PERIOD;

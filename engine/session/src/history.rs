@@ -1,9 +1,9 @@
 //! The states of a run that are kept, so that a question about a time that has passed is answered from its state.
 
-use axum::http::StatusCode;
+use http::StatusCode;
 use triad_engine::run::{Simulation, Snapshot, StateView};
 
-use crate::problem::Problem;
+use crate::refusal::Refusal;
 
 /// Stretches of a run with different numbers that are kept; the oldest is forgotten first.
 const MAX_SEGMENTS: usize = 32;
@@ -12,7 +12,7 @@ const SAME_TIME: f64 = 1e-9;
 
 /// States of a run, thinned out evenly when they become too many.
 #[derive(Debug)]
-pub(super) struct History {
+pub(crate) struct History {
     /// Stretches of the run with the same numbers, oldest first.
     segments: Vec<Segment>,
     bytes: usize,
@@ -28,17 +28,17 @@ struct Segment {
 
 impl History {
     /// Nothing yet; at most about `limit` bytes.
-    pub(super) fn new(limit: usize) -> Self {
+    pub(crate) fn new(limit: usize) -> Self {
         Self { segments: vec![Segment { run: None, snapshots: Vec::new() }], bytes: 0, limit }
     }
 
     /// Forgets everything.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         *self = Self::new(self.limit);
     }
 
     /// Keeps the state of the present.
-    pub(super) fn keep(&mut self, simulation: &Simulation) {
+    pub(crate) fn keep(&mut self, simulation: &Simulation) {
         let snapshot = simulation.snapshot();
         self.bytes += snapshot.size();
         if let Some(segment) = self.segments.last_mut() {
@@ -62,7 +62,7 @@ impl History {
     }
 
     /// Begins a segment with other numbers; `old` is the run before the change.
-    pub(super) fn start_segment(&mut self, old: Simulation) {
+    pub(crate) fn start_segment(&mut self, old: Simulation) {
         match self.segments.last_mut() {
             // Numbers that were never run with need no segment.
             Some(last) if last.snapshots.is_empty() => return,
@@ -76,7 +76,7 @@ impl History {
     }
 
     /// The latest kept state that is not after `time`. Errors if none is kept.
-    pub(super) fn at<'a>(&'a self, time: f64, present: &'a Simulation) -> Result<StateView<'a>, Problem> {
+    pub(crate) fn at<'a>(&'a self, time: f64, present: &'a Simulation) -> Result<StateView<'a>, Refusal> {
         let found = self.segments.iter().rev().find_map(|segment| {
             let after = segment.snapshots.partition_point(|snapshot| snapshot.time <= time + SAME_TIME);
             Some((segment, segment.snapshots.get(after.checked_sub(1)?)?))
@@ -87,8 +87,8 @@ impl History {
     }
 }
 
-fn unknown(time: f64) -> Problem {
-    Problem::new(
+fn unknown(time: f64) -> Refusal {
+    Refusal::new(
         StatusCode::UNPROCESSABLE_ENTITY,
         "unknown-time",
         format!("the state of the run at {time} s is not kept"),

@@ -23,7 +23,7 @@ const FULL_CIRCLE: f64 = 0.22;
 /// Length of the longest arrow, relative to the size of the mechanism.
 const LONGEST: f64 = 0.8;
 /// A moment below this part of the force of the same joint times the mechanism's size is rounding.
-pub(super) const NO_MOMENT: f64 = 1e-7;
+pub const NO_MOMENT: f64 = 1e-7;
 
 impl Scale {
     /// Before anything is recorded: the weight of everything is drawn at full length.
@@ -74,6 +74,6 @@ fn percentile(mut sizes: Vec<f64>) -> Option<f64> {
 }
 
 /// Whether a reaction has a moment that is more than rounding.
-pub(super) fn has_moment(reaction: &SampledReaction, size: f64) -> bool {
+pub fn has_moment(reaction: &SampledReaction, size: f64) -> bool {
     norm(reaction.moment) > NO_MOMENT * size * norm(reaction.force).max(1e-300)
 }

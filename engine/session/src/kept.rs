@@ -4,21 +4,21 @@ use serde::{Deserialize, Serialize};
 use triad_engine::run::Snapshot;
 use triad_engine::scene::Scene;
 
-use super::state::SceneSource;
+use crate::state::SceneSource;
 
 /// A session at one moment, as it goes on later: its scene and the state of the run, not its recording.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct KeptSession {
-    pub(super) id: String,
-    pub(super) source: SceneSource,
+    pub(crate) id: String,
+    pub(crate) source: SceneSource,
     /// The scene as its author wrote it.
-    pub(super) original: Scene,
+    pub(crate) original: Scene,
     /// The scene that runs.
-    pub(super) scene: Scene,
-    pub(super) changes: u64,
-    pub(super) state: Snapshot,
-    pub(super) playing: bool,
-    pub(super) speed: f64,
+    pub(crate) scene: Scene,
+    pub(crate) changes: u64,
+    pub(crate) state: Snapshot,
+    pub(crate) playing: bool,
+    pub(crate) speed: f64,
 }
 
 impl KeptSession {

@@ -1,6 +1,7 @@
 //! What appears in a recording: the bodies with their shapes, the joints with their rows, and the scales.
 
 use triad_engine::model::{BodyRef, Model};
+use triad_engine::run::Simulation;
 use triad_engine::scene::{Scene, Shape};
 
 use super::scale::Scale;
@@ -119,6 +120,25 @@ impl SceneDescription {
             scale: Scale::of_weight(weight, size),
         }
     }
+}
+
+/// The description of a simulation at its start.
+pub fn describe(scene: &Scene, simulation: &Simulation) -> SceneDescription {
+    let bodies: Vec<String> = simulation.model().bodies.iter().map(|body| body.name.clone()).collect();
+    let body = |name: &str| bodies.iter().position(|body| body == name);
+    let joints = simulation.multipliers().into_iter().map(|joint| JointVisual {
+        on: body(&joint.on),
+        by: body(&joint.by),
+        name: joint.joint,
+        rows: joint.rows.into_iter().map(|row| row.label).collect(),
+    });
+    let jacobian = simulation.jacobian();
+    let pattern = Pattern {
+        rows: jacobian.rows.len(),
+        columns: jacobian.columns.len(),
+        entries: jacobian.entries.iter().map(|e| (e.row, e.column, e.constant)).collect(),
+    };
+    SceneDescription::new(scene, simulation.model(), joints.collect(), pattern)
 }
 
 fn joint_points(model: &Model, body: usize) -> Vec<[f64; 3]> {

@@ -3,54 +3,13 @@
 //! One scale for the whole scene. An arrow that would be longer than the longest is drawn as two in a row. A moment is
 //! three quarters of a circle in its sense; one that would be larger than the largest is drawn as two circles.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use triad_engine::reactions::report::Side;
 
 use super::description::{JointVisual, SceneDescription};
 use super::sample::Sample;
 use super::scale::{NO_MOMENT, has_moment};
 use super::vector::{cross, minus, norm, plus, times};
-
-/// Which forces are drawn, and by which convention.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Arrows {
-    /// On the first or on the second body of each joint.
-    pub on: Side,
-    /// About which point: there the force is drawn and the moment taken.
-    pub about: MomentPoint,
-    /// Which of them.
-    pub drawn: DrawnForces,
-    /// The joint that is marked, because somebody selected it or its rows.
-    pub marked: Option<String>,
-}
-
-/// The point about which moments are taken.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum MomentPoint {
-    /// The joint's.
-    #[default]
-    Joint,
-    /// The centre of mass of the body that is acted on.
-    Center,
-}
-
-/// Which forces are drawn.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DrawnForces {
-    /// None.
-    None,
-    /// Those of every joint.
-    #[default]
-    All,
-    /// That of one joint.
-    Joint(String),
-    /// All forces on one body, which is cut free.
-    Body(String),
-}
+use crate::drawing::{Arrows, DrawnForces, MomentPoint};
 
 /// What an arrow shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -280,7 +239,7 @@ mod tests {
             bodies: vec![bob],
             joints: vec![pin],
             ground_markers: Vec::new(),
-            pattern: super::super::Pattern::default(),
+            pattern: super::super::description::Pattern::default(),
             gravity: [0.0, -10.0, 0.0],
             size: 1.0,
             center: [0.0; 3],

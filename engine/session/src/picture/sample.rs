@@ -1,5 +1,7 @@
 //! What is recorded of one instant.
 
+use triad_engine::run::Simulation;
+
 /// A body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
@@ -48,5 +50,32 @@ impl Sample {
     pub fn size(&self) -> usize {
         let rows: usize = self.reactions.iter().map(|reaction| reaction.multipliers.len() + 9).sum();
         size_of::<f64>() * (4 + 18 * self.poses.len() + rows)
+    }
+}
+
+/// The simulation at its current time, as it is recorded.
+pub fn sample(simulation: &Simulation) -> Sample {
+    let frame = simulation.frame();
+    let summary = simulation.summary();
+    let accelerations = simulation.mass_accelerations();
+    let model = simulation.model();
+    let weights = model.bodies.iter().map(|body| (model.gravity * body.mass).into()).collect();
+    let inertia =
+        model.bodies.iter().zip(accelerations).map(|(body, a)| a.map(|part| part * body.mass)).collect();
+    let reactions = simulation.multipliers_between_steps().into_iter().map(|joint| SampledReaction {
+        at: joint.about,
+        force: joint.force,
+        moment: joint.moment,
+        multipliers: joint.rows.iter().map(|row| row.value).collect(),
+    });
+    Sample {
+        time: simulation.time(),
+        poses: frame.bodies.iter().map(|b| Pose { position: b.position, axes: [b.u, b.v, b.w] }).collect(),
+        weights,
+        inertia,
+        reactions: reactions.collect(),
+        energy: summary.energy,
+        position_violation: summary.position_violation,
+        velocity_violation: summary.velocity_violation,
     }
 }

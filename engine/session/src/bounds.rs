@@ -1,0 +1,42 @@
+//! How large a scene may be where somebody else's machine runs it.
+
+use http::StatusCode;
+use triad_engine::scene::Scene;
+
+use crate::refusal::Refusal;
+
+/// The largest scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SceneBounds {
+    /// Its bodies.
+    pub bodies: usize,
+    /// Its joints, drivers and loads together.
+    pub connections: usize,
+}
+
+impl SceneBounds {
+    /// Refuses a scene that is larger, before anything is built from it; `taker` is who runs it, as in “this server takes”.
+    pub fn hold(self, scene: &Scene, taker: &str) -> Result<(), Refusal> {
+        let connections = scene.joints.len() + scene.drivers.len() + scene.loads.len();
+        // The longest of the lists that are bounded together is the place to mend.
+        let lists =
+            [("joints", scene.joints.len()), ("drivers", scene.drivers.len()), ("loads", scene.loads.len())];
+        let longest = lists.into_iter().max_by_key(|(_, count)| *count).map_or("joints", |(list, _)| list);
+        for (list, what, count, limit) in [
+            ("bodies", "bodies", scene.bodies.len(), self.bodies),
+            (longest, "joints, drivers and loads", connections, self.connections),
+        ] {
+            if count > limit {
+                let detail = format!("the scene has {count} {what}, {taker} takes {limit}");
+                return Err(Refusal::new(
+                    StatusCode::UNPROCESSABLE_ENTITY,
+                    "scene-too-large",
+                    detail.clone(),
+                    "make the scene smaller, or run it on the command line: triad run SCENE",
+                )
+                .at(format!("/{list}"), detail));
+            }
+        }
+        Ok(())
+    }
+}

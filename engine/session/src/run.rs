@@ -1,0 +1,441 @@
+//! One live run: its simulation with all that belongs to it.
+
+use http::StatusCode;
+use triad_engine::EngineError;
+use triad_engine::model::Model;
+use triad_engine::run::{Simulation, StateView};
+use triad_engine::scene::Scene;
+
+use crate::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
+use crate::drawing::{Arrows, Camera};
+use crate::history::History;
+use crate::kept::KeptSession;
+use crate::picture::{Samples, describe};
+use crate::refusal::Refusal;
+use crate::state::{Drawing, SceneSource, SessionFacts, SessionState};
+
+/// Integrator steps between two looks at the clock and at what others ask.
+const STEPS_AT_ONCE: u64 = 32;
+
+/// A run that plays: the simulated time was `from` when the owner's clock was at `since`, both in s.
+#[derive(Debug, Clone, Copy)]
+struct Play {
+    since: f64,
+    from: f64,
+}
+
+/// What the owner of a run knows of its watchers.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Streamed {
+    /// Frames that were encoded because somebody watched.
+    pub frames_encoded: u64,
+    /// How many watch.
+    pub watchers: usize,
+}
+
+/// A live run of a scene. Times called `now` are those of a clock of its owner, in s, which never runs back.
+pub struct Run {
+    id: String,
+    source: SceneSource,
+    title: String,
+    /// The scene as its author wrote it.
+    original: Scene,
+    /// The scene that runs, without the spring of a drag.
+    scene: Scene,
+    changes: u64,
+    drag: Option<Drag>,
+    simulation: Simulation,
+    samples: Samples,
+    history: History,
+    /// Set while time runs.
+    play: Option<Play>,
+    /// Simulated seconds a second while it plays.
+    speed: f64,
+    /// Why it cannot go on.
+    error: Option<Refusal>,
+}
+
+impl Run {
+    /// Assembles a scene, with a change before its start; keeps about `bytes` of samples at most and half as many of
+    /// states.
+    ///
+    /// Errors if the scene or the change of it is refused.
+    pub fn start(
+        id: String,
+        original: Scene,
+        change: &SceneChange,
+        source: SceneSource,
+        bytes: usize,
+    ) -> Result<Self, Refusal> {
+        let model = Model::new(&original).map_err(EngineError::from)?;
+        let (scene, simulation) = if change.is_empty() {
+            (original.clone(), Simulation::from_model(model)?)
+        } else {
+            let (scene, _) = change.of(&original)?;
+            let simulation = Simulation::new(&as_it_runs(&scene))?;
+            (scene, simulation)
+        };
+        Ok(Self::of(id, source, original, scene, simulation, bytes))
+    }
+
+    /// Goes on with a run that was kept, at the time and in the state that it had. Its samples begin anew.
+    ///
+    /// Errors if its scene is refused by this program; none if the state is of another program.
+    pub fn resume(kept: KeptSession, bytes: usize, now: f64) -> Result<Option<Self>, Refusal> {
+        let KeptSession { id, source, original, scene, changes, state, playing, speed } = kept;
+        let mut simulation = Simulation::new(&as_it_runs(&scene))?;
+        if !simulation.resume(&state) {
+            return Ok(None);
+        }
+        let play = playing.then(|| Play { since: now, from: simulation.time() });
+        Ok(Some(Self { changes, play, speed, ..Self::of(id, source, original, scene, simulation, bytes) }))
+    }
+
+    fn of(
+        id: String,
+        source: SceneSource,
+        original: Scene,
+        scene: Scene,
+        simulation: Simulation,
+        bytes: usize,
+    ) -> Self {
+        let mut samples = Samples::new(describe(&scene, &simulation), bytes);
+        samples.record(&simulation);
+        let mut history = History::new(bytes / 2);
+        history.keep(&simulation);
+        let title = if scene.title.is_empty() { scene.name.clone() } else { scene.title.clone() };
+        Self {
+            id,
+            source,
+            title,
+            original,
+            scene,
+            changes: 0,
+            drag: None,
+            simulation,
+            samples,
+            history,
+            play: None,
+            speed: 1.0,
+            error: None,
+        }
+    }
+
+    /// What is needed to go on later.
+    pub fn kept(&self) -> KeptSession {
+        KeptSession {
+            id: self.id.clone(),
+            source: self.source.clone(),
+            original: self.original.clone(),
+            scene: self.scene.clone(),
+            changes: self.changes,
+            state: self.simulation.snapshot(),
+            playing: self.play.is_some(),
+            speed: self.speed,
+        }
+    }
+
+    /// The scene as it is now, and before any change.
+    pub fn scene(&self) -> SessionScene {
+        SessionScene::new(&self.scene, &self.original)
+    }
+
+    /// The samples.
+    pub fn samples(&self) -> &Samples {
+        &self.samples
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// The state of a moment that the run has passed, or the present's.
+    ///
+    /// Errors if that moment is not kept.
+    pub fn at(&self, time: Option<f64>) -> Result<StateView<'_>, Refusal> {
+        match time.filter(|at| *at < self.simulation.time()) {
+            None => Ok(self.simulation.state()),
+            Some(time) => self.history.at(time, &self.simulation),
+        }
+    }
+
+    /// Goes back to the start; the samples begin anew.
+    pub fn reset(&mut self) {
+        self.play = None;
+        self.error = None;
+        self.simulation.reset();
+        self.samples.restart();
+        self.history.clear();
+        self.record();
+    }
+
+    /// Runs the scene with other numbers. If they are refused, the run goes on with the old ones.
+    ///
+    /// Errors if they are refused, or the run cannot go on with them.
+    pub fn change(&mut self, change: &SceneChange, now: f64) -> Result<(), Refusal> {
+        let (scene, then) = change.of(&self.scene)?;
+        if then == AfterChange::Restart {
+            self.drag = None;
+        }
+        let mut next = self.assembled(&scene, self.drag.as_ref())?;
+        let description = describe(&scene, &next);
+        match then {
+            AfterChange::Restart => self.error = None,
+            AfterChange::Continue => self.transfer_state(&mut next)?,
+        }
+        let before = std::mem::replace(&mut self.simulation, next);
+        self.scene = scene;
+        self.changes += 1;
+        match then {
+            AfterChange::Restart => {
+                self.samples.restart_with(description);
+                self.history.clear();
+            }
+            AfterChange::Continue => {
+                self.samples.follow(description);
+                self.history.start_segment(before);
+            }
+        }
+        self.run_on(now);
+        self.record();
+        Ok(())
+    }
+
+    /// Drags a body by a spring, or lets it go.
+    ///
+    /// Errors if there is no such body, or the run cannot go on.
+    pub fn drag(&mut self, drag: Option<Drag>, now: f64) -> Result<(), Refusal> {
+        let mut next = self.assembled(&self.scene, drag.as_ref())?;
+        self.transfer_state(&mut next)?;
+        self.history.start_segment(std::mem::replace(&mut self.simulation, next));
+        self.drag = drag;
+        self.run_on(now);
+        Ok(())
+    }
+
+    fn assembled(&self, scene: &Scene, drag: Option<&Drag>) -> Result<Simulation, Refusal> {
+        Ok(match drag {
+            None => Simulation::new(&as_it_runs(scene))?,
+            Some(drag) => Simulation::new(&as_it_runs(&drag.added_to(scene, self.simulation.model())?))?,
+        })
+    }
+
+    /// Lets another simulation go on from the state of the current one.
+    fn transfer_state(&mut self, next: &mut Simulation) -> Result<(), Refusal> {
+        self.ready()?;
+        next.continue_from(&self.simulation).map(drop).map_err(|error| {
+            let refusal = Refusal::from(error);
+            Refusal::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "cannot-continue",
+                format!("the run cannot go on with these numbers: {refusal}"),
+                "start it over with them: add \"then\": \"restart\"",
+            )
+        })
+    }
+
+    /// Simulated time goes on from the present, if it was running.
+    fn run_on(&mut self, now: f64) {
+        if self.play.is_some() {
+            self.play = Some(Play { since: now, from: self.simulation.time() });
+        }
+    }
+
+    /// Errors if the engine could not leave this state.
+    pub fn ready(&self) -> Result<(), Refusal> {
+        match &self.error {
+            None => Ok(()),
+            Some(error) => Err(Refusal::new(
+                StatusCode::CONFLICT,
+                "session-stopped",
+                format!("the simulation stopped at {:.6} s: {error}", self.simulation.time()),
+                "reset the session to start over; its last good state can still be read",
+            )),
+        }
+    }
+
+    /// Lets time run, `speed` simulated seconds a second.
+    pub fn play(&mut self, speed: f64, now: f64) {
+        self.speed = speed;
+        self.play = Some(Play { since: now, from: self.simulation.time() });
+    }
+
+    /// Stops time.
+    pub fn pause(&mut self) {
+        self.play = None;
+    }
+
+    /// Whether time runs.
+    pub fn playing(&self) -> bool {
+        self.play.is_some()
+    }
+
+    /// Takes one step of the integrator; returns whether there was one to take before the end.
+    ///
+    /// Errors if the engine cannot go on.
+    pub fn step(&mut self) -> Result<bool, Refusal> {
+        if self.simulation.time() >= self.simulation.duration() {
+            return Ok(false);
+        }
+        self.simulation.step()?;
+        self.record();
+        Ok(true)
+    }
+
+    /// Goes on towards simulated time `target`, or the end of the run, by a few steps or to the next of the scene's output
+    /// times; returns whether there is more to do.
+    ///
+    /// Errors if the engine cannot go on.
+    pub fn advance(&mut self, target: f64) -> Result<bool, Refusal> {
+        let every = self.simulation.model().settings.every;
+        let target = target.min(self.simulation.duration());
+        if self.simulation.time() >= target {
+            return Ok(false);
+        }
+        // The next of the scene's output times; the slack keeps rounding from making one twice.
+        let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
+        if self.simulation.advance_towards(next.min(target), STEPS_AT_ONCE)? {
+            self.record();
+        }
+        Ok(self.simulation.time() < target)
+    }
+
+    /// The simulated time that a playing run should have reached. Simulated time follows the owner's clock; frames fall on
+    /// the scene's own output times, so that two runs record the same ones.
+    pub fn due(&self, now: f64) -> Option<f64> {
+        let play = self.play?;
+        let due = play.from + (now - play.since) * self.speed;
+        let every = self.simulation.model().settings.every;
+        Some(if due < self.simulation.duration() { (due / every + 1e-6).floor() * every } else { due })
+    }
+
+    /// The owner has let a playing run come as near to `target` as it could. Where the engine cannot keep up, the run
+    /// plays slower rather than in leaps; at its end, or after an error, it stops.
+    pub fn played(&mut self, target: f64, now: f64, reached: Result<(), Refusal>) {
+        if self.simulation.time() + self.simulation.model().settings.every < target {
+            self.play = Some(Play { since: now, from: self.simulation.time() });
+        }
+        if self.simulation.time() >= self.simulation.duration() {
+            self.play = None;
+        }
+        if let Err(refusal) = reached {
+            self.stop(refusal);
+        }
+        if self.simulation.finished() {
+            // The whole run is known: its scale is that of all of it.
+            self.samples.fit(false);
+        }
+    }
+
+    /// The engine cannot go on; the first reason is kept.
+    pub fn stop(&mut self, refusal: Refusal) {
+        self.play = None;
+        self.error.get_or_insert(refusal);
+    }
+
+    /// Keeps the present, if it is one of the moments that are kept.
+    fn record(&mut self) {
+        if self.samples.record(&self.simulation) {
+            self.history.keep(&self.simulation);
+        }
+    }
+
+    /// Draws forces in another way, where `arrows` are given; `fit` takes their scale from the samples.
+    pub fn draw(&mut self, arrows: Option<Arrows>, fit: bool) {
+        if let Some(arrows) = arrows {
+            self.samples.draw(arrows);
+        }
+        if fit {
+            self.samples.fit(true);
+        }
+    }
+
+    /// Looks at the mechanism from another side.
+    pub fn look_from(&mut self, camera: Camera) {
+        self.samples.look_from(camera);
+    }
+
+    /// What the run tells of itself; `trace_id` names the occurrence of its error, if it has one.
+    pub fn state(&self, streamed: Streamed, trace_id: impl FnOnce() -> String) -> SessionState {
+        let facts = SessionFacts {
+            id: self.id.clone(),
+            source: self.source.clone(),
+            title: self.title.clone(),
+            playing: self.play.is_some(),
+            speed: self.speed,
+            frames: self.samples.recorded(),
+            frames_encoded: streamed.frames_encoded,
+            watchers: streamed.watchers,
+            drawing: Drawing::of(&self.samples),
+            changes: self.changes,
+            drag: self.drag.clone(),
+            error: self.error.as_ref().map(|error| error.document(trace_id())),
+        };
+        SessionState::of(&self.simulation, facts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use triad_engine::catalogue;
+
+    fn pendulum() -> Run {
+        let scene = catalogue::scene("simple-pendulum").expect("a scene");
+        let source = SceneSource::Builtin("simple-pendulum".into());
+        Run::start("one".into(), scene, &SceneChange::default(), source, 1 << 20).expect("runs")
+    }
+
+    /// Goes to where the run should be at `now`.
+    fn tick(run: &mut Run, now: f64) {
+        let Some(target) = run.due(now) else { return };
+        let mut reached = Ok(true);
+        while let Ok(true) = reached {
+            reached = run.advance(target);
+        }
+        run.played(target, now, reached.map(drop));
+    }
+
+    #[test]
+    fn a_playing_run_follows_its_owners_clock_at_any_ticks() {
+        let (mut one, mut other) = (pendulum(), pendulum());
+        one.play(1.0, 10.0);
+        other.play(1.0, 3.0);
+        for k in 1..=40 {
+            tick(&mut one, 10.0 + 0.033 * f64::from(k));
+        }
+        tick(&mut other, 3.0 + 0.033 * 40.0);
+        assert_eq!(one.time(), other.time());
+        assert!((one.time() - 1.32).abs() < 0.011, "{}", one.time());
+        let [one, other] = [one, other].map(|run| run.state(Streamed::default(), String::new));
+        assert_eq!((one.q, one.q_dot, one.frames), (other.q, other.q_dot, other.frames));
+    }
+
+    #[test]
+    fn a_run_that_cannot_keep_up_plays_slower_and_not_in_leaps() {
+        let mut run = pendulum();
+        run.play(1.0, 0.0);
+        let target = run.due(1.0).expect("it plays");
+        run.advance(target).expect("runs");
+        run.played(target, 1.0, Ok(()));
+        let reached = run.time();
+        assert!(reached < 0.5);
+        let next = run.due(1.1).expect("it plays");
+        assert!((next - reached).abs() <= 0.1, "{next} {reached}");
+    }
+
+    #[test]
+    fn a_run_that_stopped_says_why_and_starts_over() {
+        let mut run = pendulum();
+        run.play(1.0, 0.0);
+        run.stop(Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, "x", "why", "h"));
+        assert!(!run.playing());
+        let state = run.state(Streamed::default(), || "t".into());
+        assert_eq!(state.error.map(|error| (error.code, error.trace_id)), Some(("x".into(), "t".into())));
+        assert_eq!(run.ready().map_err(|refusal| refusal.code()), Err("session-stopped"));
+        assert_eq!(run.drag(None, 0.0).map_err(|refusal| refusal.code()), Err("session-stopped"));
+        run.reset();
+        assert_eq!(run.ready(), Ok(()));
+    }
+}
