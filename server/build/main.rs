@@ -1,5 +1,6 @@
-//! What the binary carries beside its code: the web page and the letters of pictures.
+//! What the binary carries beside its code: the web page, with an engine of its own, and the letters of pictures.
 
+mod engine;
 mod glyphs;
 mod page;
 

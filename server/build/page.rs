@@ -8,6 +8,8 @@ use std::process::Command;
 use std::time::SystemTime;
 use std::{env, fs, io};
 
+use crate::engine;
+
 /// What the page is made from, relative to `web/`.
 const SOURCES: [&str; 8] = [
     "src",
@@ -23,7 +25,8 @@ const SOURCES: [&str; 8] = [
 /// Builds the page where that is needed, and writes the table of its files.
 pub fn embed() -> Result<(), Box<dyn Error>> {
     let server = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
-    let web = server.parent().ok_or("the server's folder has no parent")?.join("web");
+    let root = server.parent().ok_or("the server's folder has no parent")?;
+    let web = root.join("web");
     let dist = web.join("dist");
     for source in SOURCES {
         let source = web.join(source);
@@ -33,8 +36,11 @@ pub fn embed() -> Result<(), Box<dyn Error>> {
     }
     let sources = SOURCES.iter().filter_map(|source| newest(&web.join(source))).max();
     let built = fs::metadata(dist.join("index.html")).and_then(|m| m.modified()).ok();
-    if built.is_none_or(|built| sources.is_some_and(|changed| changed > built)) {
-        build_page(&web)?;
+    let engine = engine::build(root)?;
+    let engine_built = engine.as_deref().and_then(newest);
+    let changed = built.is_none_or(|built| sources.max(engine_built).is_some_and(|changed| changed > built));
+    if changed || has_engine(&dist)? != engine.is_some() {
+        build_page(&web, engine.as_deref())?;
     }
     write_table(&dist)
 }
@@ -48,32 +54,48 @@ fn newest(path: &Path) -> Option<SystemTime> {
     fs::read_dir(path).ok()?.filter_map(|entry| newest(&entry.ok()?.path())).max()
 }
 
-fn build_page(web: &Path) -> Result<(), Box<dyn Error>> {
+/// Whether the page that is there was built with an engine of its own.
+fn has_engine(dist: &Path) -> Result<bool, Box<dyn Error>> {
+    let assets = dist.join("assets");
+    if !assets.exists() {
+        return Ok(false);
+    }
+    let mut names = fs::read_dir(assets)?.filter_map(Result::ok).map(|entry| entry.file_name());
+    Ok(names.any(|name| name.to_string_lossy().starts_with("engine-")))
+}
+
+fn build_page(web: &Path, engine: Option<&Path>) -> Result<(), Box<dyn Error>> {
     let lock = newest(&web.join("package-lock.json"));
     let installed = newest(&web.join("node_modules/.package-lock.json"));
     if installed.is_none() || lock > installed {
         // Vite and what the page loads. Who has installed the tools of `npm run check`, three times as many files,
         // keeps them.
         let tools = web.join("node_modules/typescript").exists();
-        npm(web, &["ci", if tools { "--include=dev" } else { "--omit=dev" }, "--no-audit", "--no-fund"])?;
+        npm(
+            web,
+            &["ci", if tools { "--include=dev" } else { "--omit=dev" }, "--no-audit", "--no-fund"],
+            None,
+        )?;
     }
-    npm(web, &["run", "build"])
+    npm(web, &["run", "build"], engine)
 }
 
-fn npm(web: &Path, arguments: &[&str]) -> Result<(), Box<dyn Error>> {
+fn npm(web: &Path, arguments: &[&str], engine: Option<&Path>) -> Result<(), Box<dyn Error>> {
     let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
     let shown = format!("npm {} (in {})", arguments.join(" "), web.display());
-    let output =
-        Command::new(program).args(arguments).current_dir(web).output().map_err(|error| {
-            match error.kind() {
-                io::ErrorKind::NotFound => {
-                    "the web page needs Node.js 20 or later to be built, and `npm` was not found: \
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(web).env_remove("TRIAD_ENGINE_WASM");
+    if let Some(engine) = engine {
+        command.env("TRIAD_ENGINE_WASM", engine);
+    }
+    let output = command.output().map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            "the web page needs Node.js 20 or later to be built, and `npm` was not found: \
              install Node.js from https://nodejs.org or with your package manager, then build again"
-                        .to_owned()
-                }
-                _ => format!("`{shown}` could not be started: {error}"),
-            }
-        })?;
+                .to_owned()
+        }
+        _ => format!("`{shown}` could not be started: {error}"),
+    })?;
     if output.status.success() {
         return Ok(());
     }
@@ -92,7 +114,7 @@ fn write_table(dist: &Path) -> Result<(), Box<dyn Error>> {
     let mut assets = BTreeMap::new();
     collect(dist, dist, &mut assets)?;
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    let mut table = format!("static ASSETS: [Asset; {}] = [\n", assets.len());
+    let mut table = format!("pub(super) static ASSETS: [Asset; {}] = [\n", assets.len());
     for (index, (name, stored)) in assets.iter().enumerate() {
         let (kind, file) = match stored {
             Stored::Plain(file) => ("Plain", file),

@@ -48,6 +48,8 @@ pub mod reports;
 
 pub mod api;
 
+pub mod site;
+
 mod listen;
 
 pub mod cli;

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
-use triad_tests::program::{self, Server};
+use triad_tests::program::{self, Server, triad};
 use triad_tests::root;
 
 /// Where Debian's package puts the browser.
@@ -120,4 +120,24 @@ fn a_class_from_the_setup_link_to_the_mistakes_of_its_students() {
         let (server, link) = Server::start_class(home);
         (server, vec![link.into()])
     });
+}
+
+#[test]
+fn a_course_as_files_is_read_and_its_mechanisms_play_without_a_server_and_without_a_network() {
+    let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
+    let folder = scripts();
+    let home = tempfile::tempdir().unwrap();
+    let site = home.path().join("site");
+    let output = Command::new(triad()).args(["export", "site"]).arg(&site).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    if said.contains("[no-engine]") {
+        println!("NOT CHECKED: the program has no engine for the page: {said}");
+        return;
+    }
+    assert!(output.status.success(), "{said}");
+    let again = Command::new(triad()).args(["export", "site"]).arg(&site).output().unwrap();
+    assert!(String::from_utf8_lossy(&again.stderr).contains("[not-empty]"), "nothing is overwritten");
+    let mut visit = Command::new("node");
+    visit.arg("site.mjs").arg(&site).arg(root().join("tests/output")).current_dir(&folder);
+    println!("{}", must("the browser", &mut visit));
 }

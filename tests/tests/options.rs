@@ -22,7 +22,7 @@ const UNTIL: &str = "0.01";
 const MOST_STEPS: &str = "40";
 
 /// Options that have their cases in other tests, or open a port: the command, and where.
-const ELSEWHERE: [(&str, &str); 18] = [
+const ELSEWHERE: [(&str, &str); 19] = [
     ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
     ("lesson preview", "it serves a page"),
     ("lesson list", "commands.rs"),
@@ -39,6 +39,7 @@ const ELSEWHERE: [(&str, &str); 18] = [
     ("class import", "gradebook.rs; it takes no scene"),
     ("class copy", "gradebook.rs; it takes no scene"),
     ("class erase", "gradebook.rs; it takes no scene"),
+    ("export site", "browser.rs opens what it writes; it takes no scene"),
     ("paper", "engine/lab/tests/paper.rs"),
     ("stress", "engine/lab/tests/stress.rs"),
 ];

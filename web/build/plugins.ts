@@ -1,4 +1,4 @@
-// Two build steps of our own: lighter KaTeX fonts, and files packed ahead of time.
+// Build steps of our own: lighter KaTeX fonts, the engine for the page, and files packed ahead of time.
 import { readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
@@ -9,7 +9,7 @@ const toBrotli = promisify(brotliCompress);
 
 const COMPRESSED = /\.(?:js|css|wasm|svg|json)$/;
 const SMALLEST = 1024;
-const LARGE = 4 * 1024 * 1024;
+const LARGE = 16 * 1024 * 1024;
 
 /** Every browser that runs the viewer reads woff2, so the woff and ttf copies are left out. */
 export function onlyWoff2(): Plugin {
@@ -20,6 +20,30 @@ export function onlyWoff2(): Plugin {
       if (!id.split("?")[0]?.endsWith("katex.min.css")) return null;
       const lighter = code.replace(/,url\([^)]*\.(?:woff|ttf)\)\s*format\("[^"]*"\)/g, "");
       return { code: lighter, map: null };
+    },
+  };
+}
+
+const ENGINE = "virtual:triad-engine";
+
+/**
+ * The engine for the page, where it was built: `virtual:triad-engine` is its address, or undefined without it. The program's
+ * build script builds it and names the file; other builds take what is there.
+ */
+export function engine(file: string | undefined): Plugin {
+  let building = false;
+  return {
+    name: "triad-engine",
+    configResolved(config) {
+      building = config.command === "build";
+    },
+    resolveId: (id) => (id === ENGINE ? `\0${ENGINE}` : null),
+    async load(id) {
+      if (id !== `\0${ENGINE}`) return null;
+      if (!file) return "export default undefined;";
+      if (!building) return `export default ${JSON.stringify(`/@fs${file}`)};`;
+      const asset = this.emitFile({ type: "asset", name: "engine.wasm", source: await readFile(file) });
+      return `export default import.meta.ROLLUP_FILE_URL_${asset};`;
     },
   };
 }

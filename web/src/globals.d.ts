@@ -5,3 +5,9 @@ declare module "*.css?inline" {
   const text: string;
   export default text;
 }
+
+/** Where the engine for this page is; undefined in a build without it. */
+declare module "virtual:triad-engine" {
+  const url: string | undefined;
+  export default url;
+}

@@ -1,4 +1,5 @@
 import { loadMe } from "./api/identity";
+import { fileOf, pathOf, site } from "./core/address";
 import { loadMaths } from "./core/maths";
 import { startRouter } from "./core/router";
 import { applyTheme } from "./core/theme";
@@ -9,7 +10,9 @@ import { header } from "./ui/shell";
 
 applyTheme();
 // A lesson will need KaTeX: it is fetched beside the lesson's text, not after it.
-if (location.pathname.startsWith("/lessons/")) void loadMaths();
+if (pathOf(location).startsWith("/lessons/")) void loadMaths();
+// A site of files keeps itself, and works without a network once it was opened.
+if (site && "serviceWorker" in navigator) void navigator.serviceWorker.register(fileOf("keep.js"));
 
 const head = document.getElementById("header");
 const main = document.getElementById("main");

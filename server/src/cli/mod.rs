@@ -256,6 +256,18 @@ enum Export {
         /// The folder; made if it is not there. Files of the same names are replaced.
         dir: PathBuf,
     },
+    /// Write lessons, scenes, page and engine as files that any host of files serves, without a server.
+    ///
+    /// Lessons can be read, mechanisms run in the page and can be changed, questions are shown; answers are not checked, as
+    /// that needs what the files do not hold. Once opened, the site works without a network.
+    #[command(
+        after_help = "Examples:\n  triad export site public\n  triad --course my-course export site public\n  \
+        python3 -m http.server --directory public      (then open http://localhost:8000)"
+    )]
+    Site {
+        /// The folder, which is made, or is empty.
+        dir: PathBuf,
+    },
 }
 
 #[derive(Debug, Subcommand)]
@@ -351,6 +363,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Restore(options) => records::restore(&options, json),
         Command::Class(options) => records::class(options, json),
         Command::Regrade(options) => regrade::regrade(&options, &course()?, json),
+        Command::Export(Export::Site { dir }) => export::site(&dir, course()?, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),

@@ -12,7 +12,7 @@ use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::problem::Problem;
-use asset::{Asset, Encoding, find};
+use asset::{ASSETS, Asset, Encoding, find};
 pub use player::playing;
 
 /// First words of the addresses that the page has a view for: those of `web/src/main.ts`.
@@ -75,6 +75,17 @@ pub async fn serve(request: Request) -> Response {
         )
         .into_response(),
     }
+}
+
+/// All files of the page, as browsers see them.
+///
+/// Errors if one cannot be unpacked.
+pub async fn files() -> Result<Vec<(&'static str, axum::body::Bytes)>, Problem> {
+    let mut files = Vec::with_capacity(ASSETS.len());
+    for asset in &ASSETS {
+        files.push((asset.path, asset.bytes(|_| false).await?.1));
+    }
+    Ok(files)
 }
 
 /// The answer to a method that an address does not have.

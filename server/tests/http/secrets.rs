@@ -230,6 +230,33 @@ async fn no_endpoint_tells_an_answer() {
     assert!(asked > 500);
 }
 
+/// The files of a site are in everybody's hands, for ever.
+#[tokio::test]
+async fn no_file_of_an_exported_site_tells_an_answer() {
+    let course = Course::embedded().expect("a course");
+    let lessons = course.lessons().to_vec();
+    let files = triad::site::data(course).await.expect("the course as files");
+    let mut told = Vec::new();
+    for lesson in &lessons {
+        let (secrets, shown) = (secrets(lesson), shown(lesson));
+        for (path, bytes) in &files {
+            // Numbers of one lesson may stand in another by chance; sentences do not.
+            let own = path.contains(&format!("/{}", lesson.slug));
+            let found = leaks(&String::from_utf8_lossy(bytes), &secrets, &shown, own);
+            told.extend((!found.is_empty()).then(|| format!("{path} tells {found:?}")));
+        }
+        let view: Value =
+            serde_json::from_slice(&files[&format!("data/lessons/{}.json", lesson.slug)]).expect("JSON");
+        assert_eq!(
+            view["exercise"]["questions"].as_array().map(Vec::len),
+            Some(lesson.exercise.questions.len())
+        );
+        assert_eq!(view["predictions"], json!([]), "their results are told by a server");
+    }
+    assert!(told.is_empty(), "{told:#?}");
+    assert!(files.len() > 2 * lessons.len(), "{}", files.len());
+}
+
 /// All that a WebSocket sends until the session is deleted, which is when it has told its state: the stream ends with a
 /// message, not with silence. Frames of a server are not masked, so that texts stand in them as they are.
 async fn overheard(server: &Router, address: SocketAddr, path: &str, session: &str) -> String {

@@ -1,6 +1,10 @@
 // HTTP client of /api/v1. Every failure becomes an ApiError that carries a Problem.
+import { site } from "../core/address";
 import { student as who } from "../core/prefs";
+import { askHere, isHere } from "../engine/here";
+import { fileAnswer, fileUrl, needsServer } from "./files";
 import type { Numbers } from "./numbers";
+import { computedHere } from "./place";
 import type {
   AfterChange,
   Answer,
@@ -121,6 +125,9 @@ async function ask(
   key?: string,
   more?: Record<string, string>,
 ): Promise<Response> {
+  const below = path.startsWith(BASE) ? path.slice(BASE.length) : path;
+  if (isAnsweredHere(method, below)) return hereAnswer(method, below, body);
+  if (site) return method === "GET" ? fileAnswer(below).then(whole) : whole(needsServer());
   let response: Response;
   try {
     const headers: Record<string, string> = { accept: "application/json, application/problem+json", ...more };
@@ -141,8 +148,27 @@ async function ask(
       hint: "Is it still running? Start it again with “triad serve”; this page then carries on by itself.",
     });
   }
+  return whole(response);
+}
+
+/** The answer, unless it is a refusal. */
+async function whole(response: Response): Promise<Response> {
   if (!response.ok) throw await failure(response);
   return response;
+}
+
+/** Requests that the engine in this page answers: those to its own runs, and without a server all that only compute. */
+function isAnsweredHere(method: string, path: string): boolean {
+  if (path === "/sessions") return method === "POST" && computedHere();
+  if (path.startsWith("/sessions/")) return isHere(path);
+  return site && /^\/(?:scenes|check|analyses)(?:$|\/)/.test(path) && !path.endsWith("/motion");
+}
+
+async function hereAnswer(method: string, path: string, body: unknown): Promise<Response> {
+  const sent = typeof body === "string" ? (JSON.parse(body) as unknown) : body;
+  const { status, text } = await askHere(method, path, sent);
+  const kind = status < 400 ? "application/json" : "application/problem+json";
+  return whole(new Response(text, { status, headers: { "content-type": kind } }));
 }
 
 const id = encodeURIComponent;
@@ -188,6 +214,13 @@ export interface Handed {
 }
 
 export type SessionSource = { lesson: string; seed?: string } | { builtin: string } | { scene: unknown };
+
+/** What a run in this page begins with: the engine knows no lessons, so that their scenes are sent along. */
+async function withScene(source: SessionSource): Promise<object> {
+  if (!("lesson" in source)) return source;
+  const { scene } = await api.lesson(source.lesson, source.seed ?? "");
+  return { lesson: source.lesson, scene };
+}
 
 export const api = {
   me: () => call<Me>("GET", "/me"),
@@ -271,9 +304,13 @@ export const api = {
     signal?: AbortSignal,
   ) => call<Understood>("POST", `/lessons/${id(slug)}/questions/${id(question)}/reading`, answer, signal),
   statesUrl: (slug: string, question: string, seed?: string): string =>
-    `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
+    site
+      ? fileUrl(`/lessons/${id(slug)}/questions/${id(question)}/states`)
+      : `${BASE}/lessons/${id(slug)}/questions/${id(question)}/states${whose(seed)}`,
   starterUrl: (slug: string, question: string, language: string): string =>
-    `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
+    site
+      ? fileUrl(`/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`)
+      : `${BASE}/lessons/${id(slug)}/questions/${id(question)}/starters/${language}`,
   /** A request that is sent again under the same name is one submission. */
   submit: (
     slug: string,
@@ -318,8 +355,10 @@ export const api = {
   sceneSchema: () => call<unknown>("GET", "/schema/scene"),
 
   // The address of a run is that of its session, or of the lecture that follows it.
-  createSession: (source: SessionSource, change?: Numbers) =>
-    call<SessionState>("POST", "/sessions", own(change ? { ...source, change } : source)),
+  createSession: async (source: SessionSource, change?: Numbers) => {
+    const sent = computedHere() ? await withScene(source) : own(source);
+    return call<SessionState>("POST", "/sessions", change ? { ...sent, change } : sent);
+  },
   state: (run: string) => call<SessionState>("GET", run),
   sceneOf: (run: string) => call<SessionScene>("GET", `${run}/scene`),
   jacobian: (run: string, at?: number) => call<Jacobian>("GET", `${run}/jacobian${when(at)}`),
@@ -345,7 +384,8 @@ export const api = {
   reset: (run: string) => call<SessionState>("POST", `${run}/reset`),
   /** Sent while the page goes away, so nobody waits for the answer. */
   dropSession: (run: string): void => {
-    void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
+    if (isHere(run)) void askHere("DELETE", run.slice(BASE.length), undefined);
+    else void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
   openLecture: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
@@ -366,8 +406,9 @@ export const api = {
   answer: (code: string, vote: { question: number; voter: string; choice: number }) =>
     call<void>("POST", `/rooms/${id(code)}/answers`, vote),
 
-  /** The address of a stream, as the browser opens it. */
+  /** The address of a stream, as the browser opens it; that of a run in this page stays as it is. */
   streamUrl: (path: string): string => {
+    if (isHere(path)) return path;
     const url = new URL(path, location.href);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     return url.href;

@@ -1,4 +1,5 @@
 // Helpers of the DOM: make elements with typed properties, announce, save a file.
+import { addressOf, site } from "./address";
 
 type Listener = (event: never) => void;
 type Value = string | number | boolean | null | undefined | Listener;
@@ -14,6 +15,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   for (const [key, value] of Object.entries(props ?? {})) {
     if (value === null || value === undefined || value === false) continue;
     if (typeof value === "function") element.addEventListener(key.slice(2), value as EventListener);
+    else if (key === "href") element.setAttribute(key, addressOf(String(value)));
     else element.setAttribute(key, value === true ? "" : String(value));
   }
   append(element, children);
@@ -43,6 +45,9 @@ function append(parent: Element, children: Child[]): void {
 /** Markup written by the lesson's author and rendered by our own server. */
 export function authored<E extends HTMLElement>(element: E, html: string): E {
   element.innerHTML = html;
+  if (site)
+    for (const link of element.querySelectorAll("a[href^='/']"))
+      link.setAttribute("href", addressOf(link.getAttribute("href") ?? ""));
   return element;
 }
 

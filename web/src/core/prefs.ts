@@ -6,6 +6,7 @@ type Key =
   | "student"
   | "shortcuts"
   | "picture"
+  | "computed"
   | `draft:${string}`
   | `tab:${string}`
   | "scene-draft"

@@ -1,4 +1,5 @@
 // Paths to pages. A page fills the outlet and returns what must be undone when it is left.
+import { addressOf, pathOf } from "./address";
 
 export interface Page {
   title: string;
@@ -15,7 +16,7 @@ export function setTitle(title: string): void {
 }
 
 export function navigate(path: string): void {
-  history.pushState(null, "", path);
+  history.pushState(null, "", addressOf(path));
   dispatchEvent(new Event("triad:navigate"));
 }
 
@@ -25,10 +26,10 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
   let shownPath = "";
 
   const show = (first: boolean): void => {
-    shownPath = location.pathname;
+    shownPath = pathOf(location);
     current?.dispose?.();
     outlet.replaceChildren();
-    const path = location.pathname.replace(/\/+$/, "") || "/";
+    const path = pathOf(location).replace(/\/+$/, "") || "/";
     let page: Page | undefined;
     for (const route of routes) {
       const match = route.pattern.exec(path);
@@ -41,7 +42,7 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
     setTitle(current.title);
     for (const link of document.querySelectorAll<HTMLAnchorElement>("#header nav a")) {
       const here =
-        link.pathname === "/" ? path === "/" || path.startsWith("/lessons") : path.startsWith(link.pathname);
+        pathOf(link) === "/" ? path === "/" || path.startsWith("/lessons") : path.startsWith(pathOf(link));
       if (here) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
@@ -53,7 +54,7 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
 
   addEventListener("popstate", () => {
     // A step to another place of the same page is the browser's own business.
-    if (location.pathname !== shownPath) show(false);
+    if (pathOf(location) !== shownPath) show(false);
   });
   addEventListener("triad:navigate", () => show(false));
   document.addEventListener("click", (event) => {
@@ -61,10 +62,12 @@ export function startRouter(outlet: HTMLElement, routes: Route[], missing: Route
     if (event.metaKey || event.ctrlKey || event.shiftKey || event.altKey) return;
     const link = (event.target as Element).closest?.("a");
     if (!link || link.target || link.origin !== location.origin || link.hasAttribute("download")) return;
-    if (link.pathname.startsWith("/api/")) return;
-    if (link.pathname === location.pathname && link.hash) return;
+    if (/\/(?:api|data|docs)\//.test(link.pathname)) return;
+    if (link.pathname === location.pathname && link.search === location.search && link.hash) return;
     event.preventDefault();
-    if (link.href !== location.href) navigate(link.pathname + link.search + link.hash);
+    if (link.href === location.href) return;
+    history.pushState(null, "", link.href);
+    dispatchEvent(new Event("triad:navigate"));
   });
   show(true);
 }

@@ -1,6 +1,7 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
 import { api, problemOf } from "../api/client";
 import type { GradedSubmission, Lesson } from "../api/types";
+import { site } from "../core/address";
 import { announce, authored, h } from "../core/dom";
 import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
@@ -22,6 +23,15 @@ export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
   root.append(...section.parts());
   return () => section.dispose();
 }
+
+/** What stands in place of the button on a site of files. */
+const unchecked = (): HTMLElement =>
+  h(
+    "p",
+    { class: "notice", id: "unchecked" },
+    "This copy of the course has no server: answers are neither checked nor kept here. Open the lesson on your class's " +
+      "server to hand them in, or run “triad” on your own machine to have them checked.",
+  );
 
 class ExerciseSection {
   private readonly draft: DraftStore;
@@ -77,7 +87,7 @@ class ExerciseSection {
       whose(this.lesson),
       conventions(this.lesson),
       this.form,
-      this.history.root,
+      site ? null : this.history.root,
     ].filter((part) => part !== null);
   }
 
@@ -90,14 +100,16 @@ class ExerciseSection {
       "form",
       { class: "questions", novalidate: true },
       ...this.fields.map((field) => field.root),
-      h(
-        "div",
-        { class: "send" },
-        student.known()
-          ? account()
-          : h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
-        this.send,
-      ),
+      site
+        ? unchecked()
+        : h(
+            "div",
+            { class: "send" },
+            student.known()
+              ? account()
+              : h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
+            this.send,
+          ),
       this.lesson.exercise.opens ? h("p", { class: "opens" }, this.lesson.exercise.opens) : null,
       this.outcome,
     );

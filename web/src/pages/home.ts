@@ -1,6 +1,7 @@
 // The list of lessons in their parts, with how far one has come, under a mechanism that moves.
 import { api } from "../api/client";
 import type { LessonSummary } from "../api/types";
+import { addressOf } from "../core/address";
 import { h } from "../core/dom";
 import { plural } from "../core/format";
 import { student } from "../core/prefs";
@@ -64,7 +65,7 @@ class HomePage {
   private hero(): HTMLElement {
     const place = lastBookmark();
     if (place) {
-      this.start.href = place.href;
+      this.start.href = addressOf(place.href);
       this.start.textContent = `Go on with “${place.title}”`;
     }
     return h(
@@ -128,7 +129,7 @@ class HomePage {
       );
       return;
     }
-    if (!lastBookmark()) this.start.href = hrefOf(first);
+    if (!lastBookmark()) this.start.href = addressOf(hrefOf(first));
     const passed = lessons.filter((lesson) => known.get(lesson.slug)?.is === "passed").length;
     this.progress.textContent = student.get()
       ? `${passed} of ${lessons.length} passed`

@@ -1,6 +1,7 @@
 // One lesson: text, mechanism, exercise. The text comes first, the others when it can be read.
 import { ApiError, api } from "../api/client";
 import type { Lesson, LessonSummary } from "../api/types";
+import { pathOf } from "../core/address";
 import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
@@ -140,7 +141,7 @@ async function showNeighbours(
   const at = lessons.findIndex((lesson) => lesson.slug === slug);
   if (signal.aborted || at < 0) return;
   for (const before of text.querySelectorAll<HTMLAnchorElement>(".before a")) {
-    const named = lessons.find((lesson) => before.pathname === `/lessons/${lesson.slug}`);
+    const named = lessons.find((lesson) => pathOf(before) === `/lessons/${lesson.slug}`);
     if (named) before.textContent = named.title;
   }
   const link = (which: string, lesson: LessonSummary | undefined): HTMLElement | null =>

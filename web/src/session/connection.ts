@@ -1,5 +1,7 @@
 // The stream of a run: opened, read, and opened again when it breaks.
+import { isHere } from "../engine/here";
 import { banner } from "../ui/notice";
+import { HereStream } from "./here-stream";
 
 /** Pauses before the stream is opened again, ms; the last one is repeated. */
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
@@ -16,7 +18,7 @@ export interface ConnectionHooks {
 }
 
 export class Connection {
-  private socket: WebSocket | undefined;
+  private socket: Pick<WebSocket, "close"> | undefined;
   private retry = 0;
   private timer = 0;
   private ended = false;
@@ -29,8 +31,8 @@ export class Connection {
     const url = this.hooks.url();
     if (url === undefined || this.ended) return;
     this.close();
-    const socket = new WebSocket(url);
-    socket.binaryType = "arraybuffer";
+    const socket = isHere(url) ? new HereStream(url) : new WebSocket(url);
+    if (socket instanceof WebSocket) socket.binaryType = "arraybuffer";
     this.socket = socket;
     socket.onopen = () => {
       this.retry = 0;

@@ -1,6 +1,7 @@
 // One live simulation on the server, steered from the page.
 import { ApiError, api, type SessionSource } from "../api/client";
 import { between, isNone, type Numbers, none, tidy } from "../api/numbers";
+import { computedHere } from "../api/place";
 import type { AfterChange, Camera, Drag, Drawing, SessionScene, SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { banner } from "../ui/notice";
@@ -54,6 +55,11 @@ export class Session extends Clock {
       gone: () => this.recreate(),
     });
     addEventListener("pagehide", this.drop);
+  }
+
+  /** Whether the engine in this page computes the run: nobody else can follow it, and there is no recording for a viewer. */
+  get here(): boolean {
+    return this.controls && computedHere();
   }
 
   /** The run's address, once there is one. */

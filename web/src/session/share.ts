@@ -2,6 +2,7 @@
 
 import { isNone } from "../api/numbers";
 import type { Camera } from "../api/types";
+import { pathOf } from "../core/address";
 import { announce, h } from "../core/dom";
 import type { Drawn } from "../mechanics/forces";
 import { icon } from "../ui/icons";
@@ -36,7 +37,7 @@ export function shareButton(shared: Shared): HTMLElement {
 }
 
 async function copy(shared: Shared): Promise<void> {
-  const link = await linkTo(shared.own?.path ?? location.pathname, viewOf(shared));
+  const link = await linkTo(shared.own?.path ?? pathOf(location), viewOf(shared));
   if (link.length > MAX_LENGTH) {
     banner(
       `This scene is too large for a link (${Math.round(link.length / 1000)} kB). Save its file and send that.`,

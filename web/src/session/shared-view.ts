@@ -1,5 +1,6 @@
 // One link holds what somebody looks at: numbers that were changed, the time, the selected joint, panel and picture.
 import type { Numbers } from "../api/numbers";
+import { addressOf } from "../core/address";
 
 /** What a link holds beside the lesson or scene of its path. Its keys are published: old links use them. */
 export interface SharedView {
@@ -52,7 +53,7 @@ export async function unpack(text: string): Promise<SharedView | undefined> {
 
 /** The page's address with this view in it. */
 export async function linkTo(path: string, seen: SharedView): Promise<string> {
-  const url = new URL(path, location.href);
+  const url = new URL(addressOf(path), location.href);
   url.search = "";
   url.hash = "";
   url.searchParams.set(NAME, await pack(seen));

@@ -68,7 +68,7 @@ export class Stage {
     scene: Scene | undefined,
     picture?: "drawing" | "viewer",
   ) {
-    this.wanted = (picture ?? recall("picture")) === "viewer";
+    this.wanted = !session.here && (picture ?? recall("picture")) === "viewer";
     this.drawing = new Drawing(scene, session, reducedMotion);
     hands(session, this.drawing);
     const tools = toolbar(session, this.drawing, () => this.root);
@@ -176,6 +176,8 @@ export class Stage {
     this.root.classList.toggle("has-viewer", on);
     if (!on) this.root.classList.remove("is-behind");
     this.loading.root.hidden = !this.failed && !(this.starting && this.wanted);
+    // The viewer shows a recording, which the server makes.
+    this.button.hidden = this.session.here;
     this.button.replaceChildren(icon("cube"), this.wanted ? "Back to the drawing" : "Open in rerun");
     this.button.title = this.wanted
       ? ""

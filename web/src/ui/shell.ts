@@ -1,6 +1,7 @@
 // The header that stays: name, places, the student's name, theme, help.
 import { api } from "../api/client";
 import { inClass, me, teaches } from "../api/identity";
+import { site } from "../core/address";
 import { h } from "../core/dom";
 import { bind, shortcuts } from "../core/keys";
 import { student } from "../core/prefs";
@@ -24,7 +25,7 @@ export function header(root: HTMLElement): void {
       { "aria-label": "Main" },
       h("a", { href: "/" }, "Lessons"),
       h("a", { href: "/scenes" }, "Scenes"),
-      h("a", { href: "/room" }, "Join"),
+      site ? null : h("a", { href: "/room" }, "Join"),
       classLink(),
     ),
     h("span", { class: "header-space" }),

@@ -10,6 +10,7 @@ import { restore, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
 import { takeAlongButton } from "../share/dialog";
 import { Stage } from "../stage/stage";
+import { placeMenu } from "./place-menu";
 import { trouble } from "./run-problems";
 import { Transport } from "./transport";
 
@@ -45,10 +46,12 @@ export function mountWorkbench(
   const picture = new Stage(session, options.scene, options.seen?.picture);
   const details = inspector(session, options.seen?.panel);
   const shared = { session, panel: details.current, picture: () => picture.current(), own: options.own };
-  const lecture = session.controls ? new PresenterPanel(session, () => viewOf(shared)) : undefined;
+  const lecture =
+    session.controls && !session.here ? new PresenterPanel(session, () => viewOf(shared)) : undefined;
   const more = h(
     "span",
     { class: "row tight" },
+    session.controls ? placeMenu() : null,
     lecture?.button ?? null,
     session.controls ? shareButton(shared) : null,
     takeAlongButton({ session, drawing: picture.drawing, scene: options.scene }),

@@ -1,0 +1,25 @@
+// Tells where the run is computed, and lets one choose.
+import { canChoosePlace, computedHere, computeHere } from "../api/place";
+import { h } from "../core/dom";
+
+const ABOUT =
+  "Where the run is computed. Here: by the engine in this page, without the server; its last digits differ. " +
+  "Answers are always checked by the server's own runs.";
+
+/** A choice where there is one, and a word where there is only this page. */
+export function placeMenu(): HTMLElement | null {
+  if (!canChoosePlace())
+    return computedHere() ? h("span", { class: "help", title: ABOUT }, "Computed here") : null;
+  const choice = h(
+    "select",
+    { class: "field compact", id: "computed", "aria-label": "Where the run is computed", title: ABOUT },
+    h("option", { value: "server", selected: !computedHere() }, "On the server"),
+    h("option", { value: "here", selected: computedHere() }, "Computed here"),
+  );
+  choice.addEventListener("change", () => {
+    computeHere(choice.value === "here");
+    // Every part of the page holds on to its run: it begins again with another.
+    location.reload();
+  });
+  return choice;
+}
