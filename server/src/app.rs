@@ -10,6 +10,7 @@ use crate::access::Access;
 use crate::glance::Presence;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
+use crate::lti::Lti;
 use crate::motion::Shelf;
 use crate::regrade::Previews;
 use crate::session::Registry;
@@ -45,6 +46,8 @@ pub struct App {
     pub presence: Arc<Presence>,
     /// Who may do what.
     pub access: Arc<Access>,
+    /// What learning platforms reach; nothing where they reach nothing.
+    pub lti: Option<Arc<Lti>>,
     /// What this server allows.
     pub limits: Arc<Limits>,
     /// The folder with the reports of commands.
@@ -68,6 +71,7 @@ impl App {
             regrades: Arc::default(),
             presence: Arc::default(),
             access: Arc::new(Access::home(false, [])),
+            lti: None,
             limits: Arc::new(limits),
             reports: Path::new(REPORTS).into(),
             live: None,
@@ -78,6 +82,12 @@ impl App {
     #[must_use]
     pub fn with_access(self, access: Access) -> Self {
         Self { access: Arc::new(access), ..self }
+    }
+
+    /// The same server, which learning platforms reach.
+    #[must_use]
+    pub fn with_lti(self, lti: Lti) -> Self {
+        Self { lti: Some(Arc::new(lti)), ..self }
     }
 
     /// The same server, whose sessions and rooms outlive it in a file.

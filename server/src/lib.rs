@@ -40,6 +40,8 @@ pub mod glance;
 
 pub mod regrade;
 
+pub mod lti;
+
 pub mod app;
 
 pub mod docs;

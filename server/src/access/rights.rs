@@ -60,6 +60,10 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/glance", GRADER),
     ("GET", "/api/v1/people/{person}/submissions", GRADER),
     ("POST", "/api/v1/people/{person}/decisions", GRADER),
+    // The learning platform.
+    ("GET", "/api/v1/lti", INSTRUCTOR),
+    ("POST", "/api/v1/lti/roster", INSTRUCTOR),
+    ("POST", "/api/v1/lti/scores", INSTRUCTOR),
     // What leaves the gradebook.
     ("GET", "/api/v1/course/export", OWNER),
     ("GET", "/api/v1/me/data", STUDENT),

@@ -8,6 +8,7 @@ mod guard;
 mod health;
 mod lectures;
 mod lessons;
+mod lti;
 mod scenes;
 mod sessions;
 
@@ -89,6 +90,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(sessions::stream::routes(&mut schemas))
                 .merge(lectures::routes(&mut schemas))
                 .merge(lectures::follow::routes(&mut schemas))
+                .merge(lti::state::routes(&mut schemas))
                 .merge(health::routes(&mut schemas)),
         )
         .split_for_parts();
@@ -111,6 +113,7 @@ pub fn router(app: App) -> Router {
             get(move || async move { ([(header::CONTENT_TYPE, "application/json")], document) }),
         )
         .route("/api/{*rest}", axum::routing::any(unknown_address))
+        .merge(lti::pages())
         .route("/livez", get(health::alive))
         .route("/readyz", get(health::ready))
         .route("/bench", get(reports::bench))
@@ -144,6 +147,8 @@ async fn uncached_interface(request: axum::extract::Request, next: Next) -> Resp
     }
     response
 }
+
+pub use lti::keep_told;
 
 /// Closes idle sessions and lectures for as long as the server runs.
 pub async fn keep_house(app: App) {

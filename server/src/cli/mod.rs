@@ -20,7 +20,7 @@ use clap::{Parser, Subcommand};
 use triad_engine::analysis::ModesAbout;
 
 use crate::problem::Problem;
-use course::{grade, grades, graph, lesson, preview, records, regrade};
+use course::{grade, grades, graph, lesson, lti, preview, records, regrade};
 use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
@@ -206,6 +206,19 @@ enum Command {
     /// A class as one file, from one gradebook to another; and one person's data.
     #[command(subcommand)]
     Class(records::Class),
+    /// The learning platform of a class: Moodle, Canvas, Open edX and others that speak LTI 1.3.
+    ///
+    /// Its people come in from their course there, choose lessons, and find their scores in its grade book.
+    #[command(
+        subcommand,
+        after_help = "Example:\n  triad lti tool --url https://triad.example.org     (what the platform's settings ask for)\n  \
+        triad lti add --issuer https://moodle.example.org --client-id 9kVQ… --deployment 3 \\\n    \
+        --jwks-url https://moodle.example.org/mod/lti/certs.php \\\n    \
+        --login-url https://moodle.example.org/mod/lti/auth.php \\\n    \
+        --token-url https://moodle.example.org/mod/lti/token.php\n  \
+        triad serve --class --url https://triad.example.org"
+    )]
+    Lti(lti::Lti),
     /// The lessons of the course.
     #[command(subcommand)]
     Lesson(Lesson),
@@ -362,6 +375,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Backup(options) => records::backup(&options, json),
         Command::Restore(options) => records::restore(&options, json),
         Command::Class(options) => records::class(options, json),
+        Command::Lti(command) => lti::lti(command, json),
         Command::Regrade(options) => regrade::regrade(&options, &course()?, json),
         Command::Export(Export::Site { dir }) => export::site(&dir, course()?, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),

@@ -16,6 +16,7 @@ use crate::app::{App, REPORTS};
 use crate::grader::{Grader, LEASE};
 use crate::limits::Limits;
 use crate::live::{self, Which};
+use crate::lti::Lti;
 use crate::problem::Problem;
 use crate::store::{CLASS, Location, Quotas, Role, Store};
 
@@ -133,8 +134,11 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
             ..Quotas::default()
         };
         let store = Store::at(&options.database).await?.with_quotas(quotas);
+        let mut lti = None;
         let access = if options.class {
             let class = store.ensure_course(CLASS, &course.title).await?;
+            // Where browsers would not bring back what they are given, platforms send nobody: `triad lti tool` says so.
+            lti = options.url.as_deref().and_then(|url| Lti::at(url, &class.secret).ok());
             Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
         } else {
             Access::home(options.open, options.allow_host.iter().cloned())
@@ -145,6 +149,7 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
             Some(file) => app.with_live(&file),
             None => app,
         };
+        let app = if let Some(lti) = lti { app.with_lti(lti) } else { app };
         let coming = app.clone();
         crate::blocking(move || {
             Ok(coming
@@ -191,6 +196,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     let slots = processors.saturating_sub(1).max(1);
     let grader = Grader::new(app.store.clone(), app.variants.clone(), slots, LEASE);
     let grading = tokio::spawn(Arc::clone(&grader).run());
+    let telling = tokio::spawn(crate::api::keep_told(app.clone()));
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
     // Open streams end with their sessions; otherwise they would keep the server up.
     let live_at = app.live.clone();
@@ -199,6 +205,9 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         house.abort();
         drop(house.await);
         grading.abort();
+        // A score under way is sent again by the next one who looks: the platform takes the same twice.
+        telling.abort();
+        drop(telling.await);
         if let Some(path) = live_at
             && let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await
         {

@@ -58,6 +58,7 @@ documents! {
     }
     "Teach" {
         "lessons/README.md" as "course.html", "Writing a course";
+        "docs/LMS.md" as "lms.html", "Your learning platform";
     }
     "Trust" {
         "docs/theory-mathml.md" as "theory.html", "The equations";

@@ -11,6 +11,7 @@ mod error;
 mod file;
 pub mod hash;
 mod log;
+mod lti;
 pub mod names;
 #[cfg(all(test, unix))]
 mod on_both;
@@ -46,6 +47,7 @@ pub use database::Location;
 use database::{Kind, Pools};
 pub use error::StoreError;
 use file::Place;
+pub use lti::{Admission, Arrival, Column, ColumnState, Context, Due, Pause, Platform, Told, Wanted};
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
 pub use predictions::{KeptPrediction, NewPrediction};
 pub use queue::{Accept, Accepted, Bell, Claim, Job, STARTS, Waiting};

@@ -217,7 +217,7 @@ async fn every_statement_is_understood() {
     let store = fresh().await;
     let mut transaction = store.write().await.expect("begins");
     assert!(sql::ALL.len() > 70);
-    for (name, text) in sql::ALL.iter().chain(OF_COURSE) {
+    for (name, text) in sql::ALL.iter().chain(sql::lti::ALL).chain(OF_COURSE) {
         let prepared = transaction.prepare(sqlx::SqlStr::from_static(text)).await;
         assert!(prepared.is_ok(), "{name}: {:?}", prepared.err());
         assert!(!text.contains('?') && !text.contains("rowid"), "{name} is in SQLite's words");

@@ -67,9 +67,10 @@ pub struct Member {
     pub joined_at: i64,
 }
 
-type MemberRow = (String, String, String, String, i64);
+pub(super) type MemberRow = (String, String, String, String, i64);
 
-fn member((id, name, role, seed, joined_at): MemberRow) -> Member {
+/// A member as the row says.
+pub(super) fn member((id, name, role, seed, joined_at): MemberRow) -> Member {
     // A word that a later version wrote gives the least right.
     Member { id, name, role: Role::named(&role).unwrap_or(Role::Student), seed, joined_at }
 }
@@ -311,6 +312,20 @@ async fn enrol(
     role: Role,
     back: &Return,
 ) -> Result<Member, StoreError> {
+    let member = add_member(connection, course, name, role).await?;
+    add_identities(connection, &member.id, back).await?;
+    Ok(member)
+}
+
+/// Adds a person to a course, without a way to come back.
+///
+/// Errors if the name is taken.
+pub(super) async fn add_member(
+    connection: &mut AnyConnection,
+    course: &str,
+    name: &str,
+    role: Role,
+) -> Result<Member, StoreError> {
     let (id, at, key) = (identifier(), now(), names::key(name));
     let event = Event { actor: &id, what: "joined", subject: course, detail: role.name() };
     log::append(connection, course, at, &event).await?;
@@ -323,7 +338,6 @@ async fn enrol(
     sqlx::query(sql::ADD_PERSON).bind(&id).bind(name).bind(at).execute(&mut *connection).await?;
     let add = sqlx::query(sql::ADD_MEMBER).bind(course).bind(&id).bind(role.name()).bind(key).bind(&seed);
     add.bind(at).execute(&mut *connection).await?;
-    add_identities(connection, &id, back).await?;
     Ok(Member { id, name: name.to_owned(), role, seed, joined_at: at })
 }
 

@@ -9,7 +9,7 @@ use super::records::{self, SubmissionRow, VerdictRow};
 use super::{HOME, now, sql};
 
 /// Format of the database that this program writes.
-pub(super) const FORMAT: i64 = 5;
+pub(super) const FORMAT: i64 = 6;
 
 /// Makes the tables, or carries those of earlier formats over, within a transaction: another program that opens the
 /// same gradebook meanwhile waits.
@@ -39,6 +39,9 @@ pub(super) async fn migrate(transaction: &mut AnyConnection) -> Result<(), Store
     }
     if found < 5 {
         make(transaction, sql::ADDED_5).await?;
+    }
+    if found < 6 {
+        make(transaction, sql::lti::ADDED_6).await?;
     }
     database::set_format(transaction, FORMAT).await
 }

@@ -126,11 +126,13 @@ pub(super) const CLAIM_OF_MANY: &str = claim!(" FOR UPDATE OF g SKIP LOCKED");
 /// All statements with their names, for the test that prepares them.
 macro_rules! statements {
     ($($name:ident = $text:expr;)*) => {
-        $(pub(super) const $name: &str = $text;)*
+        $(pub(in crate::store) const $name: &str = $text;)*
         #[cfg(test)]
-        pub(super) const ALL: &[(&str, &str)] = &[$((stringify!($name), $text)),*];
+        pub(in crate::store) const ALL: &[(&str, &str)] = &[$((stringify!($name), $text)),*];
     };
 }
+
+pub(in crate::store) mod lti;
 
 statements! {
     ADD_COURSE = "INSERT INTO course (id, title, join_code, join_open, secret, created_at, events, chain) \

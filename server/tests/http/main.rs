@@ -12,6 +12,7 @@ mod document;
 mod generated;
 mod glance;
 mod lessons;
+mod lti;
 mod motion;
 mod policy;
 mod predictions;

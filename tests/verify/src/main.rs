@@ -6,6 +6,7 @@
 
 mod bits;
 mod deny;
+mod lti;
 mod python;
 mod setup;
 
@@ -34,7 +35,7 @@ impl Step {
 }
 
 /// The steps in their order.
-const STEPS: [Step; 11] = [
+const STEPS: [Step; 12] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, packages of npm and PyPI", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
@@ -56,6 +57,8 @@ const STEPS: [Step; 11] = [
         )
     })
     .if_named(),
+    Step::new("lti", "a session with Open edX's learning platform, judged by PyLTI1p3 too", lti::run)
+        .if_named(),
 ];
 
 /// The largest program, MB: what somebody downloads and keeps. Without accounts, grades and backups it had 37.

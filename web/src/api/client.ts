@@ -37,6 +37,7 @@ import type {
   OpenedLecture,
   PersonRecord,
   Pictures,
+  PlatformList,
   Policy,
   PolicyPreview,
   PredictionCounts,
@@ -53,6 +54,7 @@ import type {
   SubmissionState,
   SymmetricMatrix,
   TableRequest,
+  Taken,
   Understood,
   Welcome,
 } from "./types";
@@ -236,6 +238,9 @@ export const api = {
   standingsLinesUrl: `${BASE}/standings.jsonl`,
   fillCanvas: (file: string) => call<Filled>("POST", "/standings/canvas", { file }),
   glance: () => call<Glance>("GET", "/glance"),
+  platforms: () => call<PlatformList>("GET", "/lti"),
+  takeRoster: () => call<Taken>("POST", "/lti/roster"),
+  sendScores: () => call<PlatformList>("POST", "/lti/scores"),
   people: () => call<Somebody[]>("GET", "/people"),
   setRole: (person: string, role: string) => call<void>("PUT", `/people/${id(person)}/role`, { role }),
   erase: (person: string, body: { reason: string; answers_stay: boolean }) =>

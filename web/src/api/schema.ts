@@ -475,6 +475,32 @@ export interface components {
             /** @description Its title. */
             title: string;
         };
+        /** @description The column of a lesson. */
+        ColumnView: {
+            /**
+             * Format: uint32
+             * @description Those that were refused so often that they wait for somebody to ask for it.
+             */
+            given_up: number;
+            /** @description When one was sent last. */
+            last?: string | null;
+            /** @description Slug of the lesson. */
+            lesson: string;
+            /** @description Why the last one that waits was refused; empty if none was. */
+            problem: string;
+            /** @description Whether the platform has it; else it is asked for one. */
+            ready: boolean;
+            /**
+             * Format: uint32
+             * @description Scores that belong there.
+             */
+            scores: number;
+            /**
+             * Format: uint32
+             * @description Those that the platform has.
+             */
+            sent: number;
+        };
         /** @description Somebody who comes back: by name and words, or by a link. */
         ComeBack: {
             /**
@@ -532,6 +558,13 @@ export interface components {
              * @description The same points in other words.
              */
             words: number;
+        };
+        /** @description A course of the platform. */
+        CourseView: {
+            /** @description Whether its people can be taken over. */
+            roster: boolean;
+            /** @description Its title there. */
+            title: string;
         };
         /** @description What an attempt counts. */
         Credit: {
@@ -2642,6 +2675,26 @@ export interface components {
         };
         /** @description One place or several. */
         Places: components["schemas"]["Place"] | components["schemas"]["Place"][];
+        /** @description The learning platforms of the class. */
+        PlatformList: {
+            /** @description Those that are registered. */
+            platforms: components["schemas"]["PlatformView"][];
+            /** @description Whether this server is reached by learning platforms at all. */
+            reached: boolean;
+        };
+        /** @description A learning platform. */
+        PlatformView: {
+            /** @description Where scores go. */
+            columns: components["schemas"]["ColumnView"][];
+            /** @description Its courses whose people come into the class. */
+            courses: components["schemas"]["CourseView"][];
+            /** @description What it calls itself. */
+            issuer: string;
+            /** @description Until when nothing is asked of it, as it did not answer. */
+            paused_until?: string | null;
+            /** @description What it did instead; empty if all is well. */
+            problem: string;
+        };
         /** @description How fast to play. */
         PlayRequest: {
             /**
@@ -4177,6 +4230,19 @@ export interface components {
              * @description End of the run, s, instead of the scene's.
              */
             until?: number | null;
+        };
+        /** @description How many people were taken over. */
+        Taken: {
+            /**
+             * Format: uint
+             * @description People whom the platform lists.
+             */
+            listed: number;
+            /**
+             * Format: uint
+             * @description Those who were not in the class before.
+             */
+            new: number;
         };
         /** @description How the answers stand. */
         Tally: {

@@ -7,11 +7,13 @@ import { dateTime, plural, points } from "../core/format";
 import type { Page } from "../core/router";
 import { qr } from "../lecture/qr";
 import { empty, problemNotice, skeleton } from "../ui/notice";
+import { showPlatforms } from "./platform";
 
 export function classPage(outlet: HTMLElement): Page {
   const door = h("section", { class: "class-way-in" });
   const table = h("section", { "aria-label": "What everybody has reached" }, skeleton(6));
   const lessons = h("section", { class: "student-lesson", hidden: true });
+  const platforms = h("section", { "aria-label": "Learning platform" });
   outlet.append(
     h(
       "div",
@@ -30,6 +32,7 @@ export function classPage(outlet: HTMLElement): Page {
       door,
       table,
       lessons,
+      platforms,
     ),
   );
   const load = async (): Promise<void> => {
@@ -43,6 +46,7 @@ export function classPage(outlet: HTMLElement): Page {
     }
   };
   void load();
+  void showPlatforms(platforms);
   return { title: "Class" };
 }
 

@@ -235,7 +235,7 @@ async fn sign_out(State(app): State<App>, headers: HeaderMap) -> Result<Response
 }
 
 /// The cookie of a session.
-fn cookie(app: &App, token: &str, seconds: i64) -> Result<HeaderValue, Problem> {
+pub(in crate::api) fn cookie(app: &App, token: &str, seconds: i64) -> Result<HeaderValue, Problem> {
     let (name, rest) = app.access.cookie();
     HeaderValue::from_str(&format!("{name}={token}; Max-Age={seconds}{rest}")).map_err(Problem::internal)
 }

@@ -21,7 +21,7 @@ use crate::store::{Copied, Location, Pieces, Query, Store, StoreError};
 pub(in crate::cli) struct Database {
     /// The gradebook: a file, or postgres://user@host/name.
     #[arg(long, default_value = "triad.db", value_name = "PLACE", env = "TRIAD_DATABASE")]
-    database: Location,
+    pub(super) database: Location,
 }
 
 #[derive(Debug, Args)]
@@ -168,11 +168,11 @@ pub(in crate::cli) fn class(command: Class, json: bool) -> Result<Outcome, Probl
     })
 }
 
-fn run(work: impl Future<Output = Result<Outcome, Problem>>) -> Result<Outcome, Problem> {
+pub(super) fn run(work: impl Future<Output = Result<Outcome, Problem>>) -> Result<Outcome, Problem> {
     Builder::new_current_thread().enable_all().build().map_err(Problem::internal)?.block_on(work)
 }
 
-fn said(line: &str, json: bool) -> Outcome {
+pub(super) fn said(line: &str, json: bool) -> Outcome {
     if json {
         print_json(&json!({"done": line}));
     } else {
@@ -241,6 +241,7 @@ async fn data_of(store: &Store, name: &str) -> Result<String, Problem> {
         "submissions": submissions.map(|one| json!({"answers": one.answers, "verdict": one.verdict})).collect::<Vec<_>>(),
         "decisions": decisions.map(decision).collect::<Vec<_>>(),
         "log": store.events_of(course, &id).await?,
+        "learning_platforms": store.subjects(&id).await?,
     });
     store.note(course, "triad", "took a copy of the data of", &id).await?;
     serde_json::to_string_pretty(&data).map_err(Problem::internal)

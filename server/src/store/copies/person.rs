@@ -66,7 +66,14 @@ impl Store {
 /// Takes the name and the ways in away.
 async fn forget(connection: &mut AnyConnection, course: &str, person: &str) -> Result<(), StoreError> {
     // What waits has no grade yet: nothing is to be proved with it.
-    for statement in [sql::REMOVE_IDENTITIES, sql::REMOVE_SESSIONS, sql::REMOVE_GRADINGS] {
+    let traces = [
+        sql::REMOVE_IDENTITIES,
+        sql::REMOVE_SESSIONS,
+        sql::REMOVE_GRADINGS,
+        sql::lti::FORGET_SUBJECT,
+        sql::lti::FORGET_SCORES,
+    ];
+    for statement in traces {
         sqlx::query(statement).bind(person).execute(&mut *connection).await?;
     }
     let number = person.get(..6).unwrap_or(person);

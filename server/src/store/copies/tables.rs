@@ -51,11 +51,32 @@ pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
     ("prediction", "SELECT * FROM prediction WHERE course = $1 ORDER BY n"),
     ("grading", "SELECT * FROM grading WHERE course = $1 ORDER BY n"),
     ("event", "SELECT * FROM event WHERE course = $1 ORDER BY n"),
+    ("lti_platform", "SELECT * FROM lti_platform WHERE course = $1 ORDER BY id"),
+    (
+        "lti_context",
+        "SELECT c.* FROM lti_context c JOIN lti_platform p ON p.id = c.platform WHERE p.course = $1 \
+         ORDER BY c.platform, c.context",
+    ),
+    (
+        "lti_column",
+        "SELECT c.* FROM lti_column c JOIN lti_platform p ON p.id = c.platform WHERE p.course = $1 \
+         ORDER BY c.platform, c.context, c.slug, c.url",
+    ),
+    (
+        "lti_person",
+        "SELECT l.* FROM lti_person l JOIN membership m ON m.person = l.person WHERE m.course = $1 \
+         ORDER BY l.platform, l.context, l.subject",
+    ),
+    (
+        "lti_score",
+        "SELECT s.* FROM lti_score s JOIN lti_platform p ON p.id = s.platform WHERE p.course = $1 \
+         ORDER BY s.platform, s.url, s.person",
+    ),
 ];
 
-/// Tables that are not taken along: sessions are for one server, invitations for one place.
+/// Tables that are not taken along: sessions and the keys to a learning platform are for one server, invitations for one place.
 #[cfg(test)]
-pub(in crate::store) const LEFT: &[&str] = &["session", "invitation"];
+pub(in crate::store) const LEFT: &[&str] = &["session", "invitation", "lti_key", "lti_nonce"];
 
 /// A row as JSON, by the names of its columns.
 ///

@@ -227,6 +227,7 @@ async fn every_table_is_taken_along_or_left_on_purpose() {
         .chain(sql::ADDED)
         .chain(sql::ADDED_4)
         .chain(sql::ADDED_5)
+        .chain(sql::lti::ADDED_6)
         .filter_map(|text| text.strip_prefix("CREATE TABLE ")?.split(' ').next());
     assert_eq!(tables.collect::<BTreeSet<_>>(), known);
 }
