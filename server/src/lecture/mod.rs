@@ -11,15 +11,16 @@
 
 mod question;
 mod registry;
+mod responses;
 
 pub use question::{LectureQuestion, NewQuestion, Tally, Vote};
 pub use registry::Lectures;
 
-use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
+use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
@@ -31,13 +32,12 @@ use triad_session::{Links, SceneSource, SessionState};
 use crate::problem::Problem;
 use crate::session::Session;
 use question::PosedQuestion;
+use responses::Responses;
 
 /// Pause between two states that followers are sent: ten a second, as often as tables can be read.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Largest view that a presenter may show beside the run, bytes: time, selection, panels, changed numbers.
 const MAX_VIEW_BYTES: usize = 64 << 10;
-/// Responses about one state that are kept for the followers who ask next; when there are more, all are dropped.
-const MAX_CACHED_RESPONSES: usize = 64;
 
 /// A lecture: a session that a presenter leads and followers watch.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ pub struct Lecture {
     public: watch::Sender<Utf8Bytes>,
     followers: AtomicUsize,
     max_followers: usize,
-    cached_responses: tokio::sync::Mutex<HashMap<String, (String, Value)>>,
+    responses: Responses,
 }
 
 /// What is shown.
@@ -141,7 +141,7 @@ impl Lecture {
             public: watch::Sender::new(Utf8Bytes::default()),
             followers: AtomicUsize::new(0),
             max_followers,
-            cached_responses: tokio::sync::Mutex::default(),
+            responses: Responses::default(),
         });
         lecture.publish();
         tokio::spawn(send_states(Arc::downgrade(&lecture), lecture.live.subscribe()));
@@ -281,28 +281,16 @@ impl Lecture {
         Ok(follower)
     }
 
-    /// A response about the run at its present state: the session computes it once, however many followers ask.
+    /// A response about the run at its present state, as JSON: the session computes it once, however many followers ask.
     ///
     /// Errors if no session is shown, and as `ask` does.
-    pub async fn cached<T: Future<Output = Result<Value, Problem>>>(
+    pub async fn cached<T: Serialize, F: Future<Output = Result<T, Problem>>>(
         &self,
         what: &str,
-        ask: impl FnOnce(Arc<Session>) -> T,
-    ) -> Result<Value, Problem> {
+        ask: impl FnOnce(Arc<Session>) -> F,
+    ) -> Result<Bytes, Problem> {
         let session = self.session().ok_or_else(nothing_shown)?;
-        // Requests that arrive meanwhile wait here and find the response.
-        let mut cached = self.cached_responses.lock().await;
-        let state = session.state();
-        let key = format!("{} {} {} {}", state.id, state.time, state.changes, state.pull.is_some());
-        if let Some((_, value)) = cached.get(what).filter(|(of, _)| *of == key) {
-            return Ok(value.clone());
-        }
-        let value = ask(session).await?;
-        if cached.len() >= MAX_CACHED_RESPONSES {
-            cached.clear();
-        }
-        cached.insert(what.to_owned(), (key, value.clone()));
-        Ok(value)
+        self.responses.of(session, what, ask).await
     }
 
     /// Ends the lecture for everybody.

@@ -4,8 +4,10 @@ pub(in crate::api) mod follow;
 
 use std::sync::Arc;
 
+use axum::body::Bytes;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::header::CONTENT_TYPE;
+use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -222,13 +224,10 @@ fn as_presenter(app: &App, code: &str, headers: &HeaderMap) -> Result<Arc<Lectur
 async fn scene(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
-) -> Result<axum::Json<Value>, Problem> {
-    let answer = app
-        .lectures
-        .get(&code)?
-        .cached("scene", |session| async move { as_json(session.scene().await?) })
-        .await;
-    answer.map(axum::Json)
+) -> Result<JsonText, Problem> {
+    let answer =
+        app.lectures.get(&code)?.cached("scene", |session| async move { session.scene().await }).await;
+    answer.map(json)
 }
 
 /// The Jacobian of the session that is shown.
@@ -238,14 +237,14 @@ async fn jacobian(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
-) -> Result<axum::Json<Value>, Problem> {
+) -> Result<JsonText, Problem> {
     let what = format!("jacobian {:?}", when.at);
     let answer = app
         .lectures
         .get(&code)?
-        .cached(&what, |session| async move { as_json(jacobian_of(&session, when.at).await?) })
+        .cached(&what, |session| async move { jacobian_of(&session, when.at).await })
         .await;
-    answer.map(axum::Json)
+    answer.map(json)
 }
 
 /// The augmented matrix of the session that is shown.
@@ -259,7 +258,7 @@ async fn augmented(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
-) -> Result<axum::Json<Value>, Problem> {
+) -> Result<JsonText, Problem> {
     symmetric(&app, &code, "augmented", when, |state| state.augmented()).await
 }
 
@@ -274,7 +273,7 @@ async fn schur(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
-) -> Result<axum::Json<Value>, Problem> {
+) -> Result<JsonText, Problem> {
     symmetric(&app, &code, "schur", when, |state| state.schur()).await
 }
 
@@ -284,13 +283,12 @@ async fn symmetric(
     name: &str,
     when: AtTime,
     matrix: fn(&StateView) -> triad_engine::reactions::matrices::Symmetric,
-) -> Result<axum::Json<Value>, Problem> {
+) -> Result<JsonText, Problem> {
     let what = format!("{name} {:?}", when.at);
     let lecture = app.lectures.get(code)?;
-    let answer = lecture
-        .cached(&what, |session| async move { as_json(symmetric_of(&session, when.at, matrix).await?) })
-        .await;
-    answer.map(axum::Json)
+    let answer =
+        lecture.cached(&what, |session| async move { symmetric_of(&session, when.at, matrix).await }).await;
+    answer.map(json)
 }
 
 /// The multipliers of the session that is shown.
@@ -301,13 +299,12 @@ async fn multipliers(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
     QueryParameters(when): QueryParameters<AtTime>,
-) -> Result<axum::Json<Value>, Problem> {
+) -> Result<JsonText, Problem> {
     let what = format!("multipliers {:?}", when.at);
     let lecture = app.lectures.get(&code)?;
-    let answer = lecture
-        .cached(&what, |session| async move { as_json(multipliers_of(&session, when.at).await?) })
-        .await;
-    answer.map(axum::Json)
+    let answer =
+        lecture.cached(&what, |session| async move { multipliers_of(&session, when.at).await }).await;
+    answer.map(json)
 }
 
 /// The reactions of the session that is shown.
@@ -319,14 +316,16 @@ async fn reactions(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
     QueryParameters(wanted): QueryParameters<ReactionQuery>,
-) -> Result<axum::Json<Value>, Problem> {
+) -> Result<JsonText, Problem> {
     let what = format!("reactions {wanted:?}");
     let lecture = app.lectures.get(&code)?;
-    let answer =
-        lecture.cached(&what, |session| async move { as_json(reactions_of(&session, wanted).await?) }).await;
-    answer.map(axum::Json)
+    let answer = lecture.cached(&what, |session| async move { reactions_of(&session, wanted).await }).await;
+    answer.map(json)
 }
 
-fn as_json(answer: impl Serialize) -> Result<Value, Problem> {
-    serde_json::to_value(answer).map_err(Problem::internal)
+/// A response that was written before.
+type JsonText = ([(HeaderName, &'static str); 1], Bytes);
+
+fn json(text: Bytes) -> JsonText {
+    ([(CONTENT_TYPE, "application/json")], text)
 }
