@@ -36,9 +36,14 @@ use crate::scene::IntegratorKind;
 use companion::Companion;
 use singularity::SingularityMonitor;
 use state_view::CachedState;
+use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::system::System;
+
+/// How often a step that leads off the constraints is halved before the run stops: near a branching position Newton's method
+/// reaches them from a short step only, and where a driver asks for what the joints refuse from none.
+const MAX_HALVINGS: u32 = 20;
 
 /// A running simulation of a scene.
 ///
@@ -250,49 +255,53 @@ impl Simulation {
         if let Some(companion) = &mut self.companion {
             companion.keep_up(self.integrator.last());
         }
-        if let Err(stop) = self.step_integrator(end) {
-            let failure = self.load_failure();
-            let last =
-                self.stop_at_last_good(self.integrator.last().t, self.integrator.last().steps.accepted);
-            return Err(match failure {
-                Some(error) => EngineError::CustomLoad { error, last: Some(last) },
-                None => EngineError::stopped(stop, last),
-            });
-        }
-        let skip = self.model().settings.skip;
-        if !(skip.checks && self.integrator.proves_constraints()) {
-            self.check_step()?;
-        }
+        self.step_integrator(end)?;
         self.find_events();
-        if !skip.reports {
+        if !self.model().settings.skip.reports {
             self.report_step();
         }
         Ok(())
     }
 
-    /// Takes a step of the integrator, not beyond `end`, shorter ones where branches of the motion come near each other. Where no
-    /// step is short enough to tell them apart, the run goes back, passes them as it would have, and keeps the doubt.
-    fn step_integrator(&mut self, end: f64) -> Result<(), StopReason> {
+    /// Takes a step of the integrator, not beyond `end`, shorter ones where it leads off the constraints or where branches of
+    /// the motion come near each other. Where no step is short enough to tell them apart, the run goes back, passes them as it
+    /// would have, and keeps the doubt.
+    fn step_integrator(&mut self, end: f64) -> Result<(), EngineError> {
         let mut until = end;
+        let mut halvings = 0;
         loop {
-            let Self { integrator, mechanism, singularities, .. } = &mut *self;
+            let Self { integrator, mechanism, .. } = &mut *self;
             if let Err(stop) = integrator.step(mechanism, until) {
-                let before = self.before_branching.take().ok_or(stop)?;
+                let Some(before) = self.before_branching.take() else { return Err(self.stopped(stop)) };
                 self.go_back(*before);
                 until = end;
-            } else if let Some(shorter) = singularities.step(mechanism, integrator) {
+                continue;
+            }
+            if let Err(error) = self.check_step() {
+                let Self { integrator, mechanism, .. } = &mut *self;
+                let fixed = mechanism.system.model.settings.step.is_some();
+                let (reached, middle) =
+                    (integrator.last().t, integrator.last().t - 0.5 * integrator.last().h);
+                if fixed || halvings == MAX_HALVINGS || middle >= reached || !integrator.can_retreat() {
+                    return Err(self.left_constraints(error));
+                }
+                halvings += 1;
+                until = middle;
                 integrator.take_back(mechanism);
-                until = shorter;
-                if self.before_branching.is_none() {
-                    self.before_branching = Some(Box::new(self.clone()));
-                }
-            } else {
-                if self.before_branching.is_some() && !self.singularities.is_resolving() {
-                    self.before_branching = None;
-                }
-                return Ok(());
+                continue;
+            }
+            let Self { integrator, mechanism, singularities, .. } = &mut *self;
+            let Some(shorter) = singularities.step(mechanism, integrator) else { break };
+            integrator.take_back(mechanism);
+            until = shorter;
+            if self.before_branching.is_none() {
+                self.before_branching = Some(Box::new(self.clone()));
             }
         }
+        if self.before_branching.is_some() && !self.singularities.is_resolving() {
+            self.before_branching = None;
+        }
+        Ok(())
     }
 
     /// Goes back to what the run was, where branches that cannot be told apart were not yet looked for; the current state stays.
@@ -304,17 +313,34 @@ impl Simulation {
     }
 
     /// Measures the constraints at the end of the last step where the integrator has not proved that they hold.
-    fn check_step(&mut self) -> Result<(), EngineError> {
-        self.counters.checks += 1;
-        let time = self.integrator.last().t;
-        if let Err(error) = self.mechanism.check(time, &self.integrator.last().y) {
-            let start = time - self.integrator.last().h;
-            let last = self.stop_at_last_good(start, self.integrator.last().steps.accepted.saturating_sub(1));
-            return Err(EngineError::from(error).after(last));
+    fn check_step(&mut self) -> Result<(), ConstraintError> {
+        if self.model().settings.skip.checks && self.integrator.proves_constraints() {
+            return Ok(());
         }
+        self.counters.checks += 1;
+        let last = self.integrator.last();
+        self.mechanism.check(last.t, &last.y)?;
         let Mechanism { system, state, .. } = &self.mechanism;
         self.max_kinetic_energy = self.max_kinetic_energy.max(state.kinetic_energy(system));
         Ok(())
+    }
+
+    /// The end of a run whose integrator cannot go on.
+    fn stopped(&mut self, stop: StopReason) -> EngineError {
+        let failure = self.load_failure();
+        let last = self.stop_at_last_good(self.integrator.last().t, self.integrator.last().steps.accepted);
+        match failure {
+            Some(error) => EngineError::CustomLoad { error, last: Some(last) },
+            None => EngineError::stopped(stop, last),
+        }
+    }
+
+    /// The end of a run whose last step left the constraints.
+    fn left_constraints(&mut self, error: ConstraintError) -> EngineError {
+        let last = self.integrator.last();
+        let (start, steps) = (last.t - last.h, last.steps.accepted.saturating_sub(1));
+        let last = self.stop_at_last_good(start, steps);
+        EngineError::from(error).after(last)
     }
 
     /// Computes at the end of the last step what is otherwise computed on request.

@@ -3,7 +3,7 @@
 //!
 //! Each integrator runs each scene at tolerances from 1e-3 to 1e-10. Times are processor time of whole runs, errors the
 //! largest distance of a centre of mass or of the tip of a director from a tight run at twenty times. Beside the time of the automatic choice
-//! stands that of the fastest run of any integrator, at any tolerance, whose error is no larger than the one of the
+//! stands that of the fastest run of another integrator, at any tolerance, whose error is no larger than the one of the
 //! automatic choice or than the tolerance.
 
 use std::path::{Path, PathBuf};
@@ -132,8 +132,8 @@ fn sweep(name: &str, scene: &Scene) -> Vec<f64> {
         let own = runs.iter().find(|run| Some(run.kind) == chosen && run.tolerance == tolerance);
         let ratio = own.map_or(f64::INFINITY, |own| {
             let enough = own.error.max(tolerance);
-            let others = runs.iter().filter(|run| run.error <= enough).map(|run| run.seconds);
-            own.seconds / others.fold(f64::INFINITY, f64::min)
+            let others = runs.iter().filter(|run| run.kind != own.kind && run.error <= enough);
+            own.seconds / others.map(|run| run.seconds).fold(f64::INFINITY, f64::min)
         });
         let chosen = chosen.map_or_else(String::new, |kind| kind.to_string());
         println!(" | auto {chosen} {ratio:.2}{}", if ratio > GOOD { " <<" } else { "" });

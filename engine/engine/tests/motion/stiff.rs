@@ -151,3 +151,31 @@ fn joints_of_every_kind_in_the_tree() {
     }
     assert!(seen >= 16, "{seen} scenes");
 }
+
+#[test]
+fn a_stiff_governor_gets_the_stiff_method_at_every_tolerance() {
+    for name in ["governor/scene", "governor/balls", "governor/rest"] {
+        for exponent in 3..=10 {
+            let tolerance = libm::pow(10.0, -f64::from(exponent));
+            let run = Simulation::new(&by(name, IntegratorKind::Auto, tolerance, 10.0)).unwrap();
+            assert_eq!(run.summary().integrator, IntegratorKind::Radau, "{name} at {tolerance:.0e}");
+        }
+    }
+}
+
+/// At loose tolerances a whole step leads off the constraints there, and a shorter one does not.
+#[test]
+fn beside_a_change_point_a_driven_mechanism_runs_to_its_end_at_every_tolerance() {
+    let name = "four-bars/near-change-point";
+    let (exact, _) = end(&by(name, IntegratorKind::Taylor, 1e-12, 4.0));
+    for integrator in
+        [IntegratorKind::Auto, IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Radau]
+    {
+        for exponent in 3..=10 {
+            let tolerance = libm::pow(10.0, -f64::from(exponent));
+            let (frame, _) = end(&by(name, integrator, tolerance, 4.0));
+            let error = apart(&frame, &exact);
+            assert!(error < 1e-9, "{integrator} at {tolerance:.0e}: {error:.1e}");
+        }
+    }
+}

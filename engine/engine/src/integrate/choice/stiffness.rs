@@ -7,14 +7,11 @@ use triad_dynamics::state;
 /// Decays of a load in a run above which an implicit method pays: the steps of the series grow with their number, those of the
 /// implicit method with how far the mechanism moves. Measured in processor time, both cost the same at `MANY_DECAYS` and
 /// `DECAYS_A_RADIAN` more for each radian of the motion: at 5e3 on three rods in 4 s, at 1.2e4 on the flyball governor in 10 s.
+/// At tolerances from 1e-3 to 1e-10 alike: at tighter ones the implicit method takes more steps, the series dearer ones.
 const MANY_DECAYS: f64 = 1.5e3;
 const DECAYS_A_RADIAN: f64 = 200.0;
 /// Radians of an oscillation that may be left out that are as costly for the series as a decay.
 const RADIANS_A_DECAY: f64 = 0.4;
-/// The tolerance at which these hold, and the power with which the implicit method then needs more steps at a tighter one; the
-/// series do not.
-const AT_TOLERANCE: f64 = 1e-6;
-const GROWTH: f64 = 1.0 / 12.0;
 /// Freedoms that make an evaluation of the implicit method twice as dear, for its Jacobian matrix, and how much dearer it is
 /// where loops must be closed.
 const MANY_FREEDOMS: f64 = 16.0;
@@ -77,7 +74,6 @@ fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> f64 {
     let pace = state::fastest(system, y).max((gravity / system.length).sqrt());
     let dearer = if system.constraints.len() > system.bodies.len() { CLOSED } else { 1.0 };
     (MANY_DECAYS + DECAYS_A_RADIAN * pace * settings.duration)
-        * libm::pow(AT_TOLERANCE / settings.tolerance, GROWTH)
         * (1.0 + freedoms as f64 / MANY_FREEDOMS)
         * dearer
 }
