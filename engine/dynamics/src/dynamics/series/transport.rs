@@ -45,7 +45,7 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     /// The highest order of these, and the least that steps before have shown to be needed.
     order: usize,
     least: usize,
-    /// What the last step has added to that at its end.
+    /// What the last step adds to that at its end, before it is moved onto the constraints: states within the step are not.
     added: Vec<[B::Natural; 2]>,
     /// The order and size, s, of the last step.
     step: (usize, f64),
@@ -126,13 +126,16 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
 }
 
 /// Size of an error, m: of positions, of directors for a mechanism of this length, and of what their rates make in a time h.
+/// Not a number if any of its components is none.
 fn size<const L: usize, B: Bodies<L>>(error: &[[B::Natural; 2]], h: f64, length: f64) -> f64 {
+    if !error.iter().flatten().all(|x| B::lanes(x).as_flattened().iter().all(|x| x.is_finite())) {
+        return f64::NAN;
+    }
     let one = |x: &B::Natural| {
         let (position, directors) = B::lanes(x).split_at(B::DIRECTIONS);
         largest(position).max(length * largest(directors))
     };
-    // What is not a number must not get lost: comparisons with it are false.
-    error.iter().map(|[x, v]| one(x) + h * one(v)).fold(0.0, |most, x| if x <= most { most } else { x })
+    error.iter().map(|[x, v]| one(x) + h * one(v)).fold(0.0, f64::max)
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
@@ -180,7 +183,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let part: f64 = if h > 0.0 { (tau / h).clamp(0.0, 1.0) } else { 1.0 };
         let weight = (0..order).fold(1.0, |power, _| power * part);
         for b in 0..self.bundles.len() {
-            let state = moved_both::<L, B>(&transport.at(b, tau), weight, &transport.added[b]);
+            let state = if part < 1.0 {
+                moved_both::<L, B>(&transport.at(b, tau), weight, &transport.added[b])
+            } else {
+                transport.error[b]
+            };
             self.store_error(system, b, &state, out);
         }
         true
@@ -403,9 +410,6 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         for (b, (here, there)) in self.kept.state.iter().zip(&self.kept.changed).enumerate() {
             let difference = moved_both::<L, B>(here, -1.0, there);
             self.error[b] = moved_both::<L, B>(&[B::zero(); 2], 1.0 / s, &difference);
-        }
-        for ((added, error), arrived) in self.added.iter_mut().zip(&self.error).zip(&self.arrived) {
-            *added = moved_both::<L, B>(error, -1.0, arrived);
         }
     }
 
