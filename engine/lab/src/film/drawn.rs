@@ -70,7 +70,7 @@ impl Drawn {
     pub fn points(&self, at: &BodyFrame) -> Vec<[f64; 3]> {
         let place = placed(at);
         let strokes = self.strokes.iter().flat_map(|strokes| &strokes.lines).flatten();
-        strokes.chain(&self.pins).map(|point| place(point)).collect()
+        strokes.chain(&self.pins).map(place).collect()
     }
 
     /// Writes it with its motion.
