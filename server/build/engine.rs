@@ -61,7 +61,9 @@ pub fn build(root: &Path) -> Result<Option<PathBuf>, Box<dyn Error>> {
     for (name, _) in env::vars_os() {
         let shown = name.to_string_lossy();
         if shown.starts_with("CARGO_") && shown != "CARGO_HOME" && shown != "CARGO_NET_OFFLINE"
+            // With the wrapper of clippy it would be looked at instead of built.
             || shown == "RUSTFLAGS"
+            || shown == "RUSTC_WORKSPACE_WRAPPER"
         {
             cargo.env_remove(name);
         }

@@ -138,8 +138,8 @@ impl Live {
         match word {
             "scene" => json(&self.run.scene()),
             "jacobian" => json(&JacobianView::of(&self.run.at(request.query::<AtTime>()?.at)?)),
-            "augmented" => symmetric(|state| state.augmented()),
-            "schur" => symmetric(|state| state.schur()),
+            "augmented" => symmetric(StateView::augmented),
+            "schur" => symmetric(StateView::schur),
             "multipliers" => json(&MultipliersList::of(&self.run.at(request.query::<AtTime>()?.at)?)),
             "reactions" => {
                 let wanted: ReactionQuery = request.query()?;

@@ -29,7 +29,9 @@ impl Request {
 
     /// The query, read as `T`.
     ///
-    /// Errors if it is none.
+    /// # Errors
+    ///
+    /// [`Refusal`]: it is none.
     pub fn query<'a, T: Deserialize<'a>>(&'a self) -> Result<T, Refusal> {
         let query = self.path.split_once('?').map_or("", |(_, query)| query);
         serde_urlencoded::from_str(query).map_err(|error| {
@@ -44,7 +46,9 @@ impl Request {
 
     /// The body, read as `T`.
     ///
-    /// Errors if it is none.
+    /// # Errors
+    ///
+    /// [`Refusal`]: it is none.
     pub fn body<T: for<'a> Deserialize<'a>>(&self) -> Result<T, Refusal> {
         let empty = serde_json::json!({});
         let body = if self.body.is_null() { &empty } else { &self.body };
@@ -64,7 +68,9 @@ pub type Answer = Result<Vec<u8>, Refusal>;
 
 /// A value as the body of an answer.
 ///
-/// Errors if it cannot be written as JSON.
+/// # Errors
+///
+/// [`Refusal`]: it cannot be written as JSON.
 pub fn json(value: &impl Serialize) -> Answer {
     serde_json::to_vec(value).map_err(|error| {
         Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "internal", error.to_string(), "report this")
@@ -88,7 +94,7 @@ fn with(head: &Head, body: &[u8]) -> Vec<u8> {
 
 /// The answer to request `id`.
 pub fn answer(id: u32, answer: Answer) -> Vec<u8> {
-    let body = answer.and_then(|body| Ok((StatusCode::OK, body)));
+    let body = answer.map(|body| (StatusCode::OK, body));
     let (status, body) = body.unwrap_or_else(|refusal| {
         // Nobody keeps a log here in which this occurrence could be looked up.
         let document = refusal.document("in-this-page".to_owned());

@@ -72,6 +72,7 @@ impl Arrays {
         let every = scene.simulation.every;
         let mut run = Simulation::new(&scene)?;
         let frames = (run.duration() / every).floor() + 1.0;
+        #[allow(clippy::cast_precision_loss, reason = "a count of bodies and joints")]
         let numbers = frames * 12.0 * (scene.bodies.len() + scene.joints.len()) as f64;
         if numbers > MAX_NUMBERS {
             let detail = format!("the arrays would have {numbers:.0} numbers, more than {MAX_NUMBERS}");

@@ -1,6 +1,8 @@
 //! Directors shared at a joint: the same motion and the same reactions as with the explicit joint, with fewer
 //! coordinates and rows.
 
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
 use triad_engine::analysis::check::check;
 use triad_engine::catalogue;
 use triad_engine::dynamics::elimination::Elimination;
