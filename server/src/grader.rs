@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use tokio::sync::Semaphore;
+use tokio::sync::{Semaphore, SemaphorePermit};
 use tokio::time::sleep;
 use triad_lessons::Lesson;
 
@@ -74,7 +74,7 @@ impl Grader {
     /// Waits until nothing is under way any more; nothing is begun afterwards.
     pub async fn finish(&self, slots: usize) {
         let all = u32::try_from(slots).unwrap_or(u32::MAX);
-        drop(self.slots.acquire_many(all).await.map(|all| all.forget()));
+        drop(self.slots.acquire_many(all).await.map(SemaphorePermit::forget));
     }
 
     async fn grade(self: &Arc<Self>, job: Job) {

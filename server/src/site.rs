@@ -22,6 +22,7 @@ use crate::limits::Limits;
 use crate::page;
 use crate::problem::Problem;
 use crate::store::Store;
+use crate::store::hash::hexadecimal;
 
 /// The files of a site by their paths, with `/` between folders.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -80,7 +81,7 @@ fn keeper(files: &Files) -> String {
         hash.update(path);
         hash.update(bytes);
     }
-    let version: String = hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+    let version = hexadecimal(&hash.finalize()[..8]);
     let kept: Vec<&String> = files.keys().filter(|path| *path != "README.txt").collect();
     KEEPER
         .replace("\"VERSION\"", &Value::from(version).to_string())

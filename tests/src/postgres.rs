@@ -81,7 +81,7 @@ impl Postgres {
     /// What a statement says, in its first database.
     pub fn ask(&self, statement: &str) -> String {
         told(
-            Command::new("psql")
+            &Command::new("psql")
                 .args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement])
                 .arg(&self.url)
                 .output()
@@ -110,7 +110,7 @@ impl Postgres {
         let (data, log) = (format!("{place}/data"), format!("{place}/log"));
         let mut all = vec!["-D", &data, "-l", &log, "-o", &settings, "-w", "-s"];
         all.extend(what);
-        told(self.own("pg_ctl", &all).unwrap());
+        told(&self.own("pg_ctl", &all).unwrap());
     }
 
     /// Runs one of its programs, never as root.
@@ -145,7 +145,7 @@ pub fn given() -> Option<Postgres> {
     std::env::var(GIVEN).ok().map(|url| Postgres { folder: None, url })
 }
 
-fn told(output: Output) -> String {
+fn told(output: &Output) -> String {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }

@@ -131,6 +131,10 @@ impl Live {
     }
 
     /// What a question about a moment of the run is answered.
+    #[allow(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method itself is not general enough in its lifetime"
+    )]
     fn read(&self, request: &Request, word: &str) -> Answer {
         let symmetric = |matrix: fn(&StateView) -> _| {
             json(&SymmetricView::of(&self.run.at(request.query::<AtTime>()?.at)?, matrix)?)
@@ -138,8 +142,8 @@ impl Live {
         match word {
             "scene" => json(&self.run.scene()),
             "jacobian" => json(&JacobianView::of(&self.run.at(request.query::<AtTime>()?.at)?)),
-            "augmented" => symmetric(StateView::augmented),
-            "schur" => symmetric(StateView::schur),
+            "augmented" => symmetric(|state| state.augmented()),
+            "schur" => symmetric(|state| state.schur()),
             "multipliers" => json(&MultipliersList::of(&self.run.at(request.query::<AtTime>()?.at)?)),
             "reactions" => {
                 let wanted: ReactionQuery = request.query()?;

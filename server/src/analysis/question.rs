@@ -176,7 +176,7 @@ fn behind(name: &str, works: &[Work]) -> (String, Vec<GivenAnswer>) {
     let mut told = String::new();
     let mut answers = Vec::new();
     for work in works {
-        let Some(last) = work.judged().filter(|one| one.wrong() == Some(name)).next_back() else { continue };
+        let Some(last) = work.judged().rfind(|one| one.wrong() == Some(name)) else { continue };
         if told.is_empty() {
             told.clone_from(&last.message_html);
         }
@@ -202,7 +202,7 @@ fn choice(question: &Question, id: String, html: String, works: &[Work]) -> Choi
     let first = works.iter().filter(|work| chose(work.judged().next())).count();
     let last = works.iter().filter(|work| chose(work.judged().next_back())).count();
     let right = matches!(&question.body, QuestionBody::Choice { right, .. } if *right == id);
-    ChoiceCount { right, first, last, id, html }
+    ChoiceCount { id, html, right, first, last }
 }
 
 /// Facility by halves, for each number that was drawn.

@@ -86,7 +86,7 @@ pub struct Halves {
 fn deviations(a: &[f64], b: &[f64]) -> Option<f64> {
     let of_mean = |values: &[f64]| {
         let mean = mean(values)?;
-        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
         let count = values.len() as f64;
         (values.len() > 1).then(|| (mean, squares / (count - 1.0) / count))
     };

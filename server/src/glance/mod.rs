@@ -123,6 +123,7 @@ struct Tries {
 }
 
 /// The class at a glance; `recent` has what was handed in of late, the oldest first, with the verdicts in force.
+#[allow(clippy::implicit_hasher, reason = "there is one such map")]
 pub fn glance(
     people: &[Member],
     seen: &HashMap<String, Seen>,

@@ -116,6 +116,7 @@ pub fn shortened(text: &str) -> String {
 }
 
 impl Refusal {
+    #[allow(clippy::too_many_lines, reason = "one table")]
     fn table(&self) -> (StatusCode, &'static str, &'static str) {
         const AGAIN: &str = "go back to your course and open the lesson there once more";
         const SETTINGS: &str = "ask who runs the platform to compare its settings with `triad lti list`";

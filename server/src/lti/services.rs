@@ -108,13 +108,12 @@ impl Lti {
         asked: Asked<'_>,
         now: Moment,
     ) -> Result<Answer, Unserved> {
-        let token = match self.tokens.known(&platform.id, asked.scope, now) {
-            Some(token) => token,
-            None => {
-                let token = token(&self.http, store, platform, asked.scope, now).await?;
-                self.tokens.keep(&platform.id, asked.scope, &token);
-                token.text
-            }
+        let token = if let Some(token) = self.tokens.known(&platform.id, asked.scope, now) {
+            token
+        } else {
+            let token = token(&self.http, store, platform, asked.scope, now).await?;
+            self.tokens.keep(&platform.id, asked.scope, &token);
+            token.text
         };
         let bearer = format!("Bearer {token}");
         let authorized = (header::AUTHORIZATION, bearer.as_str());
@@ -185,6 +184,7 @@ async fn token(
         return Err(refused("its token is none".to_owned()));
     }
     // Bounded, and a number: what comes from elsewhere is not computed with as it is.
+    #[allow(clippy::cast_possible_truncation, reason = "within a day")]
     let life = (given.expires_in.unwrap_or(3600.0).clamp(0.0, 86_400.0) * 1000.0) as i64;
     Ok(Token { text: given.access_token, ends_at: now.0 + life.min(LONGEST) })
 }

@@ -117,7 +117,6 @@ impl Kind {
     /// A statement that makes tables, columns or triggers, in this database's words. Ours are SQLite's.
     pub(super) fn making(self, text: &str) -> String {
         match self {
-            Self::Sqlite => text.to_owned(),
             Self::Postgres if text.starts_with("CREATE TRIGGER") => text
                 .replace("BEGIN SELECT RAISE(ABORT, ", "FOR EACH ROW EXECUTE FUNCTION triad_refuse(")
                 .replace("); END", ")"),
@@ -125,7 +124,7 @@ impl Kind {
             Self::Postgres if text.starts_with("CREATE TABLE") || text.starts_with("ALTER TABLE") => {
                 text.replace(" TEXT", " TEXT COLLATE \"C\"")
             }
-            Self::Postgres => text.to_owned(),
+            Self::Sqlite | Self::Postgres => text.to_owned(),
         }
     }
 }

@@ -179,6 +179,7 @@ fn arrival(platform: &Platform, claims: &Claims) -> Result<Arrival, Refusal> {
 /// Until when a word could be used again, in milliseconds since 1970: not longer than the ticket that it answers.
 fn word_ends(claims: &Claims) -> i64 {
     let now = Moment::now().0;
+    #[allow(clippy::cast_possible_truncation, reason = "a time too far away is the latest one")]
     let ends = (claims.exp.unwrap_or_default() * 1000.0) as i64;
     ends.saturating_add(120_000).clamp(now, now.saturating_add(2 * ticket::LAUNCH))
 }

@@ -23,6 +23,7 @@ const LONGEST: usize = 8 << 10;
 
 /// What the platform sends (Security Framework 5.1.1.1, LTI Core 4.1).
 #[derive(Debug, Clone, Default, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "words of the standard")]
 pub(super) struct Login {
     iss: Option<String>,
     login_hint: Option<String>,

@@ -147,6 +147,7 @@ async fn makes_room(
 }
 
 /// A value of a column, or that there is none there; `None` if it is of another type.
+#[allow(clippy::option_option, reason = "no value and a wrong one are different")]
 fn read<'a, T>(value: &'a Value, as_type: impl Fn(&'a Value) -> Option<T>) -> Option<Option<T>> {
     if value.is_null() { Some(None) } else { as_type(value).map(Some) }
 }

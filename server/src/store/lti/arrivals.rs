@@ -165,12 +165,11 @@ async fn person(
         None => None,
     };
     let is_new = known.is_none();
-    let mut member = match known {
-        Some(member) => member,
-        None => {
-            let free = free(connection, course, name).await?;
-            add_member(connection, course, &free, role).await?
-        }
+    let mut member = if let Some(member) = known {
+        member
+    } else {
+        let free = free(connection, course, name).await?;
+        add_member(connection, course, &free, role).await?
     };
     let before = sqlx::query_as(sql::ROLE_OF_SUBJECT).bind(platform).bind(context).bind(subject);
     let before: Option<(String,)> = before.fetch_optional(&mut *connection).await?;
