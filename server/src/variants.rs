@@ -4,15 +4,13 @@ use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::http::StatusCode;
+use triad_lessons::seed::{SeedError, checked};
 use triad_lessons::{Lesson, VariantError};
 
 use crate::problem::Problem;
-use crate::store::names;
 
 /// Lessons that are kept.
 const KEPT: usize = 256;
-/// Longest seed, in characters: that of a student's name.
-pub const MAX_SEED_LENGTH: usize = 100;
 
 /// The lessons of students who were here last.
 #[derive(Debug, Default)]
@@ -60,20 +58,11 @@ impl Variants {
     }
 }
 
-/// A seed of reasonable length, without control characters; all spellings of a name's letters are the same seed.
-///
-/// Errors if it is too long or has control characters.
-fn checked(seed: &str) -> Result<String, Problem> {
-    let seed = seed.trim();
-    if seed.chars().count() > MAX_SEED_LENGTH || seed.chars().any(char::is_control) {
-        return Err(Problem::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "invalid-seed",
-            format!("the seed has more than {MAX_SEED_LENGTH} characters, or control characters"),
-            "use the student's name",
-        ));
+impl From<SeedError> for Problem {
+    fn from(error: SeedError) -> Self {
+        let hint = "use the student's name";
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-seed", error.to_string(), hint)
     }
-    Ok(names::shown(seed))
 }
 
 impl From<VariantError> for Problem {

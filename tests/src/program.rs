@@ -25,7 +25,15 @@ pub fn triad() -> &'static Path {
         let here = std::env::current_exe().unwrap();
         let profile = here.parent().and_then(Path::parent).expect("tests run from target/<profile>/deps");
         let program = profile.join("triad");
-        let sources = ["engine", "lessons/src", "lessons/course", "server/src", "server/build.rs", "web/src"];
+        let sources = [
+            "engine",
+            "lessons/src",
+            "lessons/box/src",
+            "lessons/course",
+            "server/src",
+            "server/build.rs",
+            "web/src",
+        ];
         let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max();
         if newest(&program) < changed {
             build(profile);

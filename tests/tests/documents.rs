@@ -129,7 +129,7 @@ fn commands_of_the_program_know_the_options_that_documents_name() {
     let mut check = |document: &str, words: &[String]| {
         let plain = |word: &&String| word.chars().all(|c| c.is_ascii_lowercase()) && word.len() > 2;
         let mut names: Vec<&str> = words.iter().take(2).take_while(plain).map(String::as_str).collect();
-        if !matches!(names.first(), Some(&"lesson" | &"class")) {
+        if !matches!(names.first(), Some(&"lesson" | &"class" | &"export")) {
             names.truncate(1);
         }
         let help = run(&[names.as_slice(), &["--help"]].concat());

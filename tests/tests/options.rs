@@ -22,7 +22,7 @@ const UNTIL: &str = "0.01";
 const MOST_STEPS: &str = "40";
 
 /// Options that have their cases in other tests, or open a port: the command, and where.
-const ELSEWHERE: [(&str, &str); 19] = [
+const ELSEWHERE: [(&str, &str); 21] = [
     ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
     ("lesson preview", "it serves a page"),
     ("lesson list", "commands.rs"),
@@ -31,6 +31,8 @@ const ELSEWHERE: [(&str, &str); 19] = [
     ("lesson new", "lessons/src/tests"),
     ("lesson starter", "lessons/src/tests"),
     ("grade", "workbench.rs and bad_input.rs"),
+    ("export gradescope", "autograders.rs"),
+    ("export prairielearn", "autograders.rs"),
     ("grades", "compatibility.rs; it takes no scene"),
     ("regrade", "compatibility.rs; it takes no scene"),
     ("backup", "gradebook.rs; it takes no scene"),

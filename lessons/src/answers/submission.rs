@@ -121,6 +121,11 @@ fn integrator<'de, D: Deserializer<'de>>(from: D) -> Result<IntegratorKind, D::E
 }
 
 impl Submission {
+    /// Whose numbers it is about, where nobody else decides it: those of its seed, else its student's; empty for everybody's.
+    pub fn numbers_of(&self) -> &str {
+        self.seed.as_deref().or(self.student.as_deref()).unwrap_or_default()
+    }
+
     /// Reads a submission from JSON text.
     ///
     /// Errors if it is no JSON, is too large, or has unknown keys.

@@ -1,5 +1,6 @@
 //! Lessons and courses: read from their folders, with other numbers for each student, shown without their answers.
 
+mod blank;
 mod bundle;
 mod content;
 mod conventions;

@@ -70,6 +70,13 @@ impl Lesson {
         Ok(Self { seed: student.to_owned(), drawn_from, ..lesson })
     }
 
+    /// The lesson with the numbers of a seed, or for nobody where it is empty.
+    ///
+    /// Errors if no draw gives a lesson that can be judged.
+    pub fn of_seed(&self, seed: &str) -> Result<Self, VariantError> {
+        if seed.is_empty() { Ok(self.for_nobody()) } else { self.variant(seed) }
+    }
+
     /// The lesson for whoever has no name: the numbers of the text, and of each pool the questions that an empty name draws.
     #[must_use]
     pub fn for_nobody(&self) -> Self {

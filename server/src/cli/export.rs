@@ -1,12 +1,14 @@
-//! `triad export`: what the workbench serves, as files.
+//! `triad export`: what the workbench serves, as files; a lesson for the autograder of another system.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
+use clap::Subcommand;
 use serde_json::json;
 use triad_lessons::Course;
 
+use super::course::autograder::{self, Autograder};
 use super::output::{unwritable, write};
 use super::terminal::{Outcome, counted, print_json, print_line};
 use crate::api;
@@ -14,8 +16,45 @@ use crate::docs::Site;
 use crate::problem::Problem;
 use crate::site;
 
+#[derive(Debug, Subcommand)]
+pub(super) enum Export {
+    /// The documentation: pages with a search, read without a server.
+    #[command(after_help = "Example:\n  triad export docs site/docs      (then open site/docs/index.html)")]
+    Docs {
+        /// The folder; made if it is not there. Files of the same names are replaced.
+        dir: PathBuf,
+    },
+    /// Write lessons, scenes, page and engine as files that any host of files serves, without a server.
+    ///
+    /// Lessons can be read, mechanisms run in the page and can be changed, questions are shown; answers are not checked, as
+    /// that needs what the files do not hold. Once opened, the site works without a network.
+    #[command(
+        after_help = "Examples:\n  triad export site public\n  triad --course my-course export site public\n  \
+        python3 -m http.server --directory public      (then open http://localhost:8000)"
+    )]
+    Site {
+        /// The folder, which is made, or is empty.
+        dir: PathBuf,
+    },
+    #[command(flatten)]
+    Autograder(Autograder),
+}
+
+/// Writes what is asked for.
+pub(super) fn export(
+    what: &Export,
+    course: impl FnOnce() -> Result<Course, Problem>,
+    json: bool,
+) -> Result<Outcome, Problem> {
+    match what {
+        Export::Docs { dir } => docs(dir, json),
+        Export::Site { dir } => site(dir, course()?, json),
+        Export::Autograder(what) => autograder::export(what, &course()?, json),
+    }
+}
+
 /// Writes the documentation into a folder.
-pub(super) fn docs(dir: &Path, json: bool) -> Result<Outcome, Problem> {
+fn docs(dir: &Path, json: bool) -> Result<Outcome, Problem> {
     let site = Site::new(&api::openapi(), None);
     let (mut count, mut bytes) = (0, 0);
     for (name, text) in site.files() {
@@ -34,7 +73,7 @@ pub(super) fn docs(dir: &Path, json: bool) -> Result<Outcome, Problem> {
 }
 
 /// Writes the course into an empty folder.
-pub(super) fn site(dir: &Path, course: Course, json: bool) -> Result<Outcome, Problem> {
+fn site(dir: &Path, course: Course, json: bool) -> Result<Outcome, Problem> {
     if fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,

@@ -21,6 +21,7 @@ use triad_engine::analysis::ModesAbout;
 
 use crate::problem::Problem;
 use course::{grade, grades, graph, lesson, lti, preview, records, regrade};
+use export::Export;
 use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
@@ -247,7 +248,7 @@ enum Command {
     #[command(after_help = "Examples:\n  triad stress --quick\n  triad stress --case four-bar\n  \
         triad stress --case random --seeds 500 --from 1000\n  triad stress --compare --html report.html\n  triad stress --treatments --svg treatments.svg")]
     Stress(stress::Stress),
-    /// Write what the workbench serves as files that any web server, or a disk, holds.
+    /// Write for other programs: the documentation as files, a lesson for the autograder of another system.
     #[command(subcommand)]
     Export(Export),
     /// Print a JSON Schema, for editors: of a scene, or of an author's file.
@@ -258,28 +259,6 @@ enum Command {
         /// Of what: scene, course, lesson, exercise, reference (reference/answers.toml) or wrong (wrong/*.toml).
         #[arg(default_value = "scene")]
         of: String,
-    },
-}
-
-#[derive(Debug, Subcommand)]
-enum Export {
-    /// The documentation: pages with a search, read without a server.
-    #[command(after_help = "Example:\n  triad export docs site/docs      (then open site/docs/index.html)")]
-    Docs {
-        /// The folder; made if it is not there. Files of the same names are replaced.
-        dir: PathBuf,
-    },
-    /// Write lessons, scenes, page and engine as files that any host of files serves, without a server.
-    ///
-    /// Lessons can be read, mechanisms run in the page and can be changed, questions are shown; answers are not checked, as
-    /// that needs what the files do not hold. Once opened, the site works without a network.
-    #[command(
-        after_help = "Examples:\n  triad export site public\n  triad --course my-course export site public\n  \
-        python3 -m http.server --directory public      (then open http://localhost:8000)"
-    )]
-    Site {
-        /// The folder, which is made, or is empty.
-        dir: PathBuf,
     },
 }
 
@@ -377,7 +356,6 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Class(options) => records::class(options, json),
         Command::Lti(command) => lti::lti(command, json),
         Command::Regrade(options) => regrade::regrade(&options, &course()?, json),
-        Command::Export(Export::Site { dir }) => export::site(&dir, course()?, json),
         Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
         Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
         Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
@@ -389,7 +367,7 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Bench(options) => bench::bench(options, json),
         Command::Sweep(options) => sweep::run(&options, json),
         Command::Stress(options) => stress::stress(&options, json),
-        Command::Export(Export::Docs { dir }) => export::docs(&dir, json),
+        Command::Export(what) => export::export(&what, course, json),
         Command::Schema { of } => lesson::schema(&of),
     }
 }

@@ -1,8 +1,8 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
 import { api, problemOf } from "../api/client";
-import type { GradedSubmission, Lesson } from "../api/types";
+import type { Answer, GradedSubmission, Lesson } from "../api/types";
 import { site } from "../core/address";
-import { announce, authored, h } from "../core/dom";
+import { announce, authored, h, saveFile } from "../core/dom";
 import { plural, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
@@ -15,6 +15,8 @@ import { verdictSummary } from "./verdict";
 
 /** Label of the button that hands the answers in. */
 const CHECK = "Check my answers";
+/** The file that courses on other systems take: see `triad export`. */
+const FILE = "answers.json";
 
 /** Fills `root`; the returned function undoes what outlives it. */
 export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
@@ -45,6 +47,11 @@ class ExerciseSection {
     value: student.get(),
   });
   private readonly send = h("button", { class: "button primary" }, CHECK);
+  private readonly save = h(
+    "button",
+    { class: "button", type: "button", title: `For courses that collect answers elsewhere, as ${FILE}` },
+    "Save as a file",
+  );
   private readonly outcome = h("div", { class: "outcome", tabindex: "-1" });
   private readonly history: HistoryList;
   private readonly form: HTMLFormElement;
@@ -68,6 +75,7 @@ class ExerciseSection {
       event.preventDefault();
       void this.submit();
     });
+    this.save.addEventListener("click", () => this.saveAnswers());
     this.name.addEventListener("change", () => setStudent(this.name.value));
     addEventListener("triad:student", this.renamed);
     void this.history.load();
@@ -109,6 +117,7 @@ class ExerciseSection {
               ? account()
               : h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
             this.send,
+            this.save,
           ),
       this.lesson.exercise.opens ? h("p", { class: "opens" }, this.lesson.exercise.opens) : null,
       this.outcome,
@@ -147,13 +156,28 @@ class ExerciseSection {
     setStudent(who);
   }
 
+  /** What would be handed in. */
+  private body(who: string): { student: string; seed?: string; answers: Record<string, Answer> } {
+    const { has_variants: hasVariants, seed } = this.lesson;
+    const answers = Object.fromEntries(this.fields.map((field) => [field.id, field.answer()]));
+    return hasVariants ? { student: who, seed, answers } : { student: who, answers };
+  }
+
+  /** Saves what would be handed in, for the name that is written beside the button. */
+  private saveAnswers(): void {
+    const who = this.name.value.trim();
+    const { has_variants: hasVariants, seed } = this.lesson;
+    if (who && hasVariants && seed !== who && !student.known()) return this.changeVariant(who);
+    saveFile(new Blob([`${JSON.stringify(this.body(who), null, 2)}\n`], { type: "application/json" }), FILE);
+    announce(`Your answers are saved as ${FILE}.`);
+  }
+
   private async grade(who: string): Promise<void> {
-    const { slug, has_variants: hasVariants, seed } = this.lesson;
+    const { slug } = this.lesson;
     this.send.disabled = true;
     this.send.textContent = "Checking…";
     try {
-      const answers = Object.fromEntries(this.fields.map((field) => [field.id, field.answer()]));
-      const body = hasVariants ? { student: who, seed, answers } : { student: who, answers };
+      const body = this.body(who);
       const text = JSON.stringify(body);
       if (this.sent?.text !== text) this.sent = { text, name: requestName() };
       const verdict = await api.submit(slug, body, this.sent.name, (before) => {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use triad_lessons::rendering::html::words;
 use triad_lessons::{Course, Mark, Verdict};
 
 use super::lesson::find;
@@ -51,37 +52,4 @@ fn print(verdict: &Verdict) {
         "not passed"
     };
     print_line(&format!("{} of {} points: {end}", verdict.earned, verdict.possible));
-}
-
-/// The words of a message, without its markup.
-fn words(html: &str) -> String {
-    let mut text = String::with_capacity(html.len());
-    let mut inside_tag = false;
-    // Paragraphs and items of a list end a word, other marks do not.
-    for letter in html.replace("</p>", " ").replace("</li>", " ").replace("<br>", " ").chars() {
-        match letter {
-            '<' => inside_tag = true,
-            '>' => inside_tag = false,
-            _ if !inside_tag => text.push(letter),
-            _ => {}
-        }
-    }
-    let plain = text
-        .replace("&lt;", "<")
-        .replace("&gt;", ">")
-        .replace("&quot;", "\"")
-        .replace("&#39;", "'")
-        .replace("&amp;", "&");
-    plain.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn markup_is_left_out_and_signs_are_kept() {
-        assert_eq!(
-            super::words("<p>g &lt; 10, so\n <em>T</em> &amp; mg.</p><p>No.</p>"),
-            "g < 10, so T & mg. No."
-        );
-    }
 }

@@ -1,5 +1,6 @@
 //! Commands for lessons and their authors.
 
+pub(in crate::cli) mod autograder;
 pub(in crate::cli) mod grade;
 pub(in crate::cli) mod grades;
 pub(in crate::cli) mod graph;
