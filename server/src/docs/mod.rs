@@ -210,9 +210,14 @@ fn missing() -> Response {
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
+    use std::path::Path;
 
     fn site() -> Site {
         Site::new(&crate::api::openapi(), None)
+    }
+
+    fn is_page(name: &str) -> bool {
+        Path::new(name).extension().is_some_and(|kind| kind == "html")
     }
 
     /// What stands in an attribute, at every place: within tags, as examples of HTML have attributes too.
@@ -228,7 +233,7 @@ mod tests {
         let places: BTreeMap<&str, BTreeSet<&str>> =
             site.files().map(|(name, text)| (name, all(text, "id").into_iter().collect())).collect();
         let mut seen = 0;
-        for (name, text) in site.files().filter(|(name, _)| name.ends_with(".html")) {
+        for (name, text) in site.files().filter(|(name, _)| is_page(name)) {
             let addresses = all(text, "href").into_iter().chain(all(text, "src"));
             for address in addresses.filter(|address| !address.starts_with("http")) {
                 let (file, place) = address.split_once('#').unwrap_or((address, ""));
@@ -243,7 +248,7 @@ mod tests {
 
     #[test]
     fn ids_are_there_once_and_every_page_has_a_title_and_one_first_heading() {
-        for (name, text) in site().files().filter(|(name, _)| name.ends_with(".html")) {
+        for (name, text) in site().files().filter(|(name, _)| is_page(name)) {
             let ids = all(text, "id");
             let distinct: BTreeSet<&&str> = ids.iter().collect();
             let twice: Vec<_> =

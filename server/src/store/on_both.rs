@@ -1,5 +1,7 @@
 //! What holds in every database: these tests run in memory, and once more on PostgreSQL where it is installed.
 
+#![allow(clippy::expect_used, clippy::panic)] // a test that cannot go on says so
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -38,6 +38,7 @@ use triad_lessons::Course;
 use triad_tests::postgres::{self, Postgres};
 
 /// A server with the built-in course and a gradebook in memory, or in a database of its own where PostgreSQL is given.
+#[allow(clippy::needless_pass_by_value)] // a test's own limits
 fn state(limits: Limits) -> App {
     let store = postgres::given()
         .map_or_else(Store::in_memory, |server| Store::of_server(&server.database()).expect("an address"));

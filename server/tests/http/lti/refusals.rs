@@ -159,7 +159,7 @@ fn all() -> Vec<Wrong> {
         sent("lti-browser", "no cookie", |_, cookie| cookie.clear()),
         sent("lti-missing", "no word", |pairs, _| pairs.truncate(1)),
         sent("lti-reported", "the platform refuses", |pairs, _| {
-            pairs.push(("error", "login_required".into()))
+            pairs.push(("error", "login_required".into()));
         }),
     ]
 }
