@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use tokio::sync::Semaphore;
 use triad_lessons::Course;
@@ -11,6 +12,7 @@ use crate::glance::Presence;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
 use crate::lti::Lti;
+use crate::metrics::Metrics;
 use crate::motion::Shelf;
 use crate::regrade::Previews;
 use crate::session::Registry;
@@ -44,6 +46,10 @@ pub struct App {
     pub regrades: Arc<Previews>,
     /// Who of the class was here a moment ago.
     pub presence: Arc<Presence>,
+    /// What is counted.
+    pub metrics: Arc<Metrics>,
+    /// Whether the server is about to go: it still answers, and is no longer ready.
+    pub draining: Arc<AtomicBool>,
     /// Who may do what.
     pub access: Arc<Access>,
     /// What learning platforms reach; nothing where they reach nothing.
@@ -70,6 +76,8 @@ impl App {
             at_once: Arc::new(Semaphore::new(std::thread::available_parallelism().map_or(1, usize::from))),
             regrades: Arc::default(),
             presence: Arc::default(),
+            metrics: Arc::default(),
+            draining: Arc::default(),
             access: Arc::new(Access::home(false, [])),
             lti: None,
             limits: Arc::new(limits),

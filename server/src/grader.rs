@@ -10,6 +10,7 @@ use triad_lessons::Lesson;
 
 use crate::blocking;
 use crate::handing::{self, Judged, Who};
+use crate::metrics::Metrics;
 use crate::problem::Problem;
 use crate::store::{Claim, Job, Store, StoreError, identifier};
 use crate::variants::Variants;
@@ -26,6 +27,7 @@ const LESSONS: usize = 64;
 pub struct Grader {
     store: Arc<Store>,
     variants: Arc<Variants>,
+    metrics: Arc<Metrics>,
     lessons: Mutex<HashMap<String, Lesson>>,
     slots: Arc<Semaphore>,
     lease: Duration,
@@ -34,10 +36,16 @@ pub struct Grader {
 
 impl Grader {
     /// A grader of a gradebook with a name that no other has.
-    pub fn new(store: Arc<Store>, variants: Arc<Variants>, slots: usize, lease: Duration) -> Arc<Self> {
+    pub fn new(
+        store: Arc<Store>,
+        variants: Arc<Variants>,
+        metrics: Arc<Metrics>,
+        slots: usize,
+        lease: Duration,
+    ) -> Arc<Self> {
         let name = format!("{} {}", std::process::id(), identifier());
         let (lessons, slots) = (Mutex::default(), Arc::new(Semaphore::new(slots)));
-        Arc::new(Self { store, variants, lessons, slots, lease, name })
+        Arc::new(Self { store, variants, metrics, lessons, slots, lease, name })
     }
 
     /// Grades for ever. What is under way as this is dropped goes on to its end.
@@ -62,7 +70,7 @@ impl Grader {
                     }
                     Err(error) => {
                         drop(place);
-                        eprintln!("triad: cannot look for work: {error}");
+                        tracing::error!(target: "triad", "cannot look for work: {error}");
                         sleep(PAUSE).await;
                         break;
                     }
@@ -83,15 +91,17 @@ impl Grader {
         let renewing = tokio::spawn(async move { keeps.renew(&claim).await });
         let judged = self.judge(&job).await;
         let closed = match judged {
-            Ok(judged) => self.close(&job, &Arc::new(judged)).await,
+            Ok(judged) => {
+                judged.tell(&self.metrics);
+                self.close(&job, &Arc::new(judged)).await
+            }
             Err(problem) => Err(problem),
         };
         renewing.abort();
         if let Err(problem) = closed {
-            eprintln!(
-                "triad: submission {} could not be graded (start {}): {problem}",
-                job.claim.id, job.start
-            );
+            // What is wrong may quote the submission: it stands beside it in the gradebook.
+            let (id, code) = (job.claim.id.as_str(), problem.code());
+            tracing::error!(target: "triad", submission = id, start = job.start, code, "could not be graded");
             // Where this fails too, the lease ends by itself.
             drop(self.store.give_back(&job, &problem.to_string()).await);
         }

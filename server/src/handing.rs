@@ -1,12 +1,14 @@
 //! Handing in: from what is sent to what is kept, the same in the request and by a grader.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use triad_lessons::{Lesson, Submission, Verdict};
 
 use crate::blocking;
 use crate::grading;
+use crate::metrics::Metrics;
 use crate::problem::Problem;
 use crate::store::{HandIn, Store, StoredSubmission, Whose};
 use crate::variants::Variants;
@@ -56,6 +58,7 @@ pub struct Judged {
     verdict: Verdict,
     /// What the numbers were drawn from.
     pub seed: String,
+    took: Duration,
 }
 
 impl Judged {
@@ -69,14 +72,24 @@ impl Judged {
         who: Who,
         key: Option<String>,
     ) -> Result<Self, Problem> {
+        let began = Instant::now();
         let (submission, mut verdict) = grading::grade(&lesson, variants, body, who.seed.as_deref())?;
+        let took = began.elapsed();
         verdict.student = Some(who.student.clone());
         let seed = verdict.provenance.seed.clone();
         if who.seed.is_some() {
             // It would let others compute these numbers.
             verdict.provenance.seed.clear();
         }
-        Ok(Self { lesson, who, key, submission, verdict, seed })
+        Ok(Self { lesson, who, key, submission, verdict, seed, took })
+    }
+
+    /// Tells of it in the log and among the counters, but for who it is of and what it says.
+    pub fn tell(&self, metrics: &Metrics) {
+        metrics.graded(&self.lesson.slug, self.took);
+        let (lesson, gradable) = (self.lesson.slug.as_str(), self.verdict.gradable);
+        let ms = self.took.as_secs_f64() * 1e3;
+        tracing::info!(target: "triad", lesson, gradable, ms, "graded");
     }
 
     /// What is kept of it, after what came before: up to the entry `after` of the log. It came at `received`.

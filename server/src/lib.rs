@@ -5,6 +5,8 @@
 
 #![allow(clippy::missing_errors_doc)] // said in a sentence: the crate is no library for others
 
+pub mod request;
+
 pub mod problem;
 
 pub mod limits;
@@ -16,6 +18,8 @@ pub mod store;
 pub mod stream;
 pub mod table;
 pub mod variants;
+
+pub mod metrics;
 
 pub mod grading;
 pub mod handing;
@@ -66,9 +70,16 @@ pub fn app(state: app::App) -> axum::Router {
     api::router(state)
 }
 
+/// What those who run the server ask, at an address of its own.
+pub fn admin(state: app::App) -> axum::Router {
+    api::admin(state)
+}
+
 /// Runs work that computes or waits for the disk on a thread that may block.
 pub(crate) async fn blocking<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
 ) -> Result<T, Problem> {
-    tokio::task::spawn_blocking(work).await.map_err(Problem::internal)?
+    // What is logged there belongs to the request that asked for it.
+    let request = tracing::Span::current();
+    tokio::task::spawn_blocking(move || request.in_scope(work)).await.map_err(Problem::internal)?
 }

@@ -34,19 +34,27 @@ const FULL: &[u8] =
 /// How long accepting pauses where the system refuses, as when there are no more files.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Serves until `stop` is over; then, after `ending`, requests under way have ten seconds. A second `stop` ends at once.
-pub async fn serve<S: Future<Output = ()>, E: Future<Output = ()>>(
+/// Serves until `stop` is over, and on for as long as `draining` takes; then, after `ending`, requests under way have ten
+/// seconds. A second `stop` ends each of these at once.
+pub async fn serve<S: Future<Output = ()>, D: Future<Output = ()>, E: Future<Output = ()>>(
     listener: TcpListener,
     app: Router,
     stop: impl Fn() -> S,
+    draining: impl FnOnce() -> D,
     ending: impl FnOnce() -> E,
 ) {
+    let places = Arc::new(Places::new());
     let (stopping, stopped) = watch::channel(());
     // Each connection holds a sender: nothing more can come when the last one has ended.
     let (alive, mut ended) = mpsc::channel::<()>(1);
     tokio::select! {
         () = stop() => {}
-        () = accept(&listener, &app, &stopped, &alive) => {}
+        () = accept(&listener, &app, &stopped, &alive, &places) => {}
+    }
+    tokio::select! {
+        () = draining() => {}
+        () = stop() => {}
+        () = accept(&listener, &app, &stopped, &alive, &places) => {}
     }
     drop((listener, alive));
     ending().await;
@@ -64,14 +72,14 @@ async fn accept(
     app: &Router,
     stopped: &watch::Receiver<()>,
     alive: &mpsc::Sender<()>,
+    places: &Arc<Places>,
 ) {
-    let places = Arc::new(Places::new());
     loop {
         let Ok((mut socket, from)) = listener.accept().await else {
             sleep(PAUSE).await;
             continue;
         };
-        let Some(place) = Places::take(&places, from) else {
+        let Some(place) = Places::take(places, from) else {
             // It fits into the socket's buffer, so that nothing waits here.
             drop(timeout(PAUSE, socket.write_all(FULL)).await);
             continue;

@@ -13,11 +13,17 @@ use triad_engine::analysis::AnalysisError;
 use triad_engine::scene::SceneError;
 use triad_session::refusal::Refusal;
 
+use crate::request;
+
 pub use triad_session::refusal::{ProblemDocument, near_matches, suggest};
 
 /// What went wrong, where, and what to do about it (RFC 9457): a refusal that is an answer over HTTP.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem(Refusal);
+
+/// The code of the problem that an answer is about, for those who count answers.
+#[derive(Debug, Clone, Copy)]
+pub struct ProblemCode(pub &'static str);
 
 impl Problem {
     /// A problem with its HTTP `status`, stable kebab-case `code`, this occurrence's `detail` and the remedy.
@@ -76,7 +82,7 @@ impl Problem {
 
 /// A name for one occurrence of a problem.
 pub(crate) fn trace_id() -> String {
-    uuid::Uuid::new_v4().simple().to_string()
+    request::current()
 }
 
 impl From<Refusal> for Problem {
@@ -121,9 +127,11 @@ impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let document = self.document();
         if self.status().is_server_error() {
-            eprintln!("triad: {} (trace {})", self, document.trace_id);
+            let (code, trace) = (self.code(), document.trace_id.as_str());
+            tracing::error!(target: "triad", code, trace, "{}", document.detail);
         }
         let mut response = (self.status(), axum::Json(document)).into_response();
+        response.extensions_mut().insert(ProblemCode(self.code()));
         response
             .headers_mut()
             .insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));

@@ -29,6 +29,11 @@ impl Default for Work {
 }
 
 impl Work {
+    /// Callers that wait for a place.
+    pub fn waiting(&self) -> usize {
+        self.waiting.load(Ordering::Relaxed)
+    }
+
     /// Runs `work` on a thread that may block, when its turn comes. A caller that leaves before has not asked; what one that
     /// leaves later began keeps its place to its end, so that no more is computed at a time however many come and go.
     ///

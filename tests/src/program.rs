@@ -106,17 +106,29 @@ impl Server {
 
     /// Starts a server; with the lines that it says after the first.
     fn launch(folder: &Path, options: &[&str]) -> (Self, impl Iterator<Item = String> + use<>) {
-        let mut child = Command::new(triad())
-            .arg("serve")
-            .args(options)
-            .arg("--database")
-            .arg(folder.join("grades.db"))
-            .current_dir(folder)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::inherit())
-            .spawn()
-            .unwrap();
+        Self::saying(Self::command(folder, options).stderr(Stdio::inherit()))
+    }
+
+    /// Starts a server on a free port with more options, its log in a file.
+    pub fn logging(folder: &Path, options: &[&str], log: &Path) -> Self {
+        let options = [&["--port", "0"], options].concat();
+        Self::of(Self::command(folder, &options).stderr(std::fs::File::create(log).unwrap()))
+    }
+
+    /// A server that a command starts; where it is, it says in its first line.
+    pub fn of(command: &mut Command) -> Self {
+        Self::saying(command).0
+    }
+
+    fn command(folder: &Path, options: &[&str]) -> Command {
+        let mut command = Command::new(triad());
+        command.arg("serve").args(options).arg("--database").arg(folder.join("grades.db"));
+        command.current_dir(folder);
+        command
+    }
+
+    fn saying(command: &mut Command) -> (Self, impl Iterator<Item = String> + use<>) {
+        let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap();
         let mut lines = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
         lines.read_line(&mut line).unwrap();
@@ -133,10 +145,15 @@ impl Server {
         (Self { child, address }, heard.into_iter())
     }
 
-    /// Asks it to stop, as a system would, and waits.
-    pub fn stop(mut self) {
+    /// Asks it to stop, as a system would, and does not wait.
+    pub fn ask_to_stop(&self) {
         let id = self.child.id().to_string();
         assert!(Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
+    }
+
+    /// Asks it to stop, and waits.
+    pub fn stop(mut self) {
+        self.ask_to_stop();
         let began = Instant::now();
         while self.child.try_wait().unwrap().is_none() {
             assert!(began.elapsed() < HANG, "the server does not stop when it is asked to");
@@ -222,7 +239,8 @@ pub struct Reply {
 }
 
 impl Reply {
-    fn parse(answer: &[u8]) -> Self {
+    /// Reads an answer that is whole.
+    pub fn parse(answer: &[u8]) -> Self {
         let end = answer.windows(4).position(|w| w == b"\r\n\r\n").expect("an answer with a head");
         let head = String::from_utf8_lossy(&answer[..end]).to_lowercase();
         let status = head.split_whitespace().nth(1).and_then(|s| s.parse().ok()).expect("a status");

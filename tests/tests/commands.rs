@@ -17,7 +17,8 @@ const MAX_LINES: usize = 100;
 fn said(line: &str) -> String {
     let mut program = Command::new(triad());
     // Help is as wide as the terminal, and shows what these hold.
-    for name in ["COLUMNS", "TRIAD_COURSE", "TRIAD_DATABASE"] {
+    let shown = |name: &str| name == "COLUMNS" || name.starts_with("TRIAD_");
+    for (name, _) in std::env::vars_os().filter(|(name, _)| name.to_str().is_some_and(shown)) {
         program.env_remove(name);
     }
     let output =

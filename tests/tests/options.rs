@@ -22,7 +22,8 @@ const UNTIL: &str = "0.01";
 const MOST_STEPS: &str = "40";
 
 /// Options that have their cases in other tests, or open a port: the command, and where.
-const ELSEWHERE: [(&str, &str); 21] = [
+const ELSEWHERE: [(&str, &str); 22] = [
+    ("config", "operating.rs"),
     ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
     ("lesson preview", "it serves a page"),
     ("lesson list", "commands.rs"),

@@ -51,7 +51,7 @@ pub struct ProblemDocument {
     pub hint: String,
     /// The places in the input that are wrong; empty if the problem is not about the input.
     pub errors: Vec<InputFault>,
-    /// Names this one occurrence, to be quoted in a report; the server's log has the same.
+    /// Names the request, to be quoted in a report; the header `x-request-id` and the server's log have the same.
     pub trace_id: String,
 }
 

@@ -3,6 +3,7 @@
 //! Points are those of the lesson. Gradescope counts no attempts; what cannot be graded leaves the points of the last
 //! submission that could, which are found in the result that it hands back.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -19,11 +20,11 @@ pub fn run(root: &Path, numbers_of_email: bool) -> Result<(), Broken> {
     let results = Results::below(root)?;
     let about = told(&root.join("submission_metadata.json"));
     let kept = Kept::of(&about);
-    results.write(&kept.ungraded(UNFINISHED, Vec::new()))?;
+    results.write(&kept.ungraded(UNFINISHED, &[]))?;
     let lesson = match lesson(&root.join("source/lesson.json")) {
         Ok(lesson) => lesson,
         Err(broken) => {
-            results.write(&kept.ungraded(OWN_FAULT, Vec::new()))?;
+            results.write(&kept.ungraded(OWN_FAULT, &[]))?;
             return Err(broken);
         }
     };
@@ -37,8 +38,8 @@ pub fn run(root: &Path, numbers_of_email: bool) -> Result<(), Broken> {
     });
     results.write(&match outcome {
         Outcome::Graded(verdict) => graded(&verdict),
-        Outcome::Unclear(verdict) => kept.ungraded(&summary(&verdict), tests(&verdict, false)),
-        Outcome::Refused(why) => kept.ungraded(&why, Vec::new()),
+        Outcome::Unclear(verdict) => kept.ungraded(&summary(&verdict), &tests(&verdict, false)),
+        Outcome::Refused(why) => kept.ungraded(&why, &[]),
     })
 }
 
@@ -68,13 +69,11 @@ impl Kept {
     }
 
     /// The result where nothing was graded.
-    fn ungraded(&self, why: &str, tests: Vec<Value>) -> Value {
+    fn ungraded(&self, why: &str, tests: &[Value]) -> Value {
         let mut output = why.to_owned();
         if let Some(possible) = self.extra["triad"]["possible"].as_f64() {
-            output.push_str(&format!(
-                "\nYour last graded submission counts: {} of {possible} points.",
-                self.earned
-            ));
+            let _ =
+                write!(output, "\nYour last graded submission counts: {} of {possible} points.", self.earned);
         }
         let mut result =
             json!({"score": self.earned, "output": output, "output_format": "text", "visibility": "visible"});

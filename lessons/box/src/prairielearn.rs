@@ -19,11 +19,11 @@ const MOST: usize = 1_000_000;
 /// Errors if the result cannot be written, or the lesson not be read; the latter is a result as well.
 pub fn run(root: &Path) -> Result<(), Broken> {
     let results = Results::below(root)?;
-    results.write(&ungraded(vec![UNFINISHED.to_owned()]))?;
+    results.write(&ungraded(&[UNFINISHED.to_owned()]))?;
     let lesson = match lesson(&root.join("tests/lesson.json")) {
         Ok(lesson) => lesson,
         Err(broken) => {
-            results.write(&ungraded(vec![OWN_FAULT.to_owned()]))?;
+            results.write(&ungraded(&[OWN_FAULT.to_owned()]))?;
             return Err(broken);
         }
     };
@@ -38,13 +38,13 @@ pub fn run(root: &Path) -> Result<(), Broken> {
         Outcome::Unclear(verdict) => {
             let unclear = verdict.questions.iter().filter(|question| question.verdict == Mark::Invalid);
             let each = unclear.map(|question| format!("{}: {}", question.id, said(&question.message_html)));
-            ungraded(std::iter::once(summary(&verdict)).chain(each).collect())
+            ungraded(&std::iter::once(summary(&verdict)).chain(each).collect::<Vec<_>>())
         }
-        Outcome::Refused(why) => ungraded(vec![why]),
+        Outcome::Refused(why) => ungraded(&[why]),
     })
 }
 
-fn ungraded(why: Vec<String>) -> Value {
+fn ungraded(why: &[String]) -> Value {
     json!({"gradable": false, "format_errors": why})
 }
 

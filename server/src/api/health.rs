@@ -1,9 +1,11 @@
 //! Whether the server is well.
 
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use axum::Json as Answer;
 use axum::extract::State;
+use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tokio::time::timeout;
@@ -60,6 +62,22 @@ pub(super) async fn alive() -> &'static str {
 ///
 /// Errors with what is in the way.
 pub(super) async fn ready(State(app): State<App>) -> Result<&'static str, Problem> {
+    if app.draining.load(Ordering::Relaxed) {
+        return Err(Problem::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            "draining",
+            "the server is about to stop: it answers what comes, and takes no new callers",
+            "ask another server, or this one when it is back",
+        ));
+    }
+    if app.course.lessons().is_empty() {
+        return Err(Problem::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            "no-lessons",
+            "the course has no lesson",
+            "name a folder with lessons: triad --course DIR serve",
+        ));
+    }
     let waiting = timeout(PATIENCE, app.store.ready()).await.unwrap_or(Err(StoreError::Busy));
     // Whatever it is: others are to ask elsewhere, or later.
     waiting.map(|()| "ready\n").map_err(|error| Problem::from(error).unavailable())

@@ -1,5 +1,6 @@
 //! The HTTP interface under `/api/v1`, and the one router of the server.
 
+mod admin;
 mod bounds;
 mod class;
 mod describe;
@@ -9,6 +10,7 @@ mod health;
 mod lectures;
 mod lessons;
 mod lti;
+mod observed;
 mod scenes;
 mod sessions;
 
@@ -32,6 +34,7 @@ use crate::page;
 use crate::problem::{Problem, ProblemDocument};
 use crate::reports;
 
+pub use admin::admin;
 use describe::Schemas;
 pub(crate) use extract::parse;
 pub(crate) use lessons::{instances, starter_of, unknown as unknown_lesson};
@@ -125,6 +128,7 @@ pub fn router(app: App) -> Router {
         .layer(middleware::from_fn_with_state(app.clone(), bounds::refuse_large_bodies))
         .layer(middleware::from_fn(uncached_interface))
         .layer(middleware::from_fn_with_state(app.clone(), guard::admit))
+        .layer(middleware::from_fn_with_state(app.clone(), observed::observe))
         .with_state(app)
 }
 

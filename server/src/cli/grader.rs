@@ -13,7 +13,6 @@ use super::terminal::{Outcome, counted, print_json, print_line};
 use crate::grader::{Grader, LEASE};
 use crate::problem::Problem;
 use crate::store::{Location, Store};
-use crate::variants::Variants;
 
 /// How long the end of the program waits for what is being graded.
 const ENDING: Duration = Duration::from_secs(10);
@@ -48,7 +47,7 @@ pub(super) fn grader(options: &Options, json: bool) -> Result<Outcome, Problem> 
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
         let slots = options.slots.map_or(processors, usize::from);
         let lease = Duration::from_secs(options.lease);
-        let grader = Grader::new(Arc::new(store), Arc::new(Variants::default()), slots, lease);
+        let grader = Grader::new(Arc::new(store), Arc::default(), Arc::default(), slots, lease);
         print_line(&format!("Grades what waits in {}, {slots} at a time", options.database));
         tokio::select! {
             () = Arc::clone(&grader).run() => {}

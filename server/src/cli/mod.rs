@@ -2,26 +2,31 @@
 
 mod choice;
 mod clock;
+mod config;
 mod course;
 mod export;
 mod grader;
 mod interrupt;
+mod logging;
 mod measure;
 mod output;
 mod scene;
 mod serve;
 mod terminal;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use triad_engine::analysis::ModesAbout;
 
 use crate::problem::Problem;
+use course::lesson::LessonCommand;
 use course::{grade, grades, graph, lesson, lti, preview, records, regrade};
 use export::Export;
+use logging::Log;
 use measure::{bench, paper, stress, sweep};
 use scene::options::Run;
 use scene::source::Source;
@@ -67,7 +72,14 @@ enum Command {
     /// Serve the workbench: page, HTTP API and live streams on one port.
     #[command(after_help = "Examples:\n  triad serve --port 9000\n  \
         triad serve --class --host 0.0.0.0 --database /srv/triad/grades.db   (for a class on one network)")]
-    Serve(Serve),
+    Serve(Box<Serve>),
+    /// Tell each setting of `triad serve`, as a file of settings, and where it comes from; passwords are hidden.
+    ///
+    /// The command line goes before the environment, that before the file that --config names, and the file before the default.
+    #[command(
+        after_help = "Examples:\n  triad config > triad.toml\n  triad config --config triad.toml --port 9000"
+    )]
+    Config(Box<Serve>),
     /// Run a scene; tells energy drift, constraint violation, work and events.
     ///
     /// Events are moments that the scene asks for under "events": when a coordinate of a point, a distance, a joint's
@@ -222,7 +234,7 @@ enum Command {
     Lti(lti::Lti),
     /// The lessons of the course.
     #[command(subcommand)]
-    Lesson(Lesson),
+    Lesson(LessonCommand),
     /// Measure run time against error: integrators, treatments, kinds of bodies, tolerances.
     ///
     /// Of the built-in scenes, or of your own. The error of a scene of your own is the largest distance from a run of the
@@ -262,55 +274,11 @@ enum Command {
     },
 }
 
-#[derive(Debug, Subcommand)]
-enum Lesson {
-    /// List the lessons.
-    List,
-    /// Tell what each lesson introduces and needs, and from where: what may be left out, and what must come before.
-    #[command(after_help = "Examples:\n  triad lesson graph\n  triad --course my-course lesson graph --dot")]
-    Graph {
-        /// As a graph for Graphviz.
-        #[arg(long)]
-        dot: bool,
-    },
-    /// Prove the course: references pass, wrong answers get their own feedback, every number has a source.
-    #[command(after_help = "Examples:\n  triad lesson check\n  triad lesson check simple-pendulum\n  \
-        triad --course my-course lesson check")]
-    Check {
-        /// Only this lesson.
-        lesson: Option<String>,
-    },
-    /// Begin a lesson: a skeleton that runs, with TODO where your words belong.
-    #[command(after_help = "Example:\n  triad lesson new my-lesson --into my-course\n  \
-        triad --course my-course lesson preview my-lesson\n  triad --course my-course lesson check my-lesson")]
-    New {
-        /// Its name in addresses: small letters, digits and dashes.
-        slug: String,
-        /// The folder of the course; made if it is not there.
-        #[arg(long, default_value = ".", value_name = "DIR")]
-        into: PathBuf,
-    },
-    /// Show a lesson in the browser while you write it: every saved file is shown at once, with its faults.
-    #[command(after_help = "Example:\n  triad --course my-course lesson preview my-lesson")]
-    Preview {
-        /// The lesson.
-        lesson: String,
-        /// Port to listen at; 0 takes any free one.
-        #[arg(long, default_value_t = 8090)]
-        port: u16,
-    },
-    /// Write the starter of a question that asks for a program, and the states that are dealt to a student.
-    #[command(
-        after_help = "Example:\n  triad lesson starter rigid-body-rows program --language octave --student ada --out ."
-    )]
-    Starter(lesson::Starter),
-}
-
 /// Runs the command that the program was called with.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let json = arguments.json;
-    match dispatch(arguments) {
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let json = words.iter().any(|word| word == "--json");
+    match understood(words).and_then(dispatch) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::No) => ExitCode::from(1),
         Err(problem) => {
@@ -324,11 +292,42 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
+/// What the program was called with, and the settings of a file.
+struct Understood {
+    arguments: Arguments,
+    matches: ArgMatches,
+    settings: config::Settings,
+}
+
+/// Reads the command line; without a command it is `serve`. A file of settings is read first, and takes the place of defaults.
+///
+/// Errors if the file cannot be read or has a mistake. What clap does not understand ends the program.
+fn understood(mut words: Vec<OsString>) -> Result<Understood, Problem> {
+    let command = Arguments::command();
+    if command.clone().get_matches_from(&words).subcommand_name().is_none() {
+        words.push("serve".into());
+    }
+    let first = command.clone().get_matches_from(&words);
+    let taker = first.subcommand().filter(|(name, _)| config::takes(name));
+    let named = taker.and_then(|(_, given)| given.get_one::<PathBuf>("config"));
+    let settings = named.map_or_else(|| Ok(config::Settings::new()), |file| config::read(file, &command))?;
+    let matches = config::with(command, &settings).get_matches_from(&words);
+    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    Ok(Understood { arguments, matches, settings })
+}
+
+fn dispatch(Understood { arguments, matches, settings }: Understood) -> Result<Outcome, Problem> {
     let Arguments { command, json, course: folder } = arguments;
     let course = || lesson::course(folder.as_deref());
-    match command.unwrap_or_else(|| Command::Serve(Serve::default())) {
+    // `understood` has put one there.
+    let Some(command) = command else { return Ok(Outcome::No) };
+    logging::start(if let Command::Serve(options) = &command { options.log } else { Log::Faults });
+    match command {
         Command::Serve(options) => serve::serve(&options, course()?),
+        Command::Config(_) => Ok(match matches.subcommand() {
+            Some((_, given)) => config::tell(&Arguments::command(), given, &settings, json),
+            None => Outcome::No,
+        }),
         Command::Run(options) => run::run(&options, json),
         Command::Check(source) => check::check(&source, json),
         Command::Reactions { source, at, words } => analyses::reactions(&source, at, &words, json),
@@ -356,14 +355,16 @@ fn dispatch(arguments: Arguments) -> Result<Outcome, Problem> {
         Command::Class(options) => records::class(options, json),
         Command::Lti(command) => lti::lti(command, json),
         Command::Regrade(options) => regrade::regrade(&options, &course()?, json),
-        Command::Lesson(Lesson::List) => Ok(lesson::list(&course()?, json)),
-        Command::Lesson(Lesson::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
-        Command::Lesson(Lesson::Check { lesson }) => lesson::check(&course()?, lesson.as_deref(), json),
-        Command::Lesson(Lesson::New { slug, into }) => lesson::new(&slug, &into, json),
-        Command::Lesson(Lesson::Preview { lesson, port }) => {
+        Command::Lesson(LessonCommand::List) => Ok(lesson::list(&course()?, json)),
+        Command::Lesson(LessonCommand::Graph { dot }) => Ok(graph::graph(&course()?, dot, json)),
+        Command::Lesson(LessonCommand::Check { lesson }) => {
+            lesson::check(&course()?, lesson.as_deref(), json)
+        }
+        Command::Lesson(LessonCommand::New { slug, into }) => lesson::new(&slug, &into, json),
+        Command::Lesson(LessonCommand::Preview { lesson, port }) => {
             preview::preview(folder.as_deref(), &lesson, port)
         }
-        Command::Lesson(Lesson::Starter(options)) => lesson::starter(&course()?, &options, json),
+        Command::Lesson(LessonCommand::Starter(options)) => lesson::starter(&course()?, &options, json),
         Command::Bench(options) => bench::bench(options, json),
         Command::Sweep(options) => sweep::run(&options, json),
         Command::Stress(options) => stress::stress(&options, json),
@@ -380,7 +381,6 @@ fn machine_refused(problem: &Problem) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent_and_serves_by_default() {
@@ -391,18 +391,6 @@ mod tests {
         let Some(Command::Serve(serve)) = Arguments::parse_from(["triad", "serve"]).command else {
             panic!("serve is a command");
         };
-        let default = Serve::default();
-        assert_eq!(
-            (serve.host, serve.port, &serve.database, serve.max_sessions, serve.max_bodies, &serve.reports),
-            (
-                default.host,
-                default.port,
-                &default.database,
-                default.max_sessions,
-                default.max_bodies,
-                &default.reports
-            )
-        );
-        assert_eq!((serve.max_rooms, serve.max_followers), (default.max_rooms, default.max_followers));
+        assert_eq!((serve.port, serve.max_sessions, serve.class), (8080, 64, false));
     }
 }

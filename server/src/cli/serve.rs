@@ -1,15 +1,20 @@
 //! `triad serve`.
 
+use std::future::pending;
 use std::net::{IpAddr, SocketAddr, UdpSocket};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use axum::http::StatusCode;
 use clap::Args;
 use tokio::net::TcpListener;
+use tokio::task::JoinHandle;
+use tokio::time::sleep;
 use triad_lessons::Course;
 
+use super::logging::Log;
 use super::terminal::{Outcome, print_line};
 use crate::access::Access;
 use crate::app::{App, REPORTS};
@@ -25,6 +30,9 @@ const CLOSING: Duration = Duration::from_secs(5);
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Serve {
+    /// A file with settings in TOML; the command line and the environment go before it.
+    #[arg(long, value_name = "FILE", env = "TRIAD_CONFIG")]
+    pub(in crate::cli) config: Option<PathBuf>,
     /// Address to listen at; 0.0.0.0 lets the whole network in, which takes --class or --open.
     #[arg(long, default_value = "127.0.0.1", env = "TRIAD_HOST")]
     pub(in crate::cli) host: IpAddr,
@@ -35,77 +43,81 @@ pub(in crate::cli) struct Serve {
     #[arg(long, default_value = "triad.db", value_name = "PLACE", env = "TRIAD_DATABASE")]
     pub(in crate::cli) database: Location,
     /// Live simulations at a time.
-    #[arg(long, default_value_t = 64, value_name = "N")]
+    #[arg(long, default_value_t = 64, value_name = "N", env = "TRIAD_MAX_SESSIONS")]
     pub(in crate::cli) max_sessions: usize,
     /// Bodies that a live simulation may have.
-    #[arg(long, default_value_t = 500, value_name = "N")]
+    #[arg(long, default_value_t = 500, value_name = "N", env = "TRIAD_MAX_BODIES")]
     pub(in crate::cli) max_bodies: usize,
     /// Megabytes of answers and files that are kept of one person.
-    #[arg(long, default_value_t = 64, value_name = "MB")]
+    #[arg(long, default_value_t = 64, value_name = "MB", env = "TRIAD_PERSON_QUOTA")]
     pub(in crate::cli) person_quota: u64,
     /// Megabytes that the whole gradebook may have, if it is a file.
-    #[arg(long, default_value_t = 16_384, value_name = "MB")]
+    #[arg(long, default_value_t = 16_384, value_name = "MB", env = "TRIAD_QUOTA")]
     pub(in crate::cli) quota: u64,
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
-    #[arg(long, default_value = REPORTS, value_name = "DIR")]
+    #[arg(long, default_value = REPORTS, value_name = "DIR", env = "TRIAD_REPORTS")]
     pub(in crate::cli) reports: PathBuf,
     /// Milliseconds in which a submission is graded in its request; what takes longer waits in the database for any grader. With a
     /// gradebook on a server only.
-    #[arg(long, default_value_t = 300, value_name = "MS")]
+    #[arg(long, default_value_t = 300, value_name = "MS", env = "TRIAD_AT_ONCE")]
     pub(in crate::cli) at_once: u64,
     /// Lecture rooms at a time.
-    #[arg(long, default_value_t = 16, value_name = "N")]
+    #[arg(long, default_value_t = 16, value_name = "N", env = "TRIAD_MAX_ROOMS")]
     pub(in crate::cli) max_rooms: usize,
     /// Followers of one lecture.
-    #[arg(long, default_value_t = 500, value_name = "N")]
+    #[arg(long, default_value_t = 500, value_name = "N", env = "TRIAD_MAX_FOLLOWERS")]
     pub(in crate::cli) max_followers: usize,
     /// With accounts: students join with a code, and what is kept or secret belongs to who is signed in. Prints a link for
     /// the teacher until there is one.
-    #[arg(long, conflicts_with = "open")]
+    #[arg(long, env = "TRIAD_CLASS")]
     pub(in crate::cli) class: bool,
     /// Let others in without accounts: whoever reaches the server reads everybody's submissions and hands in under any name.
-    #[arg(long)]
+    #[arg(long, env = "TRIAD_OPEN")]
     pub(in crate::cli) open: bool,
     /// With --class: print a link that makes whoever follows it an owner of the class.
-    #[arg(long, requires = "class")]
+    #[arg(long)]
     pub(in crate::cli) new_owner: bool,
     /// Where the class finds the server, as https://triad.example.org behind a proxy that encrypts.
-    #[arg(long, value_name = "URL", requires = "class")]
+    #[arg(long, value_name = "URL", env = "TRIAD_URL")]
     pub(in crate::cli) url: Option<String>,
     /// Address of a proxy that says for whom it asks (X-Forwarded-For); may be given more than once.
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, value_name = "ADDRESS", value_delimiter = ',', env = "TRIAD_PROXY")]
     pub(in crate::cli) proxy: Vec<IpAddr>,
+    /// What is logged on the standard error.
+    #[arg(long, default_value = "faults", value_name = "WHAT", env = "TRIAD_LOG")]
+    pub(in crate::cli) log: Log,
+    /// Address for counters (/metrics) and probes (/livez, /readyz), as 127.0.0.1:9464; a port alone is one of this machine.
+    #[arg(long, value_name = "ADDRESS", value_parser = admin_address, env = "TRIAD_ADMIN_ADDRESS")]
+    pub(in crate::cli) admin_address: Option<SocketAddr>,
+    /// Seconds from the request to stop until the server goes: it answers, and says at /readyz that it is going.
+    #[arg(long, default_value_t = 0, value_name = "S", env = "TRIAD_DRAIN")]
+    pub(in crate::cli) drain: u64,
     /// Another name by which the server may be asked for without --class; may be given more than once.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', env = "TRIAD_ALLOW_HOST")]
     pub(in crate::cli) allow_host: Vec<String>,
 }
 
-impl Default for Serve {
-    fn default() -> Self {
-        Self {
-            host: IpAddr::from([127, 0, 0, 1]),
-            port: 8080,
-            database: Location::File("triad.db".into()),
-            max_sessions: 64,
-            max_bodies: 500,
-            person_quota: 64,
-            quota: 16_384,
-            reports: REPORTS.into(),
-            at_once: 300,
-            max_rooms: 16,
-            max_followers: 500,
-            class: false,
-            open: false,
-            new_owner: false,
-            url: None,
-            proxy: Vec::new(),
-            allow_host: Vec::new(),
-        }
-    }
+/// An address, or a port of this machine.
+fn admin_address(text: &str) -> Result<SocketAddr, String> {
+    let here = text.trim_start_matches(':').parse().map(|port| SocketAddr::from(([127, 0, 0, 1], port)));
+    here.or_else(|_| text.parse())
+        .map_err(|_| "write an address and a port, as 127.0.0.1:9464, or a port".to_owned())
 }
 
-/// Serves until it is stopped.
-pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
+/// What is said once where settings contradict each other, wherever each comes from.
+fn check(options: &Serve) -> Result<(), Problem> {
+    let refused = |detail: &str, hint: &str| {
+        Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "settings-contradict", detail, hint))
+    };
+    if options.class && options.open {
+        return refused(
+            "class and open are both set",
+            "a class has accounts; to let everybody in leave class out",
+        );
+    }
+    if !options.class && (options.new_owner || options.url.is_some()) {
+        return refused("new-owner and url belong to a class, and class is not set", "add --class");
+    }
     if !(options.host.is_loopback() || options.class || options.open) {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
@@ -117,6 +129,12 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
             "add --class for accounts; --open lets everybody in: they read all submissions and hand in under any name",
         ));
     }
+    Ok(())
+}
+
+/// Serves until it is stopped.
+pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem> {
+    check(options)?;
     let limits = Limits {
         sessions: options.max_sessions,
         bodies: options.max_bodies,
@@ -176,14 +194,8 @@ fn live_file(options: &Serve) -> Option<PathBuf> {
 
 async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     let wanted = SocketAddr::new(options.host, options.port);
-    let listener = TcpListener::bind(wanted).await.map_err(|error| {
-        Problem::new(
-            StatusCode::INTERNAL_SERVER_ERROR,
-            "port-unavailable",
-            format!("cannot listen at {wanted}: {error}"),
-            "another program may use that port: choose one with --port, or --port 0 for any free one",
-        )
-    })?;
+    let listener = bind(wanted).await?;
+    let admin = admin(options, &app).await?;
     let address = listener.local_addr().map_err(Problem::internal)?;
     print_line(&format!(
         "Triad is at http://{address}  ({} lessons; Ctrl-C stops it)",
@@ -194,7 +206,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     let house = tokio::spawn(crate::api::keep_house(app.clone()));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let slots = processors.saturating_sub(1).max(1);
-    let grader = Grader::new(app.store.clone(), app.variants.clone(), slots, LEASE);
+    let grader = Grader::new(app.store.clone(), app.variants.clone(), app.metrics.clone(), slots, LEASE);
     let grading = tokio::spawn(Arc::clone(&grader).run());
     let telling = tokio::spawn(crate::api::keep_told(app.clone()));
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
@@ -211,17 +223,47 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         if let Some(path) = live_at
             && let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await
         {
-            eprintln!("triad: sessions and rooms end with the server: {}: {error}", path.display());
+            let path = path.display().to_string();
+            tracing::error!(target: "triad", path = path.as_str(), "sessions and rooms end with the server: {error}");
         }
         lectures.leave();
         sessions.clear();
     };
     let store = app.store.clone();
-    crate::listen::serve(listener, crate::app(app), stopped, ending).await;
+    let (going, patience) = (Arc::clone(&app.draining), Duration::from_secs(options.drain));
+    let draining = move || async move {
+        going.store(true, Ordering::Relaxed);
+        sleep(patience).await;
+    };
+    crate::listen::serve(listener, crate::app(app), stopped, draining, ending).await;
+    if let Some(admin) = admin {
+        admin.abort();
+    }
     drop(tokio::time::timeout(CLOSING, grader.finish(slots)).await);
     // What is being written is finished; whoever hangs beyond that has not been answered.
     drop(tokio::time::timeout(CLOSING, store.close()).await);
     Ok(())
+}
+
+async fn bind(wanted: SocketAddr) -> Result<TcpListener, Problem> {
+    TcpListener::bind(wanted).await.map_err(|error| {
+        Problem::new(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "port-unavailable",
+            format!("cannot listen at {wanted}: {error}"),
+            "another program may use that port: choose one with --port, or --port 0 for any free one",
+        )
+    })
+}
+
+/// Answers those who run the server at their own address, to the end of the process: probes are answered while it goes.
+async fn admin(options: &Serve, app: &App) -> Result<Option<JoinHandle<()>>, Problem> {
+    let Some(wanted) = options.admin_address else { return Ok(None) };
+    let listener = bind(wanted).await?;
+    let admin = listener.local_addr().map_err(Problem::internal)?.to_string();
+    tracing::info!(target: "triad", admin = admin.as_str(), "counters and probes");
+    let app = crate::admin(app.clone());
+    Ok(Some(tokio::spawn(crate::listen::serve(listener, app, pending, pending, pending))))
 }
 
 /// Says how the server is used, and how a teacher comes in.

@@ -186,7 +186,7 @@ impl Store {
         let read = |(id, lesson, student, answers, verdict): (String, String, String, String, String)| {
             let parsed = (serde_json::from_str(&answers), serde_json::from_str(&verdict));
             let (Ok(answers), Ok(verdict)) = parsed else {
-                eprintln!("triad: submission {id} is damaged: restore the database from a copy");
+                tracing::error!(target: "triad", %id, "a submission is damaged: restore the database from a copy");
                 return None;
             };
             Some(StoredSubmission { id, lesson, student, answers, verdict })

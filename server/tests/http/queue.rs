@@ -60,7 +60,8 @@ async fn what_takes_longer_is_graded_in_its_turn_and_told_to_its_author() {
     class.ask("GET", &at, "", None).await.problem(401, "sign-in-needed");
     assert_eq!(class.ask("GET", "/api/v1/submissions", &ada, None).await.json(), json!([]));
 
-    let grader = Grader::new(Arc::clone(&class.app.store), Arc::clone(&class.app.variants), 2, LEASE);
+    let grader =
+        Grader::new(Arc::clone(&class.app.store), Arc::clone(&class.app.variants), Arc::default(), 2, LEASE);
     let grading = tokio::spawn(Arc::clone(&grader).run());
     let state = graded(&class, &ada, &at).await;
     assert_eq!(state["state"], "graded", "{state}");

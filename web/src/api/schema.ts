@@ -2911,7 +2911,7 @@ export interface components {
             status: number;
             /** @description A short summary, the same for every problem of this kind. */
             title: string;
-            /** @description Names this one occurrence, to be quoted in a report; the server's log has the same. */
+            /** @description Names the request, to be quoted in a report; the header `x-request-id` and the server's log have the same. */
             trace_id: string;
             /**
              * @description A stable name for this kind of problem, as a URI.

@@ -167,7 +167,10 @@ class ExerciseSection {
   private saveAnswers(): void {
     const who = this.name.value.trim();
     const { has_variants: hasVariants, seed } = this.lesson;
-    if (who && hasVariants && seed !== who && !student.known()) return this.changeVariant(who);
+    if (who && hasVariants && seed !== who && !student.known()) {
+      this.changeVariant(who);
+      return;
+    }
     saveFile(new Blob([`${JSON.stringify(this.body(who), null, 2)}\n`], { type: "application/json" }), FILE);
     announce(`Your answers are saved as ${FILE}.`);
   }

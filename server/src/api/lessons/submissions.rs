@@ -143,6 +143,7 @@ async fn at_once(
     } else {
         judging.await?
     };
+    judged.tell(&app.metrics);
     loop {
         let new = handing::settled(&app.store, &judged, identifier(), jiff::Timestamp::now()).await?;
         match app.store.hand_in(&new).await {

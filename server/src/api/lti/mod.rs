@@ -76,7 +76,8 @@ pub async fn keep_told(app: App) {
         };
         // Tried again in a moment: what is to be told is in the gradebook.
         if let Err(problem) = round.await {
-            eprintln!("triad: scores for the learning platform wait: {problem}");
+            // What the platform answered may name people.
+            tracing::error!(target: "triad", code = problem.code(), "scores for the learning platform wait");
         }
         took = began.elapsed();
     }

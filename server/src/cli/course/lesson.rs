@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
-use clap::Args;
+use clap::{Args, Subcommand};
 use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
@@ -29,6 +29,50 @@ pub(in crate::cli) struct Starter {
     /// The folder for the program and states.json.
     #[arg(long, default_value = ".", value_name = "DIR")]
     out: PathBuf,
+}
+
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum LessonCommand {
+    /// List the lessons.
+    List,
+    /// Tell what each lesson introduces and needs, and from where: what may be left out, and what must come before.
+    #[command(after_help = "Examples:\n  triad lesson graph\n  triad --course my-course lesson graph --dot")]
+    Graph {
+        /// As a graph for Graphviz.
+        #[arg(long)]
+        dot: bool,
+    },
+    /// Prove the course: references pass, wrong answers get their own feedback, every number has a source.
+    #[command(after_help = "Examples:\n  triad lesson check\n  triad lesson check simple-pendulum\n  \
+        triad --course my-course lesson check")]
+    Check {
+        /// Only this lesson.
+        lesson: Option<String>,
+    },
+    /// Begin a lesson: a skeleton that runs, with TODO where your words belong.
+    #[command(after_help = "Example:\n  triad lesson new my-lesson --into my-course\n  \
+        triad --course my-course lesson preview my-lesson\n  triad --course my-course lesson check my-lesson")]
+    New {
+        /// Its name in addresses: small letters, digits and dashes.
+        slug: String,
+        /// The folder of the course; made if it is not there.
+        #[arg(long, default_value = ".", value_name = "DIR")]
+        into: PathBuf,
+    },
+    /// Show a lesson in the browser while you write it: every saved file is shown at once, with its faults.
+    #[command(after_help = "Example:\n  triad --course my-course lesson preview my-lesson")]
+    Preview {
+        /// The lesson.
+        lesson: String,
+        /// Port to listen at; 0 takes any free one.
+        #[arg(long, default_value_t = 8090)]
+        port: u16,
+    },
+    /// Write the starter of a question that asks for a program, and the states that are dealt to a student.
+    #[command(
+        after_help = "Example:\n  triad lesson starter rigid-body-rows program --language octave --student ada --out ."
+    )]
+    Starter(Starter),
 }
 
 /// The course in a folder, or the one that is built in.
