@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 use axum::Router;
 use axum::body::{Body, to_bytes};
 use axum::http::{Request, StatusCode};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use tower::ServiceExt;
 use triad_engine::catalogue;
-use triad_lessons::Course;
 use triad_lessons::exercise::QuestionBody;
+use triad_lessons::{Course, Lesson};
 
 use crate::api;
 use crate::app::App;
@@ -92,48 +92,63 @@ fn keeper(files: &Files) -> String {
 ///
 /// Errors if the course cannot be shown.
 pub async fn data(course: Course) -> Result<Files, Problem> {
-    let mut paths: Vec<String> = ["/me", "/lessons", "/schema/scene", "/pictures"].map(str::to_owned).into();
-    // A family of scenes is shown by its second.
-    let scenes = catalogue::ENTRIES.iter().map(|entry| entry.name.replace(":N", ":2"));
-    paths.extend(scenes.map(|name| format!("/scenes/{name}/motion")));
-    let mut starters = Vec::new();
-    for lesson in course.lessons() {
-        let base = format!("/lessons/{}", lesson.slug);
-        for question in &lesson.exercise.questions {
-            let question_path = format!("{base}/questions/{}", question.id);
-            paths.extend((1..=question.hints.len()).map(|k| format!("{question_path}/hints/{k}")));
-            if matches!(question.body, QuestionBody::Implement(_)) {
-                paths.push(format!("{question_path}/states"));
-                starters
-                    .extend(LANGUAGES.iter().map(|language| format!("{question_path}/starters/{language}")));
-            }
-        }
-        paths.push(format!("{base}/motion"));
-        paths.push(base);
-    }
+    let lessons = course.lessons().to_vec();
     let server = crate::app(App::new(course, Store::in_memory(), Limits::default()));
     let mut files = Files::new();
-    for path in paths {
-        let bytes = answer(&server, &format!("/api/v1{path}")).await?;
-        let is_lesson = path.starts_with("/lessons/") && path.matches('/').count() == 2;
-        let bytes = if is_lesson { without_predictions(&bytes)? } else { bytes };
-        // A memory stick takes no colons in names.
-        files.insert(format!("{DATA}{}.json", path.replace(':', "-")), bytes);
+    for path in ["/me", "/lessons", "/schema/scene"] {
+        add(&mut files, &server, path, "json").await?;
     }
-    for path in starters {
-        let bytes = answer(&server, &format!("/api/v1{path}")).await?;
-        files.insert(format!("{DATA}{path}.txt"), bytes);
+    // A family of scenes is shown by its second.
+    for entry in catalogue::ENTRIES {
+        add(&mut files, &server, &format!("/scenes/{}/motion", entry.name.replace(":N", ":2")), "json")
+            .await?;
     }
+    for lesson in &lessons {
+        add_lesson(&mut files, &server, lesson).await?;
+    }
+    let pictures = scenes_alone(&answer(&server, "/api/v1/pictures").await?)?;
+    files.insert(format!("{DATA}/pictures.json"), pictures);
     Ok(files)
 }
 
-/// A lesson without what is asked before its run: what comes true is told by a server, in its answer to a prediction.
-fn without_predictions(lesson: &[u8]) -> Result<Vec<u8>, Problem> {
-    let mut lesson: Value = serde_json::from_slice(lesson).map_err(Problem::internal)?;
-    if let Some(predictions) = lesson.get_mut("predictions") {
-        *predictions = Value::Array(Vec::new());
+/// Adds a lesson, with the questions that everybody sees: of a pool some are drawn, and the others are not told.
+async fn add_lesson(files: &mut Files, server: &Router, lesson: &Lesson) -> Result<(), Problem> {
+    let base = format!("/lessons/{}", lesson.slug);
+    let mut view: Value = serde_json::from_slice(&answer(server, &format!("/api/v1{base}")).await?)
+        .map_err(Problem::internal)?;
+    // What comes true is told by a server, in its answer to a prediction.
+    view["predictions"] = Value::Array(Vec::new());
+    let shown = view["exercise"]["questions"].as_array().into_iter().flatten();
+    let shown: Vec<&str> = shown.filter_map(|question| question["id"].as_str()).collect();
+    for question in lesson.exercise.questions.iter().filter(|question| shown.contains(&question.id.as_str()))
+    {
+        let own = format!("{base}/questions/{}", question.id);
+        for k in 1..=question.hints.len() {
+            add(files, server, &format!("{own}/hints/{k}"), "json").await?;
+        }
+        if matches!(question.body, QuestionBody::Implement(_)) {
+            add(files, server, &format!("{own}/states"), "json").await?;
+            for language in LANGUAGES {
+                add(files, server, &format!("{own}/starters/{language}"), "txt").await?;
+            }
+        }
     }
-    serde_json::to_vec(&lesson).map_err(Problem::internal)
+    files.insert(format!("{DATA}{base}.json"), serde_json::to_vec(&view).map_err(Problem::internal)?);
+    Ok(())
+}
+
+/// Adds what the server answers at a path. A memory stick takes no colons in names.
+async fn add(files: &mut Files, server: &Router, path: &str, ending: &str) -> Result<(), Problem> {
+    let bytes = answer(server, &format!("/api/v1{path}")).await?;
+    files.insert(format!("{DATA}{}.{ending}", path.replace(':', "-")), bytes);
+    Ok(())
+}
+
+/// The pictures of the built-in scenes: those of lessons hold numbers that some lessons ask for.
+fn scenes_alone(pictures: &[u8]) -> Result<Vec<u8>, Problem> {
+    let mut pictures: Value = serde_json::from_slice(pictures).map_err(Problem::internal)?;
+    pictures["lessons"] = Value::Object(Map::new());
+    serde_json::to_vec(&pictures).map_err(Problem::internal)
 }
 
 async fn answer(server: &Router, path: &str) -> Result<Vec<u8>, Problem> {

@@ -11,10 +11,10 @@ const decoder = new TextDecoder();
 /** Asks, and lets the engine work until the answer is there. */
 function answer(request) {
   engine.ask(request, 0);
-  for (;;) {
+  for (let left = 1; ; left = engine.work(0)) {
     for (let message = engine.next(); message; message = engine.next())
       if (message.head.answer === request.id) return { status: message.head.status, body: decoder.decode(message.body) };
-    if (engine.work(0) === 0) throw new Error(`no answer to ${JSON.stringify(request)}`);
+    if (left === 0) throw new Error(`no answer to ${JSON.stringify(request)}`);
   }
 }
 
