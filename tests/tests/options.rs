@@ -22,7 +22,7 @@ const UNTIL: &str = "0.01";
 const MOST_STEPS: &str = "40";
 
 /// Options that have their cases in other tests, or open a port: the command, and where.
-const ELSEWHERE: [(&str, &str); 22] = [
+const ELSEWHERE: [(&str, &str); 30] = [
     ("config", "operating.rs"),
     ("serve", "workbench.rs, lecture.rs and browser.rs run the server"),
     ("lesson preview", "it serves a page"),
@@ -42,6 +42,14 @@ const ELSEWHERE: [(&str, &str); 22] = [
     ("class import", "gradebook.rs; it takes no scene"),
     ("class copy", "gradebook.rs; it takes no scene"),
     ("class erase", "gradebook.rs; it takes no scene"),
+    ("grader", "chaos.rs; it takes no scene"),
+    ("lti tool", "server/tests/http/lti; it takes no scene"),
+    ("lti add", "server/tests/http/lti; it takes no scene"),
+    ("lti list", "server/tests/http/lti; it takes no scene"),
+    ("lti remove", "server/tests/http/lti; it takes no scene"),
+    ("lti link", "server/tests/http/lti; it takes no scene"),
+    ("lti unlink", "server/tests/http/lti; it takes no scene"),
+    ("lti renew-key", "server/tests/http/lti; it takes no scene"),
     ("export site", "browser.rs opens what it writes; it takes no scene"),
     ("paper", "engine/lab/tests/paper.rs"),
     ("stress", "engine/lab/tests/stress.rs"),

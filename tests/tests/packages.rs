@@ -51,19 +51,41 @@ fn recordings_and_viewer_are_of_one_version() {
     assert!(seen > 20, "{seen} crates of the viewer's SDK");
 }
 
+/// The parts of a licence expression between words that stand outside brackets.
+fn parts<'a>(expression: &'a str, word: &str) -> Vec<&'a str> {
+    let (mut depth, mut from, mut parts) = (0, 0, Vec::new());
+    for (at, letter) in expression.char_indices() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ if depth == 0 && expression[at..].starts_with(word) && at >= from => {
+                parts.push(&expression[from..at]);
+                from = at + word.len();
+            }
+            _ => {}
+        }
+    }
+    parts.push(&expression[from..]);
+    parts
+}
+
 /// Whether a licence expression allows a use under licences of which `allowed` holds.
 fn permits(expression: &str, allowed: &dyn Fn(&str) -> bool) -> bool {
     let expression = expression.trim();
-    let inner = expression
-        .strip_prefix('(')
-        .and_then(|rest| rest.strip_suffix(')'))
-        .filter(|inner| !inner.contains('('));
-    let expression = inner.unwrap_or(expression).replace(") AND ", ")\u{0}").replace(" OR ", "/");
-    if let Some((left, right)) = expression.split_once('\u{0}') {
-        return permits(left, allowed) && permits(right, allowed);
+    for word in [" OR ", "/"] {
+        let choices = parts(expression, word);
+        if choices.len() > 1 {
+            return choices.iter().any(|choice| permits(choice, allowed));
+        }
     }
-    let choices = || expression.split('/').map(str::trim);
-    choices().any(|choice| choice.split(" AND ").all(|one| allowed(one.trim())))
+    let all = parts(expression, " AND ");
+    if all.len() > 1 {
+        return all.iter().all(|one| permits(one, allowed));
+    }
+    match expression.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
+        Some(inner) => permits(inner, allowed),
+        None => allowed(expression),
+    }
 }
 
 /// What `cargo verify deny` finds out with cargo-deny, without it: `deny.toml` says what may be used.
@@ -105,6 +127,8 @@ fn licence_expressions_are_read() {
         "GPL-3.0 OR MIT",
         "Apache-2.0/MIT",
         "(MIT OR Apache-2.0) AND Unicode-3.0",
+        "MIT AND (GPL-3.0 OR MIT)",
+        "MIT AND (GPL-3.0 OR Unicode-3.0) AND Unicode-3.0",
         "MIT AND Unicode-3.0",
     ] {
         assert!(permits(good, &allowed), "{good}");

@@ -12,7 +12,7 @@ use hyper_util::client::legacy::connect::HttpConnector;
 use hyper_util::rt::TokioExecutor;
 use tokio::time::timeout;
 
-use super::registration::safe;
+use super::address::safe;
 
 /// How long an answer may take, from the first byte that we send: a request of the page waits for it.
 const PATIENCE: Duration = Duration::from_secs(10);

@@ -4,6 +4,7 @@
 //! Core 1.3, Deep Linking 2.0, Assignment and Grade Services 2.0, Names and Role Provisioning Services 2.0, Security Framework
 //! 1.0, all of 1EdTech.
 
+pub mod address;
 pub mod choice;
 pub mod claims;
 pub mod http;
@@ -58,7 +59,7 @@ impl Lti {
     ///
     /// Errors if browsers would not come back there with what they were given: it takes encryption, or the machine itself.
     pub fn at(base: &str, secret: &str) -> Result<Self, Refusal> {
-        let url = registration::safe(base).ok_or_else(|| Refusal::NotServed(base.to_owned()))?;
+        let url = address::safe(base).ok_or_else(|| Refusal::NotServed(base.to_owned()))?;
         if url.query().is_some() || url.fragment().is_some() {
             return Err(Refusal::NotServed(base.to_owned()));
         }

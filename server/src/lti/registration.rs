@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 use serde_json::{Value, json};
-use url::{Host, Url};
 
+use super::address::{origin, safe};
 use super::services::{LINE_ITEM, PEOPLE, SCORE};
 use crate::store::Platform;
 use crate::store::hash::sha256;
@@ -27,28 +27,6 @@ pub struct Registration {
     pub services: Vec<String>,
     /// Its deployments that may send people.
     pub deployments: Vec<String>,
-}
-
-/// An address that may be asked: encrypted, or of this machine itself, and without a name or a password in it.
-pub fn safe(text: &str) -> Option<Url> {
-    let url = Url::parse(text).ok()?;
-    let is_here = match url.host()? {
-        Host::Domain(name) => name == "localhost",
-        Host::Ipv4(address) => address.is_loopback(),
-        Host::Ipv6(address) => address.is_loopback(),
-    };
-    let is_safe = url.scheme() == "https" || (url.scheme() == "http" && is_here);
-    (is_safe && url.username().is_empty() && url.password().is_none()).then_some(url)
-}
-
-/// The origin of an address that may be asked.
-pub fn origin(text: &str) -> Option<String> {
-    safe(text).map(|url| url.origin().ascii_serialization())
-}
-
-/// Whether an address is one of the platform's services: at an origin that was registered.
-pub fn is_service(platform: &Platform, address: &str) -> bool {
-    origin(address).is_some_and(|origin| platform.services.contains(&origin))
 }
 
 impl Registration {
@@ -157,6 +135,7 @@ impl Tool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::address::is_service;
     use super::*;
 
     fn registration() -> Registration {

@@ -7,8 +7,8 @@ use axum::http::{StatusCode, header};
 use serde::Deserialize;
 use serde_json::json;
 
+use super::address::is_service;
 use super::http::{Answer, Failure, Http};
-use super::registration::is_service;
 use super::{Lti, keys};
 use crate::policy::Moment;
 use crate::store::{Platform, Store, identifier};

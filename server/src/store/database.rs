@@ -1,8 +1,8 @@
 //! The databases that keep a gradebook: SQLite in a file or in memory, or a PostgreSQL server. Everything in which they
-//! differ stands here; the statements of `sql.rs` are in words that both understand.
+//! differ stands here and in `kind.rs`; the statements of `sql.rs` are in words that both understand.
 
-use std::fmt::{self, Write};
-use std::path::{Path, PathBuf};
+use std::fmt::Write;
+use std::path::Path;
 use std::str::FromStr;
 use std::sync::Once;
 use std::time::Duration;
@@ -12,6 +12,7 @@ use sqlx::any::{AnyConnectOptions, AnyPoolOptions};
 use sqlx::{AnyConnection, AnyPool, AssertSqlSafe, ConnectOptions};
 
 use super::error::StoreError;
+use super::kind::Kind;
 use super::transaction;
 
 /// How long a statement waits for another program that writes.
@@ -23,110 +24,11 @@ const TO_SERVER: u32 = 8;
 /// What every program that makes or changes tables on a server holds meanwhile: a number that nothing else there uses.
 const MIGRATING: i64 = 0x7472_6961_6401;
 
-/// Where a gradebook is: the path of a file, or the address of a server, as `--database` has it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Location {
-    /// A file of SQLite.
-    File(PathBuf),
-    /// A database of a PostgreSQL server, as `postgres://user@host/name`.
-    Server(String),
-}
-
-impl FromStr for Location {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if ["postgres://", "postgresql://"].iter().any(|scheme| text.starts_with(scheme)) {
-            return match AnyConnectOptions::from_str(text) {
-                Ok(_) => Ok(Self::Server(text.to_owned())),
-                Err(error) => Err(format!("{error}; as in postgres://triad@localhost/grades")),
-            };
-        }
-        if let Some((scheme, _)) = text.split_once("://") {
-            return Err(format!("{scheme} is no database for a gradebook: name a file, or postgres://…"));
-        }
-        Ok(Self::File(text.into()))
-    }
-}
-
-impl fmt::Display for Location {
-    /// Without the password: this is printed and logged.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::File(path) => path.display().fmt(f),
-            Self::Server(url) => {
-                let (scheme, rest) = url.split_once("://").unwrap_or(("postgres", url));
-                // A password may stand before the host or among the parameters.
-                let rest = rest.split_once('?').map_or(rest, |(place, _)| place);
-                let (user, place) = rest.rsplit_once('@').unwrap_or(("", rest));
-                let user = user.split_once(':').map_or(user, |(user, _)| user);
-                let at = if user.is_empty() { "" } else { "@" };
-                write!(f, "{scheme}://{user}{at}{place}")
-            }
-        }
-    }
-}
-
 /// Connections to a gradebook.
 #[derive(Debug)]
 pub(super) struct Pools {
     pub(super) writer: AnyPool,
     pub(super) readers: AnyPool,
-}
-
-/// Which database answers on a connection.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    Sqlite,
-    Postgres,
-}
-
-impl Kind {
-    pub(super) fn of(connection: &AnyConnection) -> Self {
-        if connection.backend_name() == "PostgreSQL" { Self::Postgres } else { Self::Sqlite }
-    }
-
-    /// Begins a transaction that writes, and waits for others there and not at the first change.
-    pub(super) fn begin(self) -> &'static str {
-        match self {
-            Self::Sqlite => "BEGIN IMMEDIATE",
-            // There the first statement holds what the others may not change meanwhile.
-            Self::Postgres => "BEGIN",
-        }
-    }
-
-    /// Begins to read everything as of one moment.
-    pub(super) fn snapshot(self) -> &'static str {
-        match self {
-            Self::Sqlite => "BEGIN",
-            Self::Postgres => "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY",
-        }
-    }
-
-    /// Names and types of the columns of the table `$1`.
-    pub(super) fn columns(self) -> &'static str {
-        match self {
-            Self::Sqlite => "SELECT name, type FROM pragma_table_info($1)",
-            Self::Postgres => {
-                "SELECT CAST(column_name AS TEXT), UPPER(CAST(data_type AS TEXT)) FROM information_schema.columns \
-                 WHERE table_schema = current_schema() AND table_name = $1"
-            }
-        }
-    }
-
-    /// A statement that makes tables, columns or triggers, in this database's words. Ours are SQLite's.
-    pub(super) fn making(self, text: &str) -> String {
-        match self {
-            Self::Postgres if text.starts_with("CREATE TRIGGER") => text
-                .replace("BEGIN SELECT RAISE(ABORT, ", "FOR EACH ROW EXECUTE FUNCTION triad_refuse(")
-                .replace("); END", ")"),
-            // Sorted and compared as bytes, whatever the language of the server.
-            Self::Postgres if text.starts_with("CREATE TABLE") || text.starts_with("ALTER TABLE") => {
-                text.replace(" TEXT", " TEXT COLLATE \"C\"")
-            }
-            Self::Sqlite | Self::Postgres => text.to_owned(),
-        }
-    }
 }
 
 /// What refuses changes of records on a server, unless somebody is erased within the transaction.

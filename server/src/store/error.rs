@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use axum::http::StatusCode;
 use sqlx::postgres::PgDatabaseError;
 
-use super::database::Location;
+use super::location::Location;
 use crate::policy::Refusal;
 use crate::problem::Problem;
 

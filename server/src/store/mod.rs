@@ -10,6 +10,8 @@ mod database;
 mod error;
 mod file;
 pub mod hash;
+mod kind;
+mod location;
 mod log;
 mod lti;
 pub mod names;
@@ -43,10 +45,11 @@ pub use class::{
 pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};
 #[cfg(test)]
 use copies::{LEFT, OF_COURSE};
-pub use database::Location;
-use database::{Kind, Pools};
+use database::Pools;
 pub use error::StoreError;
 use file::Place;
+use kind::Kind;
+pub use location::Location;
 pub use lti::{Admission, Arrival, Column, ColumnState, Context, Due, Pause, Platform, Told, Wanted};
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
 pub use predictions::{KeptPrediction, NewPrediction};

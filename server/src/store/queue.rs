@@ -12,9 +12,10 @@ use tokio::time::timeout;
 
 use super::class::Assignment;
 use super::class::assignments::{ensured, extension_of};
-use super::database::{self, Kind};
+use super::database;
 use super::error::StoreError;
 use super::hash::sha256;
+use super::kind::Kind;
 use super::submissions::{self, HandIn, Kept, Whose, person_of};
 use super::{Store, identifier, log, now, sql};
 use crate::policy::{Moment, admit};

@@ -2,8 +2,9 @@
 
 use sqlx::{AnyConnection, AssertSqlSafe, Row};
 
-use super::database::{self, Kind};
+use super::database;
 use super::error::StoreError;
+use super::kind::Kind;
 use super::log::{self, Event};
 use super::records::{self, SubmissionRow, VerdictRow};
 use super::{HOME, now, sql};

@@ -8,8 +8,8 @@ use std::ops::{Deref, DerefMut};
 use sqlx::pool::PoolConnection;
 use sqlx::{Any, AnyConnection, AnyPool};
 
-use super::database::Kind;
 use super::error::StoreError;
+use super::kind::Kind;
 
 /// A transaction. Dropped before it is committed, it is undone as its connection goes back.
 #[derive(Debug)]

@@ -183,7 +183,8 @@ async fn crawl(server: &Router, lessons: &[Lesson]) -> (usize, Vec<String>) {
         let (secrets, shown) = (secrets(&own), shown(&own));
         let mut search = |path: &str, reply: &Reply| {
             // A run shows its numbers: reading them off it is what the student is meant to do.
-            let run = path.contains("/sessions") || path.contains("/scenes/");
+            let run =
+                ["/sessions", "/scenes/", "/motion", "/pictures"].iter().any(|part| path.contains(part));
             let found = leaks(&text(reply), &secrets, &shown, !run);
             asked += 1;
             told.extend((!found.is_empty()).then(|| format!("{path} tells {found:?}")));

@@ -20,7 +20,7 @@ use crate::lti::refusal::{Refusal, shortened};
 use crate::lti::roles::role;
 use crate::lti::services::{LINE_ITEM, SCORE};
 use crate::lti::ticket::{self, Begun, Choosing};
-use crate::lti::{Lti, registration, verify};
+use crate::lti::{Lti, address, verify};
 use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::hash::sha256;
@@ -190,7 +190,7 @@ async fn offered(app: &App, lti: &Lti, platform: &Platform, claims: &Claims) -> 
     if !choosing.accept_types.iter().any(|one| one == "ltiResourceLink") {
         return Err(Refusal::Content.into());
     }
-    if registration::safe(&choosing.deep_link_return_url).is_none() {
+    if address::safe(&choosing.deep_link_return_url).is_none() {
         return Err(Refusal::Target(shortened(&choosing.deep_link_return_url)).into());
     }
     let arrival = arrival(platform, claims)?;

@@ -10,9 +10,9 @@ use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use sqlx::{AnyConnection, AssertSqlSafe};
 
-use super::super::database::Kind;
 use super::super::error::StoreError;
 use super::super::hash::hexadecimal;
+use super::super::kind::Kind;
 use super::super::log::{self, Event};
 use super::super::{Store, now, schema, sql};
 use super::tables::OF_COURSE;
