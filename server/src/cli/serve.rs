@@ -57,8 +57,8 @@ pub(in crate::cli) struct Serve {
     /// The folder with the reports of `triad bench` and `triad stress`, shown at /bench and /stress.
     #[arg(long, default_value = REPORTS, value_name = "DIR", env = "TRIAD_REPORTS")]
     pub(in crate::cli) reports: PathBuf,
-    /// Milliseconds in which a submission is graded in its request; what takes longer waits in the database for any grader. With a
-    /// gradebook on a server only.
+    /// Milliseconds in which a submission is graded in its request; what takes longer waits in the database for any grader; with 0
+    /// everything does. With a gradebook on a server only.
     #[arg(long, default_value_t = 300, value_name = "MS", env = "TRIAD_AT_ONCE")]
     pub(in crate::cli) at_once: u64,
     /// Lecture rooms at a time.

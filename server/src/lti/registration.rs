@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::address::{origin, safe};
+use super::address::origin;
 use super::services::{LINE_ITEM, PEOPLE, SCORE};
 use crate::store::Platform;
 use crate::store::hash::sha256;
@@ -135,7 +135,7 @@ impl Tool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::address::is_service;
+    use super::super::address::{is_service, safe};
     use super::*;
 
     fn registration() -> Registration {

@@ -40,7 +40,7 @@ const STEPS: [Step; 12] = [
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
     Step::new("bits", "the same results from builds for old and for new processors", bits::run),
-    Step::new("size", "the program is at most 43 MB", size),
+    Step::new("size", "the program is at most 52 MB", size),
     Step::new("python", "the Python module: its wheel, its types, its tests and its notebooks", python::run),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
@@ -61,8 +61,9 @@ const STEPS: [Step; 12] = [
         .if_named(),
 ];
 
-/// The largest program, MB: what somebody downloads and keeps. Without accounts, grades and backups it had 37.
-const LARGEST: f64 = 43.0;
+/// The largest program, MB: what somebody downloads and keeps. Without accounts, grades and backups it had 37; PostgreSQL,
+/// encrypted connections to learning platforms, the documentation and the engine for the page brought it from 42 to 50.
+const LARGEST: f64 = 52.0;
 
 fn size(root: &Path) -> Result<(), String> {
     cargo(root, "build --release --quiet --workspace")?;

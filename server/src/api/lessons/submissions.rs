@@ -127,6 +127,10 @@ async fn at_once(
     let (variants, lesson, who) = (Arc::clone(&app.variants), lesson.clone(), who.clone());
     let (key, places) = (key.map(str::to_owned), Arc::clone(&app.at_once));
     let is_shared = app.store.is_shared();
+    // A time of nothing is one in which a fast machine may be done all the same.
+    if is_shared && app.limits.at_once.is_zero() {
+        return Ok(None);
+    }
     let judging = async move {
         // Where nobody else grades, everybody waits here.
         let place =
