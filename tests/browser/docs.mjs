@@ -22,7 +22,11 @@ async function reader(more = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...more });
   const page = await context.newPage();
   page.on("pageerror", (error) => complaints.push(String(error)));
-  page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  page.on("console", (message) => {
+    // A browser asks for an icon by itself.
+    const own = !message.location().url.endsWith("/favicon.ico");
+    if (message.type() === "error" && own) complaints.push(`${message.text()} ${message.location().url}`);
+  });
   return page;
 }
 

@@ -23,6 +23,9 @@ let sessions = 0;
 let page;
 
 async function visit(more = {}) {
+  // What the page before still asks for is not this visitor's.
+  await page?.context().close();
+  sessions = 0;
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...more });
   page = await context.newPage();
   page.setDefaultTimeout(60_000);
