@@ -4,20 +4,14 @@
 // do, a question with the mistakes behind it, and what other programs take along; axe on every page, in light and in dark.
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
-import { chromium } from "playwright-core";
+import { axe, launch, say } from "./browser.mjs";
 
 const [address, pictures, setup] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 // Ends a visit that hangs, and decides nothing else.
 const PATIENCE = 300_000;
-const browser = await chromium.launch({
-  executablePath: "/usr/bin/chromium", headless: true,
-  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
-});
-const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
+const browser = await launch();
 const complaints = [];
 
 /** A browser of its own. */

@@ -2,20 +2,15 @@
 //   node docs.mjs http://127.0.0.1:PORT PICTURE_FOLDER EXPORTED_FOLDER
 // Found by words, in light and dark, on a phone, and from a disk without a server; axe on every page.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, readdirSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdirSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { axe, launch } from "./browser.mjs";
 
 const [address, pictures, exported] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
 const say = (what) => console.log(`docs: ${what}`);
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const browser = await chromium.launch({
-  executablePath: "/usr/bin/chromium", headless: true,
-  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
-});
+const browser = await launch();
 const complaints = [];
 
 async function reader(more = {}) {

@@ -5,11 +5,10 @@ import assert from "node:assert/strict";
 import { createReadStream, existsSync, mkdirSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
-import { chromium } from "playwright-core";
+import { launch, say } from "./browser.mjs";
 
 const [site, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
-const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
 
 const KINDS = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".wasm": "application/wasm", ".svg": "image/svg+xml", ".woff2": "font/woff2", ".txt": "text/plain" };
 /** The folder in which the site lies on its host: not the root, as a course has its place among others. */
@@ -32,10 +31,7 @@ const files = createServer((request, response) => {
 await new Promise((done) => files.listen(0, "127.0.0.1", done));
 const address = `http://127.0.0.1:${files.address().port}${PLACE}`;
 
-const browser = await chromium.launch({
-  executablePath: "/usr/bin/chromium", headless: true,
-  args: ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-quic"],
-});
+const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
 const page = await context.newPage();
 page.setDefaultTimeout(120_000);
