@@ -1,6 +1,6 @@
 // The first page, the gallery and a frame in another site. Started by tests/tests/browser.rs:
 //   node first-page.mjs http://127.0.0.1:PORT PICTURE_FOLDER
-// What moves there is recorded: no session is started until somebody opens a mechanism; less motion is respected; each
+// It speaks the language of the browser, or the one that was chosen. What moves there is recorded: no session is started until somebody opens a mechanism; less motion is respected; each
 // lesson and scene has its picture; a page of another origin may show /embed/ in a frame and nothing else; axe finds nothing.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
@@ -43,6 +43,31 @@ async function noFaults(view) {
 }
 /** The moment that a recorded run shows; NaN while there is none. */
 const moment = (within) => page.locator(`${within} canvas.drawing`).evaluateAll((all) => Number(all[0]?.dataset.time ?? NaN));
+
+/** The page speaks what the browser's reader understands, until another language is chosen; its header fits on a phone in both. */
+async function languages() {
+  await visit({ locale: "de-AT", viewport: { width: 390, height: 844 } });
+  await page.goto(address);
+  await page.getByRole("heading", { level: 1, name: /Zwangsbedingung/ }).waitFor();
+  assert.equal(await page.locator("html").getAttribute("lang"), "de");
+  const header = () => page.locator(".header > *, .header nav a").evaluateAll((all) => all.filter((one) => one.matches("nav a, button") && one.offsetWidth > 0).map((one) => {
+    const { left, width } = one.getBoundingClientRect();
+    // What does not fit and is not cut off reaches into its neighbour.
+    return [Math.round(left), Math.round(left + (getComputedStyle(one).overflowX === "hidden" ? width : Math.max(width, one.scrollWidth)))];
+  }));
+  const apart = (boxes) => boxes.every(([left, right], k) => left >= (boxes[k - 1]?.[1] ?? 0) && right <= 390);
+  assert(apart(await header()), `German on a phone: ${JSON.stringify(await header())}`);
+  await noFaults("the first page in German");
+  await page.screenshot({ path: join(pictures, "home-german.png") });
+  await page.keyboard.press("?");
+  await page.getByRole("dialog").getByRole("button", { name: "English" }).click();
+  await page.getByRole("link", { name: "Start with the first lesson" }).waitFor();
+  assert.equal(await page.locator("html").getAttribute("lang"), "en");
+  assert(apart(await header()), `English on a phone: ${JSON.stringify(await header())}`);
+  await page.reload();
+  await page.getByRole("link", { name: "Start with the first lesson" }).waitFor();
+  say("it speaks two languages, and remembers which");
+}
 
 async function home() {
   await visit();
@@ -121,7 +146,7 @@ async function framed() {
 }
 
 try {
-  for (const part of [home, begunAndCalm, framed]) await part();
+  for (const part of [home, languages, begunAndCalm, framed]) await part();
   assert.deepEqual(complaints, [], "errors in the page");
 } catch (error) {
   await page?.screenshot({ path: join(pictures, "first-page-failed.png") }).catch(() => {});

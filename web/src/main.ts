@@ -1,7 +1,9 @@
 import { loadMe } from "./api/identity";
 import { fileOf, pathOf, site } from "./core/address";
+import { setText } from "./core/dom";
 import { loadMaths } from "./core/maths";
 import { startRouter } from "./core/router";
+import { loadLanguage, t } from "./core/texts";
 import { applyTheme } from "./core/theme";
 import { homePage } from "./pages/home";
 import { lessonPage } from "./pages/lesson";
@@ -9,6 +11,7 @@ import { notFoundPage } from "./pages/not-found";
 import { header } from "./ui/shell";
 
 applyTheme();
+const speaks = loadLanguage();
 // A lesson will need KaTeX: it is fetched beside the lesson's text, not after it.
 if (pathOf(location).startsWith("/lessons/")) void loadMaths();
 // A site of files keeps itself, and works without a network once it was opened.
@@ -18,11 +21,13 @@ const head = document.getElementById("header");
 const main = document.getElementById("main");
 if (head && main) {
   // In a frame of another site nobody is signed in, and there is nowhere to go.
-  if (location.pathname.startsWith("/embed/")) routes(main);
-  else void loadMe().finally(() => start(head, main));
+  if (location.pathname.startsWith("/embed/")) void speaks.finally(() => routes(main));
+  else void Promise.allSettled([speaks, loadMe()]).then(() => start(head, main));
 }
 
 function start(head: HTMLElement, main: HTMLElement): void {
+  const skip = document.querySelector(".skip");
+  if (skip) setText(skip, t("Skip to the content"));
   header(head);
   routes(main);
 }
@@ -35,63 +40,63 @@ function routes(main: HTMLElement): void {
       { pattern: /^\/lessons\/([^/]+)$/, open: lessonPage },
       {
         pattern: /^\/lessons\/([^/]+)\/scene$/,
-        open: lazily("Scene", () => import("./pages/scene").then((page) => page.lessonScenePage)),
+        open: lazily(t("Scene"), () => import("./pages/scene").then((page) => page.lessonScenePage)),
       },
       {
         pattern: /^\/room$/,
-        open: lazily("Join a lecture", () => import("./pages/lecture").then((page) => page.joinPage)),
+        open: lazily(t("Join a lecture"), () => import("./pages/lecture").then((page) => page.joinPage)),
       },
       {
         pattern: /^\/room\/([^/]+)$/,
-        open: lazily("Lecture", () => import("./pages/lecture").then((page) => page.lecturePage)),
+        open: lazily(t("Lecture"), () => import("./pages/lecture").then((page) => page.lecturePage)),
       },
       {
         pattern: /^\/(join|setup|return)$/,
-        open: lazily("Your class", () => import("./class/join").then((page) => page.joinClassPage)),
+        open: lazily(t("Your class"), () => import("./class/join").then((page) => page.joinClassPage)),
       },
       {
         pattern: /^\/class$/,
-        open: lazily("Class", () => import("./class/overview").then((page) => page.classPage)),
+        open: lazily(t("Class"), () => import("./class/overview").then((page) => page.classPage)),
       },
       {
         pattern: /^\/class\/now$/,
-        open: lazily("At a glance", () => import("./class/glance").then((page) => page.glancePage)),
+        open: lazily(t("At a glance"), () => import("./class/glance").then((page) => page.glancePage)),
       },
       {
         pattern: /^\/class\/people$/,
-        open: lazily("People", () => import("./class/people").then((page) => page.peoplePage)),
+        open: lazily(t("People"), () => import("./class/people").then((page) => page.peoplePage)),
       },
       {
         pattern: /^\/class\/lessons\/([^/]+)$/,
-        open: lazily("Lesson of the class", () =>
+        open: lazily(t("Lesson of the class"), () =>
           import("./class/assignment").then((page) => page.assignmentPage),
         ),
       },
       {
         pattern: /^\/class\/lessons\/([^/]+)\/questions\/([^/]+)$/,
-        open: lazily("Question of the class", () =>
+        open: lazily(t("Question of the class"), () =>
           import("./class/question").then((page) => page.questionPage),
         ),
       },
       {
         pattern: /^\/record$/,
-        open: lazily("Your work", () => import("./class/record").then((page) => page.recordPage)),
+        open: lazily(t("Your work"), () => import("./class/record").then((page) => page.recordPage)),
       },
       {
         pattern: /^\/class\/([^/]+)$/,
-        open: lazily("Student", () => import("./class/student").then((page) => page.studentPage)),
+        open: lazily(t("Student"), () => import("./class/student").then((page) => page.studentPage)),
       },
       {
         pattern: /^\/scenes$/,
-        open: lazily("Scenes", () => import("./pages/scenes").then((page) => page.scenesPage)),
+        open: lazily(t("Scenes"), () => import("./pages/scenes").then((page) => page.scenesPage)),
       },
       {
         pattern: /^\/scenes\/([^/]+)$/,
-        open: lazily("Scene", () => import("./pages/scene").then((page) => page.scenePage)),
+        open: lazily(t("Scene"), () => import("./pages/scene").then((page) => page.scenePage)),
       },
       {
         pattern: /^\/embed\/(lessons|scenes)\/([^/]+)$/,
-        open: lazily("Mechanism", () => import("./pages/embed").then((page) => page.embedPage)),
+        open: lazily(t("Mechanism"), () => import("./pages/embed").then((page) => page.embedPage)),
       },
     ],
     notFoundPage,

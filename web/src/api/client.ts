@@ -1,6 +1,8 @@
 // HTTP client of /api/v1. Every failure becomes an ApiError that carries a Problem.
+
 import { site } from "../core/address";
 import { student as who } from "../core/prefs";
+import { t } from "../core/texts";
 import { askHere, isHere } from "../engine/here";
 import { fileAnswer, fileUrl, needsServer } from "./files";
 import type { Numbers } from "./numbers";
@@ -82,9 +84,9 @@ export function problemOf(error: unknown): Problem {
   if (isProblem(error)) return error;
   const detail = error instanceof Error ? error.message : String(error);
   return {
-    title: "Something in this page failed",
+    title: t("Something in this page failed"),
     detail,
-    hint: "Reload the page; if it happens again, report the text above.",
+    hint: t("Reload the page; if it happens again, report the text above."),
   };
 }
 
@@ -99,9 +101,12 @@ function isProblem(value: unknown): value is Problem {
 
 async function failure(response: Response): Promise<ApiError> {
   const fallback: Problem = {
-    title: `The server answered ${response.status} ${response.statusText}`.trim(),
+    title: t("The server answered {status} {statusText}", {
+      status: response.status,
+      statusText: response.statusText,
+    }).trim(),
     status: response.status,
-    hint: "Try again in a moment.",
+    hint: t("Try again in a moment."),
   };
   const kind = response.headers.get("content-type") ?? "";
   if (!kind.includes("json")) return new ApiError(fallback);
@@ -144,10 +149,10 @@ async function ask(
   } catch (error) {
     if (signal?.aborted) throw error;
     throw new ApiError({
-      title: "The server does not answer",
+      title: t("The server does not answer"),
       code: "server-unreachable",
-      detail: "The page could not reach Triad's server.",
-      hint: "Is it still running? Start it again with “triad serve”; this page then carries on by itself.",
+      detail: t("The page could not reach Triad's server."),
+      hint: t("Is it still running? Start it again with “triad serve”; this page then carries on by itself."),
     });
   }
   return whole(response);
@@ -184,10 +189,10 @@ async function graded(
   if (state.verdict) return state.verdict;
   if (state.state === "failed")
     throw new ApiError({
-      title: "Not graded",
+      title: t("Not graded"),
       code: "not-graded",
-      detail: "Your answers are kept, but the server could not grade them. That is its fault, not yours.",
-      hint: "No attempt is used. Tell your teacher; there is nothing to send again.",
+      detail: t("Your answers are kept, but the server could not grade them. That is its fault, not yours."),
+      hint: t("No attempt is used. Tell your teacher; there is nothing to send again."),
     });
   waiting(state.before ?? 0);
   await new Promise((done) => setTimeout(done, pause));

@@ -1,5 +1,7 @@
 // A site of plain files: what the server would answer lies in files beside the page.
+
 import { fileOf } from "../core/address";
+import { t } from "../core/texts";
 
 /** The address of the file that answers a path; what is in a query is the same for everybody here. */
 export function fileUrl(path: string): string {
@@ -15,9 +17,9 @@ export async function fileAnswer(path: string): Promise<Response> {
     response = await fetch(fileUrl(path));
   } catch {
     return refusal(
-      "The files of this site cannot be reached",
+      t("The files of this site cannot be reached"),
       503,
-      "Connect once more, then it works without a network.",
+      t("Connect once more, then it works without a network."),
     );
   }
   // Hosts of files answer with a page of their own where there is nothing.
@@ -27,9 +29,11 @@ export async function fileAnswer(path: string): Promise<Response> {
 /** What a site of files cannot do: answers are checked, and kept, where the secrets are. */
 export const needsServer = (): Response =>
   refusal(
-    "This copy of the course has no server",
+    t("This copy of the course has no server"),
     501,
-    "Lessons, mechanisms and their numbers work here. To have answers checked and kept, open the course on your class's server, or run “triad” on your own machine.",
+    t(
+      "Lessons, mechanisms and their numbers work here. To have answers checked and kept, open the course on your class's server, or run “triad” on your own machine.",
+    ),
   );
 
 function refusal(title: string, status: number, hint: string): Response {

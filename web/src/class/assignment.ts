@@ -1,10 +1,12 @@
 // A lesson of the class, for those who teach: when it is handed in and what is told, looked at before it counts; more
 // time for one person; regrades.
+
 import { api } from "../api/client";
 import type { AssignedLesson, Policy, PolicyPreview, Somebody } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, points } from "../core/format";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import { pointsOf } from "../exercise/verdict";
 import { problemNotice, skeleton } from "../ui/notice";
 import { figuresSection } from "./figures";
@@ -18,10 +20,10 @@ export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
     try {
       const [all, people] = await Promise.all([api.assignments(), api.people()]);
       const lesson = all.find((one) => one.slug === slug);
-      if (!lesson) throw new Error(`There is no lesson ${slug} in this class.`);
+      if (!lesson) throw new Error(t("There is no lesson {slug} in this class.", { slug }));
       const students = people.filter((person) => person.role === "student");
       root.replaceChildren(
-        h("p", null, h("a", { href: "/class" }, "← Class")),
+        h("p", null, h("a", { href: "/class" }, t("← Class"))),
         h("header", { class: "page-head" }, h("h1", null, `${lesson.number} ${lesson.title}`)),
         figuresSection(lesson),
         policySection(lesson, students, () => void load()),
@@ -29,11 +31,11 @@ export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
         regradeSection(lesson),
       );
     } catch (error) {
-      root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      root.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
-  return { title: "Lesson of the class" };
+  return { title: t("Lesson of the class") };
 }
 
 /** A moment as a field of local time has it. */
@@ -61,10 +63,10 @@ const when = (
 };
 
 const REVEAL = {
-  at_once: "at once",
-  after_due: "after the due date",
-  when_released: "when released",
-  never: "never",
+  at_once: () => t("at once"),
+  after_due: () => t("after the due date"),
+  when_released: () => t("when released"),
+  never: () => t("never"),
 };
 type When = keyof typeof REVEAL;
 
@@ -73,7 +75,7 @@ function choice(id: string, label: string, value: When): [HTMLElement, HTMLSelec
     "select",
     { class: "field" },
     ...Object.entries(REVEAL).map(([word, text]) =>
-      h("option", { value: word, selected: word === value }, text),
+      h("option", { value: word, selected: word === value }, text()),
     ),
   );
   return [labelled(label, select, id), select];
@@ -91,11 +93,15 @@ function revealFields(now: Policy["reveal"]): {
   rows: HTMLElement[];
   read: () => NonNullable<Policy["reveal"]>;
 } {
-  const [pointsRow, told] = choice("reveal-points", "Points are told", now?.points ?? "at_once");
-  const [messagesRow, messages] = choice("reveal-messages", "Remarks are told", now?.messages ?? "at_once");
+  const [pointsRow, told] = choice("reveal-points", t("Points are told"), now?.points ?? "at_once");
+  const [messagesRow, messages] = choice(
+    "reveal-messages",
+    t("Remarks are told"),
+    now?.messages ?? "at_once",
+  );
   const [referenceRow, reference] = choice(
     "reveal-reference",
-    "Right answers are told",
+    t("Right answers are told"),
     now?.reference ?? "at_once",
   );
   return {
@@ -110,10 +116,10 @@ function revealFields(now: Policy["reveal"]): {
 
 /** The fields of a policy, and what stands in them. */
 function policyFields(policy: Policy): { rows: HTMLElement[]; read: () => Policy } {
-  const [opensRow, opens] = when("opens", "Opens", policy.opens);
-  const [dueRow, due] = when("due", "Due", policy.due);
-  const [closesRow, closes] = when("closes", "Closes", policy.closes);
-  const [lateRow, late] = when("late", "Then, until", policy.late?.at(-1)?.until);
+  const [opensRow, opens] = when("opens", t("Opens"), policy.opens);
+  const [dueRow, due] = when("due", t("Due"), policy.due);
+  const [closesRow, closes] = when("closes", t("Closes"), policy.closes);
+  const [lateRow, late] = when(t("late"), t("Then, until"), policy.late?.at(-1)?.until);
   const share = h("input", {
     class: "field number",
     type: "number",
@@ -156,13 +162,13 @@ function policyFields(policy: Policy): { rows: HTMLElement[]; read: () => Policy
   };
   const rows = [
     h("div", { class: "policy-grid" }, opensRow, dueRow, closesRow),
-    h("div", { class: "policy-grid" }, lateRow, labelled("counts, %", share, "late-share")),
+    h("div", { class: "policy-grid" }, lateRow, labelled(t("counts, %"), share, "late-share")),
     h(
       "div",
       { class: "policy-grid" },
-      labelled("Attempts (empty: any number)", most, "most-attempts"),
-      labelled("What the attempts count, %", falling, "falling"),
-      labelled("Minutes between attempts", pause, "cooldown"),
+      labelled(t("Attempts (empty: any number)"), most, "most-attempts"),
+      labelled(t("What the attempts count, %"), falling, "falling"),
+      labelled(t("Minutes between attempts"), pause, "cooldown"),
     ),
     h("div", { class: "policy-grid" }, ...reveal.rows),
   ];
@@ -180,7 +186,7 @@ function policySection(lesson: AssignedLesson, students: Somebody[], again: () =
     h(
       "div",
       { class: "row wrap" },
-      h("button", { class: "button primary" }, "Set"),
+      h("button", { class: "button primary" }, t("Set")),
       releaseButton(lesson, said, again),
     ),
   );
@@ -194,7 +200,7 @@ function policySection(lesson: AssignedLesson, students: Somebody[], again: () =
   return h(
     "section",
     { class: "student-lesson" },
-    h("h2", null, "When it is handed in, and what is told"),
+    h("h2", null, t("When it is handed in, and what is told")),
     form,
     previewForm(lesson, students, read),
   );
@@ -204,7 +210,7 @@ function releaseButton(lesson: AssignedLesson, said: HTMLElement, again: () => v
   const button = h(
     "button",
     { type: "button", class: "button" },
-    lesson.released ? "Hold the results back" : "Release the results",
+    lesson.released ? t("Hold the results back") : t("Release the results"),
   );
   button.addEventListener("click", () => {
     api
@@ -217,19 +223,19 @@ function releaseButton(lesson: AssignedLesson, said: HTMLElement, again: () => v
 
 /** What the policy above makes of somebody's work at some time, before it is set. */
 function previewForm(lesson: AssignedLesson, students: Somebody[], read: () => Policy): HTMLElement {
-  const who = personChoice(students, "Somebody new");
+  const who = personChoice(students, t("Somebody new"));
   const at = h("input", { type: "datetime-local", class: "field" });
   const seen = h("div", { "aria-live": "polite" });
   const form = h(
     "form",
     { class: "stack" },
-    h("h3", null, "Look at it for a student, before it counts"),
+    h("h3", null, t("Look at it for a student, before it counts")),
     h(
       "div",
       { class: "policy-grid" },
-      labelled("Student", who, "preview-person"),
-      labelled("At (empty: now)", at, "preview-at"),
-      h("div", { class: "row end" }, h("button", { class: "button" }, "Preview")),
+      labelled(t("Student"), who, "preview-person"),
+      labelled(t("At (empty: now)"), at, "preview-at"),
+      h("div", { class: "row end" }, h("button", { class: "button" }, t("Preview"))),
     ),
     seen,
   );
@@ -245,11 +251,11 @@ function previewForm(lesson: AssignedLesson, students: Somebody[], read: () => P
 
 function previewed({ at, standing, told }: PolicyPreview): HTMLElement {
   const phase = {
-    not_open: "not open",
-    open: "open",
-    late: "late",
-    practice: "practice only",
-    closed: "closed",
+    not_open: t("not open"),
+    open: t("open"),
+    late: t("late"),
+    practice: t("practice only"),
+    closed: t("closed"),
   }[standing.phase];
   const rows = standing.credits.map((credit) =>
     h(
@@ -263,20 +269,27 @@ function previewed({ at, standing, told }: PolicyPreview): HTMLElement {
       h("td", { class: "number" }, points(credit.points)),
     ),
   );
-  const head = ["Attempt", "Handed in", "Earned", "On time", "As attempt", "Counts"];
+  const head = [t("Attempt"), t("Handed in"), t("Earned"), t("On time"), t("As attempt"), t("Counts")];
   return h(
     "div",
     { class: "stack" },
     h(
       "p",
       null,
-      `${dateTime(at)}: ${phase}; an attempt would count ${points(100 * standing.worth)} %. ${points(standing.points)} points count. `,
+      t("{at}: {phase}; an attempt would count {worth} %. {points} points count.", {
+        at: dateTime(at),
+        phase,
+        worth: points(100 * standing.worth),
+        points: points(standing.points),
+      }),
       told
-        ? `The student is told of the last submission: ${told.earned == null ? "nothing yet" : pointsOf(told)}.`
+        ? t("The student is told of the last submission: {told}.", {
+            told: told.earned == null ? t("nothing yet") : pointsOf(told),
+          })
         : "",
     ),
     rows.length === 0
-      ? h("p", { class: "help" }, "No attempts by then.")
+      ? h("p", { class: "help" }, t("No attempts by then."))
       : h(
           "table",
           { class: "data" },
@@ -296,26 +309,26 @@ function personChoice(students: Somebody[], none: string): HTMLSelectElement {
 }
 
 function extensionSection(lesson: AssignedLesson, students: Somebody[], again: () => void): HTMLElement {
-  const who = personChoice(students, "Choose");
+  const who = personChoice(students, t("Choose"));
   const until = h("input", { type: "datetime-local", class: "field" });
   const more = h("input", { class: "field number", type: "number", min: "0", value: "0" });
   const reason = h("input", { class: "field", maxlength: "2000", required: true });
   const said = h("div", { "aria-live": "polite" });
   const failed = (error: unknown): void => said.replaceChildren(problemNotice(error));
-  const name = (person: string): string => students.find((one) => one.id === person)?.name ?? "somebody";
+  const name = (person: string): string => students.find((one) => one.id === person)?.name ?? t("somebody");
   const form = h(
     "form",
     { class: "stack" },
     h(
       "div",
       { class: "policy-grid" },
-      labelled("Student", who, "extend-person"),
-      labelled("Due", until, "extend-until"),
-      labelled("More attempts", more, "extend-attempts"),
+      labelled(t("Student"), who, "extend-person"),
+      labelled(t("Due"), until, "extend-until"),
+      labelled(t("More attempts"), more, "extend-attempts"),
     ),
-    labelled("Why (the student sees it)", reason, "extend-reason"),
+    labelled(t("Why (the student sees it)"), reason, "extend-reason"),
     said,
-    h("div", { class: "row" }, h("button", { class: "button" }, "Allow")),
+    h("div", { class: "row" }, h("button", { class: "button" }, t("Allow"))),
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -323,14 +336,14 @@ function extensionSection(lesson: AssignedLesson, students: Somebody[], again: (
     api.extend(lesson.slug, who.value, body).then(again).catch(failed);
   });
   const given = lesson.extensions.map((one) => {
-    const back = h("button", { type: "button", class: "button small" }, "Take back");
+    const back = h("button", { type: "button", class: "button small" }, t("Take back"));
     back.addEventListener(
       "click",
       () => void api.takeBackExtension(lesson.slug, one.person).then(again).catch(failed),
     );
     const what = [
-      one.until ? `due ${dateTime(one.until)}` : "",
-      one.attempts ? plural(one.attempts, "more attempt") : "",
+      one.until ? t("due {until}", { until: dateTime(one.until) }) : "",
+      one.attempts ? t("{n} more attempt | {n} more attempts", { n: one.attempts }) : "",
     ];
     return h(
       "li",
@@ -342,7 +355,7 @@ function extensionSection(lesson: AssignedLesson, students: Somebody[], again: (
   return h(
     "section",
     { class: "student-lesson" },
-    h("h2", null, "More time for one student"),
+    h("h2", null, t("More time for one student")),
     h("ul", { class: "remarks", hidden: given.length === 0 }, ...given),
     form,
   );

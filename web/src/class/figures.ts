@@ -1,8 +1,10 @@
 // The questions of a lesson in figures, and the small charts that show them: numbers first, bars beside them.
+
 import { api } from "../api/client";
 import type { AssignedLesson, LessonFigures, QuestionFigures } from "../api/types";
 import { h } from "../core/dom";
-import { plural } from "../core/format";
+import { t } from "../core/texts";
+
 import { problemNotice, skeleton } from "../ui/notice";
 
 /** A share in percent, or that there is none yet. */
@@ -24,16 +26,19 @@ export function shareBar(share: number | null | undefined): HTMLElement {
 }
 
 /** The name of a mistake in words. */
-export const mistakeName = (name: string): string => (name ? name.replaceAll("-", " ") : "not recognised");
+export const mistakeName = (name: string): string => (name ? name.replaceAll("-", " ") : t("not recognised"));
 
 const FLAGS = {
-  easy: "easy: first answers earn more than 80 %",
-  hard: "hard: first answers earn less than 30 %",
-  weak: "weak: it tells little about who is good at the rest",
+  easy: (): [string, string] => [t("easy"), t("easy: first answers earn more than 80 %")],
+  hard: (): [string, string] => [t("hard"), t("hard: first answers earn less than 30 %")],
+  weak: (): [string, string] => [t("weak"), t("weak: it tells little about who is good at the rest")],
 };
 
 export function flags(figures: QuestionFigures): HTMLElement[] {
-  return figures.flags.map((flag) => h("span", { class: "flag", title: FLAGS[flag] }, flag));
+  return figures.flags.map((flag) => {
+    const [word, title] = FLAGS[flag]();
+    return h("span", { class: "flag", title }, word);
+  });
 }
 
 export function questionHref(slug: string, question: string): string {
@@ -47,7 +52,7 @@ export function figuresSection(lesson: AssignedLesson): HTMLElement {
       .figures(lesson.slug)
       .then((figures) => place.replaceChildren(table(figures)))
       .catch((error: unknown) =>
-        place.replaceChildren(problemNotice(error, [{ label: "Try again", run: load }])),
+        place.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: load }])),
       );
   load();
   return h(
@@ -56,7 +61,7 @@ export function figuresSection(lesson: AssignedLesson): HTMLElement {
     h(
       "div",
       { class: "section-head" },
-      h("h2", null, "The questions"),
+      h("h2", null, t("The questions")),
       h(
         "div",
         { class: "row wrap" },
@@ -83,7 +88,7 @@ function table(figures: LessonFigures): HTMLElement {
       "tr",
       null,
       h("th", { scope: "row" }, h("a", { href: questionHref(figures.slug, one.id) }, one.id)),
-      h("td", { class: "number" }, `${one.answered} of ${one.asked}`),
+      h("td", { class: "number" }, t("{answered} of {asked}", { answered: one.answered, asked: one.asked })),
       h("td", { class: "number" }, shareBar(one.facility), percent(one.facility)),
       h("td", { class: "number" }, percent(one.facility_best)),
       h("td", { class: "number" }, correlation(one.discrimination)),
@@ -92,24 +97,27 @@ function table(figures: LessonFigures): HTMLElement {
     );
   });
   const head: [string, string][] = [
-    ["Question", ""],
-    ["Answered", "number"],
-    ["First", "number"],
-    ["Best", "number"],
-    ["Discrimination", "number"],
-    ["Most frequent mistake", ""],
+    [t("Question"), ""],
+    [t("Answered"), "number"],
+    [t("First"), "number"],
+    [t("Best"), "number"],
+    [t("Discrimination"), "number"],
+    [t("Most frequent mistake"), ""],
     ["", ""],
   ];
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Questions in figures" },
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Questions in figures") },
     h(
       "table",
       { class: "data" },
       h(
         "caption",
         null,
-        `${plural(figures.students, "student")} handed in. First and best: the share of the points that first and best answers earn. Discrimination: the correlation of first answers with those to the other questions.`,
+        t(
+          "{students} handed in. First and best: the share of the points that first and best answers earn. Discrimination: the correlation of first answers with those to the other questions.",
+          { students: t("{n} student | {n} students", { n: figures.students }) },
+        ),
       ),
       h(
         "thead",
@@ -120,7 +128,7 @@ function table(figures: LessonFigures): HTMLElement {
           ...head.map(([text, kind]) =>
             text
               ? h("th", { scope: "col", class: kind }, text)
-              : h("td", null, h("span", { class: "visually-hidden" }, "To look at")),
+              : h("td", null, h("span", { class: "visually-hidden" }, t("To look at"))),
           ),
         ),
       ),

@@ -1,9 +1,11 @@
 // The class while it works: who is where, who is stuck, what was just handed in. It is asked for while somebody looks.
+
 import { api } from "../api/client";
 import type { Glance } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, points } from "../core/format";
 import type { Page } from "../core/router";
+import { locale, parts, t } from "../core/texts";
 import { problemNotice, skeleton } from "../ui/notice";
 import { mistakeName, questionHref } from "./figures";
 
@@ -17,8 +19,8 @@ export function glancePage(outlet: HTMLElement): Page {
     h(
       "div",
       { class: "page wide" },
-      h("p", null, h("a", { href: "/class" }, "← Class")),
-      h("header", { class: "page-head" }, h("h1", null, "The class at a glance")),
+      h("p", null, h("a", { href: "/class" }, t("← Class"))),
+      h("header", { class: "page-head" }, h("h1", null, t("The class at a glance"))),
       said,
       place,
     ),
@@ -32,13 +34,16 @@ export function glancePage(outlet: HTMLElement): Page {
     try {
       const glance = await api.glance();
       const { at, ...rest } = glance;
-      said.textContent = `As of ${new Date(at).toLocaleTimeString()}, and again every ${PAUSE / 1000} seconds while you look.`;
+      said.textContent = t("As of {time}, and again every {pause} seconds while you look.", {
+        time: new Date(at).toLocaleTimeString(locale()),
+        pause: PAUSE / 1000,
+      });
       const now = JSON.stringify(rest);
       if (now !== shown) repaint(place, glance);
       shown = now;
     } catch (error) {
       shown = "";
-      place.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void look() }]));
+      place.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void look() }]));
     }
     if (place.isConnected) timer = window.setTimeout(() => void look(), PAUSE);
   };
@@ -46,7 +51,7 @@ export function glancePage(outlet: HTMLElement): Page {
   document.addEventListener("visibilitychange", again);
   void look();
   return {
-    title: "At a glance",
+    title: t("At a glance"),
     dispose: () => {
       clearTimeout(timer);
       document.removeEventListener("visibilitychange", again);
@@ -80,16 +85,18 @@ function stuck({ stuck }: Glance): HTMLElement {
     h(
       "li",
       null,
-      h("strong", null, person(one.person, one.name)),
-      ` ${plural(one.tries, "try", "tries")} at `,
-      h("a", { href: questionHref(one.lesson, one.question) }, `${one.title}: ${one.question}`),
-      one.mistake ? `, last: ${mistakeName(one.mistake)}` : "",
+      ...parts("{name} {n} try at {question} | {name} {n} tries at {question}", {
+        n: one.tries,
+        name: h("strong", null, person(one.person, one.name)),
+        question: h("a", { href: questionHref(one.lesson, one.question) }, `${one.title}: ${one.question}`),
+      }),
+      one.mistake ? `, ${t("last: {mistake}", { mistake: mistakeName(one.mistake) })}` : "",
       `, ${ago(one.at)}`,
     ),
   );
   return section(
-    "Stuck",
-    "Nobody has tried a question three times within the last twenty minutes without getting it.",
+    t("Stuck"),
+    t("Nobody has tried a question three times within the last twenty minutes without getting it."),
     items.length,
     h("ul", { class: "cards" }, ...items),
   );
@@ -118,15 +125,15 @@ function where({ lessons, here, students }: Glance): HTMLElement {
             "li",
             null,
             person(one.person, one.name),
-            one.stuck ? h("span", { class: "flag" }, "stuck") : null,
+            one.stuck ? h("span", { class: "flag" }, t("stuck")) : null,
           ),
         ),
       ),
     ),
   );
   return section(
-    `Here: ${here} of ${plural(students, "student")}`,
-    "Nobody has read or tried anything within the last five minutes.",
+    t("Here: {here} of {students}", { here, students: t("{n} student | {n} students", { n: students }) }),
+    t("Nobody has read or tried anything within the last five minutes."),
     rows.length,
     h("ul", { class: "cards" }, ...rows),
   );
@@ -143,18 +150,20 @@ function handed({ handed, handed_in_all }: Glance): HTMLElement {
       h(
         "td",
         { class: "number" },
-        one.gradable ? `${points(one.earned)} of ${points(one.possible)}` : "sent back",
+        one.gradable
+          ? t("{earned} of {possible}", { earned: points(one.earned), possible: points(one.possible) })
+          : t("sent back"),
       ),
     ),
   );
-  const head = ["When", "Student", "Lesson"];
+  const head = [t("When"), t("Student"), t("Lesson")];
   return section(
-    `Handed in within twenty minutes: ${handed_in_all}`,
-    "Nothing.",
+    t("Handed in within twenty minutes: {handed_in_all}", { handed_in_all }),
+    t("Nothing."),
     rows.length,
     h(
       "div",
-      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Just handed in" },
+      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Just handed in") },
       h(
         "table",
         { class: "data" },
@@ -165,7 +174,7 @@ function handed({ handed, handed_in_all }: Glance): HTMLElement {
             "tr",
             null,
             ...head.map((text) => h("th", { scope: "col" }, text)),
-            h("th", { scope: "col", class: "number" }, "Points"),
+            h("th", { scope: "col", class: "number" }, t("Points")),
           ),
         ),
         h("tbody", null, ...rows),
@@ -177,5 +186,5 @@ function handed({ handed, handed_in_all }: Glance): HTMLElement {
 /** How long ago, in whole minutes. */
 function ago(moment: string): string {
   const minutes = Math.floor((Date.now() - Date.parse(moment)) / 60_000);
-  return minutes < 1 ? "just now" : `${minutes} min ago`;
+  return minutes < 1 ? t("just now") : t("{minutes} min ago", { minutes });
 }

@@ -1,9 +1,11 @@
 // Coming into a class: with its code, with an invitation, or back with four words or a link.
+
 import { api } from "../api/client";
 import { loadMe, me } from "../api/identity";
 import type { Welcome } from "../api/types";
 import { h } from "../core/dom";
 import { navigate, type Page } from "../core/router";
+import { parts, t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 
 /** A field with its label. */
@@ -42,35 +44,36 @@ export function joinClassPage(outlet: HTMLElement, params: string[]): Page {
   const secret = location.hash.slice(1);
   if (me().mode === "home")
     root.append(
-      h("h1", null, "There is no class here"),
+      h("h1", null, t("There is no class here")),
       h(
         "p",
         null,
-        "This server runs without accounts: its grades are for yourself. ",
-        h("a", { href: "/" }, "All lessons"),
+        t("This server runs without accounts: its grades are for yourself."),
+        " ",
+        h("a", { href: "/" }, t("All lessons")),
       ),
     );
   else if (params[0] === "setup" && secret) setUp(root, secret);
   else if (params[0] === "return" && secret) returnByLink(root, secret);
   else join(root);
-  return { title: "Your class" };
+  return { title: t("Your class") };
 }
 
 function setUp(root: HTMLElement, token: string): void {
-  const name = field("setup-name", "Your name, as students see it", { autocomplete: "name" });
-  const title = field("setup-title", "Title of the class", { value: me().course ?? "" });
+  const name = field("setup-name", t("Your name, as students see it"), { autocomplete: "name" });
+  const title = field("setup-title", t("Title of the class"), { value: me().course ?? "" });
   root.append(
-    h("h1", null, "Welcome to your class"),
-    form("Begin", [...name.root, ...title.root], async () => {
+    h("h1", null, t("Welcome to your class")),
+    form(t("Begin"), [...name.root, ...title.root], async () => {
       const body = { token, name: name.input.value, title: title.input.value };
-      await welcome(root, await api.setUp(body), "/class", "To the class");
+      await welcome(root, await api.setUp(body), "/class", t("To the class"));
     }),
   );
   name.input.focus();
 }
 
 function returnByLink(root: HTMLElement, link: string): void {
-  root.append(h("h1", null, "Coming back…"));
+  root.append(h("h1", null, t("Coming back…")));
   api
     .comeBack({ link })
     .then(loadMe)
@@ -79,34 +82,34 @@ function returnByLink(root: HTMLElement, link: string): void {
 }
 
 function join(root: HTMLElement): void {
-  const code = field("join-code", "Code of the class", {
+  const code = field("join-code", t("Code of the class"), {
     class: "field class-code",
     autocomplete: "off",
     spellcheck: "false",
     maxlength: "12",
     value: new URLSearchParams(location.search).get("code") ?? "",
   });
-  const name = field("join-name", "Your name, as your teacher knows it", { autocomplete: "name" });
-  const back = field("back-name", "Your name", { autocomplete: "name" });
-  const words = field("back-words", "Your four words", { autocomplete: "off", spellcheck: "false" });
+  const name = field("join-name", t("Your name, as your teacher knows it"), { autocomplete: "name" });
+  const back = field("back-name", t("Your name"), { autocomplete: "name" });
+  const words = field("back-words", t("Your four words"), { autocomplete: "off", spellcheck: "false" });
   root.append(
-    h("h1", null, me().course ?? "Your class"),
+    h("h1", null, me().course ?? t("Your class")),
     me().join_open
       ? h(
           "section",
           null,
-          h("h2", null, "Here for the first time?"),
-          form("Join the class", [...code.root, ...name.root], async () => {
+          h("h2", null, t("Here for the first time?")),
+          form(t("Join the class"), [...code.root, ...name.root], async () => {
             const body = { code: code.input.value, name: name.input.value };
-            await welcome(root, await api.join(body), "/", "To the lessons");
+            await welcome(root, await api.join(body), "/", t("To the lessons"));
           }),
         )
-      : h("p", null, "Joining is closed at the moment: ask your teacher."),
+      : h("p", null, t("Joining is closed at the moment: ask your teacher.")),
     h(
       "section",
       null,
-      h("h2", null, "You have joined before?"),
-      form("Come back", [...back.root, ...words.root], async () => {
+      h("h2", null, t("You have joined before?")),
+      form(t("Come back"), [...back.root, ...words.root], async () => {
         await api.comeBack({ name: back.input.value, words: words.input.value });
         await loadMe();
         navigate("/");
@@ -123,19 +126,24 @@ async function welcome(root: HTMLElement, told: Welcome, then: string, label: st
   history.replaceState(null, "", location.pathname);
   const link = `${location.origin}/return#${told.link}`;
   root.replaceChildren(
-    h("h1", null, `Welcome, ${told.person.name}`),
+    h("h1", null, t("Welcome, {name}", { name: told.person.name })),
     h(
       "p",
       null,
-      "This browser knows you from now on. On another device you come back with your name and these four words:",
+      t(
+        "This browser knows you from now on. On another device you come back with your name and these four words:",
+      ),
     ),
     h("p", { class: "four-words" }, told.words),
     h(
       "p",
       null,
-      "Write them down now: they are not shown again. Or keep ",
-      h("a", { href: link }, "this link"),
-      ", which opens your account at once.",
+      ...parts(
+        "Write them down now: they are not shown again. Or keep {link}, which opens your account at once.",
+        {
+          link: h("a", { href: link }, t("this link")),
+        },
+      ),
     ),
     h("p", null, h("a", { class: "button primary", href: then }, label)),
   );

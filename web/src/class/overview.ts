@@ -1,19 +1,21 @@
 // The class, for those who teach it: how students join, and what everybody has reached.
+
 import { api } from "../api/client";
 import { me } from "../api/identity";
 import type { ClassView, Filled, GradeTable, Reached, StudentRow } from "../api/types";
 import { h, saveFile } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, points } from "../core/format";
 import type { Page } from "../core/router";
+import { parts, t } from "../core/texts";
 import { qr } from "../lecture/qr";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { showPlatforms } from "./platform";
 
 export function classPage(outlet: HTMLElement): Page {
   const door = h("section", { class: "class-way-in" });
-  const table = h("section", { "aria-label": "What everybody has reached" }, skeleton(6));
+  const table = h("section", { "aria-label": t("What everybody has reached") }, skeleton(6));
   const lessons = h("section", { class: "student-lesson", hidden: true });
-  const platforms = h("section", { "aria-label": "Learning platform" });
+  const platforms = h("section", { "aria-label": t("Learning platform") });
   outlet.append(
     h(
       "div",
@@ -21,12 +23,12 @@ export function classPage(outlet: HTMLElement): Page {
       h(
         "header",
         { class: "page-head row between wrap" },
-        h("h1", null, me().course ?? "Class"),
+        h("h1", null, me().course ?? t("Class")),
         h(
           "nav",
-          { class: "row", "aria-label": "The class" },
-          h("a", { class: "button", href: "/class/now" }, "At a glance"),
-          h("a", { class: "button", href: "/class/people" }, "People"),
+          { class: "row", "aria-label": t("The class") },
+          h("a", { class: "button", href: "/class/now" }, t("At a glance")),
+          h("a", { class: "button", href: "/class/people" }, t("People")),
         ),
       ),
       door,
@@ -42,12 +44,12 @@ export function classPage(outlet: HTMLElement): Page {
       paintTable(table, grades);
       paintLessons(lessons, grades);
     } catch (error) {
-      table.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      table.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
   void showPlatforms(platforms);
-  return { title: "Class" };
+  return { title: t("Class") };
 }
 
 function paintDoor(root: HTMLElement, view: ClassView): void {
@@ -63,19 +65,23 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
     return button;
   };
   root.replaceChildren(
-    view.join_open ? qr(address) : h("div", { class: "qr is-closed" }, "Joining is closed"),
+    view.join_open ? qr(address) : h("div", { class: "qr is-closed" }, t("Joining is closed")),
     h(
       "div",
       { class: "stack" },
-      h("p", null, "Students open ", h("code", null, `${location.host}/join`), " and type"),
+      h(
+        "p",
+        null,
+        ...parts("Students open {address} and type", { address: h("code", null, `${location.host}/join`) }),
+      ),
       h("p", { class: "class-code" }, view.join_code),
       h(
         "div",
         { class: "row wrap" },
         view.join_open
-          ? change("Close joining", { join_open: false })
-          : change("Open joining", { join_open: true }),
-        change("Another code", { new_code: true }),
+          ? change(t("Close joining"), { join_open: false })
+          : change(t("Open joining"), { join_open: true }),
+        change(t("Another code"), { new_code: true }),
       ),
     ),
   );
@@ -85,8 +91,8 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
 function paintLessons(root: HTMLElement, grades: GradeTable): void {
   root.hidden = false;
   root.replaceChildren(
-    h("h2", null, "Lessons"),
-    h("p", { class: "help" }, "Dates, what is told when, questions in figures, regrades:"),
+    h("h2", null, t("Lessons")),
+    h("p", { class: "help" }, t("Dates, what is told when, questions in figures, regrades:")),
     h(
       "ol",
       { class: "lesson-links" },
@@ -106,7 +112,7 @@ function paintTable(root: HTMLElement, grades: GradeTable): void {
     h(
       "a",
       { class: "button small", href: api.standingsUrl(format), download: "grades.csv" },
-      { plain: "CSV", canvas: "CSV for Canvas", moodle: "CSV for Moodle" }[format],
+      { plain: "CSV", canvas: t("CSV for Canvas"), moodle: t("CSV for Moodle") }[format],
     ),
   );
   const said = h("div", { "aria-live": "polite" });
@@ -114,7 +120,7 @@ function paintTable(root: HTMLElement, grades: GradeTable): void {
     h(
       "div",
       { class: "section-head" },
-      h("h2", null, plural(grades.students.length, "student")),
+      h("h2", null, t("{n} student | {n} students", { n: grades.students.length })),
       h(
         "div",
         { class: "row wrap" },
@@ -122,14 +128,14 @@ function paintTable(root: HTMLElement, grades: GradeTable): void {
         h(
           "a",
           { class: "button small", href: api.standingsLinesUrl, download: "grades.jsonl" },
-          "JSON lines",
+          t("JSON lines"),
         ),
         canvasButton(said),
       ),
     ),
     said,
     grades.students.length === 0
-      ? empty("Nobody has joined yet", "Show the code above: whoever joins appears here.")
+      ? empty(t("Nobody has joined yet"), t("Show the code above: whoever joins appears here."))
       : sheet(grades),
   );
 }
@@ -140,9 +146,9 @@ function canvasButton(said: HTMLElement): HTMLElement {
     type: "file",
     accept: ".csv,text/csv",
     hidden: true,
-    "aria-label": "File of Canvas",
+    "aria-label": t("File of Canvas"),
   });
-  const button = h("button", { type: "button", class: "button small" }, "Fill in a file of Canvas…");
+  const button = h("button", { type: "button", class: "button small" }, t("Fill in a file of Canvas…"));
   button.addEventListener("click", () => input.click());
   input.addEventListener("change", async () => {
     const file = input.files?.[0];
@@ -167,12 +173,14 @@ function filledIn(filled: Filled): HTMLElement[] {
       "p",
       null,
       filled.changed > 0
-        ? `${plural(filled.changed, "grade")} changed: import the file in Canvas.`
-        : "Canvas has all of these grades already.",
+        ? t("{grades} changed: import the file in Canvas.", {
+            grades: t("{n} grade | {n} grades", { n: filled.changed }),
+          })
+        : t("Canvas has all of these grades already."),
     ),
-    line("Lessons without a column in the file", filled.without_column),
-    line("In the file, and not in this class", filled.unknown),
-    line("In this class, and not in the file", filled.missing),
+    line(t("Lessons without a column in the file"), filled.without_column),
+    line(t("In the file, and not in this class"), filled.unknown),
+    line(t("In this class, and not in the file"), filled.missing),
   ];
   return lines.filter((one) => one !== null);
 }
@@ -181,7 +189,11 @@ function sheet(grades: GradeTable): HTMLElement {
   const head = grades.lessons.map((lesson) =>
     h(
       "th",
-      { scope: "col", class: "number", title: `${lesson.title}, ${points(lesson.possible)} points` },
+      {
+        scope: "col",
+        class: "number",
+        title: t("{title}, {possible} points", { title: lesson.title, possible: points(lesson.possible) }),
+      },
       h(
         "a",
         {
@@ -203,14 +215,16 @@ function sheet(grades: GradeTable): HTMLElement {
   );
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Students by lessons" },
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Students by lessons") },
     h(
       "table",
       { class: "data grade-table" },
       h(
         "caption",
         null,
-        "Points that count (* decided, ? asks for a look again); below them the attempts. The numbers above lead to each lesson’s dates and regrades.",
+        t(
+          "Points that count (* decided, ? asks for a look again); below them the attempts. The numbers above lead to each lesson’s dates and regrades.",
+        ),
       ),
       h(
         "thead",
@@ -218,8 +232,8 @@ function sheet(grades: GradeTable): HTMLElement {
         h(
           "tr",
           null,
-          h("th", { scope: "col" }, "Student"),
-          h("th", { scope: "col", class: "number" }, "Sum"),
+          h("th", { scope: "col" }, t("Student")),
+          h("th", { scope: "col", class: "number" }, t("Sum")),
           ...head,
         ),
       ),
@@ -233,17 +247,19 @@ const total = (student: StudentRow): number =>
 
 function cell(reached: Reached | undefined): HTMLElement {
   if (!reached) return h("td", { class: "number is-nothing" }, "·");
-  const last = reached.last ? `last ${dateTime(reached.last)}` : "nothing handed in";
-  const marks = `${reached.decided ? "*" : ""}${reached.late ? " late" : ""}${reached.asked ? " ?" : ""}`;
-  const asked = reached.asked ? "; asks for a look again" : "";
-  const decided = reached.decided ? `; decided by ${reached.decided.by}: ${reached.decided.reason}` : "";
+  const last = reached.last ? t("last {last}", { last: dateTime(reached.last) }) : t("nothing handed in");
+  const marks = `${reached.decided ? "*" : ""}${reached.late ? ` ${t("late")}` : ""}${reached.asked ? " ?" : ""}`;
+  const asked = reached.asked ? `; ${t("asks for a look again")}` : "";
+  const decided = reached.decided
+    ? `; ${t("decided by {by}: {reason}", { by: reached.decided.by, reason: reached.decided.reason })}`
+    : "";
   return h(
     "td",
     { class: `number ${reached.passed ? "is-passed" : "is-open"}`, title: `${last}${decided}${asked}` },
     h("span", null, `${points(reached.points)}${marks}`),
     h(
       "span",
-      { class: "attempts", "aria-label": plural(reached.attempts, "attempt") },
+      { class: "attempts", "aria-label": t("{n} attempt | {n} attempts", { n: reached.attempts }) },
       `${reached.attempts}×`,
     ),
   );

@@ -1,18 +1,20 @@
 // Everybody of the class: who may what, inviting those who grade or teach, other words, and erasing somebody's data.
+
 import { api } from "../api/client";
-import { me } from "../api/identity";
+import { me, roleWord } from "../api/identity";
 import type { Somebody } from "../api/types";
 import { h } from "../core/dom";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 import { problemNotice, skeleton } from "../ui/notice";
 import { renewWords } from "./words";
 
 const ROLES = {
-  student: "hands in, and sees what is their own",
-  grader: "sees everybody’s work and decides about it",
-  instructor: "runs the class: dates, regrades, codes",
-  owner: "names the others, exports and erases",
+  student: () => t("hands in, and sees what is their own"),
+  grader: () => t("sees everybody’s work and decides about it"),
+  instructor: () => t("runs the class: dates, regrades, codes"),
+  owner: () => t("names the others, exports and erases"),
 };
 type Role = keyof typeof ROLES;
 
@@ -22,8 +24,8 @@ export function peoplePage(outlet: HTMLElement): Page {
     h(
       "div",
       { class: "page" },
-      h("p", null, h("a", { href: "/class" }, "← Class")),
-      h("header", { class: "page-head" }, h("h1", null, "People")),
+      h("p", null, h("a", { href: "/class" }, t("← Class"))),
+      h("header", { class: "page-head" }, h("h1", null, t("People"))),
       place,
     ),
   );
@@ -35,33 +37,33 @@ export function peoplePage(outlet: HTMLElement): Page {
         table(people, () => void load()),
       );
     } catch (error) {
-      place.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      place.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
-  return { title: "People" };
+  return { title: t("People") };
 }
 
 const owns = (): boolean => me().person?.role === "owner";
 
 function invitations(): HTMLElement {
   if (!owns())
-    return h("p", { class: "help" }, "Roles are given, and staff is invited, by an owner of the class.");
+    return h("p", { class: "help" }, t("Roles are given, and staff is invited, by an owner of the class."));
   const said = h("div", { "aria-live": "polite" });
   const role = h(
     "select",
     { id: "invite-role", class: "field" },
     ...(["grader", "instructor", "owner"] as const).map((word) =>
-      h("option", { value: word }, `${word}: ${ROLES[word]}`),
+      h("option", { value: word }, `${roleWord(word)}: ${ROLES[word]()}`),
     ),
   );
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "invite-role" }, "Who comes with the link is"),
+    h("label", { for: "invite-role" }, t("Who comes with the link is")),
     role,
     said,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Make a link")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Make a link"))),
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -70,7 +72,7 @@ function invitations(): HTMLElement {
       .then(({ token }) => said.replaceChildren(invitation(`${location.origin}/setup#${token}`, role.value)))
       .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
   });
-  return h("section", null, h("h2", null, "Invite somebody who grades or teaches"), form);
+  return h("section", null, h("h2", null, t("Invite somebody who grades or teaches")), form);
 }
 
 /** The link, to be sent; it is shown once. */
@@ -79,15 +81,15 @@ function invitation(link: string, role: string): HTMLElement {
     class: "field",
     readonly: true,
     value: link,
-    "aria-label": `Link for a new ${role}`,
+    "aria-label": t("Link for a new {role}", { role }),
   });
   field.addEventListener("focus", () => field.select());
-  const copy = h("button", { type: "button", class: "button small" }, "Copy");
+  const copy = h("button", { type: "button", class: "button small" }, t("Copy"));
   copy.addEventListener("click", () => {
     field.select();
     navigator.clipboard
       ?.writeText(link)
-      .then(() => copy.replaceChildren("Copied"))
+      .then(() => copy.replaceChildren(t("Copied")))
       .catch(() => undefined);
   });
   return h(
@@ -97,7 +99,7 @@ function invitation(link: string, role: string): HTMLElement {
     h(
       "p",
       { class: "help" },
-      "Good for one person and for a week. Send it to nobody else: it is not shown again.",
+      t("Good for one person and for a week. Send it to nobody else: it is not shown again."),
     ),
   );
 }
@@ -117,25 +119,29 @@ function table(people: Somebody[], again: () => void): HTMLElement {
             ? h("a", { href: `/class/${encodeURIComponent(one.id)}` }, one.name)
             : one.name,
         ),
-        h("td", null, owns() ? roleChoice(one, said, again) : one.role),
+        h("td", null, owns() ? roleChoice(one, said, again) : roleWord(one.role)),
         h("td", { class: "row" }, ...actions(one, again)),
       ),
     );
   return h(
     "section",
     { class: "student-lesson" },
-    h("h2", null, "Everybody"),
+    h("h2", null, t("Everybody")),
     said,
     h(
       "div",
-      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "People and roles" },
+      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("People and roles") },
       h(
         "table",
         { class: "data" },
         h(
           "thead",
           null,
-          h("tr", null, ...["Name", "Role", "Access"].map((text) => h("th", { scope: "col" }, text))),
+          h(
+            "tr",
+            null,
+            ...[t("Name"), t("Role"), t("Access")].map((text) => h("th", { scope: "col" }, text)),
+          ),
         ),
         h("tbody", null, ...rows),
       ),
@@ -148,17 +154,27 @@ const rank = (role: string): number => Object.keys(ROLES).indexOf(role);
 function roleChoice(one: Somebody, said: HTMLElement, again: () => void): HTMLElement {
   const select = h(
     "select",
-    { class: "field", "aria-label": `Role of ${one.name}` },
-    ...Object.keys(ROLES).map((word) => h("option", { value: word, selected: word === one.role }, word)),
+    { class: "field", "aria-label": t("Role of {name}", { name: one.name }) },
+    ...Object.keys(ROLES).map((word) =>
+      h("option", { value: word, selected: word === one.role }, roleWord(word)),
+    ),
   );
   select.addEventListener("change", () => {
     const role = select.value as Role;
     if (rank(role) <= rank(one.role) && one.id !== me().person?.id) return change(one, role, said, again);
     // More rights, or fewer of one's own, are given on purpose.
-    const sure = h("button", { type: "button", class: "button primary" }, `Make ${one.name} ${role}`);
+    const sure = h(
+      "button",
+      { type: "button", class: "button primary" },
+      t("Make {name} {role}", { name: one.name, role: roleWord(role) }),
+    );
     const box = dialog(
-      `${one.name}: ${role}`,
-      h("p", null, `A person of this role ${ROLES[role]}, and may do all that those below may.`),
+      `${one.name}: ${roleWord(role)}`,
+      h(
+        "p",
+        null,
+        t("A person of this role {does}, and may do all that those below may.", { does: ROLES[role]() }),
+      ),
       h("div", { class: "row" }, sure),
     );
     let chosen = false;
@@ -190,12 +206,12 @@ function change(one: Somebody, role: Role, said: HTMLElement, again: () => void)
 function actions(one: Somebody, again: () => void): HTMLElement[] {
   if (one.id === me().person?.id || rank(one.role) > rank(me().person?.role ?? "student")) return [];
   if (rank(me().person?.role ?? "student") < rank("instructor")) return [];
-  const words = h("button", { type: "button", class: "button small" }, "New words");
-  words.setAttribute("aria-label", `New words for ${one.name}`);
+  const words = h("button", { type: "button", class: "button small" }, t("New words"));
+  words.setAttribute("aria-label", t("New words for {name}", { name: one.name }));
   words.addEventListener("click", () => renewWords(one.id, one.name));
   if (!owns()) return [words];
-  const erase = h("button", { type: "button", class: "button small" }, "Erase…");
-  erase.setAttribute("aria-label", `Erase the data of ${one.name}`);
+  const erase = h("button", { type: "button", class: "button small" }, t("Erase…"));
+  erase.setAttribute("aria-label", t("Erase the data of {name}", { name: one.name }));
   erase.addEventListener("click", () => eraseDialog(one, again));
   return [words, erase];
 }
@@ -210,15 +226,17 @@ function eraseDialog(one: Somebody, again: () => void): void {
     h(
       "p",
       null,
-      "Name, ways in and what was handed in are erased for good. Points, dates and decisions stay under a number; backups from before still have everything.",
+      t(
+        "Name, ways in and what was handed in are erased for good. Points, dates and decisions stay under a number; backups from before still have everything.",
+      ),
     ),
-    h("label", { for: "erase-reason" }, "Who asked for it, or which rule says so (it stays in the log)"),
+    h("label", { for: "erase-reason" }, t("Who asked for it, or which rule says so (it stays in the log)")),
     reason,
-    h("label", { class: "row", for: "erase-stay" }, stay, "Keep the answers, without the name"),
+    h("label", { class: "row", for: "erase-stay" }, stay, t("Keep the answers, without the name")),
     wrong,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Erase for good")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Erase for good"))),
   );
-  const box = dialog(`Erase the data of ${one.name}`, form);
+  const box = dialog(t("Erase the data of {name}", { name: one.name }), form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     api

@@ -1,9 +1,11 @@
 // The learning platform of the class, for those who teach it: what is linked, and which scores it has.
+
 import { api } from "../api/client";
 import { me } from "../api/identity";
 import type { PlatformList, PlatformView } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural } from "../core/format";
+import { dateTime } from "../core/format";
+import { t } from "../core/texts";
 import { note, problemNotice } from "../ui/notice";
 
 /** Shows the platforms in `root`; nothing where none is registered. */
@@ -34,27 +36,32 @@ function paint(root: HTMLElement, list: PlatformList): void {
     return button;
   };
   const body = h("div", { class: "stack" }, ...list.platforms.map(platform));
-  const roster = press("Take over the roster", async () => {
+  const roster = press(t("Take over the roster"), async () => {
     const taken = await api.takeRoster();
-    return `${plural(taken.listed, "person", "people")} listed, ${taken.new} of them new. Open this page again to see them.`;
+    return t("{people} listed, {new} of them new. Open this page again to see them.", {
+      people: t("{n} person | {n} people", { n: taken.listed }),
+      new: taken.new,
+    });
   });
-  const send = press("Send scores now", async () => {
+  const send = press(t("Send scores now"), async () => {
     const after = await api.sendScores();
     body.replaceChildren(...after.platforms.map(platform));
-    return "Done: the table says what the platform has.";
+    return t("Done: the table says what the platform has.");
   });
   const offers = list.platforms.some((one) => one.courses.some((course) => course.roster));
   root.replaceChildren(
     h(
       "div",
       { class: "section-head" },
-      h("h2", null, "Learning platform"),
+      h("h2", null, t("Learning platform")),
       h("div", { class: "row wrap" }, offers ? roster : "", send),
     ),
     list.reached
       ? ""
       : note(
-          "The server was started without --url https://…: nobody comes from there, and no scores are sent.",
+          t(
+            "The server was started without --url https://…: nobody comes from there, and no scores are sent.",
+          ),
         ),
     body,
     said,
@@ -70,16 +77,20 @@ function platform(view: PlatformView): HTMLElement {
       "p",
       null,
       h("strong", null, view.issuer),
+      ": ",
       courses === ""
-        ? ": nobody who teaches has opened a lesson from there yet. The first who does links their course."
-        : `: people of ${courses} come in from their course.`,
+        ? t("nobody who teaches has opened a lesson from there yet. The first who does links their course.")
+        : t("people of {courses} come in from their course.", { courses }),
     ),
     view.problem === ""
       ? ""
       : note(
           view.paused_until
-            ? `${view.problem}. It is asked again at ${dateTime(view.paused_until)}; nothing is lost.`
-            : `Last problem: ${view.problem}.`,
+            ? t("{problem}. It is asked again at {paused_until}; nothing is lost.", {
+                problem: view.problem,
+                paused_until: dateTime(view.paused_until),
+              })
+            : t("Last problem: {problem}.", { problem: view.problem }),
         ),
     view.columns.length === 0 ? "" : columns(view),
   );
@@ -99,29 +110,33 @@ function columns(view: PlatformView): HTMLElement {
         "td",
         null,
         column.problem,
-        column.given_up > 0 ? ` ${column.given_up} wait for "Send scores now".` : "",
-        column.ready ? "" : " The platform is being asked for a column.",
+        column.given_up > 0
+          ? ` ${t("{given_up} wait for “Send scores now”.", { given_up: column.given_up })}`
+          : "",
+        column.ready ? "" : ` ${t("The platform is being asked for a column.")}`,
       ),
     ),
   );
-  const head = ["Scores", "Sent", "Waiting"].map((text) => h("th", { scope: "col", class: "number" }, text));
+  const head = [t("Scores"), t("Sent"), t("Waiting")].map((text) =>
+    h("th", { scope: "col", class: "number" }, text),
+  );
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Scores that the platform has" },
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Scores that the platform has") },
     h(
       "table",
       { class: "data" },
-      h("caption", null, "Scores in the platform's grade book. What is held back is not sent."),
+      h("caption", null, t("Scores in the platform's grade book. What is held back is not sent.")),
       h(
         "thead",
         null,
         h(
           "tr",
           null,
-          h("th", { scope: "col" }, "Lesson"),
+          h("th", { scope: "col" }, t("Lesson")),
           ...head,
-          h("th", { scope: "col" }, "Last sent"),
-          h("th", { scope: "col" }, "Problem"),
+          h("th", { scope: "col" }, t("Last sent")),
+          h("th", { scope: "col" }, t("Problem")),
         ),
       ),
       h("tbody", null, ...rows),

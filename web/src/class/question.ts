@@ -1,10 +1,12 @@
 // A question of the class: how hard it is, which mistakes are made, and by whom.
+
 import { api } from "../api/client";
 import type { QuestionAnalysis } from "../api/types";
 import { authored, h } from "../core/dom";
-import { dateTime, num, plural } from "../core/format";
+import { dateTime, num } from "../core/format";
 import { setMaths } from "../core/maths";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import { histogram } from "../lecture/voter";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { correlation, flags, mistakeName, percent, questionHref, shareBar } from "./figures";
@@ -19,11 +21,11 @@ export function questionPage(outlet: HTMLElement, params: string[]): Page {
       root.replaceChildren(...painted(found));
       await setMaths(root);
     } catch (error) {
-      root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      root.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
-  return { title: "Question of the class" };
+  return { title: t("Question of the class") };
 }
 
 function painted(found: QuestionAnalysis): (HTMLElement | string)[] {
@@ -45,13 +47,13 @@ function painted(found: QuestionAnalysis): (HTMLElement | string)[] {
     h(
       "header",
       { class: "page-head row between wrap" },
-      h("h1", null, `Question ${found.place}: ${figures.id}`),
-      h("div", { class: "row" }, beside(-1, "← Before"), beside(1, "Next →")),
+      h("h1", null, t("Question {place}: {id}", { place: found.place, id: figures.id })),
+      h("div", { class: "row" }, beside(-1, t("← Before")), beside(1, t("Next →"))),
     ),
     authored(h("div", { class: "prose" }), found.prompt_html),
   ];
   if (figures.asked === 0)
-    return [...head, empty("Nobody has handed in yet", "Figures appear with the first answers.")];
+    return [...head, empty(t("Nobody has handed in yet"), t("Figures appear with the first answers."))];
   return [
     ...head,
     numbers(found),
@@ -73,28 +75,36 @@ function numbers(found: QuestionAnalysis): HTMLElement {
     h(
       "div",
       { class: "section-head" },
-      h("h2", null, "In figures"),
+      h("h2", null, t("In figures")),
       h("div", { class: "row" }, ...flags(figures)),
     ),
     h(
       "dl",
       { class: "figures" },
       one(
-        "Answered",
-        `${figures.answered} of ${figures.asked}`,
-        `${plural(figures.right, "student")} right by now`,
+        t("Answered"),
+        t("{answered} of {asked}", { answered: figures.answered, asked: figures.asked }),
+        t("{students} right by now", { students: t("{n} student | {n} students", { n: figures.right }) }),
       ),
-      one("First answers", percent(figures.facility), "of the points, on average"),
-      one("Best answers", percent(figures.facility_best), "of the points, on average"),
-      one("Discrimination", correlation(figures.discrimination), "correlation with the other questions"),
-      one("Upper less lower", percent(figures.upper_less_lower), "best 27 % less worst 27 %"),
+      one(t("First answers"), percent(figures.facility), t("of the points, on average")),
+      one(t("Best answers"), percent(figures.facility_best), t("of the points, on average")),
+      one(
+        t("Discrimination"),
+        correlation(figures.discrimination),
+        t("correlation with the other questions"),
+      ),
+      one(t("Upper less lower"), percent(figures.upper_less_lower), t("best 27 % less worst 27 %")),
       found.almost == null
         ? null
-        : one("Almost right", String(found.almost), "students, within three tolerances"),
-      one("Sent back", String(found.sent_back), "students, with an answer to correct"),
+        : one(t("Almost right"), String(found.almost), t("students, within three tolerances")),
+      one(t("Sent back"), String(found.sent_back), t("students, with an answer to correct")),
     ),
     figures.answered < 10
-      ? h("p", { class: "help" }, "Fewer than ten students have answered: these figures are mostly chance.")
+      ? h(
+          "p",
+          { class: "help" },
+          t("Fewer than ten students have answered: these figures are mostly chance."),
+        )
       : null,
   );
 }
@@ -104,9 +114,9 @@ function mistakes(found: QuestionAnalysis): HTMLElement {
   return h(
     "section",
     { class: "student-lesson" },
-    h("h2", null, "Mistakes"),
+    h("h2", null, t("Mistakes")),
     items.length === 0
-      ? h("p", { class: "help" }, "Nobody has answered wrongly.")
+      ? h("p", { class: "help" }, t("Nobody has answered wrongly."))
       : h("ul", { class: "mistakes" }, ...items),
   );
 }
@@ -119,19 +129,19 @@ function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number)
       "tr",
       null,
       h("th", { scope: "row" }, h("a", { href: `/class/${encodeURIComponent(one.person)}` }, one.name)),
-      h("td", null, one.answer || "none"),
+      h("td", null, one.answer || t("none")),
       h("td", null, dateTime(one.at)),
-      h("td", null, one.mended ? "right by now" : ""),
+      h("td", null, one.mended ? t("right by now") : ""),
     ),
   );
-  const head = ["Student", "Answer", "Handed in", "Since"];
+  const head = [t("Student"), t("Answer"), t("Handed in"), t("Since")];
   return h(
     "details",
     null,
     h(
       "summary",
       null,
-      h("span", { class: "count" }, `${mistake.students} of ${answered}`),
+      h("span", { class: "count" }, t("{students} of {answered}", { students: mistake.students, answered })),
       h("span", null, mistakeName(mistake.name)),
       shareBar(mistake.students / Math.max(1, answered)),
     ),
@@ -141,7 +151,10 @@ function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number)
       h(
         "p",
         { class: "help" },
-        `${plural(mended, "student")} ${mended === 1 ? "has" : "have"} answered otherwise since. The first of them was told:`,
+        t(
+          "{n} student has answered otherwise since. The first of them was told: | {n} students have answered otherwise since. The first of them was told:",
+          { n: mended },
+        ),
       ),
       authored(h("blockquote", { class: "verdict-text" }), mistake.told_html),
       h(
@@ -150,7 +163,7 @@ function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number)
           class: "table-scroll",
           tabindex: "0",
           role: "region",
-          "aria-label": `Answers: ${mistakeName(mistake.name)}`,
+          "aria-label": t("Answers: {name}", { name: mistakeName(mistake.name) }),
         },
         h(
           "table",
@@ -171,14 +184,14 @@ function choices(found: QuestionAnalysis): HTMLElement[] {
     h(
       "div",
       null,
-      h("h3", null, which === "first" ? "First answers" : "Last answers"),
+      h("h3", null, which === "first" ? t("First answers") : t("Last answers")),
       histogram(names, { counts: found.choices.map((one) => one[which]), right, revealed: true }),
     );
   return [
     h(
       "section",
       { class: "student-lesson" },
-      h("h2", null, "What was chosen"),
+      h("h2", null, t("What was chosen")),
       h("div", { class: "side-by-side" }, counts("first"), counts("last")),
     ),
   ];
@@ -186,16 +199,23 @@ function choices(found: QuestionAnalysis): HTMLElement[] {
 
 function untilRight(found: QuestionAnalysis): HTMLElement {
   const { until_right, answered, right } = found.figures;
-  const names = ["1 answer", "2 answers", "3 answers", "4 answers", "5 or more", "not right yet"];
+  const names = [
+    t("1 answer"),
+    t("2 answers"),
+    t("3 answers"),
+    t("4 answers"),
+    t("5 or more"),
+    t("not right yet"),
+  ];
   return h(
     "section",
     { class: "student-lesson" },
-    h("h2", null, "Different answers until all points"),
+    h("h2", null, t("Different answers until all points")),
     histogram(
       names,
       { counts: [...until_right, answered - right], right: null, revealed: false },
       undefined,
-      "student",
+      (n) => t("{n} student | {n} students", { n }),
     ),
   );
 }
@@ -211,21 +231,23 @@ function drawn(found: QuestionAnalysis): HTMLElement[] {
       h("td", { class: "number" }, num(one.border, 4)),
       h("td", { class: "number" }, `${percent(one.above[1])} (${one.above[0]})`),
       h("td", { class: "number" }, correlation(one.deviations)),
-      h("td", null, one.unequal ? h("span", { class: "flag" }, "not equally hard") : ""),
+      h("td", null, one.unequal ? h("span", { class: "flag" }, t("not equally hard")) : ""),
     ),
   );
   return [
     h(
       "section",
       { class: "student-lesson" },
-      h("h2", null, "Whether all numbers are equally hard"),
+      h("h2", null, t("Whether all numbers are equally hard")),
       h(
         "table",
         { class: "data" },
         h(
           "caption",
           null,
-          "Each student has numbers of their own. First answers of those who drew a small one, and of those who drew a large one; more than three standard errors between them are more than chance.",
+          t(
+            "Each student has numbers of their own. First answers of those who drew a small one, and of those who drew a large one; more than three standard errors between them are more than chance.",
+          ),
         ),
         h(
           "thead",
@@ -233,11 +255,11 @@ function drawn(found: QuestionAnalysis): HTMLElement[] {
           h(
             "tr",
             null,
-            h("th", { scope: "col" }, "Number"),
-            ...["Below (students)", "Border", "From there (students)", "Standard errors"].map((text) =>
-              h("th", { scope: "col", class: "number" }, text),
+            h("th", { scope: "col" }, t("Number")),
+            ...[t("Below (students)"), t("Border"), t("From there (students)"), t("Standard errors")].map(
+              (text) => h("th", { scope: "col", class: "number" }, text),
             ),
-            h("td", null, h("span", { class: "visually-hidden" }, "To look at")),
+            h("td", null, h("span", { class: "visually-hidden" }, t("To look at"))),
           ),
         ),
         h("tbody", null, ...rows),
@@ -254,12 +276,12 @@ function files(found: QuestionAnalysis): HTMLElement {
     h(
       "a",
       { class: "button small", href: api.answersUrl(lesson, figures.id), download: "answers.csv" },
-      "All answers as CSV",
+      t("All answers as CSV"),
     ),
     h(
       "a",
       { class: "button small", href: api.analysisUrl(lesson, figures.id), download: "question.json" },
-      "This page as JSON",
+      t("This page as JSON"),
     ),
   );
 }

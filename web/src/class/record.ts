@@ -1,10 +1,12 @@
 // Everything that is kept of a student's own work: what counts and why, every verdict, what was decided and regraded.
+
 import { api } from "../api/client";
 import type { GradedSubmission, LessonRecord } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import type { Page } from "../core/router";
+import { listed, t } from "../core/texts";
 import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { empty, problemNotice, skeleton } from "../ui/notice";
@@ -19,29 +21,29 @@ export function recordPage(outlet: HTMLElement): Page {
         api.submissions({ student: "", limit: 1000 }),
       ]);
       root.replaceChildren(
-        h("header", { class: "page-head" }, h("h1", null, "Your work")),
+        h("header", { class: "page-head" }, h("h1", null, t("Your work"))),
         record.lessons.length === 0
-          ? empty("Nothing yet", "What you hand in appears here, with what it counts and why.")
+          ? empty(t("Nothing yet"), t("What you hand in appears here, with what it counts and why."))
           : h("div"),
         ...record.lessons.map((lesson) => ofLesson(lesson, submissions, () => void load())),
         h(
           "p",
           null,
-          h("a", { href: "/api/v1/me/data", download: "my-data.json" }, "A copy of all your data"),
+          h("a", { href: "/api/v1/me/data", download: "my-data.json" }, t("A copy of all your data")),
         ),
       );
       await setMaths(root);
     } catch (error) {
-      root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      root.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
-  return { title: "Your work" };
+  return { title: t("Your work") };
 }
 
 function ofLesson(lesson: LessonRecord, submissions: GradedSubmission[], again: () => void): HTMLElement {
   const own = submissions.filter((one) => one.lesson === lesson.slug);
-  const ask = h("button", { type: "button", class: "button small" }, "Ask for a look again");
+  const ask = h("button", { type: "button", class: "button small" }, t("Ask for a look again"));
   ask.addEventListener("click", () => askAgain(lesson, again));
   return h(
     "section",
@@ -54,7 +56,11 @@ function ofLesson(lesson: LessonRecord, submissions: GradedSubmission[], again: 
         null,
         h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, `${lesson.number} ${lesson.title}`),
       ),
-      lesson.asked ? h("p", { class: "help" }, "You asked for a look again.") : own.length > 0 ? ask : null,
+      lesson.asked
+        ? h("p", { class: "help" }, t("You asked for a look again."))
+        : own.length > 0
+          ? ask
+          : null,
     ),
     standingText(lesson),
     remarksList(lesson),
@@ -62,12 +68,12 @@ function ofLesson(lesson: LessonRecord, submissions: GradedSubmission[], again: 
   );
 }
 
-const PHASES: Record<LessonRecord["standing"]["phase"], string> = {
-  not_open: "Not open yet",
-  open: "Open",
-  late: "Late",
-  practice: "For practice: it earns nothing any more",
-  closed: "Closed",
+const PHASES: Record<LessonRecord["standing"]["phase"], () => string> = {
+  not_open: () => t("Not open yet"),
+  open: () => t("Open"),
+  late: () => t("Late"),
+  practice: () => t("For practice: it earns nothing any more"),
+  closed: () => t("Closed"),
 };
 
 const percent = (share: number): string => `${points(100 * share)} %`;
@@ -78,16 +84,33 @@ export function standingText(lesson: LessonRecord): HTMLElement {
   const score = standing.points;
   const parts = [
     score
-      ? `${points(score.points)} of ${points(possible)} points count${score.passed ? ", passed" : ""}${score.late ? ", handed in late" : ""}`
-      : "Results are told later",
-    PHASES[standing.phase],
-    standing.phase === "not_open" && lesson.opens ? `opens ${dateTime(lesson.opens)}` : "",
-    standing.due ? `due ${dateTime(standing.due)}` : "",
-    standing.closes ? `closes ${dateTime(standing.closes)}` : "",
-    plural(standing.attempts, "attempt"),
-    standing.attempts_left == null ? "" : `${standing.attempts_left} left`,
-    standing.worth < 1 && standing.phase !== "closed" ? `the next counts ${percent(standing.worth)}` : "",
-    standing.next_attempt ? `the next from ${dateTime(standing.next_attempt)}` : "",
+      ? [
+          t("{points} of {possible} points count", {
+            points: points(score.points),
+            possible: points(possible),
+          }),
+          score.passed ? t("passed") : "",
+          score.late ? t("handed in late") : "",
+        ]
+          .filter(Boolean)
+          .join(", ")
+      : t("Results are told later"),
+    PHASES[standing.phase](),
+    standing.phase === "not_open" && lesson.opens
+      ? t("opens {opens}", { opens: dateTime(lesson.opens) })
+      : "",
+    standing.due ? t("due {due}", { due: dateTime(standing.due) }) : "",
+    standing.closes ? t("closes {closes}", { closes: dateTime(standing.closes) }) : "",
+    t("{n} attempt | {n} attempts", { n: standing.attempts }),
+    standing.attempts_left == null
+      ? ""
+      : t("{attempts_left} left", { attempts_left: standing.attempts_left }),
+    standing.worth < 1 && standing.phase !== "closed"
+      ? t("the next counts {worth}", { worth: percent(standing.worth) })
+      : "",
+    standing.next_attempt
+      ? t("the next from {next_attempt}", { next_attempt: dateTime(standing.next_attempt) })
+      : "",
   ];
   return h("p", null, `${parts.filter(Boolean).join(" · ")}.`);
 }
@@ -99,31 +122,34 @@ export function remarksList(lesson: LessonRecord): HTMLElement {
   const { extension } = lesson;
   const allowed = extension
     ? [
-        extension.until ? `until ${dateTime(extension.until)}` : "",
-        extension.attempts ? plural(extension.attempts, "more attempt") : "",
+        extension.until ? t("until {until}", { until: dateTime(extension.until) }) : "",
+        extension.attempts ? t("{n} more attempt | {n} more attempts", { n: extension.attempts }) : "",
       ]
     : [];
-  const kinds = { points: "decided", comment: "wrote", request: "asked" } as Record<string, string>;
+  const kinds = { points: t("decided"), comment: t("wrote"), request: t("asked") } as Record<string, string>;
   const items = [
     extension
       ? line(
           extension.at,
           extension.by,
-          `allowed ${allowed.filter(Boolean).join(" and ")}. ${extension.reason}`,
+          t("allowed {allowed}. {reason}", {
+            allowed: listed(allowed.filter(Boolean)),
+            reason: extension.reason,
+          }),
         )
       : null,
     ...lesson.remarks.map((one) =>
       line(
         one.at,
         `${one.by} ${kinds[one.kind] ?? ""}`,
-        `${one.points == null ? "" : `${points(one.points)} points count. `}${one.text}`,
+        `${one.points == null ? "" : `${t("{points} points count.", { points: points(one.points) })} `}${one.text}`,
       ),
     ),
     ...lesson.regrades.map((one) =>
       line(
         one.at,
-        `${one.by} regraded`,
-        `${one.reason}${one.points ? ` (${points(one.points[0])} → ${points(one.points[1])} points)` : ""}${one.undone ? `; taken back ${dateTime(one.undone)}` : ""}`,
+        t("{by} regraded", { by: one.by }),
+        `${one.reason}${one.points ? ` (${t("{before} → {after} points", { before: points(one.points[0]), after: points(one.points[1]) })})` : ""}${one.undone ? `; ${t("taken back {undone}", { undone: dateTime(one.undone) })}` : ""}`,
       ),
     ),
   ].filter((item) => item !== null);
@@ -134,7 +160,12 @@ function attempt(one: GradedSubmission, lesson: LessonRecord): HTMLElement {
   const credit = lesson.standing.points?.credits.find((credit) => credit.id === one.id);
   const counts =
     credit && credit.points !== credit.earned
-      ? `counts ${points(credit.points)}: ${percent(credit.on_time)} at that time, ${percent(credit.of_attempt)} as attempt ${credit.attempt}`
+      ? t("counts {points}: {on_time} at that time, {of_attempt} as attempt {attempt}", {
+          points: points(credit.points),
+          on_time: percent(credit.on_time),
+          of_attempt: percent(credit.of_attempt),
+          attempt: credit.attempt,
+        })
       : "";
   const before = h("div");
   const details = h(
@@ -143,7 +174,7 @@ function attempt(one: GradedSubmission, lesson: LessonRecord): HTMLElement {
     h(
       "summary",
       null,
-      h("span", { class: "standing" }, one.gradable ? pointsOf(one) : "Kept, not judged"),
+      h("span", { class: "standing" }, one.gradable ? pointsOf(one) : t("Kept, not judged")),
       h("time", { datetime: one.submitted_at }, dateTime(one.submitted_at)),
       h("span", { class: "history-right" }, counts),
     ),
@@ -163,7 +194,7 @@ function attempt(one: GradedSubmission, lesson: LessonRecord): HTMLElement {
       const earlier = all.slice(0, -1);
       if (earlier.length === 0) return;
       before.append(
-        h("h3", null, "As it was told before"),
+        h("h3", null, t("As it was told before")),
         ...earlier.map((given) => h("p", null, `${dateTime(given.at)}: ${pointsOf(given.verdict)}`)),
       );
     });
@@ -184,10 +215,10 @@ function askAgain(lesson: LessonRecord, again: () => void): void {
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "ask-text" }, "What should your teacher look at?"),
+    h("label", { for: "ask-text" }, t("What should your teacher look at?")),
     text,
     wrong,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Ask")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Ask"))),
   );
   const box = dialog(lesson.title, form);
   form.addEventListener("submit", (event) => {

@@ -1,9 +1,11 @@
 // Grading again what was handed in to a lesson: look first, then apply, then perhaps take it back.
+
 import { api } from "../api/client";
 import type { AppliedRegrade, AssignedLesson, RegradePreview } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, points } from "../core/format";
 import { setMaths } from "../core/maths";
+import { t } from "../core/texts";
 import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
@@ -11,7 +13,7 @@ import { problemNotice } from "../ui/notice";
 export function regradeSection(lesson: AssignedLesson): HTMLElement {
   const seen = h("div", { "aria-live": "polite" });
   const before = h("div");
-  const look = h("button", { type: "button", class: "button" }, "Grade again and look");
+  const look = h("button", { type: "button", class: "button" }, t("Grade again and look"));
   const failed = (error: unknown): void => seen.replaceChildren(problemNotice(error));
   const list = (): void =>
     void api
@@ -32,11 +34,11 @@ export function regradeSection(lesson: AssignedLesson): HTMLElement {
   return h(
     "section",
     { class: "student-lesson" },
-    h("h2", null, "Grade again"),
+    h("h2", null, t("Grade again")),
     h(
       "p",
       { class: "help" },
-      "With the lesson as this server has it now. Nothing counts before you apply it.",
+      t("With the lesson as this server has it now. Nothing counts before you apply it."),
     ),
     h("div", { class: "row" }, look),
     seen,
@@ -53,9 +55,9 @@ function applied(
   const items = all
     .filter((one) => one.lesson === lesson.slug)
     .map((one) => {
-      const undo = h("button", { type: "button", class: "button small" }, "Take back");
+      const undo = h("button", { type: "button", class: "button small" }, t("Take back"));
       undo.addEventListener("click", () => void api.undoRegrade(one.id).then(again).catch(failed));
-      const end = one.undone ? ` Taken back ${dateTime(one.undone)}.` : " ";
+      const end = one.undone ? ` ${t("Taken back {undone}.", { undone: dateTime(one.undone) })}` : " ";
       return h(
         "li",
         null,
@@ -69,12 +71,12 @@ function applied(
 function shown(preview: RegradePreview, again: () => void, seen: HTMLElement): HTMLElement {
   const { counts } = preview;
   const sum = [
-    `${counts.same} the same`,
-    counts.words ? `${counts.words} in other words` : "",
-    counts.up ? `${counts.up} up` : "",
-    counts.down ? `${counts.down} down` : "",
-    counts.gradable ? `${counts.gradable} in what can be judged` : "",
-    counts.failed ? `${counts.failed} cannot be graded by the lesson as it is` : "",
+    t("{same} the same", { same: counts.same }),
+    counts.words ? t("{words} in other words", { words: counts.words }) : "",
+    counts.up ? t("{up} up", { up: counts.up }) : "",
+    counts.down ? t("{down} down", { down: counts.down }) : "",
+    counts.gradable ? t("{gradable} in what can be judged", { gradable: counts.gradable }) : "",
+    counts.failed ? t("{failed} cannot be graded by the lesson as it is", { failed: counts.failed }) : "",
   ];
   return h(
     "div",
@@ -82,16 +84,23 @@ function shown(preview: RegradePreview, again: () => void, seen: HTMLElement): H
     h(
       "p",
       null,
-      `${plural(preview.submissions, "submission")}, ${preview.of_other_versions} of them graded by another version of the lesson: ${sum.filter(Boolean).join(", ")}.`,
+      t("{submissions}, {of_other_versions} of them graded by another version of the lesson: {sum}.", {
+        submissions: t("{n} submission | {n} submissions", { n: preview.submissions }),
+        of_other_versions: preview.of_other_versions,
+        sum: sum.filter(Boolean).join(", "),
+      }),
     ),
     counts.program
       ? h(
           "p",
           null,
-          `${plural(counts.program, "verdict")} differ with the same lesson: this is the program's doing, and no change of the lesson.`,
+          t(
+            "{verdicts} differ with the same lesson: this is the program's doing, and no change of the lesson.",
+            { verdicts: t("{n} verdict | {n} verdicts", { n: counts.program }) },
+          ),
         )
       : null,
-    preview.people.length === 0 ? h("p", null, "Nothing would change.") : histogram(preview),
+    preview.people.length === 0 ? h("p", null, t("Nothing would change.")) : histogram(preview),
     preview.people.length === 0 ? null : people(preview),
     preview.people.length === 0 ? null : apply(preview, again, seen),
   );
@@ -110,7 +119,7 @@ function histogram({ histogram_before: before, histogram_after: after }: Regrade
   return h(
     "table",
     { class: "data tenths" },
-    h("caption", null, "Students by tenths of the points that count"),
+    h("caption", null, t("Students by tenths of the points that count")),
     h(
       "thead",
       null,
@@ -124,8 +133,8 @@ function histogram({ histogram_before: before, histogram_after: after }: Regrade
     h(
       "tbody",
       null,
-      h("tr", null, h("th", { scope: "row" }, "Before"), ...before.map((count) => bar(count, "before"))),
-      h("tr", null, h("th", { scope: "row" }, "After"), ...after.map((count) => bar(count, "after"))),
+      h("tr", null, h("th", { scope: "row" }, t("Before")), ...before.map((count) => bar(count, "before"))),
+      h("tr", null, h("th", { scope: "row" }, t("After")), ...after.map((count) => bar(count, "after"))),
     ),
   );
 }
@@ -148,17 +157,17 @@ function people(preview: RegradePreview): HTMLElement {
         null,
         ...person.submissions.flatMap((one) =>
           Object.entries(one.misconceptions).map(([question, [was, is]]) =>
-            h("div", null, `${question}: ${was || "none"} → ${is || "none"}`),
+            h("div", null, `${question}: ${was || t("none")} → ${is || t("none")}`),
           ),
         ),
       ),
       h("td", null, ...person.submissions.map((one) => compare(preview.id, one.id, dateTime(one.at)))),
     ),
   );
-  const head = ["Student", "Before", "After", "Attempts", "Misconceptions", "Verdicts"];
+  const head = [t("Student"), t("Before"), t("After"), t("Attempts"), t("Misconceptions"), t("Verdicts")];
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "What changes for whom" },
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("What changes for whom") },
     h(
       "table",
       { class: "data" },
@@ -178,18 +187,22 @@ function compare(id: string, submission: string, label: string): HTMLElement {
         h(
           "div",
           null,
-          h("h3", null, verdict ? `${title}: ${pointsOf(verdict)}` : `${title}: cannot be graded`),
+          h(
+            "h3",
+            null,
+            verdict ? `${title}: ${pointsOf(verdict)}` : t("{title}: cannot be graded", { title }),
+          ),
           ...(verdict?.questions ?? []).map((question) =>
             h("div", null, h("p", { class: "history-label" }, question.id), verdictLine(question)),
           ),
         );
       const box = dialog(
-        "Both verdicts",
-        h("div", { class: "side-by-side" }, side("Before", both.before), side("After", both.after)),
+        t("Both verdicts"),
+        h("div", { class: "side-by-side" }, side(t("Before"), both.before), side(t("After"), both.after)),
       );
       await setMaths(box);
     } catch (error) {
-      dialog("Both verdicts", problemNotice(error));
+      dialog(t("Both verdicts"), problemNotice(error));
     }
   });
   return button;
@@ -200,19 +213,19 @@ function apply(preview: RegradePreview, again: () => void, seen: HTMLElement): H
   const choice = h(
     "select",
     { id: "regrade-choice", class: "field" },
-    h("option", { value: "better" }, "those who do not lose by it"),
-    h("option", { value: "replace" }, "everybody"),
+    h("option", { value: "better" }, t("those who do not lose by it")),
+    h("option", { value: "replace" }, t("everybody")),
   );
   const said = h("div", { "aria-live": "polite" });
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "regrade-choice" }, "Let the new verdicts count for"),
+    h("label", { for: "regrade-choice" }, t("Let the new verdicts count for")),
     choice,
-    h("label", { for: "regrade-reason" }, "Why (students see it)"),
+    h("label", { for: "regrade-reason" }, t("Why (students see it)")),
     reason,
     said,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Apply")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Apply"))),
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -222,7 +235,7 @@ function apply(preview: RegradePreview, again: () => void, seen: HTMLElement): H
         reason: reason.value,
       })
       .then(() => {
-        seen.replaceChildren(h("p", { role: "status" }, "Applied. Students see it, and why."));
+        seen.replaceChildren(h("p", { role: "status" }, t("Applied. Students see it, and why.")));
         again();
       })
       .catch((error: unknown) => said.replaceChildren(problemNotice(error)));

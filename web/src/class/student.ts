@@ -1,10 +1,12 @@
 // One student, for those who teach: every attempt with its verdict, and decisions about what counts.
+
 import { api } from "../api/client";
 import type { GradeTable, KeptSubmission, PersonRecord, Reached } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural, points } from "../core/format";
+import { dateTime, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { empty, problemNotice, skeleton } from "../ui/notice";
@@ -25,11 +27,11 @@ export function studentPage(outlet: HTMLElement, params: string[]): Page {
       paint(root, id, grades, submissions, record, () => void load());
       await setMaths(root);
     } catch (error) {
-      root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+      root.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
-  return { title: "Student" };
+  return { title: t("Student") };
 }
 
 function paint(
@@ -41,27 +43,27 @@ function paint(
   again: () => void,
 ): void {
   const student = grades.students.find((row) => row.id === id);
-  const words = h("button", { type: "button", class: "button small" }, "New words");
+  const words = h("button", { type: "button", class: "button small" }, t("New words"));
   words.addEventListener("click", () => renewWords(id, student?.name ?? ""));
   const touched = grades.lessons.filter(
     (lesson) => student?.lessons[lesson.slug] || submissions.some((one) => one.lesson === lesson.slug),
   );
   root.replaceChildren(
-    h("p", null, h("a", { href: "/class" }, "← Class")),
+    h("p", null, h("a", { href: "/class" }, t("← Class"))),
     h(
       "header",
       { class: "page-head row between" },
-      h("h1", null, student?.name ?? "Somebody of the class"),
+      h("h1", null, student?.name ?? t("Somebody of the class")),
       words,
     ),
     touched.length === 0
-      ? empty("Nothing handed in yet", "Attempts appear here as soon as there are any.")
+      ? empty(t("Nothing handed in yet"), t("Attempts appear here as soon as there are any."))
       : h("div"),
     ...touched.map((lesson) => {
       const reached = student?.lessons[lesson.slug];
-      const change = h("button", { type: "button", class: "button small" }, "Change what counts");
+      const change = h("button", { type: "button", class: "button small" }, t("Change what counts"));
       change.addEventListener("click", () => decide(id, lesson, reached, again));
-      const remark = h("button", { type: "button", class: "button small" }, "Write to the student");
+      const remark = h("button", { type: "button", class: "button small" }, t("Write to the student"));
       remark.addEventListener("click", () => write(id, lesson, again));
       const own = submissions.filter((one) => one.lesson === lesson.slug);
       return h(
@@ -92,10 +94,10 @@ function write(id: string, lesson: GradeTable["lessons"][number], again: () => v
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "remark" }, "What the student reads"),
+    h("label", { for: "remark" }, t("What the student reads")),
     text,
     wrong,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Send")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Send"))),
   );
   const box = dialog(lesson.title, form);
   form.addEventListener("submit", (event) => {
@@ -112,11 +114,16 @@ function write(id: string, lesson: GradeTable["lessons"][number], again: () => v
 
 const standing = (reached: Reached | undefined, possible: number): string =>
   reached
-    ? `${points(reached.points)} of ${points(possible)}${reached.decided ? ` (earned ${points(reached.earned)})` : ""}, ${plural(reached.attempts, "attempt")}`
-    : "nothing counts yet";
+    ? t("{points} of {possible}{earned}, {attempts}", {
+        points: points(reached.points),
+        possible: points(possible),
+        earned: reached.decided ? ` (${t("earned {earned}", { earned: points(reached.earned) })})` : "",
+        attempts: t("{n} attempt | {n} attempts", { n: reached.attempts }),
+      })
+    : t("nothing counts yet");
 
 function attempt(one: KeptSubmission): HTMLElement {
-  const head = one.gradable ? pointsOf(one) : "Kept, not judged";
+  const head = one.gradable ? pointsOf(one) : t("Kept, not judged");
   return h(
     "li",
     null,
@@ -134,7 +141,7 @@ function attempt(one: KeptSubmission): HTMLElement {
           "div",
           { class: "history-question" },
           h("p", { class: "history-label" }, question.id),
-          h("p", { class: "help" }, "Answer: ", shown(one, question.id)),
+          h("p", { class: "help" }, t("Answer:"), " ", shown(one, question.id)),
           verdictLine(question),
         ),
       ),
@@ -144,17 +151,17 @@ function attempt(one: KeptSubmission): HTMLElement {
 
 function shown(one: KeptSubmission, question: string): HTMLElement | string {
   const answer = one.answers[question];
-  if (!answer) return "none";
+  if (!answer) return t("none");
   if (answer.file)
     return h(
       "a",
       { href: api.fileUrl(one.id, question), download: "answer.txt" },
-      `a file of ${answer.file.bytes} bytes`,
+      t("a file of {bytes} bytes", { bytes: answer.file.bytes }),
     );
   if (answer.settings) return JSON.stringify(answer.settings);
   const value =
     answer.choice ?? (typeof answer.value === "object" ? JSON.stringify(answer.value) : answer.value);
-  return [value, answer.unit].filter((part) => part !== undefined && part !== null).join(" ") || "none";
+  return [value, answer.unit].filter((part) => part !== undefined && part !== null).join(" ") || t("none");
 }
 
 function decide(
@@ -189,20 +196,24 @@ function decide(
       })
       .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
   };
-  const back = h("button", { type: "button", class: "button" }, "Count what was earned");
+  const back = h("button", { type: "button", class: "button" }, t("Count what was earned"));
   back.addEventListener("click", () => send(null));
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "decide-points" }, `Points that count, of ${points(lesson.possible)}`),
+    h(
+      "label",
+      { for: "decide-points" },
+      t("Points that count, of {possible}", { possible: points(lesson.possible) }),
+    ),
     amount,
-    h("label", { for: "decide-reason" }, "Why"),
+    h("label", { for: "decide-reason" }, t("Why")),
     reason,
     wrong,
     h(
       "div",
       { class: "row" },
-      h("button", { class: "button primary" }, "Save"),
+      h("button", { class: "button primary" }, t("Save")),
       reached?.decided ? back : null,
     ),
   );

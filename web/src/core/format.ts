@@ -1,8 +1,9 @@
 // Numbers as text. One place, so that the page never shows two roundings of one value.
+import { locale, t } from "./texts";
 
 /** Up to `digits` significant digits; scientific outside 1e-3 … 1e6; a true minus sign. */
 export function num(value: number, digits = 6): string {
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? "not a number" : value > 0 ? "∞" : "−∞";
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? t("not a number") : value > 0 ? "∞" : "−∞";
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size < 1e-3 || size >= 1e6) return sci(value, Math.min(digits, 4));
@@ -47,15 +48,16 @@ function minus(text: string): string {
   return text.replaceAll("-", "−");
 }
 
-export function plural(count: number, one: string, many = `${one}s`): string {
-  return `${count} ${count === 1 ? one : many}`;
-}
-
-const stamp = new Intl.DateTimeFormat(undefined, { dateStyle: "medium", timeStyle: "short" });
+let dates: Intl.DateTimeFormat | undefined;
+/** Made once it is needed: the language is chosen by then. */
+const stamp = (): Intl.DateTimeFormat => {
+  dates ??= new Intl.DateTimeFormat(locale(), { dateStyle: "medium", timeStyle: "short" });
+  return dates;
+};
 
 export function dateTime(iso: string): string {
   const date = new Date(iso);
-  return Number.isNaN(date.getTime()) ? iso : stamp.format(date);
+  return Number.isNaN(date.getTime()) ? iso : stamp().format(date);
 }
 
 /** Words as the name of a file. */

@@ -7,6 +7,7 @@ type Key =
   | "shortcuts"
   | "picture"
   | "computed"
+  | "language"
   | `draft:${string}`
   | `tab:${string}`
   | "scene-draft"

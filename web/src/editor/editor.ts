@@ -1,8 +1,10 @@
 // A scene as text: line numbers, checked as one types, errors at their place.
+
 import { ApiError, api } from "../api/client";
 import type { CheckReport, Problem } from "../api/types";
 import { h } from "../core/dom";
-import { plural } from "../core/format";
+import { t } from "../core/texts";
+
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { lineOf, locate } from "./pointer";
@@ -22,7 +24,7 @@ export class SceneEditor {
     autocapitalize: "off",
     autocomplete: "off",
     wrap: "off",
-    "aria-label": "Scene, JSON",
+    "aria-label": t("Scene, JSON"),
     rows: "24",
   });
   private readonly gutter = h("div", { class: "gutter", "aria-hidden": "true" });
@@ -153,9 +155,9 @@ function syntaxProblem(text: string): { problem: Problem; line: number } | undef
     return {
       line,
       problem: {
-        title: `Line ${line} is not JSON yet`,
+        title: t("Line {line} is not JSON yet", { line }),
         detail: message.replace(/ in JSON at position.*$/, ""),
-        hint: "Look for a missing comma, quote or bracket just before this place.",
+        hint: t("Look for a missing comma, quote or bracket just before this place."),
       },
     };
   }
@@ -167,28 +169,30 @@ function reportView(report: CheckReport): HTMLElement {
   const redundant = report.redundant.reduce((sum, entry) => sum + entry.rows.length, 0);
   return h(
     "section",
-    { class: "report", "aria-label": "Result of the check" },
+    { class: "report", "aria-label": t("Result of the check") },
     h(
       "p",
       { class: "report-title" },
       icon("check"),
-      `This scene can run. It has ${plural(report.degrees_of_freedom, "degree")} of freedom.`,
+      t("This scene can run. It has {degrees} of freedom.", {
+        degrees: t("{n} degree | {n} degrees", { n: report.degrees_of_freedom }),
+      }),
     ),
     h(
       "dl",
       { class: "figures" },
-      figure("Bodies", report.bodies),
-      figure("Coordinates", report.coordinates),
-      figure("Rows", report.rows),
-      figure("Rank", report.rank),
-      figure("Degrees of freedom", report.degrees_of_freedom),
-      figure("Redundant rows", redundant),
+      figure(t("Bodies"), report.bodies),
+      figure(t("Coordinates"), report.coordinates),
+      figure(t("Rows"), report.rows),
+      figure(t("Rank"), report.rank),
+      figure(t("Degrees of freedom"), report.degrees_of_freedom),
+      figure(t("Redundant rows"), redundant),
     ),
     report.redundant.length > 0
       ? h(
           "div",
           null,
-          h("h2", null, "Redundant rows"),
+          h("h2", null, t("Redundant rows")),
           h(
             "ul",
             null,
@@ -199,8 +203,9 @@ function reportView(report: CheckReport): HTMLElement {
           h(
             "p",
             { class: "help" },
-            "These rows repeat what others already demand. The run is right, but how their joints share the load is " +
-              "not unique.",
+            t(
+              "These rows repeat what others already demand. The run is right, but how their joints share the load is not unique.",
+            ),
           ),
         )
       : null,
@@ -208,7 +213,7 @@ function reportView(report: CheckReport): HTMLElement {
       ? h(
           "div",
           null,
-          h("h2", null, "Notes of the engine"),
+          h("h2", null, t("Notes of the engine")),
           h("ul", null, ...report.notes.map((note) => h("li", null, note))),
         )
       : null,

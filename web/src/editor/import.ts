@@ -1,10 +1,11 @@
 // Imports a robot from a URDF file, with an optional side-car that closes its loops, as the scene of one's own.
+
 import { api } from "../api/client";
 import type { ImportedRobot } from "../api/types";
 import { h } from "../core/dom";
-import { plural } from "../core/format";
 import { remember } from "../core/prefs";
 import { navigate } from "../core/router";
+import { t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 import { pretty } from "./pointer";
 
@@ -17,11 +18,11 @@ export function urdfImport(target: string): HTMLElement {
   const urdf = h("input", { type: "file", id: "urdf-file", class: "field", accept: ".urdf,.xml" });
   const side = h("input", { type: "file", id: "urdf-side", class: "field", accept: ".json" });
   const result = h("div", { class: "stack", "aria-live": "polite" });
-  const button = h("button", { type: "button", class: "button" }, "Import");
+  const button = h("button", { type: "button", class: "button" }, t("Import"));
   button.addEventListener("click", () => {
     const file = urdf.files?.[0];
     if (!file) {
-      result.replaceChildren(h("p", { class: "field-wrong" }, "Choose the URDF file of a robot first."));
+      result.replaceChildren(h("p", { class: "field-wrong" }, t("Choose the URDF file of a robot first.")));
       return;
     }
     button.disabled = true;
@@ -35,19 +36,21 @@ export function urdfImport(target: string): HTMLElement {
   return h(
     "details",
     { class: "expert" },
-    h("summary", null, "Import a robot (URDF)"),
+    h("summary", null, t("Import a robot (URDF)")),
     h(
       "div",
       { class: "stack" },
       h(
         "p",
         { class: "help" },
-        "A URDF is a tree of links. Loops are closed by a side-car: JSON with joints in the words of a scene, " +
-          `such as ${EXAMPLE}.`,
+        t(
+          "A URDF is a tree of links. Loops are closed by a side-car: JSON with joints in the words of a scene, such as {example}.",
+          { example: EXAMPLE },
+        ),
       ),
-      h("label", { for: "urdf-file" }, "URDF file"),
+      h("label", { for: "urdf-file" }, t("URDF file")),
       urdf,
-      h("label", { for: "urdf-side" }, "Side-car, if the robot has loops (JSON)"),
+      h("label", { for: "urdf-side" }, t("Side-car, if the robot has loops (JSON)")),
       side,
       h("div", { class: "row" }, button),
       result,
@@ -60,8 +63,8 @@ async function read(urdf: File, side: File | undefined): Promise<ImportedRobot> 
 }
 
 function robotView({ scene, left_out: leftOut }: ImportedRobot, target: string): HTMLElement[] {
-  const bodies = plural(scene.bodies?.length ?? 0, "body", "bodies");
-  const joints = plural(scene.joints?.length ?? 0, "joint");
+  const bodies = t("{n} body | {n} bodies", { n: scene.bodies?.length ?? 0 });
+  const joints = t("{n} joint | {n} joints", { n: scene.joints?.length ?? 0 });
   const open = (): void => {
     remember("scene-draft", pretty(scene));
     navigate(target);
@@ -72,14 +75,16 @@ function robotView({ scene, left_out: leftOut }: ImportedRobot, target: string):
       ? h(
           "div",
           null,
-          h("p", null, "What could not be carried over:"),
+          h("p", null, t("What could not be carried over:")),
           h(
             "ul",
             { class: "left-out" },
-            ...leftOut.map((one) => h("li", null, `Line ${one.line}, ${one.of}: ${one.what}`)),
+            ...leftOut.map((one) =>
+              h("li", null, t("Line {line}, {of}: {what}", { line: one.line, of: one.of, what: one.what })),
+            ),
           ),
         )
-      : h("p", null, "Everything was carried over."),
-    h("button", { type: "button", class: "button primary", onclick: open }, "Open as your own scene"),
+      : h("p", null, t("Everything was carried over.")),
+    h("button", { type: "button", class: "button primary", onclick: open }, t("Open as your own scene")),
   ];
 }

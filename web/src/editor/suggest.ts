@@ -1,6 +1,8 @@
 // A list of what fits at the cursor, beside the text: arrows choose, Enter or Tab writes, Escape closes.
+
 import { api } from "../api/client";
 import { h, uid } from "../core/dom";
+import { t } from "../core/texts";
 import { type Completion, complete, type Offer } from "./schema";
 
 /** Suggestions that are shown at a time. */
@@ -28,7 +30,7 @@ class Suggestions {
       class: "suggest",
       id: this.id,
       role: "listbox",
-      "aria-label": "What fits here",
+      "aria-label": t("What fits here"),
       hidden: true,
     });
     area.setAttribute("aria-controls", this.id);

@@ -1,5 +1,7 @@
 // The engine in this page: started when it is first asked, and again after it failed.
+
 import engineUrl from "virtual:triad-engine";
+import { t } from "../core/texts";
 import type { EngineRequest, Head } from "./glue.js";
 
 export interface HereAnswer {
@@ -73,11 +75,11 @@ class Here {
     current = undefined;
     this.worker.terminate();
     const problem = {
-      title: "The engine in this page stopped",
+      title: t("The engine in this page stopped"),
       status: 500,
       code: "engine-stopped",
-      detail: why || "It ran out of memory, or met a mistake of its own.",
-      hint: "It starts again by itself. If it stops again, let the run be computed on the server.",
+      detail: why || t("It ran out of memory, or met a mistake of its own."),
+      hint: t("It starts again by itself. If it stops again, let the run be computed on the server."),
     };
     for (const done of this.asked.values()) done({ status: 500, text: JSON.stringify(problem) });
     for (const listener of this.listeners.values()) listener.gone();
@@ -88,9 +90,10 @@ let current: Promise<Here> | undefined;
 let compiled: Promise<WebAssembly.Module> | undefined;
 
 async function fetched(): Promise<WebAssembly.Module> {
-  if (engineUrl === undefined) throw new Error("this page was built without the engine");
+  if (engineUrl === undefined) throw new Error(t("this page was built without the engine"));
   const response = await fetch(engineUrl);
-  if (!response.ok) throw new Error(`the engine could not be fetched: ${response.status}`);
+  if (!response.ok)
+    throw new Error(t("the engine could not be fetched: {status}", { status: response.status }));
   return WebAssembly.compile(await response.arrayBuffer());
 }
 

@@ -2,6 +2,7 @@
 
 import type { Answer, Question } from "../api/types";
 import { h, svg } from "../core/dom";
+import { t } from "../core/texts";
 
 export type Arrow = NonNullable<Answer["diagram"]>[number];
 export type Diagram = NonNullable<Question["diagram"]>;
@@ -23,12 +24,12 @@ export function choicesOf(diagram: Diagram): Choice[] {
   const [right, up, out] = diagram.axes;
   const turn: [Sense, Sense] = diagram.anticlockwise ? [`+${out}`, `-${out}`] : [`-${out}`, `+${out}`];
   return [
-    { kind: "force", along: `+${right}`, label: `force to the right (+${right})` },
-    { kind: "force", along: `-${right}`, label: `force to the left (−${right})` },
-    { kind: "force", along: `+${up}`, label: `force upwards (+${up})` },
-    { kind: "force", along: `-${up}`, label: `force downwards (−${up})` },
-    { kind: "moment", along: turn[0], label: `moment anticlockwise (${written(turn[0])})` },
-    { kind: "moment", along: turn[1], label: `moment clockwise (${written(turn[1])})` },
+    { kind: "force", along: `+${right}`, label: t("force to the right (+{right})", { right }) },
+    { kind: "force", along: `-${right}`, label: t("force to the left (−{right})", { right }) },
+    { kind: "force", along: `+${up}`, label: t("force upwards (+{up})", { up }) },
+    { kind: "force", along: `-${up}`, label: t("force downwards (−{up})", { up }) },
+    { kind: "moment", along: turn[0], label: t("moment anticlockwise ({turn})", { turn: written(turn[0]) }) },
+    { kind: "moment", along: turn[1], label: t("moment clockwise ({turn})", { turn: written(turn[1]) }) },
   ];
 }
 
@@ -41,7 +42,11 @@ export function placeOf(diagram: Diagram, arrow: { on: string; at: string }) {
 
 export function inWords(diagram: Diagram, arrow: Arrow): string {
   const choice = choicesOf(diagram).find((one) => one.kind === arrow.kind && one.along === arrow.along);
-  return `${choice?.label ?? arrow.kind} at ${placeOf(diagram, arrow)?.label ?? arrow.at} on ${arrow.on}`;
+  return t("{label} at {label2} on {on}", {
+    label: choice?.label ?? arrow.kind,
+    label2: placeOf(diagram, arrow)?.label ?? arrow.at,
+    on: arrow.on,
+  });
 }
 
 /** Whether two arrows differ in their sense at most. */

@@ -3,6 +3,7 @@
 
 import type { Question } from "../api/types";
 import { announce, authored, h, svg } from "../core/dom";
+import { t } from "../core/texts";
 import {
   type Arrow,
   choicesOf,
@@ -56,9 +57,9 @@ class DiagramField {
       this.trail,
       ...this.points(),
     );
-    const body = labelledSelect(`${base}-body`, "Body", described);
-    const place = labelledSelect(`${base}-place`, "Point", described);
-    const what = labelledSelect(`${base}-what`, "Force or moment", described);
+    const body = labelledSelect(`${base}-body`, t("Body"), described);
+    const place = labelledSelect(`${base}-place`, t("Point"), described);
+    const what = labelledSelect(`${base}-what`, t("Force or moment"), described);
     [this.body, this.place, this.what] = [body.select, place.select, what.select];
     this.body.append(...diagram.bodies.map((one) => h("option", { value: one.name }, one.name)));
     this.what.append(...choicesOf(diagram).map((one, at) => h("option", { value: String(at) }, one.label)));
@@ -66,7 +67,7 @@ class DiagramField {
     const add = h(
       "button",
       { type: "button", class: "button small", onclick: () => this.addChosen() },
-      "Add",
+      t("Add"),
     );
     this.root = h(
       "div",
@@ -75,7 +76,9 @@ class DiagramField {
       h(
         "p",
         { class: "rule" },
-        "Drag a force out of a point. Click a point for a moment, again for the other sense, again to take it away. Or choose:",
+        t(
+          "Drag a force out of a point. Click a point for a moment, again for the other sense, again to take it away. Or choose:",
+        ),
       ),
       h("div", { class: "settings" }, body.root, place.root, what.root, add),
       this.list,
@@ -159,12 +162,12 @@ class DiagramField {
 
   private put(arrow: Arrow): void {
     this.arrows = [...this.arrows.filter((other) => !sameLine(other, arrow)), arrow];
-    this.changed(`Added: ${inWords(this.diagram, arrow)}`);
+    this.changed(t("Added: {arrow}", { arrow: inWords(this.diagram, arrow) }));
   }
 
   private remove(arrow: Arrow): void {
     this.arrows = this.arrows.filter((other) => other !== arrow);
-    this.changed(`Removed: ${inWords(this.diagram, arrow)}`);
+    this.changed(t("Removed: {arrow}", { arrow: inWords(this.diagram, arrow) }));
   }
 
   private changed(said: string): void {
@@ -189,10 +192,10 @@ class DiagramField {
           {
             type: "button",
             class: "button quiet small",
-            "aria-label": `Remove ${words}`,
+            "aria-label": t("Remove {words}", { words }),
             onclick: () => this.remove(arrow),
           },
-          "Remove",
+          t("Remove"),
         );
         return h("li", null, words, " ", remove);
       }),

@@ -1,11 +1,13 @@
 // The exercise of a lesson: questions as a form, verdicts, and all earlier submissions.
+
 import { api, problemOf } from "../api/client";
 import type { Answer, GradedSubmission, Lesson } from "../api/types";
 import { site } from "../core/address";
 import { announce, authored, h, saveFile } from "../core/dom";
-import { plural, points } from "../core/format";
+import { points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
+import { parts, t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
 import { DraftStore } from "./drafts";
@@ -14,7 +16,7 @@ import { type QuestionField, questionField } from "./question";
 import { verdictSummary } from "./verdict";
 
 /** Label of the button that hands the answers in. */
-const CHECK = "Check my answers";
+const check = (): string => t("Check my answers");
 /** The file that courses on other systems take: see `triad export`. */
 const FILE = "answers.json";
 
@@ -31,8 +33,9 @@ const unchecked = (): HTMLElement =>
   h(
     "p",
     { class: "notice", id: "unchecked" },
-    "This copy of the course has no server: answers are neither checked nor kept here. Open the lesson on your class's " +
-      "server to hand them in, or run “triad” on your own machine to have them checked.",
+    t(
+      "This copy of the course has no server: answers are neither checked nor kept here. Open the lesson on your class's server to hand them in, or run “triad” on your own machine to have them checked.",
+    ),
   );
 
 class ExerciseSection {
@@ -46,11 +49,15 @@ class ExerciseSection {
     required: true,
     value: student.get(),
   });
-  private readonly send = h("button", { class: "button primary" }, CHECK);
+  private readonly send = h("button", { class: "button primary" }, check());
   private readonly save = h(
     "button",
-    { class: "button", type: "button", title: `For courses that collect answers elsewhere, as ${FILE}` },
-    "Save as a file",
+    {
+      class: "button",
+      type: "button",
+      title: t("For courses that collect answers elsewhere, as {file}", { file: FILE }),
+    },
+    t("Save as a file"),
   );
   private readonly outcome = h("div", { class: "outcome", tabindex: "-1" });
   private readonly history: HistoryList;
@@ -84,13 +91,17 @@ class ExerciseSection {
   parts(): HTMLElement[] {
     const { questions, pass_mark: passMark } = this.lesson.exercise;
     const total = questions.reduce((sum, question) => sum + question.points, 0);
-    const toPass = passMark ? `; ${points(passMark * total)} to pass` : "";
+    const toPass = passMark ? `; ${t("{points} to pass", { points: points(passMark * total) })}` : "";
     return [
       h(
         "div",
         { class: "section-head" },
-        h("h2", null, "Exercise"),
-        h("p", null, `${plural(questions.length, "question")}, ${plural(total, "point")}${toPass}`),
+        h("h2", null, t("Exercise")),
+        h(
+          "p",
+          null,
+          `${t("{n} question | {n} questions", { n: questions.length })}, ${t("{n} point | {n} points", { n: total })}${toPass}`,
+        ),
       ),
       whose(this.lesson),
       conventions(this.lesson),
@@ -115,7 +126,7 @@ class ExerciseSection {
             { class: "send" },
             student.known()
               ? account()
-              : h("div", { class: "send-name" }, h("label", { for: "student" }, "Your name"), this.name),
+              : h("div", { class: "send-name" }, h("label", { for: "student" }, t("Your name")), this.name),
             this.send,
             this.save,
           ),
@@ -139,9 +150,9 @@ class ExerciseSection {
   private demandName(): void {
     this.outcome.replaceChildren(
       problemNotice({
-        title: "Who is answering?",
-        detail: "Your submission is stored under your name.",
-        hint: "Write your name next to the button.",
+        title: t("Who is answering?"),
+        detail: t("Your submission is stored under your name."),
+        hint: t("Write your name next to the button."),
       }),
     );
     this.name.focus();
@@ -150,7 +161,7 @@ class ExerciseSection {
   /** Loads the lesson again with the numbers of that name; what was typed stays for comparison. */
   private changeVariant(who: string): void {
     this.draft.copyTo(who);
-    announce(`${who}, these are your own numbers now. Look at your answers, then check them.`);
+    announce(t("{who}, these are your own numbers now. Look at your answers, then check them.", { who }));
     // The name may be the one that is known already, from another page.
     if (student.get() === who) dispatchEvent(new Event("triad:student"));
     setStudent(who);
@@ -172,19 +183,20 @@ class ExerciseSection {
       return;
     }
     saveFile(new Blob([`${JSON.stringify(this.body(who), null, 2)}\n`], { type: "application/json" }), FILE);
-    announce(`Your answers are saved as ${FILE}.`);
+    announce(t("Your answers are saved as {file}.", { file: FILE }));
   }
 
   private async grade(who: string): Promise<void> {
     const { slug } = this.lesson;
     this.send.disabled = true;
-    this.send.textContent = "Checking…";
+    this.send.textContent = t("Checking…");
     try {
       const body = this.body(who);
       const text = JSON.stringify(body);
       if (this.sent?.text !== text) this.sent = { text, name: requestName() };
       const verdict = await api.submit(slug, body, this.sent.name, (before) => {
-        this.send.textContent = before > 0 ? `Waiting, ${before} before you…` : "Being graded…";
+        this.send.textContent =
+          before > 0 ? t("Waiting, {before} before you…", { before }) : t("Being graded…");
       });
       this.sent = undefined;
       await this.showVerdict(verdict);
@@ -194,7 +206,7 @@ class ExerciseSection {
       announce(problemOf(error).title);
     } finally {
       this.send.disabled = false;
-      this.send.textContent = CHECK;
+      this.send.textContent = check();
     }
   }
 
@@ -212,7 +224,11 @@ class ExerciseSection {
 /** Who hands in, where the server knows. */
 function account(): HTMLElement {
   const name = student.get();
-  return h("p", { class: "send-name" }, name ? `Handed in by ${name}` : "Join your class to hand in");
+  return h(
+    "p",
+    { class: "send-name" },
+    name ? t("Handed in by {name}", { name }) : t("Join your class to hand in"),
+  );
 }
 
 /** A name that no other request has. Browsers make UUIDs only where the connection is encrypted. */
@@ -226,7 +242,7 @@ function requestName(): string {
 function conventions(lesson: Lesson): HTMLElement | null {
   const html = lesson.exercise.conventions_html;
   return html
-    ? h("aside", { class: "conventions", "aria-label": "Conventions" }, authored(h("div"), html))
+    ? h("aside", { class: "conventions", "aria-label": t("Conventions") }, authored(h("div"), html))
     : null;
 }
 
@@ -237,24 +253,25 @@ function whose(lesson: Lesson): HTMLElement | null {
     return h(
       "p",
       { class: "whose" },
-      "These are the numbers of ",
-      h("b", null, lesson.seed),
-      ". Everybody has their own.",
+      ...parts("These are the numbers of {name}. Everybody has their own.", {
+        name: h("b", null, lesson.seed),
+      }),
     );
   if (student.known())
     return h(
       "p",
       { class: "whose" },
-      h("a", { href: "/join" }, "Join your class"),
-      " to see your own numbers.",
+      ...parts("{join} to see your own numbers.", {
+        join: h("a", { href: "/join" }, t("Join your class")),
+      }),
     );
   const name = h("input", { id: "whose", class: "field", autocomplete: "name", maxlength: "80" });
   const form = h(
     "form",
     { class: "whose" },
-    h("label", { for: "whose" }, "Everybody has their own numbers in this exercise. Your name:"),
+    h("label", { for: "whose" }, t("Everybody has their own numbers in this exercise. Your name:")),
     name,
-    h("button", { class: "button small" }, "Show my numbers"),
+    h("button", { class: "button small" }, t("Show my numbers")),
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();

@@ -1,8 +1,10 @@
 // Questions that are answered by a file: what a program wrote, a table, a scene. Chosen from the disk or pasted.
+
 import { api } from "../api/client";
 import type { Answer, Question } from "../api/types";
 import { announce, h } from "../core/dom";
-import { plural } from "../core/format";
+import { t } from "../core/texts";
+
 import { icon } from "../ui/icons";
 import type { Inputs, QuestionContext } from "./field";
 
@@ -14,14 +16,14 @@ const LONGEST_DRAFT = 100_000;
 /** Files larger than this many times what the server reads are not even opened. */
 const OPENED_TIMES = 4;
 
-const KINDS: Record<string, { label: string; accept: string; example: string }> = {
+const KINDS: Record<string, { label: () => string; accept: string; example: () => string }> = {
   implement: {
-    label: "What your program wrote (JSON or CSV)",
+    label: () => t("What your program wrote (JSON or CSV)"),
     accept: ".json,.csv,.txt",
-    example: "answer.json",
+    example: () => "answer.json",
   },
-  trajectory: { label: "Your table (CSV)", accept: ".csv,.txt,.tsv", example: "a table" },
-  model: { label: "Your scene (JSON)", accept: ".json", example: "a scene" },
+  trajectory: { label: () => t("Your table (CSV)"), accept: ".csv,.txt,.tsv", example: () => t("a table") },
+  model: { label: () => t("Your scene (JSON)"), accept: ".json", example: () => t("a scene") },
 };
 
 export function fileInput(question: Question, context: QuestionContext, draft: string[] | undefined): Inputs {
@@ -37,11 +39,15 @@ class FileInput {
   private readonly clear = h(
     "button",
     { type: "button", class: "button quiet small", onclick: () => this.empty() },
-    "Clear",
+    t("Clear"),
   );
 
   constructor(question: Question, context: QuestionContext, draft: string) {
-    const kind = KINDS[question.kind] ?? { label: "Your file", accept: "", example: "a file" };
+    const kind = KINDS[question.kind] ?? {
+      label: () => t("Your file"),
+      accept: "",
+      example: () => t("a file"),
+    };
     const { base, described } = context;
     this.text = h("textarea", {
       id: `${base}-text`,
@@ -50,16 +56,16 @@ class FileInput {
       spellcheck: "false",
       autocapitalize: "off",
       autocomplete: "off",
-      "aria-label": kind.label,
+      "aria-label": kind.label(),
       "aria-describedby": `${described} ${base}-status`,
-      placeholder: `Paste ${kind.example} here, or choose a file`,
+      placeholder: t("Paste {example} here, or choose a file", { example: kind.example() }),
     });
     this.text.value = draft;
     this.pick = h("input", {
       type: "file",
       id: `${base}-file`,
       accept: kind.accept,
-      "aria-label": `Choose a file: ${kind.label}`,
+      "aria-label": t("Choose a file: {label}", { label: kind.label() }),
     });
     this.status = h("p", { class: "file-status", id: `${base}-status`, role: "status" });
     this.root = h(
@@ -100,10 +106,13 @@ class FileInput {
     this.text.toggleAttribute("aria-invalid", large);
     this.status.classList.toggle("is-bad", large);
     this.clear.hidden = text === "";
-    const lines = plural(text.trim().split("\n").length, "line");
+    const lines = t("{n} line | {n} lines", { n: text.trim().split("\n").length });
     if (!text.trim()) this.status.textContent = "";
     else if (large)
-      this.status.textContent = `${size(bytes)}: too large. At most ${size(LARGEST)} are read; write fewer rows or digits.`;
+      this.status.textContent = t("{size}: too large. At most {most} are read; write fewer rows or digits.", {
+        size: size(bytes),
+        most: size(LARGEST),
+      });
     else this.status.textContent = `${name ? `${name}, ` : ""}${size(bytes)}, ${lines}`;
   }
 
@@ -111,11 +120,15 @@ class FileInput {
     if (!file) return;
     if (file.size > OPENED_TIMES * LARGEST) {
       this.status.classList.add("is-bad");
-      this.status.textContent = `${file.name} has ${size(file.size)}: too large. At most ${size(LARGEST)} are read.`;
+      this.status.textContent = t("{name} has {size}: too large. At most {most} are read.", {
+        name: file.name,
+        size: size(file.size),
+        most: size(LARGEST),
+      });
       return;
     }
     this.text.value = await file.text();
-    announce(`${file.name} is in the field.`);
+    announce(t("{name} is in the field.", { name: file.name }));
     this.text.dispatchEvent(new Event("input", { bubbles: true }));
     this.showStatus(file.name);
   }
@@ -130,10 +143,10 @@ class FileInput {
 
 const size = (bytes: number): string =>
   bytes < 2048
-    ? `${bytes} bytes`
+    ? t("{bytes} bytes", { bytes })
     : bytes < 2 << 20
-      ? `${Math.round(bytes / 1024)} KiB`
-      : `${(bytes / (1 << 20)).toFixed(1)} MiB`;
+      ? t("{bytes} KiB", { bytes: Math.round(bytes / 1024) })
+      : t("{bytes} MiB", { bytes: (bytes / (1 << 20)).toFixed(1) });
 
 /** What the student needs before anything can be handed in: states, starters, the columns of the table. */
 function handouts(question: Question, { slug, seed }: QuestionContext): HTMLElement[] {
@@ -144,8 +157,8 @@ function handouts(question: Question, { slug, seed }: QuestionContext): HTMLElem
       h(
         "div",
         { class: "handed-out" },
-        link(api.statesUrl(slug, question.id, seed), "states.json", seed ? "Your states" : "States"),
-        h("span", { class: "handed-label" }, "Starter:"),
+        link(api.statesUrl(slug, question.id, seed), "states.json", seed ? t("Your states") : t("States")),
+        h("span", { class: "handed-label" }, t("Starter:")),
         link(api.starterUrl(slug, question.id, "python"), "starter.py", "Python"),
         link(api.starterUrl(slug, question.id, "octave"), "starter.m", "MATLAB / Octave"),
         link(api.starterUrl(slug, question.id, "julia"), "starter.jl", "Julia"),
@@ -158,7 +171,7 @@ function handouts(question: Question, { slug, seed }: QuestionContext): HTMLElem
         "dl",
         { class: "columns" },
         h("dt", null, "t"),
-        h("dd", null, "time, s"),
+        h("dd", null, t("time, s")),
         ...question.columns.flatMap((column) => [h("dt", null, column.name), h("dd", null, column.what)]),
       ),
     ];

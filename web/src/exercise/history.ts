@@ -1,10 +1,12 @@
 // All submissions of one student to one lesson, from the server: they survive a reload.
+
 import { api } from "../api/client";
 import type { GradedSubmission, Lesson } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, plural } from "../core/format";
+import { dateTime } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
+import { t } from "../core/texts";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { pointsOf, verdictLine } from "./verdict";
@@ -16,13 +18,13 @@ export interface HistoryList {
 }
 
 export function historyList(lesson: Lesson): HistoryList {
-  const root = h("section", { class: "history", "aria-label": "Your submissions", hidden: true });
+  const root = h("section", { class: "history", "aria-label": t("Your submissions"), hidden: true });
   let verdicts: GradedSubmission[] = [];
 
   const paint = (): void => {
     root.hidden = verdicts.length === 0;
     root.replaceChildren(
-      h("h3", null, `Your submissions (${verdicts.length})`),
+      h("h3", null, t("Your submissions ({verdicts})", { verdicts: verdicts.length })),
       h(
         "ol",
         { class: "history-list", reversed: true },
@@ -52,7 +54,7 @@ export function historyList(lesson: Lesson): HistoryList {
         paint();
       } catch (error) {
         root.hidden = false;
-        root.replaceChildren(h("h3", null, "Your submissions"), problemNotice(error));
+        root.replaceChildren(h("h3", null, t("Your submissions")), problemNotice(error));
       }
     },
     add: (verdict) => {
@@ -75,17 +77,20 @@ function entry(lesson: Lesson, verdict: GradedSubmission): HTMLElement {
         "span",
         { class: `standing ${verdict.passed ? "is-right" : "is-open"}` },
         icon(verdict.passed ? "check" : "dash"),
-        verdict.gradable ? pointsOf(verdict) : "Kept, not judged",
+        verdict.gradable ? pointsOf(verdict) : t("Kept, not judged"),
       ),
       h("time", { datetime: verdict.submitted_at }, dateTime(verdict.submitted_at)),
       h(
         "span",
         { class: "history-right" },
         verdict.earned == null
-          ? `${plural(verdict.questions.length, "question")}`
+          ? `${t("{n} question | {n} questions", { n: verdict.questions.length })}`
           : verdict.gradable
-            ? `${right} of ${plural(verdict.questions.length, "question")} right`
-            : "an answer could not be read; no attempt used",
+            ? t("{right} of {questions} right", {
+                right,
+                questions: t("{n} question | {n} questions", { n: verdict.questions.length }),
+              })
+            : t("an answer could not be read; no attempt used"),
       ),
     ),
   );
@@ -97,7 +102,11 @@ function entry(lesson: Lesson, verdict: GradedSubmission): HTMLElement {
         h(
           "div",
           { class: "history-question" },
-          h("p", { class: "history-label" }, `Question ${places.get(question.id) ?? question.id}`),
+          h(
+            "p",
+            { class: "history-label" },
+            t("Question {place}", { place: places.get(question.id) ?? question.id }),
+          ),
           verdictLine(question),
         ),
       ),
@@ -107,8 +116,10 @@ function entry(lesson: Lesson, verdict: GradedSubmission): HTMLElement {
         h(
           "p",
           { class: "provenance" },
-          `Graded by engine ${verdict.provenance.engine}`,
-          verdict.provenance.lesson_hash ? `, lesson ${verdict.provenance.lesson_hash.slice(0, 12)}` : "",
+          t("Graded by engine {engine}", { engine: verdict.provenance.engine }),
+          verdict.provenance.lesson_hash
+            ? `, ${t("lesson {hash}", { hash: verdict.provenance.lesson_hash.slice(0, 12) })}`
+            : "",
         ),
       );
     }

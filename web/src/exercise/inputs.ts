@@ -3,6 +3,7 @@
 import { api } from "../api/client";
 import type { Answer, Question } from "../api/types";
 import { authored, h } from "../core/dom";
+import { t } from "../core/texts";
 import { diagramInput } from "./diagram";
 import { type Inputs, type QuestionContext, textInput } from "./field";
 import { fileInput } from "./file";
@@ -35,7 +36,7 @@ function unitInput(
   draft: string | undefined,
 ): HTMLInputElement | null {
   if (!question.asks_unit) return null;
-  return textInput(`${place.base}-unit`, "Unit", place.described, draft ?? "", "unit-field");
+  return textInput(`${place.base}-unit`, t("Unit"), place.described, draft ?? "", "unit-field");
 }
 
 /** A unit that is not asked for stands behind the field. */
@@ -47,7 +48,7 @@ function single(question: Question, place: QuestionContext, draft: string[] | un
   const formula = question.kind === "formula";
   const value = textInput(
     `${place.base}-value`,
-    formula ? "Formula" : "Value",
+    formula ? t("Formula") : t("Value"),
     place.described,
     draft?.[0] ?? "",
   );
@@ -70,7 +71,9 @@ function grid(question: Question, place: QuestionContext, draft: string[] | unde
   const axes = question.components ?? Array.from({ length: rows }, (_, k) => String(k + 1));
   const cells = Array.from({ length: rows * columns }, (_, k) => {
     const row = Math.floor(k / columns);
-    const label = matrix ? `row ${row + 1}, column ${(k % columns) + 1}` : `${axes[row]} component`;
+    const label = matrix
+      ? t("row {row}, column {column}", { row: row + 1, column: (k % columns) + 1 })
+      : t("{axis} component", { axis: axes[row] ?? "" });
     const suffix = matrix ? `${row + 1}-${(k % columns) + 1}` : axes[row];
     return textInput(`${place.base}-${suffix}`, label, place.described, draft?.[k] ?? "");
   });
@@ -92,7 +95,7 @@ function grid(question: Question, place: QuestionContext, draft: string[] | unde
           {
             class: "matrix-field",
             role: "group",
-            "aria-label": `${rows} rows, ${columns} columns`,
+            "aria-label": t("{rows} rows, {columns} columns", { rows, columns }),
             style: `--columns:${columns}`,
           },
           ...cells,

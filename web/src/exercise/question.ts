@@ -1,9 +1,10 @@
 // One question as form fields, its hints one at a time, and its verdict.
+
 import { api } from "../api/client";
 import type { Answer, Lesson, Question, QuestionVerdict } from "../api/types";
 import { announce, authored, h } from "../core/dom";
-import { plural } from "../core/format";
 import { setMaths } from "../core/maths";
+import { t } from "../core/texts";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { inputsOf } from "./inputs";
@@ -51,7 +52,7 @@ export function questionField(
       null,
       h("span", { class: "question-number" }, `${number}`),
       authored(h("span", { class: "question-prompt" }), question.prompt_html),
-      h("span", { class: "question-points" }, plural(question.points, "point")),
+      h("span", { class: "question-points" }, t("{n} point | {n} points", { n: question.points })),
     ),
     inputs.root,
     readingLine(lesson.slug, question, inputs),
@@ -98,7 +99,10 @@ function hints(
   const more = h("button", { type: "button", class: "button quiet small" });
   const paint = (): void => {
     const left = question.hints_available - shown;
-    more.replaceChildren(icon("bulb"), shown === 0 ? "Show a hint" : `Another hint (${left} left)`);
+    more.replaceChildren(
+      icon("bulb"),
+      shown === 0 ? t("Show a hint") : t("Another hint ({left} left)", { left }),
+    );
     more.hidden = left <= 0;
   };
   const open = async (aloud: boolean): Promise<void> => {
@@ -109,7 +113,7 @@ function hints(
       const line = authored(h("li"), hint.html);
       list.append(line);
       await setMaths(line);
-      if (aloud) announce(`Hint ${shown}: ${line.textContent ?? ""}`);
+      if (aloud) announce(t("Hint {shown}: {hint}", { shown, hint: line.textContent ?? "" }));
       paint();
       changed();
     } catch (error) {

@@ -3,6 +3,7 @@
 import { api } from "../api/client";
 import type { Question } from "../api/types";
 import { h } from "../core/dom";
+import { t } from "../core/texts";
 import type { Inputs } from "./field";
 
 /** Quiet time after a key, in ms, before the answer is read. */
@@ -27,7 +28,7 @@ export function readingLine(slug: string, question: Question, inputs: Inputs): H
     try {
       const answer = unit ? { value, unit } : { value };
       const understood = await api.reading(slug, question.id, answer, asked.signal);
-      if (understood.text) show(`Read as ${understood.text}`, false);
+      if (understood.text) show(t("Read as {text}", { text: understood.text }), false);
       else show(understood.problem ?? "", true);
     } catch {
       // Without the server nothing can be handed in either, which the page tells elsewhere.

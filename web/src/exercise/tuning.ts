@@ -2,6 +2,7 @@
 
 import type { IntegratorKind, Question } from "../api/types";
 import { h, uid } from "../core/dom";
+import { t } from "../core/texts";
 import { type Inputs, type QuestionContext, textInput } from "./field";
 
 interface TuningSettings {
@@ -10,10 +11,10 @@ interface TuningSettings {
   baumgarte?: [string, string];
 }
 
-const NAMES: Record<string, string> = {
-  dopri5: "Dormand-Prince, order 5",
-  dop853: "Dormand-Prince, order 8",
-  taylor: "Taylor series",
+const NAMES: Record<string, () => string> = {
+  dopri5: () => t("Dormand-Prince, order 5"),
+  dop853: () => t("Dormand-Prince, order 8"),
+  taylor: () => t("Taylor series"),
 };
 
 export function tuningInput(
@@ -26,30 +27,30 @@ export function tuningInput(
   const integrator = h(
     "select",
     { id: `${base}-integrator`, class: "field", "aria-describedby": described },
-    ...offered.integrators.map((kind) => h("option", { value: kind }, NAMES[kind] ?? kind)),
+    ...offered.integrators.map((kind) => h("option", { value: kind }, NAMES[kind]?.() ?? kind)),
   );
   const drafted = offered.integrators.find((kind) => kind === draft?.[0]);
   if (drafted) integrator.value = drafted;
-  const tolerance = textInput(`${base}-tolerance`, "Tolerance", described, draft?.[1] ?? "");
+  const tolerance = textInput(`${base}-tolerance`, t("Tolerance"), described, draft?.[1] ?? "");
   tolerance.placeholder = "1e-6";
   tolerance.inputMode = "text";
   const kind = h(
     "select",
     { id: `${base}-stabilization`, class: "field", "aria-describedby": described },
-    h("option", { value: "projection" }, "Projection"),
+    h("option", { value: "projection" }, t("Projection")),
     h("option", { value: "baumgarte" }, "Baumgarte"),
   );
   kind.value = draft?.[2] === "baumgarte" ? "baumgarte" : "projection";
-  const alpha = textInput(`${base}-alpha`, "Alpha in 1/s", described, draft?.[3] ?? "");
-  const beta = textInput(`${base}-beta`, "Beta in 1/s", described, draft?.[4] ?? "");
+  const alpha = textInput(`${base}-alpha`, t("Alpha in 1/s"), described, draft?.[3] ?? "");
+  const beta = textInput(`${base}-beta`, t("Beta in 1/s"), described, draft?.[4] ?? "");
   const parameters = h("div", { class: "settings" }, labelled("α, 1/s", alpha), labelled("β, 1/s", beta));
   const paint = (): void => {
     parameters.hidden = kind.value !== "baumgarte";
   };
   kind.addEventListener("change", paint);
   paint();
-  const main = [labelled("Integrator", integrator), labelled("Tolerance", tolerance)];
-  if (offered.baumgarte) main.push(labelled("Stabilization", kind));
+  const main = [labelled(t("Integrator"), integrator), labelled(t("Tolerance"), tolerance)];
+  if (offered.baumgarte) main.push(labelled(t("Stabilization"), kind));
   const settings = (): TuningSettings => ({
     integrator: integrator.value as IntegratorKind,
     tolerance: tolerance.value.trim(),

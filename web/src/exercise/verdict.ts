@@ -2,23 +2,25 @@
 
 import type { GradedSubmission, Mark, QuestionVerdict } from "../api/types";
 import { authored, h } from "../core/dom";
-import { plural, points } from "../core/format";
+import { points } from "../core/format";
+import { t } from "../core/texts";
 import { type IconName, icon } from "../ui/icons";
 
-const WORDS: Record<Mark, { word: string; mark: IconName }> = {
-  right: { word: "Right", mark: "check" },
-  wrong: { word: "Not yet", mark: "cross" },
-  blank: { word: "No answer", mark: "dash" },
-  invalid: { word: "Sent back", mark: "warn" },
-  waiting: { word: "Waiting", mark: "dash" },
+const WORDS: Record<Mark, { word: () => string; mark: IconName }> = {
+  right: { word: () => t("Right"), mark: "check" },
+  wrong: { word: () => t("Not yet"), mark: "cross" },
+  blank: { word: () => t("No answer"), mark: "dash" },
+  invalid: { word: () => t("Sent back"), mark: "warn" },
+  waiting: { word: () => t("Waiting"), mark: "dash" },
 };
 
 /** What is kept and judged, and not told yet. */
-const HELD: { word: string; mark: IconName } = { word: "Handed in", mark: "dash" };
+const HELD: { word: () => string; mark: IconName } = { word: () => t("Handed in"), mark: "dash" };
 
+/** What the heading says already, in the words of the server. */
 const SAID = new Set(["Right.", "Not right.", "Not answered."]);
-const UNKNOWN_MISTAKE =
-  "This mistake is not one that we know. Go through your steps once more, or open a hint.";
+const unknownMistake = (): string =>
+  t("This mistake is not one that we know. Go through your steps once more, or open a hint.");
 
 export function verdictLine(result: QuestionVerdict): HTMLElement {
   const { word, mark } = result.verdict ? (WORDS[result.verdict] ?? WORDS.invalid) : HELD;
@@ -27,7 +29,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   const first = text.firstElementChild;
   if (first && SAID.has(first.textContent ?? "")) first.remove();
   if (result.verdict === "wrong" && result.message_html != null && !text.textContent)
-    text.append(h("p", null, UNKNOWN_MISTAKE));
+    text.append(h("p", null, unknownMistake()));
   return h(
     "div",
     { class: `verdict is-${result.verdict ?? "waiting"}` },
@@ -35,13 +37,16 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
       "p",
       { class: "verdict-head" },
       icon(mark),
-      h("strong", null, word),
+      h("strong", null, word()),
       result.earned == null
         ? null
         : h(
             "span",
             { class: "verdict-points" },
-            `${points(result.earned)} of ${points(result.possible)} points`,
+            t("{earned} of {possible} points", {
+              earned: points(result.earned),
+              possible: points(result.possible),
+            }),
           ),
     ),
     text.textContent ? text : null,
@@ -50,7 +55,7 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
       ? h(
           "details",
           { class: "reference" },
-          h("summary", null, "The reference answer"),
+          h("summary", null, t("The reference answer")),
           authored(h("div", { class: "verdict-text" }), result.reference_html),
         )
       : null,
@@ -64,9 +69,20 @@ function standingLine({ standing, possible }: QuestionVerdict): HTMLElement | nu
   const { attempts, best, open, left } = standing;
   if (open && best >= possible) return null;
   const text = open
-    ? `The right answer is open. Your points for this question stay at ${points(best)} of ${points(possible)}.`
+    ? t("The right answer is open. Your points for this question stay at {best} of {possible}.", {
+        best: points(best),
+        possible: points(possible),
+      })
     : left != null && attempts > 0
-      ? `${plural(attempts, "different answer")} so far. After ${left} more the right answer is shown, and your points stay at the best before it: ${points(best)} of ${points(possible)}.`
+      ? t(
+          "{answers} so far. After {left} more the right answer is shown, and your points stay at the best before it: {best} of {possible}.",
+          {
+            answers: t("{n} different answer | {n} different answers", { n: attempts }),
+            left,
+            best: points(best),
+            possible: points(possible),
+          },
+        )
       : null;
   return text ? h("p", { class: `standing-line ${open ? "is-open" : ""}` }, text) : null;
 }
@@ -74,8 +90,11 @@ function standingLine({ standing, possible }: QuestionVerdict): HTMLElement | nu
 /** The points of a verdict in words, or that they are told later. */
 export function pointsOf(verdict: GradedSubmission): string {
   return verdict.earned == null
-    ? "Results are told later"
-    : `${points(verdict.earned)} of ${points(verdict.possible)} points`;
+    ? t("Results are told later")
+    : t("{earned} of {possible} points", {
+        earned: points(verdict.earned),
+        possible: points(verdict.possible),
+      });
 }
 
 export function verdictSummary(verdict: GradedSubmission): HTMLElement {
@@ -84,23 +103,30 @@ export function verdictSummary(verdict: GradedSubmission): HTMLElement {
     ? [
         "is-invalid",
         "warn",
-        "Not counted yet",
-        "An answer was sent back, so nothing is judged and no attempt is used. Put it right and check again.",
+        t("Not counted yet"),
+        t(
+          "An answer was sent back, so nothing is judged and no attempt is used. Put it right and check again.",
+        ),
       ]
     : verdict.earned == null
-      ? ["is-held", "check", "Handed in", "It is kept and judged. Your teacher tells the results later."]
+      ? [
+          "is-held",
+          "check",
+          t("Handed in"),
+          t("It is kept and judged. Your teacher tells the results later."),
+        ]
       : verdict.passed
         ? [
             "is-right",
             "check",
-            `Passed: ${score}`,
-            "The result is stored. You can still change an answer and check again.",
+            t("Passed: {score}", { score }),
+            t("The result is stored. You can still change an answer and check again."),
           ]
         : [
             "is-wrong",
             "dash",
-            `${score} so far`,
-            "Read the remarks at the questions, change what needs it, and check again.",
+            t("{score} so far", { score }),
+            t("Read the remarks at the questions, change what needs it, and check again."),
           ];
   return h(
     "div",

@@ -1,5 +1,7 @@
 // The built-in scenes in groups, and the ten that show what there is.
+
 import type { SceneEntry } from "../api/types";
+import { t } from "../core/texts";
 
 /** A family of scenes takes a number in place of N. */
 const FAMILY = /^(.+):N$/;
@@ -7,11 +9,14 @@ const FAMILY = /^(.+):N$/;
 const FAMILY_START = "2";
 
 /** The groups of the list, each with its scenes; what is in none stands last. */
-const GROUPS: [title: string, names: string[]][] = [
-  ["Linkages and loops", ["crank-rocker", "rssr", "spatial-slider-crank", "bricard", "n-four-bar:N"]],
-  ["Pendulums and chains", ["simple-pendulum", "spatial-double-pendulum", "spatial-chain:N"]],
-  ["Bodies that turn and fly", ["heavy-top", "free-body", "free-body-flip", "free-fall"]],
-  ["Machines, and other readings of the printed data", []],
+const GROUPS: [title: () => string, names: string[]][] = [
+  [
+    () => t("Linkages and loops"),
+    ["crank-rocker", "rssr", "spatial-slider-crank", "bricard", "n-four-bar:N"],
+  ],
+  [() => t("Pendulums and chains"), ["simple-pendulum", "spatial-double-pendulum", "spatial-chain:N"]],
+  [() => t("Bodies that turn and fly"), ["heavy-top", "free-body", "free-body-flip", "free-fall"]],
+  [() => t("Machines, and other readings of the printed data"), []],
 ];
 /** Ten that show what there is. */
 const CHOSEN = [
@@ -49,7 +54,7 @@ export const chosen = (scenes: SceneEntry[]): SceneEntry[] =>
 export function grouped(scenes: SceneEntry[]): [title: string, scenes: SceneEntry[]][] {
   const named = new Set(GROUPS.flatMap(([, names]) => names));
   return GROUPS.map(([title, names]): [string, SceneEntry[]] => [
-    title,
+    title(),
     names.length > 0
       ? names.flatMap((name) => scenes.find((scene) => scene.name === name) ?? [])
       : scenes.filter((scene) => !named.has(scene.name)),

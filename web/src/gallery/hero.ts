@@ -1,6 +1,8 @@
 // The mechanism on the first page: a recorded run that plays; a session begins when somebody opens it.
+
 import { api } from "../api/client";
 import { h } from "../core/dom";
+import { parts, t } from "../core/texts";
 import { onTheme } from "../core/theme";
 import { Player } from "../player/player";
 
@@ -16,9 +18,9 @@ export function heroPicture(signal: AbortSignal): { root: HTMLElement; dispose: 
     h(
       "figcaption",
       null,
-      "A crank drives a rocker in space. ",
-      h("a", { href: `/scenes/${SCENE}` }, "Take it in hand"),
-      ": its numbers, its forces, its Jacobian.",
+      ...parts("A crank drives a rocker in space. {link}: its numbers, its forces, its Jacobian.", {
+        link: h("a", { href: `/scenes/${SCENE}` }, t("Take it in hand")),
+      }),
     ),
   );
   let player: Player | undefined;

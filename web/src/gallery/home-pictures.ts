@@ -1,7 +1,9 @@
 // What moves on the first page, fetched when its text can be read: the mechanism at the top, pictures of lessons, ten scenes.
+
 import { api } from "../api/client";
 import type { Motion } from "../api/types";
 import { authored, h } from "../core/dom";
+import { t } from "../core/texts";
 import { onTheme } from "../core/theme";
 import { thumbnail } from "../player/thumbnail";
 import { cards } from "./cards";
@@ -43,8 +45,8 @@ export async function homePictures(
       h(
         "div",
         { class: "section-head" },
-        h("h2", null, "Ten mechanisms to watch"),
-        h("p", null, h("a", { href: "/scenes" }, "All scenes, and your own")),
+        h("h2", null, t("Ten mechanisms to watch")),
+        h("p", null, h("a", { href: "/scenes" }, t("All scenes, and your own"))),
       ),
       cards(chosen(scenes), all.scenes, "h3", kept),
     );

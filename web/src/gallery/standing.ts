@@ -1,8 +1,10 @@
 // How far somebody is with a lesson: not begun, begun, to mend, passed.
+
 import type { GradedSubmission } from "../api/types";
 import { h } from "../core/dom";
 import { points } from "../core/format";
 import { recallsAny } from "../core/prefs";
+import { t } from "../core/texts";
 import { icon } from "../ui/icons";
 
 export type Standing =
@@ -31,15 +33,27 @@ export const begun = (slug: string): boolean => recallsAny(`draft:${slug}`, `sai
 export function standingLabel(standing: Standing): HTMLElement {
   switch (standing.is) {
     case "new":
-      return h("span", { class: "standing" }, "Not begun");
+      return h("span", { class: "standing" }, t("Not begun"));
     case "begun":
-      return h("span", { class: "standing is-begun" }, icon("dash"), "Begun");
+      return h("span", { class: "standing is-begun" }, icon("dash"), t("Begun"));
     case "mend":
-      return h("span", { class: "standing is-open" }, icon("reset"), `To mend${score(standing)}`);
+      return h(
+        "span",
+        { class: "standing is-open" },
+        icon("reset"),
+        t("To mend{score}", { score: score(standing) }),
+      );
     case "passed":
-      return h("span", { class: "standing is-right" }, icon("check"), `Passed${score(standing)}`);
+      return h(
+        "span",
+        { class: "standing is-right" },
+        icon("check"),
+        t("Passed{score}", { score: score(standing) }),
+      );
   }
 }
 
 const score = ({ earned, possible }: { earned: number | undefined; possible: number }): string =>
-  earned === undefined ? "" : `, ${points(earned)} of ${points(possible)}`;
+  earned === undefined
+    ? ""
+    : `, ${t("{earned} of {possible}", { earned: points(earned), possible: points(possible) })}`;

@@ -3,6 +3,7 @@
 import type { Vec3 } from "../api/types";
 import { h } from "../core/dom";
 import { fixed } from "../core/format";
+import { t } from "../core/texts";
 import { norm } from "../mechanics/vec";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
@@ -16,7 +17,7 @@ export function bodiesTab(session: Session): Panel {
     number: true,
     ...(unit ? { unit } : {}),
   });
-  const places = liveTable("Centre of mass and its velocity, in the world frame", "Body", [
+  const places = liveTable(t("Centre of mass and its velocity, in the world frame"), t("Body"), [
     column("x", "m"),
     column("y", "m"),
     column("z", "m"),
@@ -25,13 +26,13 @@ export function bodiesTab(session: Session): Panel {
     column("vz", "m/s"),
     column("speed", "m/s"),
   ]);
-  const turns = liveTable("Angular velocity, in the world frame", "Body", [
+  const turns = liveTable(t("Angular velocity, in the world frame"), t("Body"), [
     column("ωx", "rad/s"),
     column("ωy", "rad/s"),
     column("ωz", "rad/s"),
     column("|ω|", "rad/s"),
   ]);
-  const axes = liveTable("Principal axes u, v, w of each body, in the world frame", "Axis", [
+  const axes = liveTable(t("Principal axes u, v, w of each body, in the world frame"), t("Axis"), [
     column("x"),
     column("y"),
     column("z"),

@@ -1,6 +1,8 @@
 // The run in numbers, below its picture: parameters, state, matrices, reactions, bodies, plots, analyses.
+
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { tabs } from "../ui/tabs";
@@ -30,15 +32,15 @@ export function inspector(
   };
   const panel = (key: string): HTMLElement => h("div", null, made[key]?.root);
   const bar = tabs(
-    "Inspector",
+    t("Inspector"),
     [
-      { key: "parameters", label: "Parameters", panel: panel("parameters") },
-      { key: "state", label: "State", panel: panel("state") },
-      { key: "jacobian", label: "Jacobian", panel: panel("jacobian") },
-      { key: "multipliers", label: "Reactions", panel: panel("multipliers") },
-      { key: "bodies", label: "Bodies", panel: panel("bodies") },
-      { key: "plots", label: "Plots", panel: panel("plots") },
-      { key: "analyses", label: "Analyses", panel: panel("analyses") },
+      { key: "parameters", label: t("Parameters"), panel: panel("parameters") },
+      { key: "state", label: t("State"), panel: panel("state") },
+      { key: "jacobian", label: t("Jacobian"), panel: panel("jacobian") },
+      { key: "multipliers", label: t("Reactions"), panel: panel("multipliers") },
+      { key: "bodies", label: t("Bodies"), panel: panel("bodies") },
+      { key: "plots", label: t("Plots"), panel: panel("plots") },
+      { key: "analyses", label: t("Analyses"), panel: panel("analyses") },
     ].filter((tab) => session.controls || !PRESENTER_ONLY.has(tab.key)),
     wantedPanel ?? recall("tab:inspector"),
     (key) => {
@@ -67,7 +69,7 @@ export function inspector(
     );
   });
   return {
-    root: h("section", { class: "inspector", "aria-label": "Inspector" }, bar.root),
+    root: h("section", { class: "inspector", "aria-label": t("Inspector") }, bar.root),
     current: bar.current,
     select: (key) => (made[key] && bar.current() !== key ? bar.select(key) : undefined),
   };

@@ -1,8 +1,10 @@
 // The state that is shown: time, energy, constraint violation, work of the integrator, coordinates.
+
 import { api } from "../api/client";
 import type { Accuracy, SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
 import { fixed, num, sci, seconds } from "../core/format";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { liveTable } from "../ui/table";
@@ -23,77 +25,82 @@ function figure(label: string, about: string): Figure {
 /** About how far the numbers of a state may be off. */
 function within(state: SessionState, what: keyof Accuracy, unit: string): string {
   const error = state.accuracy?.[what];
-  if (typeof error === "number") return `about ${sci(error, 1)} ${unit}`;
+  if (typeof error === "number") return t("about {error} {unit}", { error: sci(error, 1), unit });
   const lost = state.error_unknown_from;
-  return typeof lost === "number" && !state.accuracy ? `unknown from ${seconds(lost)}` : "–";
+  return typeof lost === "number" && !state.accuracy
+    ? t("unknown from {lost}", { lost: seconds(lost) })
+    : "–";
 }
 
 /** The figures of a state, and how each is written. */
-const FIGURES: { label: string; about: string; of: (state: SessionState) => string }[] = [
-  { label: "Time", about: "Simulated time", of: (state) => seconds(state.time) },
+const FIGURES: { label: () => string; about: () => string; of: (state: SessionState) => string }[] = [
+  { label: () => t("Time"), about: () => t("Simulated time"), of: (state) => seconds(state.time) },
   {
-    label: "Energy",
-    about: "Kinetic and potential energy together",
+    label: () => t("Energy"),
+    about: () => t("Kinetic and potential energy together"),
     of: (state) => `${num(state.energy, 7)} J`,
   },
   {
-    label: "Energy drift",
-    about: "Change of the energy since the start: it should stay near zero where nothing is lost",
+    label: () => t("Energy drift"),
+    about: () => t("Change of the energy since the start: it should stay near zero where nothing is lost"),
     of: (state) => `${sci(state.energy_drift)} J`,
   },
   {
-    label: "Positions right to",
-    about:
-      "Estimated error of all positions so far, of the method and its rounding; that of the model is not in it",
+    label: () => t("Positions right to"),
+    about: () =>
+      t(
+        "Estimated error of all positions so far, of the method and its rounding; that of the model is not in it",
+      ),
     of: (state) => within(state, "position", "m"),
   },
   {
-    label: "Velocities right to",
-    about: "Estimated error of all velocities so far",
+    label: () => t("Velocities right to"),
+    about: () => t("Estimated error of all velocities so far"),
     of: (state) => within(state, "velocity", "m/s"),
   },
   {
-    label: "Forces right to",
-    about: "Estimated error of the forces of joints and drivers",
+    label: () => t("Forces right to"),
+    about: () => t("Estimated error of the forces of joints and drivers"),
     of: (state) => within(state, "force", "N"),
   },
   {
-    label: "Violation |Φ|",
-    about: "How far the positions are from meeting the constraints",
+    label: () => t("Violation |Φ|"),
+    about: () => t("How far the positions are from meeting the constraints"),
     of: (state) => sci(state.position_violation),
   },
   {
-    label: "Its rate |dΦ/dt|",
-    about: "How far the velocities are from meeting the constraints",
+    label: () => t("Its rate |dΦ/dt|"),
+    about: () => t("How far the velocities are from meeting the constraints"),
     of: (state) => sci(state.velocity_violation),
   },
   {
-    label: "Steps",
-    about: "Accepted steps of the integrator, and rejected ones",
-    of: ({ steps, rejected }) => (rejected > 0 ? `${steps} (+ ${rejected} rejected)` : String(steps)),
+    label: () => t("Steps"),
+    about: () => t("Accepted steps of the integrator, and rejected ones"),
+    of: ({ steps, rejected }) =>
+      rejected > 0 ? t("{steps} (+ {rejected} rejected)", { steps, rejected }) : String(steps),
   },
   {
-    label: "Evaluations",
-    about: "How often the accelerations were computed",
+    label: () => t("Evaluations"),
+    about: () => t("How often the accelerations were computed"),
     of: (state) => String(state.evaluations),
   },
   {
-    label: "Factorizations",
-    about: "How often a matrix was factorized",
+    label: () => t("Factorizations"),
+    about: () => t("How often a matrix was factorized"),
     of: (state) => String(state.factorizations),
   },
 ];
 
 export class StateTab implements Panel {
   readonly root: HTMLElement;
-  private readonly figures = FIGURES.map(({ label, about }) => figure(label, about));
+  private readonly figures = FIGURES.map(({ label, about }) => figure(label(), about()));
   private readonly notes = h("ul", {
     class: "notes",
-    "aria-label": "Notes of the engine about this scene",
+    "aria-label": t("Notes of the engine about this scene"),
   });
-  private readonly table = liveTable("Coordinates q and their rates", "Coordinate", [
+  private readonly table = liveTable(t("Coordinates q and their rates"), t("Coordinate"), [
     { label: "q", number: true },
-    { label: "dq/dt", unit: "per s", number: true },
+    { label: "dq/dt", unit: t("per s"), number: true },
   ]);
   private readonly more = h("button", {
     type: "button",
@@ -136,7 +143,7 @@ export class StateTab implements Panel {
       })),
     );
     this.more.hidden = shown >= q.length;
-    setText(this.more, `Show all ${q.length} coordinates`);
+    setText(this.more, t("Show all {q} coordinates", { q: q.length }));
   }
 
   private showAll(): void {

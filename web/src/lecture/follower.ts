@@ -1,7 +1,9 @@
 // The session of a follower: it mirrors the presenter's run, until the follower looks around alone.
+
 import { ApiError, api } from "../api/client";
 import type { LectureState, SessionState } from "../api/types";
 import { announce } from "../core/dom";
+import { t } from "../core/texts";
 import { Session } from "../session/session";
 import { applyView } from "../session/share";
 import { parseView } from "../session/shared-view";
@@ -32,7 +34,7 @@ export class Follower extends Session {
   roam(): void {
     if (this.roaming) return;
     this.roaming = true;
-    announce("You look around on your own. The lecture goes on; come back whenever you like.");
+    announce(t("You look around on your own. The lecture goes on; come back whenever you like."));
     this.emit("lecture");
   }
 
@@ -43,7 +45,7 @@ export class Follower extends Session {
     this.mirror();
     this.emit("lecture");
     this.emit("shown");
-    announce("You see what the presenter shows.");
+    announce(t("You see what the presenter shows."));
   }
 
   protected override read(message: { type?: string }): void {

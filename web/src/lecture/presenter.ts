@@ -1,7 +1,9 @@
 // A presenter's panel: opens a lecture for the run of this page, sends what is looked at, asks and reveals.
+
 import { ApiError, api } from "../api/client";
 import type { Tally } from "../api/types";
 import { announce, h, setText } from "../core/dom";
+import { parts, t } from "../core/texts";
 import type { Session } from "../session/session";
 import type { SharedView } from "../session/shared-view";
 import { dialog } from "../ui/dialog";
@@ -50,20 +52,24 @@ export class PresenterPanel {
     {
       type: "button",
       class: "button quiet small icon-only",
-      "aria-label": "Lecture: let others follow this run",
-      title: "Lecture: let others follow this run",
+      "aria-label": t("Lecture: let others follow this run"),
+      title: t("Lecture: let others follow this run"),
       onclick: () => void this.open(),
     },
     icon("lecture"),
   );
   readonly root: HTMLElement;
   private readonly code = h("b", { class: "presenter-code" });
-  private readonly followers = h("span", { class: "presenter-count", role: "status" }, "nobody follows yet");
+  private readonly followers = h(
+    "span",
+    { class: "presenter-count", role: "status" },
+    t("nobody follows yet"),
+  );
   private readonly result = h("div", { class: "presenter-result" });
   private readonly prepared = h("div");
   private readonly trouble = h("div", { "aria-live": "polite" });
-  private readonly revealButton = action("Reveal", "button primary", () => void this.reveal());
-  private readonly withdrawButton = action("Take it away", "button", () => void this.withdraw());
+  private readonly revealButton = action(t("Reveal"), "button primary", () => void this.reveal());
+  private readonly withdrawButton = action(t("Take it away"), "button", () => void this.withdraw());
   private readonly undo: (() => void)[];
 
   private lecture = stored();
@@ -102,19 +108,19 @@ export class PresenterPanel {
   private layout(): HTMLElement {
     return h(
       "section",
-      { class: "presenter", "aria-label": "Lecture", hidden: true },
+      { class: "presenter", "aria-label": t("Lecture"), hidden: true },
       h(
         "div",
         { class: "row wrap between" },
-        h("p", { class: "row wrap" }, h("span", null, "Lecture room "), this.code, this.followers),
+        h("p", { class: "row wrap" }, h("span", null, t("Lecture room")), " ", this.code, this.followers),
         h(
           "span",
           { class: "row wrap tight" },
-          action("How to join", "button", () => this.lecture && void invite(this.lecture)),
-          action("Ask a question", "button", () => this.ask()),
+          action(t("How to join"), "button", () => this.lecture && void invite(this.lecture)),
+          action(t("Ask a question"), "button", () => this.ask()),
           this.revealButton,
           this.withdrawButton,
-          action("End the lecture", "button quiet", () => void this.end()),
+          action(t("End the lecture"), "button quiet", () => void this.end()),
         ),
       ),
       this.prepared,
@@ -147,7 +153,7 @@ export class PresenterPanel {
       this.sentView = "";
       this.shownSession = id;
       this.paint();
-      announce(`The lecture room ${opened.code} is open.`);
+      announce(t("The lecture room {code} is open.", { code: opened.code }));
       this.send();
       await invite(this.lecture);
     } catch (error) {
@@ -160,7 +166,7 @@ export class PresenterPanel {
     return this.attempt(async ({ code, key }) => {
       await api.closeLecture(code, key);
       this.forget();
-      announce("The lecture is over.");
+      announce(t("The lecture is over."));
     });
   }
 
@@ -228,8 +234,10 @@ export class PresenterPanel {
   private poll(): Promise<void> {
     return this.attempt(async ({ code, key }) => {
       const { followers, tally } = await api.presenterState(code, key);
-      const verb = followers === 1 ? "follows" : "follow";
-      setText(this.followers, followers === 0 ? "nobody follows yet" : `${followers} ${verb}`);
+      setText(
+        this.followers,
+        followers === 0 ? t("nobody follows yet") : t("{n} follows | {n} follow", { n: followers }),
+      );
       this.showTally(tally, followers);
     });
   }
@@ -241,9 +249,10 @@ export class PresenterPanel {
       this.result.replaceChildren();
       return;
     }
-    const choices = this.question?.choices ?? tally.counts.map((_, k) => `choice ${k + 1}`);
+    const choices =
+      this.question?.choices ?? tally.counts.map((_, k) => t("choice {number}", { number: k + 1 }));
     this.result.replaceChildren(
-      h("p", { class: "presenter-question" }, this.question?.text ?? "The question that is asked"),
+      h("p", { class: "presenter-question" }, this.question?.text ?? t("The question that is asked")),
       // This page is what the projector shows: how the answers stand would sway those who have not answered.
       tally.revealed ? histogram(choices, tally) : answered(tally, followers),
     );
@@ -255,7 +264,10 @@ function answered({ counts }: Tally, followers: number): HTMLElement {
   return h(
     "p",
     { role: "status" },
-    `${count} of ${Math.max(count, followers)} have answered. How they stand is seen when it is revealed.`,
+    t("{count} of {all} have answered. How they stand is seen when it is revealed.", {
+      count,
+      all: Math.max(count, followers),
+    }),
   );
 }
 
@@ -269,7 +281,7 @@ async function invite(lecture: OwnLecture): Promise<void> {
   const address = new URL(`/room/${lecture.code}`, location.href).href;
   const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
   const box = dialog(
-    "Join this lecture",
+    t("Join this lecture"),
     h(
       "div",
       { class: "invite" },
@@ -280,17 +292,18 @@ async function invite(lecture: OwnLecture): Promise<void> {
         h(
           "p",
           null,
-          "Open ",
-          h("b", null, new URL("/room", location.href).href.replace(/^https?:\/\//, "")),
-          " and type",
+          ...parts("Open {address} and type", {
+            address: h("b", null, new URL("/room", location.href).href.replace(/^https?:\/\//, "")),
+          }),
         ),
         h("p", { class: "invite-code" }, lecture.code),
         here
           ? h(
               "p",
               { class: "notice is-note" },
-              "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” " +
-                "and open the page at this computer’s address in the network.",
+              t(
+                "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.",
+              ),
             )
           : null,
       ),

@@ -1,6 +1,8 @@
 // An address as a QR picture, dark on light in every theme: phones want it so.
+
 import { encode } from "uqr";
 import { svg } from "../core/dom";
+import { t } from "../core/texts";
 
 export function qr(text: string): SVGSVGElement {
   const code = encode(text, { ecc: "M", border: 2 });
@@ -11,7 +13,7 @@ export function qr(text: string): SVGSVGElement {
       viewBox: `0 0 ${code.size} ${code.size}`,
       class: "qr",
       role: "img",
-      "aria-label": `QR code of ${text}`,
+      "aria-label": t("QR code of {text}", { text }),
       "shape-rendering": "crispEdges",
     },
     svg("rect", { width: code.size, height: code.size, fill: "#fff" }),

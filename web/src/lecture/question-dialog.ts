@@ -1,5 +1,7 @@
 // The dialog in which a presenter writes a question for everybody.
+
 import { h } from "../core/dom";
+import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
 
@@ -17,29 +19,35 @@ export function questionDialog(
     class: "field",
     id: "ask-text",
     maxlength: "400",
-    value: joint ? `Which sign does Fx of ${joint} have at this moment?` : "What happens next?",
+    value: joint
+      ? t("Which sign does Fx of {joint} have at this moment?", { joint })
+      : t("What happens next?"),
   });
-  const choices = h("textarea", { class: "field", id: "ask-choices", rows: "4" }, "positive\nnegative\nzero");
+  const choices = h(
+    "textarea",
+    { class: "field", id: "ask-choices", rows: "4" },
+    t("positive\nnegative\nzero"),
+  );
   const right = h("input", {
     class: "field compact",
     id: "ask-right",
     inputmode: "numeric",
-    placeholder: "none",
+    placeholder: t("none"),
   });
   const wrong = h("div");
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "ask-text" }, "Question"),
+    h("label", { for: "ask-text" }, t("Question")),
     text,
-    h("label", { for: "ask-choices" }, "Choices, one a line"),
+    h("label", { for: "ask-choices" }, t("Choices, one a line")),
     choices,
-    h("label", { for: "ask-right" }, "Number of the right choice, shown at the reveal"),
+    h("label", { for: "ask-right" }, t("Number of the right choice, shown at the reveal")),
     right,
     wrong,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Ask")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Ask"))),
   );
-  const box = dialog("Ask everybody", form);
+  const box = dialog(t("Ask everybody"), form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const lines = choices.value.split("\n").map((line) => line.trim());

@@ -1,7 +1,9 @@
 // Prepared states as slides: what a link would carry, kept in this browser for the page, gone through by a clicker's keys.
+
 import { announce, h, setText } from "../core/dom";
 import { bind } from "../core/keys";
 import { recall, remember } from "../core/prefs";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { restore } from "../session/share";
 import type { SharedView } from "../session/shared-view";
@@ -27,21 +29,26 @@ export class Slides {
       h("button", { type: "button", class: "button small", onclick: run }, label);
     this.root = h(
       "div",
-      { class: "row wrap tight", role: "group", "aria-label": "Slides" },
-      h("span", null, "Slides"),
+      { class: "row wrap tight", role: "group", "aria-label": t("Slides") },
+      h("span", null, t("Slides")),
       this.place,
-      press("Keep this state", () => this.keep()),
-      press("Back", () => void this.go(-1)),
-      press("Next", () => void this.go(1)),
-      press("Forget this slide", () => this.forget()),
-      press("Blank", () => this.blank()),
+      press(t("Keep this state"), () => this.keep()),
+      press(t("Back"), () => void this.go(-1)),
+      press(t("Next"), () => void this.go(1)),
+      press(t("Forget this slide"), () => this.forget()),
+      press(t("Blank"), () => this.blank()),
     );
     this.curtain.addEventListener("click", () => this.blank());
     document.body.append(this.curtain);
     this.undo = bind([
-      { keys: ["PageDown"], shown: "PageDown", does: "Lecture: next slide", run: () => void this.go(1) },
-      { keys: ["PageUp"], shown: "PageUp", does: "Lecture: slide before", run: () => void this.go(-1) },
-      { keys: ["b", "B"], shown: "B", does: "Lecture: blank the screen, and back", run: () => this.blank() },
+      { keys: ["PageDown"], shown: "PageDown", does: t("Lecture: next slide"), run: () => void this.go(1) },
+      { keys: ["PageUp"], shown: "PageUp", does: t("Lecture: slide before"), run: () => void this.go(-1) },
+      {
+        keys: ["b", "B"],
+        shown: "B",
+        does: t("Lecture: blank the screen, and back"),
+        run: () => this.blank(),
+      },
     ]);
     this.paint();
   }
@@ -71,18 +78,18 @@ export class Slides {
     if (!slide) return;
     this.at = at;
     this.paint();
-    announce(`Slide ${at + 1} of ${this.slides.length}.`);
+    announce(t("Slide {at} of {slides}.", { at: at + 1, slides: this.slides.length }));
     try {
       await this.session.change(slide.numbers ?? { values: {}, places: {} });
       await restore(this.session, slide);
     } catch {
-      announce("This slide belongs to another mechanism: its numbers do not fit.");
+      announce(t("This slide belongs to another mechanism: its numbers do not fit."));
     }
   }
 
   private blank(): void {
     this.curtain.hidden = !this.curtain.hidden;
-    announce(this.curtain.hidden ? "The screen is back." : "The screen is blank; B brings it back.");
+    announce(this.curtain.hidden ? t("The screen is back.") : t("The screen is blank; B brings it back."));
   }
 
   private save(): void {
@@ -92,6 +99,11 @@ export class Slides {
 
   private paint(): void {
     const { at, slides } = this;
-    setText(this.place, slides.length === 0 ? "none yet" : `${at < 0 ? "–" : at + 1} of ${slides.length}`);
+    setText(
+      this.place,
+      slides.length === 0
+        ? t("none yet")
+        : t("{at} of {slides}", { at: at < 0 ? "–" : at + 1, slides: slides.length }),
+    );
   }
 }

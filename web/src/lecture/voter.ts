@@ -1,9 +1,10 @@
 // A question to all followers: how one of them answers it, and how everybody sees the result.
+
 import { api } from "../api/client";
 import type { LectureQuestion, Tally } from "../api/types";
 import { h } from "../core/dom";
-import { plural } from "../core/format";
 import { recall, remember } from "../core/prefs";
+import { t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 
 /** A random name, kept in the browser: a second answer replaces the first and is not counted twice. */
@@ -23,7 +24,7 @@ export function ballot(code: string): {
   const root = h("section", {
     class: "ballot",
     hidden: true,
-    "aria-label": "Question",
+    "aria-label": t("Question"),
     "aria-live": "polite",
   });
   let shown = "";
@@ -46,7 +47,7 @@ export function ballot(code: string): {
     const said = h(
       "p",
       { class: "help", role: "status" },
-      "Your answer can be changed until the result is shown.",
+      t("Your answer can be changed until the result is shown."),
     );
     const buttons = question.choices.map((choice, k) =>
       h(
@@ -62,7 +63,9 @@ export function ballot(code: string): {
                 chosen = k;
                 for (const [at, button] of buttons.entries())
                   button.setAttribute("aria-pressed", String(at === k));
-                said.textContent = `Counted: ${choice}. It can be changed until the result is shown.`;
+                said.textContent = t("Counted: {choice}. It can be changed until the result is shown.", {
+                  choice,
+                });
               })
               .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
           },
@@ -80,14 +83,14 @@ export function histogram(
   choices: string[],
   tally: Pick<Tally, "counts" | "right" | "revealed">,
   mine?: number,
-  what = "answer",
+  counted = (n: number): string => t("{n} answer | {n} answers", { n }),
 ): HTMLElement {
   const all = tally.counts.reduce((sum, count) => sum + count, 0);
   const most = Math.max(1, ...tally.counts);
   return h(
     "table",
     { class: "histogram" },
-    h("caption", null, plural(all, what)),
+    h("caption", null, counted(all)),
     h(
       "tbody",
       null,
@@ -101,8 +104,8 @@ export function histogram(
             "th",
             { scope: "row" },
             choice,
-            right ? h("span", { class: "mark" }, " right") : null,
-            mine === k ? h("span", { class: "mark" }, " yours") : null,
+            right ? h("span", { class: "mark" }, " ", t("right")) : null,
+            mine === k ? h("span", { class: "mark" }, " ", t("yours")) : null,
           ),
           h(
             "td",

@@ -1,5 +1,7 @@
 // Which forces are drawn, and how long: one scale for the whole scene, from the recording, never from one frame.
+
 import type { JointForce, SessionState, Vec3 } from "../api/types";
+import { t } from "../core/texts";
 import { add, cross, norm, scale, sub } from "./vec";
 
 /** Nothing, the selected joint, every joint, or one body cut free. */
@@ -81,7 +83,7 @@ export function freeBody(state: SessionState, name: string): FreeBody {
   const rest = sub(inertia, known);
   const largest = Math.max(norm(inertia), ...list.map((arrow) => norm(arrow.force)), 1e-12);
   if (norm(rest) > 1e-6 * largest)
-    list.push({ label: "loads together", kind: "load", at: body.position, force: rest, moment: null });
+    list.push({ label: t("loads together"), kind: "load", at: body.position, force: rest, moment: null });
   return { arrows: list, sum: list.reduce<Vec3>((sum, arrow) => add(sum, arrow.force), [0, 0, 0]), inertia };
 }
 

@@ -1,8 +1,10 @@
 // A recorded run in a frame of somebody else's page: slides, a course in a learning management system. It has no session and
 // asks for nothing but the motion; links leave the frame.
+
 import { ApiError, api } from "../api/client";
 import { h } from "../core/dom";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import { onTheme } from "../core/theme";
 import { Player } from "../player/player";
 import { wishOf } from "../player/wish";
@@ -31,7 +33,7 @@ export function embedPage(outlet: HTMLElement, params: string[]): Page {
           h(
             "a",
             { href: `/${kind}/${encodeURIComponent(name)}`, target: "_blank", rel: "noopener" },
-            "Open in Triad",
+            t("Open in Triad"),
           ),
         ),
       );
@@ -39,7 +41,11 @@ export function embedPage(outlet: HTMLElement, params: string[]): Page {
     .catch((error: unknown) => {
       const said = error instanceof ApiError ? error.problem : undefined;
       root.append(
-        h("p", { class: "embed-foot" }, said?.detail ?? said?.title ?? "The mechanism could not be loaded."),
+        h(
+          "p",
+          { class: "embed-foot" },
+          said?.detail ?? said?.title ?? t("The mechanism could not be loaded."),
+        ),
       );
     });
   return {

@@ -1,11 +1,12 @@
 // The list of lessons in their parts, with how far one has come, under a mechanism that moves.
+
 import { api } from "../api/client";
 import type { LessonSummary } from "../api/types";
 import { addressOf } from "../core/address";
 import { h } from "../core/dom";
-import { plural } from "../core/format";
 import { student } from "../core/prefs";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import type { HomePictures } from "../gallery/home-pictures";
 import { begun, type Standing, standingLabel, standings } from "../gallery/standing";
 import { icon } from "../ui/icons";
@@ -27,11 +28,11 @@ class HomePage {
   private readonly progress = h("p", { class: "contents-progress" });
   /** Keeps the place of the mechanism, so that nothing jumps when it comes. */
   private readonly picture = h("div", { class: "hero-picture" });
-  private readonly gallery = h("section", { class: "home-gallery", "aria-label": "Mechanisms to watch" });
+  private readonly gallery = h("section", { class: "home-gallery", "aria-label": t("Mechanisms to watch") });
   private readonly start = h(
     "a",
     { class: "button primary large", href: "#lessons-title" },
-    "Start with the first lesson",
+    t("Start with the first lesson"),
   );
   private readonly leaving = new AbortController();
   private pictures: HomePictures | undefined;
@@ -45,7 +46,7 @@ class HomePage {
       h(
         "section",
         { "aria-labelledby": "lessons-title" },
-        h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, "Lessons"), this.progress),
+        h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, t("Lessons")), this.progress),
         this.list,
       ),
       this.gallery,
@@ -66,7 +67,7 @@ class HomePage {
     const place = lastBookmark();
     if (place) {
       this.start.href = addressOf(place.href);
-      this.start.textContent = `Go on with “${place.title}”`;
+      this.start.textContent = t("Go on with “{title}”", { title: place.title });
     }
     return h(
       "section",
@@ -74,18 +75,21 @@ class HomePage {
       h(
         "div",
         { class: "hero-text" },
-        h("h1", null, "Mechanisms in space, one constraint at a time"),
+        h("h1", null, t("Mechanisms in space, one constraint at a time")),
         h(
           "p",
           { class: "lead" },
-          "Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer. ",
-          "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
+          t("Read a little, run a real mechanism, look at its Jacobian and its joint forces, then answer."),
+          " ",
+          t(
+            "Bodies are described by points and unit vectors alone: no angles, a constant mass matrix, quadratic constraints.",
+          ),
         ),
         h(
           "p",
           { class: "go-on" },
           this.start,
-          h("a", { class: "button large", href: "/scenes" }, "Watch mechanisms"),
+          h("a", { class: "button large", href: "/scenes" }, t("Watch mechanisms")),
         ),
       ),
       this.picture,
@@ -108,7 +112,9 @@ class HomePage {
       lessons = await api.lessons(signal);
     } catch (error) {
       if (signal.aborted) return;
-      this.list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void this.load() }]));
+      this.list.replaceChildren(
+        problemNotice(error, [{ label: t("Try again"), run: () => void this.load() }]),
+      );
       return;
     }
     this.paint(lessons, new Map());
@@ -125,15 +131,15 @@ class HomePage {
     if (!first) {
       this.start.hidden = true;
       this.list.replaceChildren(
-        empty("No lessons yet", "This server was started without any lesson. Scenes can still be run."),
+        empty(t("No lessons yet"), t("This server was started without any lesson. Scenes can still be run.")),
       );
       return;
     }
     if (!lastBookmark()) this.start.href = addressOf(hrefOf(first));
     const passed = lessons.filter((lesson) => known.get(lesson.slug)?.is === "passed").length;
     this.progress.textContent = student.get()
-      ? `${passed} of ${lessons.length} passed`
-      : plural(lessons.length, "lesson");
+      ? t("{passed} of {lessons} passed", { passed, lessons: lessons.length })
+      : t("{n} lesson | {n} lessons", { n: lessons.length });
     this.list.replaceChildren(...parts(lessons, known));
     this.pictures?.lessons();
   }
@@ -164,7 +170,9 @@ function parts(lessons: LessonSummary[], known: Map<string, Standing>): HTMLElem
         "h3",
         { class: "group-title" },
         title,
-        passed > 0 ? h("span", { class: "group-count" }, `${passed} of ${own.length} passed`) : null,
+        passed > 0
+          ? h("span", { class: "group-count" }, t("{passed} of {own} passed", { passed, own: own.length }))
+          : null,
       ),
       rows,
     );
@@ -188,7 +196,12 @@ function row(lesson: LessonSummary, known: Standing | undefined): HTMLElement {
       ),
       h("p", null, lesson.summary),
     ),
-    h("div", { class: "lesson-meta" }, h("span", null, `${lesson.minutes} min`), standingLabel(standing)),
+    h(
+      "div",
+      { class: "lesson-meta" },
+      h("span", null, t("{minutes} min", { minutes: lesson.minutes })),
+      standingLabel(standing),
+    ),
   );
 }
 
@@ -199,14 +212,15 @@ function ownScene(): HTMLElement {
     h(
       "div",
       null,
-      h("h2", null, "Or build your own"),
+      h("h2", null, t("Or build your own")),
       h(
         "p",
         null,
-        "Run a built-in mechanism without a lesson, change it, or write a new one. ",
-        "Triad counts its degrees of freedom and names its redundant rows as you type.",
+        t("Run a built-in mechanism without a lesson, change it, or write a new one."),
+        " ",
+        t("Triad counts its degrees of freedom and names its redundant rows as you type."),
       ),
     ),
-    h("a", { class: "button", href: "/scenes" }, icon("cube"), "Open the scenes"),
+    h("a", { class: "button", href: "/scenes" }, icon("cube"), t("Open the scenes")),
   );
 }

@@ -1,7 +1,9 @@
 // A lecture as a follower sees it: the presenter's run, the question, and the way to look around and come back.
+
 import { ApiError, api } from "../api/client";
 import { h, setText } from "../core/dom";
 import { navigate, type Page, setTitle } from "../core/router";
+import { t } from "../core/texts";
 import { Follower } from "../lecture/follower";
 import { ballot } from "../lecture/voter";
 import { linkTo } from "../session/shared-view";
@@ -23,10 +25,10 @@ export function joinPage(outlet: HTMLElement): Page {
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "lecture-code" }, "Code of the room"),
+    h("label", { for: "lecture-code" }, t("Code of the room")),
     code,
     wrong,
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Join")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Join"))),
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -40,33 +42,33 @@ export function joinPage(outlet: HTMLElement): Page {
     h(
       "div",
       { class: "page narrow" },
-      h("h1", null, "Join a lecture"),
-      h("p", { class: "lead" }, "Type the code that your instructor shows. No account is needed."),
+      h("h1", null, t("Join a lecture")),
+      h("p", { class: "lead" }, t("Type the code that your instructor shows. No account is needed.")),
       form,
     ),
   );
   code.focus();
-  return { title: "Join a lecture" };
+  return { title: t("Join a lecture") };
 }
 
 export function lecturePage(outlet: HTMLElement, params: string[]): Page {
   const page = new LecturePage((params[0] ?? "").toUpperCase());
   outlet.append(page.root);
-  return { title: "Lecture", dispose: () => page.dispose() };
+  return { title: t("Lecture"), dispose: () => page.dispose() };
 }
 
 class LecturePage {
   readonly root: HTMLElement;
-  private readonly title = h("h1", null, "Lecture");
+  private readonly title = h("h1", null, t("Lecture"));
   private readonly status = h("p", { class: "lead", role: "status" });
   private readonly back = h(
     "button",
     { type: "button", class: "button primary", hidden: true },
     icon("live"),
-    "Back to the lecture",
+    t("Back to the lecture"),
   );
-  private readonly own = h("a", { class: "button", hidden: true, href: "/" }, "Try it yourself");
-  private readonly bench = h("section", { class: "bench", "aria-label": "Mechanism" });
+  private readonly own = h("a", { class: "button", hidden: true, href: "/" }, t("Try it yourself"));
+  private readonly bench = h("section", { class: "bench", "aria-label": t("Mechanism") });
   private readonly votes: ReturnType<typeof ballot>;
   private readonly leaving = new AbortController();
   private endRun: (() => void) | undefined;
@@ -76,7 +78,7 @@ class LecturePage {
     const head = h(
       "header",
       { class: "lecture-head" },
-      h("div", null, h("p", { class: "lesson-kicker" }, `Room ${code}`), this.title, this.status),
+      h("div", null, h("p", { class: "lesson-kicker" }, t("Room {code}", { code })), this.title, this.status),
       h("div", { class: "row wrap" }, this.back, this.own),
     );
     this.root = h("div", null, head, this.votes.root, this.bench);
@@ -108,15 +110,15 @@ class LecturePage {
     const missing = error instanceof ApiError && error.gone;
     this.bench.remove();
     this.status.textContent = missing
-      ? "There is no such room. The lecture may be over, or the code is another."
+      ? t("There is no such room. The lecture may be over, or the code is another.")
       : "";
-    head.after(problemNotice(error, [{ label: "Type the code again", run: () => navigate("/room") }]));
+    head.after(problemNotice(error, [{ label: t("Type the code again"), run: () => navigate("/room") }]));
   }
 
   private paint(follower: Follower): void {
     const { lecture, over, roaming } = follower;
     this.votes.show(over ? null : (lecture?.question ?? null));
-    setText(this.title, lecture?.title ?? "Lecture");
+    setText(this.title, lecture?.title ?? t("Lecture"));
     if (lecture?.title) setTitle(lecture.title);
     setText(this.status, statusOf(follower));
     this.back.hidden = !roaming || over;
@@ -128,10 +130,10 @@ class LecturePage {
 }
 
 function statusOf({ lecture, over, roaming }: Follower): string {
-  if (over) return "The lecture is over. What was shown can still be looked at here.";
-  if (!lecture?.source) return "The presenter shows nothing at the moment.";
-  if (roaming) return "You look around on your own; the lecture goes on.";
-  return "You see what the presenter shows.";
+  if (over) return t("The lecture is over. What was shown can still be looked at here.");
+  if (!lecture?.source) return t("The presenter shows nothing at the moment.");
+  if (roaming) return t("You look around on your own; the lecture goes on.");
+  return t("You see what the presenter shows.");
 }
 
 /** Where a follower runs the same scene alone, with the presenter's numbers. */

@@ -1,4 +1,5 @@
 // One lesson: text, mechanism, exercise. The text comes first, the others when it can be read.
+
 import { ApiError, api } from "../api/client";
 import type { Lesson, LessonSummary } from "../api/types";
 import { pathOf } from "../core/address";
@@ -6,6 +7,7 @@ import { authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
+import { t } from "../core/texts";
 import { exerciseSection } from "../exercise/exercise";
 import { predictionCounts } from "../prediction/counts";
 import { PredictionPanel } from "../prediction/panel";
@@ -21,20 +23,20 @@ const MATHS_PATIENCE_MS = 350;
 export function lessonPage(outlet: HTMLElement, params: string[]): Page {
   const page = new LessonPage(params[0] ?? "");
   outlet.append(...page.parts());
-  return { title: "Lesson", dispose: () => page.dispose() };
+  return { title: t("Lesson"), dispose: () => page.dispose() };
 }
 
 class LessonPage {
   private readonly text = h("article", { class: "reading", id: "text", "aria-busy": "true" }, skeleton(14));
   private readonly bench = h(
     "section",
-    { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
+    { class: "bench", id: "mechanism", "aria-label": t("Mechanism") },
     workbenchPlaceholder(),
   );
   private readonly exercise = h("section", {
     class: "exercise",
     id: "exercise",
-    "aria-label": "Exercise",
+    "aria-label": t("Exercise"),
   });
   private readonly leaving = new AbortController();
   private readonly undo: (() => void)[] = [];
@@ -60,10 +62,10 @@ class LessonPage {
       h("div", { class: "lesson" }, this.text, this.bench, this.exercise),
       h(
         "nav",
-        { class: "jump", "aria-label": "Parts of this lesson" },
-        h("a", { href: "#text" }, "Text"),
-        h("a", { href: "#mechanism" }, "Mechanism"),
-        h("a", { href: "#exercise" }, "Exercise"),
+        { class: "jump", "aria-label": t("Parts of this lesson") },
+        h("a", { href: "#text" }, t("Text")),
+        h("a", { href: "#mechanism" }, t("Mechanism")),
+        h("a", { href: "#exercise" }, t("Exercise")),
       ),
     ];
   }
@@ -122,9 +124,9 @@ class LessonPage {
     this.text.removeAttribute("aria-busy");
     const missing = error instanceof ApiError && error.gone;
     this.text.replaceChildren(
-      h("h1", null, missing ? "There is no such lesson" : "The lesson could not be loaded"),
-      problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void this.load() }]),
-      h("p", null, h("a", { href: "/" }, "All lessons")),
+      h("h1", null, missing ? t("There is no such lesson") : t("The lesson could not be loaded")),
+      problemNotice(error, missing ? [] : [{ label: t("Try again"), run: () => void this.load() }]),
+      h("p", null, h("a", { href: "/" }, t("All lessons"))),
     );
     this.bench.hidden = missing;
   }
@@ -156,9 +158,9 @@ async function showNeighbours(
   place.append(
     h(
       "nav",
-      { class: "neighbours", "aria-label": "Other lessons" },
-      link("Lesson before", lessons[at - 1]),
-      link("Next lesson", lessons[at + 1]),
+      { class: "neighbours", "aria-label": t("Other lessons") },
+      link(t("Lesson before"), lessons[at - 1]),
+      link(t("Next lesson"), lessons[at + 1]),
     ),
   );
 }
@@ -198,19 +200,19 @@ function showText(place: HTMLElement, lesson: Lesson): void {
       h(
         "p",
         { class: "lesson-kicker" },
-        h("a", { href: "/" }, "Lessons"),
-        ` / ${lesson.number}, about ${lesson.minutes} minutes`,
+        h("a", { href: "/" }, t("Lessons")),
+        ` / ${t("{number}, about {minutes} minutes", { number: lesson.number, minutes: lesson.minutes })}`,
         printButton(),
       ),
       h("h1", null, lesson.title),
       lesson.prerequisites.length > 0
-        ? h("p", { class: "before" }, "Read before: ", ...joined(lesson.prerequisites))
+        ? h("p", { class: "before" }, t("Read before:"), " ", ...joined(lesson.prerequisites))
         : null,
       lesson.objectives.length > 0
         ? h(
             "div",
             { class: "objectives" },
-            h("h2", null, "After this lesson you can"),
+            h("h2", null, t("After this lesson you can")),
             h("ul", null, ...lesson.objectives.map((goal) => h("li", null, goal))),
           )
         : null,

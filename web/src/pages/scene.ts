@@ -1,9 +1,11 @@
 // One scene: its text on one side, its run on the other.
+
 import { ApiError, api } from "../api/client";
 import type { Scene } from "../api/types";
 import { h, saveFile } from "../core/dom";
 import { recall, remember, student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
+import { t } from "../core/texts";
 import { SceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
 import { requestedView } from "../session/requested-view";
@@ -39,7 +41,7 @@ export function lessonScenePage(outlet: HTMLElement, params: string[]): Page {
 function open(outlet: HTMLElement, subject: Subject): Page {
   const page = new ScenePage(subject);
   outlet.append(page.root);
-  return { title: subject.own ? "Your own scene" : subject.name, dispose: () => page.dispose() };
+  return { title: subject.own ? t("Your own scene") : subject.name, dispose: () => page.dispose() };
 }
 
 class ScenePage {
@@ -49,7 +51,7 @@ class ScenePage {
   private readonly restore = h(
     "button",
     { type: "button", class: "button", hidden: true, onclick: () => this.undoEdits() },
-    "Undo all changes",
+    t("Undo all changes"),
   );
   private readonly preview = h("input", { type: "checkbox", id: "preview", checked: true });
   private readonly status = h("p", { class: "help", role: "status" });
@@ -57,7 +59,7 @@ class ScenePage {
   private readonly side: HTMLElement;
   private readonly bench = h(
     "section",
-    { class: "bench", id: "mechanism", "aria-label": "Mechanism" },
+    { class: "bench", id: "mechanism", "aria-label": t("Mechanism") },
     workbenchPlaceholder(),
   );
   private readonly leaving = new AbortController();
@@ -72,7 +74,7 @@ class ScenePage {
   constructor(private readonly subject: Subject) {
     const { name, own, lesson } = subject;
     this.draftKey = lesson ? `scene-draft:${lesson}` : own ? "scene-draft" : null;
-    this.title = h("h1", null, own ? "Your own scene" : name);
+    this.title = h("h1", null, own ? t("Your own scene") : name);
     this.editor = new SceneEditor(
       (text) => this.edited(text),
       (text) => {
@@ -94,8 +96,8 @@ class ScenePage {
   private layout(): HTMLElement {
     const { lesson } = this.subject;
     const back = lesson
-      ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, "Back to the lesson")
-      : h("a", { href: "/scenes" }, "Scenes");
+      ? h("a", { href: `/lessons/${encodeURIComponent(lesson)}` }, t("Back to the lesson"))
+      : h("a", { href: "/scenes" }, t("Scenes"));
     return h(
       "article",
       { class: "reading is-editor" },
@@ -107,16 +109,21 @@ class ScenePage {
           "button",
           { type: "button", class: "button primary", onclick: () => this.runText() },
           icon("play"),
-          "Run this text",
+          t("Run this text"),
         ),
         this.restore,
         h(
           "button",
           { type: "button", class: "button quiet", onclick: () => this.download() },
           icon("save"),
-          "Save the file",
+          t("Save the file"),
         ),
-        h("span", { class: "check-line" }, this.preview, h("label", { for: "preview" }, "Show it as I type")),
+        h(
+          "span",
+          { class: "check-line" },
+          this.preview,
+          h("label", { for: "preview" }, t("Show it as I type")),
+        ),
         this.status,
       ),
       this.editor.root,
@@ -146,8 +153,9 @@ class ScenePage {
 
   private describe(scene: Scene): void {
     if (this.subject.own) {
-      this.about.textContent =
-        "It starts as a pendulum and is kept in this browser. What you write is checked as you type.";
+      this.about.textContent = t(
+        "It starts as a pendulum and is kept in this browser. What you write is checked as you type.",
+      );
       return;
     }
     const title = scene.title ?? this.subject.name;
@@ -159,16 +167,16 @@ class ScenePage {
   private fail(error: unknown): void {
     const missing = error instanceof ApiError && error.gone;
     this.side.replaceChildren(
-      h("h1", null, missing ? "There is no such scene" : "The scene could not be loaded"),
-      problemNotice(error, missing ? [] : [{ label: "Try again", run: () => void this.load() }]),
-      h("p", null, h("a", { href: "/scenes" }, "All scenes")),
+      h("h1", null, missing ? t("There is no such scene") : t("The scene could not be loaded")),
+      problemNotice(error, missing ? [] : [{ label: t("Try again"), run: () => void this.load() }]),
+      h("p", null, h("a", { href: "/scenes" }, t("All scenes"))),
     );
     this.bench.hidden = missing;
   }
 
   private edited(text: string): void {
     this.restore.hidden = text === this.original;
-    this.status.textContent = text === this.original ? "" : "Changed, not run yet.";
+    this.status.textContent = text === this.original ? "" : t("Changed, not run yet.");
     if (this.draftKey) remember(this.draftKey, text);
   }
 
@@ -192,7 +200,7 @@ class ScenePage {
       const own = { path: `/scenes/${OWN_SCENE}`, text: JSON.stringify(scene) };
       this.run({ source: { scene }, scene, seen, own });
     } catch {
-      this.status.textContent = "The text is not JSON yet: see the remark below it.";
+      this.status.textContent = t("The text is not JSON yet: see the remark below it.");
     }
   }
 

@@ -1,8 +1,10 @@
 // The gallery of built-in mechanisms, and the way to a scene of one's own.
+
 import { api } from "../api/client";
 import { h } from "../core/dom";
 import { recall } from "../core/prefs";
 import type { Page } from "../core/router";
+import { t } from "../core/texts";
 import { urdfImport } from "../editor/import";
 import { cards } from "../gallery/cards";
 import { grouped } from "../gallery/groups";
@@ -21,11 +23,13 @@ export function scenesPage(outlet: HTMLElement): Page {
       h(
         "header",
         { class: "page-head" },
-        h("h1", null, "Scenes"),
+        h("h1", null, t("Scenes")),
         h(
           "p",
           { class: "lead" },
-          "Mechanisms without a lesson. Point at one to see it move; open it to run it, change its text and run it again.",
+          t(
+            "Mechanisms without a lesson. Point at one to see it move; open it to run it, change its text and run it again.",
+          ),
         ),
         h(
           "p",
@@ -33,10 +37,14 @@ export function scenesPage(outlet: HTMLElement): Page {
           h(
             "a",
             { class: "button", href: `/scenes/${OWN_SCENE}` },
-            recall("scene-draft") ? "Continue your own scene" : "Write your own scene",
+            recall("scene-draft") ? t("Continue your own scene") : t("Write your own scene"),
           ),
           " ",
-          h("a", { href: "/docs/scenes.html", target: "_blank", rel: "noopener" }, "How a scene is written"),
+          h(
+            "a",
+            { href: "/docs/scenes.html", target: "_blank", rel: "noopener" },
+            t("How a scene is written"),
+          ),
         ),
         urdfImport(`/scenes/${OWN_SCENE}`),
       ),
@@ -51,12 +59,12 @@ export function scenesPage(outlet: HTMLElement): Page {
       list.replaceChildren(groups);
     } catch (error) {
       if (!leaving.signal.aborted)
-        list.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void load() }]));
+        list.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
   return {
-    title: "Scenes",
+    title: t("Scenes"),
     dispose: () => {
       leaving.abort();
       for (const one of kept) one.dispose();
@@ -74,7 +82,7 @@ async function sceneGroups(signal: AbortSignal, kept: { dispose: () => void }[])
     ),
   ]);
   if (scenes.length === 0)
-    return empty("No built-in scenes", "This server offers none. You can still write your own.");
+    return empty(t("No built-in scenes"), t("This server offers none. You can still write your own."));
   return h(
     "div",
     { class: "scene-groups" },

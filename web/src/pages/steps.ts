@@ -4,10 +4,14 @@
 import type { Lesson } from "../api/types";
 import { authored, h, setText } from "../core/dom";
 import { recall, remember } from "../core/prefs";
+import { parts, t } from "../core/texts";
 
 /** Longest note, characters. */
 const MAX_LENGTH = 2000;
-const PROMPTS: Record<string, string> = { predict: "Your prediction", explain: "In your own words" };
+const PROMPTS: Record<string, () => string> = {
+  predict: () => t("Your prediction"),
+  explain: () => t("In your own words"),
+};
 
 export function steps(lesson: Lesson): HTMLElement[] {
   if (!lesson.steps?.length) return [];
@@ -17,14 +21,15 @@ export function steps(lesson: Lesson): HTMLElement[] {
       h("li", null),
       `<p><strong>${step.kind[0]?.toUpperCase()}${step.kind.slice(1)}.</strong></p>${step.html}`,
     );
-    const prompt = PROMPTS[step.kind];
+    const prompt = PROMPTS[step.kind]?.();
     if (step.kind === "predict" && lesson.predictions.length > 0)
       item.append(
         h(
           "p",
           null,
-          h("a", { href: "#prediction" }, "Your prediction"),
-          " is asked for beside the mechanism.",
+          ...parts("{prediction} is asked for beside the mechanism.", {
+            prediction: h("a", { href: "#prediction" }, t("Your prediction")),
+          }),
         ),
       );
     else if (prompt)
@@ -36,19 +41,23 @@ export function steps(lesson: Lesson): HTMLElement[] {
     h(
       "section",
       { class: "prose steps", id: "steps" },
-      h("h2", null, "Work with the mechanism"),
+      h("h2", null, t("Work with the mechanism")),
       h(
         "p",
         { class: "help" },
-        "What you write here is for you: it stays in this browser and is not graded.",
+        t("What you write here is for you: it stays in this browser and is not graded."),
       ),
       h("ol", null, ...items),
       h(
         "p",
         { class: "help" },
-        "For what has no slider: ",
-        h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}/scene` }, "open the scene as text"),
-        ".",
+        ...parts("For what has no slider: {link}.", {
+          link: h(
+            "a",
+            { href: `/lessons/${encodeURIComponent(lesson.slug)}/scene` },
+            t("open the scene as text"),
+          ),
+        }),
       ),
     ),
   ];
@@ -64,7 +73,7 @@ function note(key: `said:${string}`, label: string, again: HTMLElement | null): 
   });
   const show = (): void => {
     const words = area.value.trim();
-    if (again) setText(again, words ? `You predicted: ${words}` : "");
+    if (again) setText(again, words ? t("You predicted: {words}", { words }) : "");
   };
   area.value = recall(key) ?? "";
   area.addEventListener("input", () => {

@@ -1,5 +1,7 @@
 // The start of a file that plays by itself: everything that it needs stands in it.
+
 import { h } from "../core/dom";
+import { t } from "../core/texts";
 import player from "../styles/player.css?inline";
 import timeline from "../styles/timeline.css?inline";
 import tokens from "../styles/tokens.css?inline";
@@ -40,8 +42,10 @@ if (text) {
       h(
         "p",
         null,
-        "Recorded with Triad. Drag to look from elsewhere, Ctrl and the wheel to come closer; with the keys: Shift and the arrows, + and −.",
+        t(
+          "Recorded with Triad. Drag to look from elsewhere, Ctrl and the wheel to come closer; with the keys: Shift and the arrows, + and −.",
+        ),
       ),
     ),
   );
-} else document.body.append("No motion stands in this file.");
+} else document.body.append(t("No motion stands in this file."));

@@ -1,7 +1,9 @@
 // A picture of a mechanism in a list: it stands still, and moves while one points at it or has pressed its button.
+
 import type { Motion } from "../api/types";
 import { authored, h } from "../core/dom";
 import { reducedMotion } from "../core/prefs";
+import { t } from "../core/texts";
 import { onTheme } from "../core/theme";
 import { icon } from "../ui/icons";
 import { Player } from "./player";
@@ -85,7 +87,7 @@ export class MovingPicture {
   private paintButton(): void {
     const moves = this.on;
     this.button.replaceChildren(icon(moves ? "pause" : "play"));
-    this.button.setAttribute("aria-label", `${moves ? "Stop" : "Play"}: ${this.start.title}`);
+    this.button.setAttribute("aria-label", `${moves ? t("Stop") : t("Play")}: ${this.start.title}`);
     this.root.classList.toggle("is-moving", moves);
   }
 }

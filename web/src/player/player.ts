@@ -1,8 +1,10 @@
 // A recorded run that plays: the stage's own drawing, with play and pause and a time line. No session is needed.
+
 import type { Camera, Motion } from "../api/types";
 import { h, setText } from "../core/dom";
 import { seconds } from "../core/format";
 import { reducedMotion } from "../core/prefs";
+import { t } from "../core/texts";
 import type { Drawn } from "../session/events";
 import { Drawing } from "../stage/drawing";
 import { turning } from "../stage/hands";
@@ -53,7 +55,7 @@ export class Player {
       min: "0",
       max: String(motion.until),
       step: "any",
-      "aria-label": "Time",
+      "aria-label": t("Time"),
     });
     this.button.addEventListener("click", () => this.toggle());
     this.timeline.addEventListener("input", () => this.seek(Number(this.timeline.value)));
@@ -133,14 +135,17 @@ export class Player {
 
   private paint(): void {
     const { until } = this.run.motion;
-    const label = this.wanted ? "Pause" : "Play";
+    const label = this.wanted ? t("Pause") : t("Play");
     if (this.button.getAttribute("aria-label") !== label) {
       this.button.replaceChildren(icon(this.wanted ? "pause" : "play"));
       this.button.setAttribute("aria-label", label);
     }
     this.timeline.value = String(this.time);
     this.timeline.style.setProperty("--done", `${until > 0 ? (100 * this.time) / until : 0}%`);
-    this.timeline.setAttribute("aria-valuetext", `${seconds(this.time)} of ${seconds(until)}`);
+    this.timeline.setAttribute(
+      "aria-valuetext",
+      t("{time} of {until}", { time: seconds(this.time), until: seconds(until) }),
+    );
     setText(this.clock, `${this.time.toFixed(until < 1 ? 3 : 2)} s`);
   }
 }

@@ -1,10 +1,11 @@
 // What was predicted, for who teaches; at home, for all names that were used here.
+
 import { api } from "../api/client";
 import { inClass, teaches } from "../api/identity";
 import type { Lesson, PredictionCounts } from "../api/types";
 import { authored, h } from "../core/dom";
-import { plural } from "../core/format";
 import { setMaths } from "../core/maths";
+import { t } from "../core/texts";
 import { histogram } from "../lecture/voter";
 import { problemNotice } from "../ui/notice";
 
@@ -20,7 +21,7 @@ export function predictionCounts(lesson: Lesson): HTMLElement | null {
       place.replaceChildren(problemNotice(error));
     }
   };
-  const title = inClass() ? "What the class predicted" : "What was predicted here";
+  const title = inClass() ? t("What the class predicted") : t("What was predicted here");
   const details = h("details", { class: "prose prediction-counts" }, h("summary", null, title), place);
   details.addEventListener("toggle", () => {
     if (details.open) void load();
@@ -36,7 +37,14 @@ function one(found: PredictionCounts): HTMLElement {
     { class: "prediction-count" },
     authored(h("div"), found.html),
     histogram(names, { counts: found.chosen, right, revealed: true }),
-    h("p", { class: "help" }, `${found.skipped} skipped, ${plural(found.missing, "student")} not there yet.`),
+    h(
+      "p",
+      { class: "help" },
+      t("{skipped} skipped, {students} not there yet.", {
+        skipped: found.skipped,
+        students: t("{n} student | {n} students", { n: found.missing }),
+      }),
+    ),
     found.reasons.length > 0
       ? h(
           "ul",
@@ -46,7 +54,7 @@ function one(found: PredictionCounts): HTMLElement {
               "li",
               null,
               h("b", null, reason.name),
-              reason.option ? authored(h("span"), ` (${reason.option.html})`) : " (skipped)",
+              reason.option ? authored(h("span"), ` (${reason.option.html})`) : ` (${t("skipped")})`,
               `: ${reason.why}`,
             ),
           ),

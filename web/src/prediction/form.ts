@@ -1,8 +1,9 @@
 // One prediction as buttons: chosen, then kept. Skipping is a button, too, and is kept as that.
+
 import type { Prediction } from "../api/types";
 import { authored, h, uid } from "../core/dom";
-import { plural } from "../core/format";
 import { student } from "../core/prefs";
+import { t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 
 /** What somebody says; no choice where they skip. */
@@ -32,9 +33,9 @@ export class PredictionForm {
   private readonly keep = h(
     "button",
     { type: "submit", class: "button primary", disabled: true },
-    "That is my prediction",
+    t("That is my prediction"),
   );
-  private readonly skip = h("button", { type: "button", class: "button quiet" }, "Skip, and say so");
+  private readonly skip = h("button", { type: "button", class: "button quiet" }, t("Skip, and say so"));
   private readonly trouble = h("div", { role: "status" });
 
   constructor(
@@ -53,19 +54,19 @@ export class PredictionForm {
     const question = uid("asked");
     this.root = h(
       "form",
-      { class: "prediction-form", novalidate: true, tabindex: "-1", "aria-label": "Before you run it" },
-      h("h2", null, "Before you run it"),
+      { class: "prediction-form", novalidate: true, tabindex: "-1", "aria-label": t("Before you run it") },
+      h("h2", null, t("Before you run it")),
       authored(h("div", { id: question, class: "prediction-asked" }), asked.html),
       h("div", { class: "row wrap", role: "group", "aria-labelledby": question }, ...this.buttons),
       asked.asks_why
-        ? h("p", { class: "labelled" }, h("label", { for: this.why.id }, "Why? A few words"), this.why)
+        ? h("p", { class: "labelled" }, h("label", { for: this.why.id }, t("Why? A few words")), this.why)
         : null,
       student.known() || student.get()
         ? null
         : h(
             "p",
             { class: "labelled" },
-            h("label", { for: this.name.id }, "Your name, under which it is kept"),
+            h("label", { for: this.name.id }, t("Your name, under which it is kept")),
             this.name,
           ),
       h("div", { class: "row wrap" }, this.keep, this.skip),
@@ -92,7 +93,7 @@ export class PredictionForm {
   private async send(choice: string | null): Promise<void> {
     const name = this.name.value.trim();
     if (!name) {
-      this.trouble.textContent = "Write your name: the prediction is kept under it.";
+      this.trouble.textContent = t("Write your name: the prediction is kept under it.");
       this.name.focus();
       return;
     }
@@ -110,6 +111,8 @@ export class PredictionForm {
 
 function rules(asked: Prediction): string {
   const points =
-    asked.points > 0 ? ` ${plural(asked.points, "point")} for having predicted, right or wrong.` : "";
-  return `The run waits for it. It is kept once, and not graded as right or wrong.${points}`;
+    asked.points > 0
+      ? ` ${t("{n} point for having predicted, right or wrong. | {n} points for having predicted, right or wrong.", { n: asked.points })}`
+      : "";
+  return `${t("The run waits for it. It is kept once, and not graded as right or wrong.")}${points}`;
 }

@@ -8,6 +8,7 @@ import { announce, authored, h } from "../core/dom";
 import { seconds } from "../core/format";
 import { setMaths } from "../core/maths";
 import { student } from "../core/prefs";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
@@ -22,7 +23,7 @@ export interface Asked {
 }
 
 export class PredictionPanel implements Asked {
-  readonly root = h("section", { class: "prediction", "aria-label": "Prediction", id: "prediction" });
+  readonly root = h("section", { class: "prediction", "aria-label": t("Prediction"), id: "prediction" });
   readonly given: Promise<void>;
   private opened: () => void = () => undefined;
   private session: Session | undefined;
@@ -69,13 +70,15 @@ export class PredictionPanel implements Asked {
       for (const one of found) this.kept.set(one.prediction, one);
       this.paint();
     } catch (error) {
-      this.root.replaceChildren(problemNotice(error, [{ label: "Try again", run: () => void this.load() }]));
+      this.root.replaceChildren(
+        problemNotice(error, [{ label: t("Try again"), run: () => void this.load() }]),
+      );
     }
   }
 
   /** The run was to go on: says what it waits for. */
   private ask(): void {
-    announce("The run waits: say first what you expect, or skip.");
+    announce(t("The run waits: say first what you expect, or skip."));
     this.root.scrollIntoView({ block: "nearest" });
     this.form?.focus();
   }
@@ -101,7 +104,9 @@ export class PredictionPanel implements Asked {
     const kept = await api.predict(this.lesson.slug, { student: name, prediction: asked.id, ...given });
     this.kept.set(asked.id, kept);
     announce(
-      kept.choice ? "Your prediction is kept. Now run it." : "Skipped, and kept as skipped. Now run it.",
+      kept.choice
+        ? t("Your prediction is kept. Now run it.")
+        : t("Skipped, and kept as skipped. Now run it."),
     );
     this.paint();
     this.root.querySelector<HTMLElement>(".prediction-result")?.focus();
@@ -131,8 +136,8 @@ export class PredictionPanel implements Asked {
         asked.options.find((one) => one.id === id)?.html ?? "",
       );
     const own = kept.choice
-      ? h("p", null, h("b", null, "You predicted: "), option(kept.choice))
-      : h("p", null, h("b", null, "You skipped the prediction."));
+      ? h("p", null, h("b", null, t("You predicted:"), " "), option(kept.choice))
+      : h("p", null, h("b", null, t("You skipped the prediction.")));
     const shown = this.revealed.has(asked.id);
     return h(
       "div",
@@ -140,7 +145,7 @@ export class PredictionPanel implements Asked {
       authored(h("div", { class: "prediction-asked" }), asked.html),
       own,
       kept.why ? h("p", { class: "prediction-why" }, `“${kept.why}”`) : null,
-      shown ? h("p", null, h("b", null, "What happened: "), option(kept.outcome.happens)) : null,
+      shown ? h("p", null, h("b", null, t("What happened:"), " "), option(kept.outcome.happens)) : null,
       shown
         ? authored(h("div", { class: "prediction-shows" }), kept.outcome.html)
         : h("p", { class: "help" }, waitsFor(asked)),
@@ -150,6 +155,6 @@ export class PredictionPanel implements Asked {
 
 function waitsFor(asked: Prediction): string {
   return asked.seen_at > 0
-    ? `Run it: at ${seconds(asked.seen_at)} you will have seen it.`
-    : "Run it, and you will see.";
+    ? t("Run it: at {seen_at} you will have seen it.", { seen_at: seconds(asked.seen_at) })
+    : t("Run it, and you will see.");
 }

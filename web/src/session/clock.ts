@@ -3,6 +3,7 @@
 import type { SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
+import { t } from "../core/texts";
 import { Emitter } from "./events";
 import { History } from "./history";
 import { Track } from "./track";
@@ -155,10 +156,23 @@ export class Clock extends Emitter {
   protected announceState(): void {
     const state = this.shown;
     if (!state) return;
-    const lead = state.finished ? "The run is complete" : "Paused";
+    const lead = state.finished ? t("The run is complete") : t("Paused");
     const body = state.bodies[0];
-    const where = body ? ` ${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} metres.` : "";
-    const quality = `Energy ${num(state.energy, 5)} joules, constraint violation ${num(state.position_violation, 2)}.`;
-    announce(`${lead} at ${seconds(state.time)} after ${state.steps} steps. ${quality}${where}`);
+    const where = body
+      ? ` ${t("{name} at {position} metres.", { name: body.name, position: body.position.map((x) => num(x, 3)).join(", ") })}`
+      : "";
+    const quality = t("Energy {energy} joules, constraint violation {position_violation}.", {
+      energy: num(state.energy, 5),
+      position_violation: num(state.position_violation, 2),
+    });
+    announce(
+      t("{lead} at {time} after {steps} steps. {quality}{where}", {
+        lead,
+        time: seconds(state.time),
+        steps: state.steps,
+        quality,
+        where,
+      }),
+    );
   }
 }

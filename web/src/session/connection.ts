@@ -1,4 +1,5 @@
 // The stream of a run: opened, read, and opened again when it breaks.
+import { t } from "../core/texts";
 import { isHere } from "../engine/here";
 import { banner } from "../ui/notice";
 import { HereStream } from "./here-stream";
@@ -69,8 +70,10 @@ export class Connection {
     if (this.retry > 1) {
       this.missed = true;
       banner(
-        "The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.",
-        { label: "Try now", run: () => void this.again() },
+        t(
+          "The connection to the server is lost. Your text and answers are safe; the simulation comes back by itself.",
+        ),
+        { label: t("Try now"), run: () => void this.again() },
       );
     }
     clearTimeout(this.timer);

@@ -1,9 +1,11 @@
 // One live simulation on the server, steered from the page.
+
 import { ApiError, api, type SessionSource } from "../api/client";
 import { between, isNone, type Numbers, none, tidy } from "../api/numbers";
 import { computedHere } from "../api/place";
 import type { AfterChange, Camera, Drag, Drawing, SessionScene, SessionState } from "../api/types";
 import { announce } from "../core/dom";
+import { t } from "../core/texts";
 import { banner } from "../ui/notice";
 import { Clock } from "./clock";
 import { Connection } from "./connection";
@@ -245,7 +247,7 @@ export class Session extends Clock {
       this.past.clear();
       return state;
     });
-    announce("Back at the start, time 0.");
+    announce(t("Back at the start, time 0."));
   }
 
   protected toNewest(): void {
@@ -412,9 +414,9 @@ export class Session extends Clock {
       this.accept(await this.create());
       this.connection.open();
       void this.redraw(false);
-      announce("The simulation had expired on the server and was started anew, at time 0.");
-      banner("The simulation had expired on the server. A fresh one stands at time 0.", {
-        label: "Fine",
+      announce(t("The simulation had expired on the server and was started anew, at time 0."));
+      banner(t("The simulation had expired on the server. A fresh one stands at time 0."), {
+        label: t("Fine"),
         run: () => banner(null),
       });
     } catch (error) {

@@ -4,6 +4,7 @@ import { isNone } from "../api/numbers";
 import type { Camera } from "../api/types";
 import { pathOf } from "../core/address";
 import { announce, h } from "../core/dom";
+import { t } from "../core/texts";
 import type { Drawn } from "../mechanics/forces";
 import { icon } from "../ui/icons";
 import { banner } from "../ui/notice";
@@ -28,8 +29,8 @@ export function shareButton(shared: Shared): HTMLElement {
     {
       type: "button",
       class: "button quiet small icon-only",
-      "aria-label": "Copy a link to this view",
-      title: "Copy a link to this view: numbers, time, joint, panel",
+      "aria-label": t("Copy a link to this view"),
+      title: t("Copy a link to this view: numbers, time, joint, panel"),
       onclick: () => void copy(shared),
     },
     icon("link"),
@@ -40,26 +41,30 @@ async function copy(shared: Shared): Promise<void> {
   const link = await linkTo(shared.own?.path ?? pathOf(location), viewOf(shared));
   if (link.length > MAX_LENGTH) {
     banner(
-      `This scene is too large for a link (${Math.round(link.length / 1000)} kB). Save its file and send that.`,
-      { label: "Close", run: () => banner(null) },
+      t("This scene is too large for a link ({link} kB). Save its file and send that.", {
+        link: Math.round(link.length / 1000),
+      }),
+      { label: t("Close"), run: () => banner(null) },
     );
     return;
   }
   try {
     await navigator.clipboard.writeText(link);
-    announce("The link to this view is copied.");
+    announce(t("The link to this view is copied."));
     banner(
       shared.session.altered
-        ? "The link is copied. This run was changed on its way; the link runs it with these numbers from the start."
-        : "The link to this view is copied: whoever opens it sees the same.",
-      { label: "Fine", run: () => banner(null) },
+        ? t(
+            "The link is copied. This run was changed on its way; the link runs it with these numbers from the start.",
+          )
+        : t("The link to this view is copied: whoever opens it sees the same."),
+      { label: t("Fine"), run: () => banner(null) },
     );
     setTimeout(() => banner(null), GLANCE_MS);
   } catch {
     // Without leave to write to the clipboard the address itself becomes the link.
     history.replaceState(null, "", link);
-    banner("The browser does not let this page copy. The link stands in the address bar now.", {
-      label: "Fine",
+    banner(t("The browser does not let this page copy. The link stands in the address bar now."), {
+      label: t("Fine"),
       run: () => banner(null),
     });
   }

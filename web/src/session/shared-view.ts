@@ -1,6 +1,8 @@
 // One link holds what somebody looks at: numbers that were changed, the time, the selected joint, panel and picture.
+
 import type { Numbers } from "../api/numbers";
 import { addressOf } from "../core/address";
+import { t } from "../core/texts";
 
 /** What a link holds beside the lesson or scene of its path. Its keys are published: old links use them. */
 export interface SharedView {
@@ -103,7 +105,7 @@ async function through(
     const { done, value } = await reader.read();
     if (done) break;
     size += value.byteLength;
-    if (size > most) throw new Error("the link unpacks to more than a scene may have");
+    if (size > most) throw new Error(t("the link unpacks to more than a scene may have"));
     parts.push(value);
   }
   const whole = new Uint8Array(size);

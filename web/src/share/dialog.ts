@@ -1,8 +1,10 @@
 // What can be taken along of the mechanism: a picture, a film, a page that plays, a frame for other pages.
+
 import { isNone } from "../api/numbers";
 import type { Motion, Scene } from "../api/types";
 import { announce, h, saveFile, setText } from "../core/dom";
 import { fileName } from "../core/format";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import type { Drawing } from "../stage/drawing";
 import { dialog } from "../ui/dialog";
@@ -26,8 +28,8 @@ export function takeAlongButton(taken: Taken): HTMLElement {
     {
       type: "button",
       class: "button quiet small icon-only",
-      "aria-label": "Take it along: picture, film, page that plays",
-      title: "Take it along: picture, film, page that plays",
+      "aria-label": t("Take it along: picture, film, page that plays"),
+      title: t("Take it along: picture, film, page that plays"),
       onclick: () => open(taken),
     },
     icon("save"),
@@ -42,31 +44,34 @@ function open(taken: Taken): void {
   const said = h("p", { class: "help", role: "status" });
   const leaving = new AbortController();
   const box = dialog(
-    "Take it along",
+    t("Take it along"),
     row(
-      "A picture of this moment",
-      "For a paper or a slide, as the stage shows it.",
+      t("A picture of this moment"),
+      t("For a paper or a slide, as the stage shows it."),
       ...pictures(taken, said),
     ),
     row(
-      "A page that plays",
+      t("A page that plays"),
       motion && motion.until > 0
-        ? `One HTML file with the first ${motion.until.toFixed(2)} s, for a USB stick or an e-mail: it needs no server and no network.`
-        : "Run the mechanism first: what was seen so far goes into the file.",
+        ? t(
+            "One HTML file with the first {until} s, for a USB stick or an e-mail: it needs no server and no network.",
+            { until: motion.until.toFixed(2) },
+          )
+        : t("Run the mechanism first: what was seen so far goes into the file."),
       press(
-        "Save the page (HTML)",
+        t("Save the page (HTML)"),
         motion && motion.until > 0 ? () => void savePage(taken, motion, said) : null,
       ),
     ),
     row(
-      "A film",
+      t("A film"),
       kindOfFilm() === undefined
-        ? "This browser records no films; Chromium and Firefox do."
+        ? t("This browser records no films; Chromium and Firefox do.")
         : motion && motion.until > 0
-          ? `It is played once while it is recorded, ${lengthOf(motion).toFixed(0)} s.`
-          : "Run the mechanism first.",
+          ? t("It is played once while it is recorded, {length} s.", { length: lengthOf(motion).toFixed(0) })
+          : t("Run the mechanism first."),
       press(
-        "Record a film",
+        t("Record a film"),
         motion && motion.until > 0 && kindOfFilm()
           ? () => void saveFilm(taken, motion, said, leaving.signal)
           : null,
@@ -98,19 +103,19 @@ function press(label: string, run: (() => void) | null): HTMLButtonElement {
 
 const nameOf = (session: Session): string => {
   const state = session.shown;
-  return state ? fileName(`${state.title}, ${state.time.toFixed(3)} s`) : "mechanism";
+  return fileName(state ? `${state.title}, ${state.time.toFixed(3)} s` : "");
 };
 
 function pictures({ session, drawing }: Taken, said: HTMLElement): HTMLElement[] {
   return [
-    press("Save as SVG", () => {
+    press(t("Save as SVG"), () => {
       const text = drawing.svg(session.shown?.title ?? "mechanism");
       saveFile(new Blob([text], { type: "image/svg+xml" }), `${nameOf(session)}.svg`);
     }),
-    press("Save as PNG", () => {
+    press(t("Save as PNG"), () => {
       drawing.canvas(PNG_RATIO).toBlob((blob) => {
         if (blob) saveFile(blob, `${nameOf(session)}.png`);
-        else setText(said, "This browser could not write the picture; take the SVG.");
+        else setText(said, t("This browser could not write the picture; take the SVG."));
       });
     }),
   ];
@@ -120,9 +125,9 @@ async function savePage({ session }: Taken, motion: Motion, said: HTMLElement): 
   try {
     const blob = await pageFile(motion, { drawn: session.drawn, camera: session.camera });
     saveFile(blob, `${fileName(motion.title)}.html`);
-    setText(said, `Saved, ${Math.ceil(blob.size / 1000)} kB.`);
+    setText(said, t("Saved, {size} kB.", { size: Math.ceil(blob.size / 1000) }));
   } catch {
-    setText(said, "The file could not be made: is the server still there?");
+    setText(said, t("The file could not be made: is the server still there?"));
   }
 }
 
@@ -132,19 +137,19 @@ async function saveFilm(
   said: HTMLElement,
   signal: AbortSignal,
 ): Promise<void> {
-  announce("The film is being recorded.");
+  announce(t("The film is being recorded."));
   try {
     const blob = await film(
       motion,
       session,
       drawing,
-      (part) => setText(said, `Recording: ${Math.round(100 * part)} %`),
+      (part) => setText(said, t("Recording: {part} %", { part: Math.round(100 * part) })),
       signal,
     );
     saveFile(blob, `${fileName(motion.title)}.${blob.type.includes("mp4") ? "mp4" : "webm"}`);
-    setText(said, `Saved, ${(blob.size / 1e6).toFixed(1)} MB.`);
+    setText(said, t("Saved, {size} MB.", { size: (blob.size / 1e6).toFixed(1) }));
   } catch {
-    if (!signal.aborted) setText(said, "This browser could not record the film.");
+    if (!signal.aborted) setText(said, t("This browser could not record the film."));
   }
 }
 
@@ -167,13 +172,13 @@ function frameRow(session: Session): HTMLElement[] {
     class: "field",
     readonly: true,
     value: text,
-    "aria-label": "Text of the frame",
+    "aria-label": t("Text of the frame"),
   });
   field.addEventListener("focus", () => field.select());
   return [
     row(
-      "A frame in slides or a course page",
-      "It plays the recorded run of this mechanism, with its author’s numbers; nobody needs an account.",
+      t("A frame in slides or a course page"),
+      t("It plays the recorded run of this mechanism, with its author’s numbers; nobody needs an account."),
       field,
     ),
   ];

@@ -1,6 +1,8 @@
 // A short film of the drawing: the motion is played once on a canvas of its own, and the browser records it.
+
 import type { Motion } from "../api/types";
 import { h } from "../core/dom";
+import { t } from "../core/texts";
 import { Recorded } from "../player/recorded";
 import type { Session } from "../session/session";
 import { Drawing } from "../stage/drawing";
@@ -38,7 +40,7 @@ export async function film(
   signal: AbortSignal,
 ): Promise<Blob> {
   const kind = kindOfFilm();
-  if (kind === undefined) throw new Error("this browser records no films");
+  if (kind === undefined) throw new Error(t("this browser records no films"));
   const canvas = h("canvas", { width: WIDTH, height: HEIGHT });
   const run = new Recorded(motion, session.drawn, session.camera, session.convention);
   const drawing = new Drawing(run.scene, run, () => true);

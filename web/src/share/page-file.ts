@@ -1,5 +1,7 @@
 // One HTML file with a recorded run: it plays without a server and without a network.
+
 import type { Motion } from "../api/types";
+import { t } from "../core/texts";
 import { PLACE, type Played } from "../player/played";
 
 /** The player's own file, into which the motion is put; `triad run --html` does the same. */
@@ -7,7 +9,7 @@ const PLAYER = "/player.html";
 
 /** The file's text, of the player's text and a motion. */
 export function withMotion(player: string, played: Played): string {
-  if (!player.includes(PLACE)) throw new Error("the player has no place for a motion");
+  if (!player.includes(PLACE)) throw new Error(t("the player has no place for a motion"));
   // No letter of the data may end the element that it stands in.
   const data = JSON.stringify(played).replaceAll("<", "\\u003c");
   return player.replace(PLACE, () => PLACE.replace("></", () => `>${data}</`));
@@ -15,6 +17,6 @@ export function withMotion(player: string, played: Played): string {
 
 export async function pageFile(motion: Motion, more: Omit<Played, "motion">): Promise<Blob> {
   const response = await fetch(PLAYER);
-  if (!response.ok) throw new Error("the player cannot be loaded");
+  if (!response.ok) throw new Error(t("the player cannot be loaded"));
   return new Blob([withMotion(await response.text(), { motion, ...more })], { type: "text/html" });
 }

@@ -4,13 +4,14 @@
 import type { Camera } from "../api/types";
 import { h } from "../core/dom";
 import { bind } from "../core/keys";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 
-const SIDES: [Camera, string][] = [
-  ["corner", "corner"],
-  ["front", "front"],
-  ["side", "side"],
-  ["above", "above"],
+const SIDES: [Camera, () => string][] = [
+  ["corner", () => t("corner")],
+  ["front", () => t("front")],
+  ["side", () => t("side")],
+  ["above", () => t("above")],
 ];
 
 export function cameras(session: Session): { root: HTMLElement; dispose: () => void } {
@@ -18,10 +19,10 @@ export function cameras(session: Session): { root: HTMLElement; dispose: () => v
     "select",
     {
       class: "field compact",
-      "aria-label": "Look at the mechanism from",
-      title: "Look at the mechanism from (C)",
+      "aria-label": t("Look at the mechanism from"),
+      title: t("Look at the mechanism from (C)"),
     },
-    ...SIDES.map(([value, label]) => h("option", { value }, label)),
+    ...SIDES.map(([value, label]) => h("option", { value }, label())),
   );
   select.addEventListener("change", () => session.lookFrom(select.value as Camera));
   const silence = session.on("view", () => {
@@ -31,7 +32,7 @@ export function cameras(session: Session): { root: HTMLElement; dispose: () => v
     {
       keys: ["c", "C"],
       shown: "C",
-      does: "Camera: corner, front, side, above",
+      does: t("Camera: corner, front, side, above"),
       run: () => {
         const at = SIDES.findIndex(([side]) => side === session.camera);
         session.lookFrom(SIDES[(at + 1) % SIDES.length]?.[0] ?? "corner");

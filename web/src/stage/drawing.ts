@@ -3,6 +3,7 @@
 import type { Camera, Scene, SessionState, Vec3 } from "../api/types";
 import { h } from "../core/dom";
 import { num, seconds } from "../core/format";
+import { t } from "../core/texts";
 import { type Arrow, arrows } from "../mechanics/forces";
 import { add, dot, norm, scale, unit } from "../mechanics/vec";
 import type { Watched } from "../session/watched";
@@ -371,11 +372,21 @@ export class Drawing {
     const said = this.root.hasAttribute("aria-label");
     if (said && this.session.moving && now - this.toldAt < TELL_MS) return;
     this.toldAt = now;
-    const bodies = state.bodies
-      .slice(0, 4)
-      .map((body) => `${body.name} at ${body.position.map((x) => num(x, 3)).join(", ")} m`);
-    const more = state.bodies.length > 4 ? `, and ${state.bodies.length - 4} more bodies` : "";
-    const label = `Drawing of the mechanism at ${seconds(state.time)}: ${bodies.join("; ")}${more}.`;
+    const bodies = state.bodies.slice(0, 4).map((body) =>
+      t("{name} at {position} m", {
+        name: body.name,
+        position: body.position.map((x) => num(x, 3)).join(", "),
+      }),
+    );
+    const more =
+      state.bodies.length > 4
+        ? `, ${t("and {n} more body | and {n} more bodies", { n: state.bodies.length - 4 })}`
+        : "";
+    const label = t("Drawing of the mechanism at {time}: {bodies}{more}.", {
+      time: seconds(state.time),
+      bodies: bodies.join("; "),
+      more,
+    });
     if (this.root.getAttribute("aria-label") !== label) this.root.setAttribute("aria-label", label);
   }
 }

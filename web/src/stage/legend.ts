@@ -1,6 +1,8 @@
 // The scale of the arrows in the 3-D view, in words, and the force of the selected joint in big type.
+
 import { h, setText } from "../core/dom";
 import { num } from "../core/format";
+import { t } from "../core/texts";
 import { arrows, roundDown } from "../mechanics/forces";
 import { norm } from "../mechanics/vec";
 import type { Session } from "../session/session";
@@ -22,11 +24,17 @@ export function legend(session: Session): { root: HTMLElement; update: () => voi
     const newtons = roundDown((0.4 * drawing.longest) / drawing.force_scale);
     const moments = roundDown((0.2 * drawing.longest) / drawing.moment_scale);
     const turning = state.forces.some((entry) => norm(entry.moment) > 0);
-    const arrowText = `Arrow ${num(newtons * drawing.force_scale, 2)} m long: ${num(newtons)} N. `;
+    const arrowText = t("Arrow {length} m long: {force} N.", {
+      length: num(newtons * drawing.force_scale, 2),
+      force: num(newtons),
+    });
     const circleText = turning
-      ? `Circle of ${num(moments * drawing.moment_scale, 2)} m: ${num(moments)} N m. `
+      ? t("Circle of {length} m: {moment} N m.", {
+          length: num(moments * drawing.moment_scale, 2),
+          moment: num(moments),
+        })
       : "";
-    setText(scale, `${arrowText}${circleText}Drawn double: more than shown.`);
+    setText(scale, [arrowText, circleText, t("Drawn double: more than shown.")].filter(Boolean).join(" "));
     const [arrow] =
       session.joint === null ? [] : arrows(state, { what: "joint" }, session.joint, session.convention);
     setText(

@@ -4,6 +4,7 @@ import type { Scene } from "../api/types";
 import { authored, h, setText } from "../core/dom";
 import { seconds } from "../core/format";
 import { recall, reducedMotion, remember } from "../core/prefs";
+import { t } from "../core/texts";
 import { onPrint, onTheme } from "../core/theme";
 import type { Session } from "../session/session";
 import { icon } from "../ui/icons";
@@ -178,16 +179,16 @@ export class Stage {
     this.loading.root.hidden = !this.failed && !(this.starting && this.wanted);
     // The viewer shows a recording, which the server makes.
     this.button.hidden = this.session.here;
-    this.button.replaceChildren(icon("cube"), this.wanted ? "Back to the drawing" : "Open in rerun");
+    this.button.replaceChildren(icon("cube"), this.wanted ? t("Back to the drawing") : t("Open in rerun"));
     this.button.title = this.wanted
       ? ""
-      : "The run in the rerun viewer: plots, the Jacobian, every quantity (11 MB once)";
+      : t("The run in the rerun viewer: plots, the Jacobian, every quantity (11 MB once)");
   }
 
   private print(): void {
     const state = this.session.shown;
     if (!state) return;
-    const words = `${state.title} at t = ${seconds(state.time)}`;
+    const words = t("{title} at t = {time}", { title: state.title, time: seconds(state.time) });
     authored(this.printed, this.drawing.svg(words));
     this.printed.append(h("figcaption", null, words));
   }
@@ -215,7 +216,10 @@ export class Stage {
       if (taken !== undefined)
         setText(
           this.behind,
-          `The viewer catches up: ${seconds(taken, 1)} of ${seconds(time, 1)}. Till then the drawing.`,
+          t("The viewer catches up: {taken} of {time}. Till then the drawing.", {
+            taken: seconds(taken, 1),
+            time: seconds(time, 1),
+          }),
         );
     }
     if (this.ticking && performance.now() - this.shownAt < restAfter(this.frameCost)) return;

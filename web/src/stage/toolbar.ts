@@ -3,6 +3,7 @@
 import { h, saveFile } from "../core/dom";
 import { fileName } from "../core/format";
 import { bind } from "../core/keys";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
 import type { Drawing } from "./drawing";
@@ -23,15 +24,15 @@ export function toolbar(
     saveFile(new Blob([drawing.svg(title)], { type: "image/svg+xml" }), `${fileName(title)}.svg`);
   };
   const release = bind([
-    { keys: ["0"], shown: "0", does: "Show all of the mechanism, as large as it fits", run: fit },
-    { keys: ["e", "E"], shown: "E", does: "The drawing on the entire screen, and back", run: whole },
+    { keys: ["0"], shown: "0", does: t("Show all of the mechanism, as large as it fits"), run: fit },
+    { keys: ["e", "E"], shown: "E", does: t("The drawing on the entire screen, and back"), run: whole },
   ]);
   const root = h(
     "div",
-    { class: "stage-tools", role: "group", "aria-label": "Drawing" },
-    tool("fit", "Show all of it, as large as it fits (0)", fit),
-    tool("full", "Entire screen (E)", whole),
-    tool("save", "Save this picture (SVG)", save),
+    { class: "stage-tools", role: "group", "aria-label": t("Drawing") },
+    tool("fit", t("Show all of it, as large as it fits (0)"), fit),
+    tool("full", t("Entire screen (E)"), whole),
+    tool("save", t("Save this picture (SVG)"), save),
   );
   return { root, dispose: release };
 }

@@ -1,5 +1,7 @@
 // The rerun viewer, fetched when it is wanted, kept alive between pages, fed by our own socket.
+
 import type { LogChannel, WebViewer } from "@rerun-io/web-viewer";
+import { t } from "../core/texts";
 import { theme } from "../core/theme";
 import { requireWebGl } from "./unavailable";
 
@@ -45,7 +47,7 @@ export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise
   viewer.canvas?.setAttribute("role", "img");
   viewer.canvas?.setAttribute(
     "aria-label",
-    "3-D view of the mechanism. Its numbers stand in the tables of the inspector.",
+    t("3-D view of the mechanism. Its numbers stand in the tables of the inspector."),
   );
   for (const panel of ["top", "blueprint", "selection", "time"] as const)
     viewer.override_panel_state(panel, "hidden");

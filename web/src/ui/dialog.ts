@@ -1,5 +1,7 @@
 // A dialog over the page: closed by Escape, by its cross, or by a click beside it.
+
 import { h } from "../core/dom";
+import { t } from "../core/texts";
 import { icon } from "./icons";
 
 export function dialog(title: string, ...children: HTMLElement[]): HTMLDialogElement {
@@ -12,7 +14,12 @@ export function dialog(title: string, ...children: HTMLElement[]): HTMLDialogEle
       h("h2", { id: "dialog-title" }, title),
       h(
         "button",
-        { type: "button", class: "header-button square", "aria-label": "Close", onclick: () => box.close() },
+        {
+          type: "button",
+          class: "header-button square",
+          "aria-label": t("Close"),
+          onclick: () => box.close(),
+        },
         icon("close"),
       ),
     ),

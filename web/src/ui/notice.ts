@@ -1,7 +1,9 @@
 // Notices: a problem, an empty list, text that is still loading, the banner over the page.
+
 import { problemOf } from "../api/client";
 import type { Problem } from "../api/types";
 import { type Child, h } from "../core/dom";
+import { t } from "../core/texts";
 import { icon } from "./icons";
 
 export interface Action {
@@ -42,7 +44,7 @@ export function problemNotice(error: unknown, actions: Action[] = [], link?: Poi
           )
         : null,
       problem.hint
-        ? h("p", { class: "notice-hint" }, h("strong", null, "What to try: "), problem.hint)
+        ? h("p", { class: "notice-hint" }, h("strong", null, t("What to try:")), " ", problem.hint)
         : null,
       actions.length > 0
         ? h(
@@ -53,7 +55,9 @@ export function problemNotice(error: unknown, actions: Action[] = [], link?: Poi
             ),
           )
         : null,
-      problem.trace_id ? h("p", { class: "notice-trace" }, `Trace ${problem.trace_id}`) : null,
+      problem.trace_id
+        ? h("p", { class: "notice-trace" }, t("Trace {trace_id}", { trace_id: problem.trace_id }))
+        : null,
     ),
   );
 }
@@ -67,7 +71,7 @@ function pointer(path: string | undefined, link?: PointerLink): Child {
     {
       type: "button",
       class: "pointer",
-      title: "Show this place in the scene",
+      title: t("Show this place in the scene"),
       onclick: () => link.open(shown),
     },
     shown,

@@ -1,10 +1,12 @@
 // The header that stays: name, places, the student's name, theme, help.
+
 import { api } from "../api/client";
-import { inClass, me, teaches } from "../api/identity";
+import { inClass, me, roleWord, teaches } from "../api/identity";
 import { site } from "../core/address";
 import { h } from "../core/dom";
 import { bind, shortcuts } from "../core/keys";
 import { student } from "../core/prefs";
+import { LANGUAGES, type Language, language, parts, speak, t } from "../core/texts";
 import { onTheme, projector, theme, toggleProjector, toggleTheme } from "../core/theme";
 import mark from "../mark.svg?raw";
 import { dialog } from "./dialog";
@@ -16,43 +18,44 @@ export function header(root: HTMLElement): void {
   root.append(
     h(
       "a",
-      { class: "brand", href: "/", "aria-label": "Triad, all lessons" },
+      { class: "brand", href: "/", "aria-label": t("Triad, all lessons") },
       brandMark,
       h("span", null, "Triad"),
     ),
     h(
       "nav",
-      { "aria-label": "Main" },
-      h("a", { href: "/" }, "Lessons"),
-      h("a", { href: "/scenes" }, "Scenes"),
-      site ? null : h("a", { href: "/room" }, "Join"),
+      { "aria-label": t("Main") },
+      h("a", { href: "/" }, t("Lessons")),
+      h("a", { href: "/scenes" }, t("Scenes")),
+      site ? null : h("a", { href: "/room" }, t("Join")),
       classLink(),
     ),
     h("span", { class: "header-space" }),
     nameButton(),
     projectorButton(),
+    languageButton(),
     themeButton(),
     h(
       "button",
       {
         type: "button",
         class: "header-button square",
-        "aria-label": "Keyboard and help",
-        title: "Keyboard and help (?)",
+        "aria-label": t("Keyboard and help"),
+        title: t("Keyboard and help (?)"),
         onclick: help,
       },
       icon("keys"),
     ),
   );
   bind([
-    { keys: ["p", "P"], shown: "P", does: "Projector: big type and strong lines", run: toggleProjector },
-    { keys: ["?"], shown: "?", does: "Show this help", run: help },
+    { keys: ["p", "P"], shown: "P", does: t("Projector: big type and strong lines"), run: toggleProjector },
+    { keys: ["?"], shown: "?", does: t("Show this help"), run: help },
   ]);
 }
 
 /** The way to the class, for those who teach it. */
 function classLink(): HTMLElement {
-  const link = h("a", { href: "/class" }, "Class");
+  const link = h("a", { href: "/class" }, t("Class"));
   const paint = (): void => {
     link.hidden = !teaches();
   };
@@ -73,14 +76,40 @@ function nameButton(): HTMLElement {
   return button;
 }
 
+/** The languages that the page does not speak now, each named in its own words. */
+function others(): [Language, string][] {
+  const all = Object.entries(LANGUAGES) as [Language, string][];
+  return all.filter(([one]) => one !== language());
+}
+
+/** On narrow screens the choice stands in the help alone. */
+function languageButton(): HTMLElement {
+  return h(
+    "span",
+    { class: "wide-only" },
+    ...others().map(([one, name]) =>
+      h(
+        "button",
+        {
+          type: "button",
+          class: "header-button",
+          lang: one,
+          onclick: () => speak(one),
+        },
+        name,
+      ),
+    ),
+  );
+}
+
 function projectorButton(): HTMLElement {
   const button = h(
     "button",
     {
       type: "button",
       class: "header-button square wide-only",
-      "aria-label": "Projector: big type and strong lines",
-      title: "Projector: big type and strong lines (P)",
+      "aria-label": t("Projector: big type and strong lines"),
+      title: t("Projector: big type and strong lines (P)"),
       onclick: toggleProjector,
     },
     icon("projector"),
@@ -100,7 +129,7 @@ function themeButton(): HTMLElement {
   const paint = (): void => {
     const dark = theme() === "dark";
     button.replaceChildren(icon(dark ? "sun" : "moon"));
-    const label = dark ? "Use the light theme" : "Use the dark theme";
+    const label = dark ? t("Use the light theme") : t("Use the dark theme");
     button.setAttribute("aria-label", label);
     button.title = label;
   };
@@ -111,23 +140,34 @@ function themeButton(): HTMLElement {
 
 function paintName(button: HTMLButtonElement): void {
   const who = student.get();
-  const nobody = inClass() ? "Sign in" : "Your name";
+  const nobody = inClass() ? t("Sign in") : t("Your name");
   button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, nobody));
   button.setAttribute(
     "aria-label",
-    who ? `${who}, ${inClass() ? "your account" : "change the name"}` : nobody,
+    who ? `${who}, ${inClass() ? t("your account") : t("change the name")}` : nobody,
   );
 }
 
 function account(): void {
   const { course, person } = me();
-  const leave = h("button", { type: "button", class: "button" }, "Sign out of this browser");
+  const leave = h("button", { type: "button", class: "button" }, t("Sign out of this browser"));
   leave.addEventListener("click", () => void api.signOut().then(() => location.assign("/")));
   dialog(
     person?.name ?? "",
-    h("p", null, `You are signed in as ${person?.role ?? ""} of “${course ?? ""}”.`),
-    h("p", { class: "help" }, "To come back you need your four words, or the link that you kept with them."),
-    h("div", { class: "row" }, h("a", { class: "button", href: "/record" }, "Your work"), leave),
+    h(
+      "p",
+      null,
+      t("You are signed in as {role} of “{course}”.", {
+        role: person ? roleWord(person.role) : "",
+        course: course ?? "",
+      }),
+    ),
+    h(
+      "p",
+      { class: "help" },
+      t("To come back you need your four words, or the link that you kept with them."),
+    ),
+    h("div", { class: "row" }, h("a", { class: "button", href: "/record" }, t("Your work")), leave),
   );
 }
 
@@ -148,17 +188,18 @@ function askName(): void {
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "name-input" }, "Your name, as your instructor knows it"),
+    h("label", { for: "name-input" }, t("Your name, as your instructor knows it")),
     input,
     h(
       "p",
       { class: "help" },
-      "Your answers are stored under this name on the server that runs Triad, which asks for no proof: its grades are " +
-        "for yourself. This browser remembers the name.",
+      t(
+        "Your answers are stored under this name on the server that runs Triad, which asks for no proof: its grades are for yourself. This browser remembers the name.",
+      ),
     ),
-    h("div", { class: "row" }, h("button", { class: "button primary" }, "Save")),
+    h("div", { class: "row" }, h("button", { class: "button primary" }, t("Save"))),
   );
-  const box = dialog("Who is working?", form);
+  const box = dialog(t("Who is working?"), form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     setStudent(input.value);
@@ -182,12 +223,13 @@ function help(): void {
   toggle.checked = shortcuts.on();
   toggle.addEventListener("change", () => shortcuts.set(toggle.checked));
   dialog(
-    "Keyboard and help",
+    t("Keyboard and help"),
     h(
       "p",
       null,
-      "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D " +
-        "view too: every number it shows stands in the tables below it.",
+      t(
+        "The keys act on the mechanism, wherever you are on the page, except while you type. They work without the 3-D view too: every number it shows stands in the tables below it.",
+      ),
     ),
     h(
       "table",
@@ -195,23 +237,31 @@ function help(): void {
       h(
         "thead",
         { class: "visually-hidden" },
-        h("tr", null, h("th", { scope: "col" }, "Key"), h("th", { scope: "col" }, "What it does")),
+        h("tr", null, h("th", { scope: "col" }, t("Key")), h("th", { scope: "col" }, t("What it does"))),
       ),
       h("tbody", null, ...rows),
     ),
-    h("p", { class: "check-line" }, toggle, h("label", { for: "keys-on" }, "Single-key shortcuts")),
+    h(
+      "p",
+      { class: "row" },
+      ...others().map(([one, name]) =>
+        h("button", { type: "button", class: "button small", lang: one, onclick: () => speak(one) }, name),
+      ),
+    ),
+    h("p", { class: "check-line" }, toggle, h("label", { for: "keys-on" }, t("Single-key shortcuts"))),
     h(
       "p",
       { class: "help" },
-      "Words, equations, scenes, Python: ",
-      h("a", { href: "/docs/" }, "the documentation"),
-      ".",
+      ...parts("Words, equations, scenes, Python: {documentation}.", {
+        documentation: h("a", { href: "/docs/" }, t("the documentation")),
+      }),
     ),
     h(
       "p",
       { class: "help" },
-      "In the drawing: drag beside the mechanism to look from elsewhere, drag a body to pull it, Ctrl and the wheel to come " +
-        "closer; with the keys, when it has the focus: Shift and the arrows, + and −.",
+      t(
+        "In the drawing: drag beside the mechanism to look from elsewhere, drag a body to pull it, Ctrl and the wheel to come closer; with the keys, when it has the focus: Shift and the arrows, + and −.",
+      ),
     ),
   );
 }

@@ -1,20 +1,23 @@
 // Tells where the run is computed, and lets one choose.
+
 import { canChoosePlace, computedHere, computeHere } from "../api/place";
 import { h } from "../core/dom";
+import { t } from "../core/texts";
 
-const ABOUT =
-  "Where the run is computed. Here: by the engine in this page, without the server; its last digits differ. " +
-  "Answers are always checked by the server's own runs.";
+const about = (): string =>
+  t(
+    "Where the run is computed. Here: by the engine in this page, without the server; its last digits differ. Answers are always checked by the server's own runs.",
+  );
 
 /** A choice where there is one, and a word where there is only this page. */
 export function placeMenu(): HTMLElement | null {
   if (!canChoosePlace())
-    return computedHere() ? h("span", { class: "help", title: ABOUT }, "Computed here") : null;
+    return computedHere() ? h("span", { class: "help", title: about() }, t("Computed here")) : null;
   const choice = h(
     "select",
-    { class: "field compact", id: "computed", "aria-label": "Where the run is computed", title: ABOUT },
-    h("option", { value: "server", selected: !computedHere() }, "On the server"),
-    h("option", { value: "here", selected: computedHere() }, "Computed here"),
+    { class: "field compact", id: "computed", "aria-label": t("Where the run is computed"), title: about() },
+    h("option", { value: "server", selected: !computedHere() }, t("On the server")),
+    h("option", { value: "here", selected: computedHere() }, t("Computed here")),
   );
   choice.addEventListener("change", () => {
     computeHere(choice.value === "here");

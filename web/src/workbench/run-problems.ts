@@ -1,8 +1,10 @@
 // What went wrong with a run, and what helps: each kind has its own way out.
+
 import { problemOf } from "../api/client";
 import type { Problem } from "../api/types";
 import { h } from "../core/dom";
 import { seconds } from "../core/format";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { type Action, problemNotice } from "../ui/notice";
 
@@ -26,7 +28,7 @@ function ways(session: Session, clear: () => void): Action[] {
   if (!state)
     return [
       {
-        label: "Try again",
+        label: t("Try again"),
         run: () => {
           clear();
           void session.start();
@@ -38,7 +40,7 @@ function ways(session: Session, clear: () => void): Action[] {
     ...(stopped && session.past.all.length > 1
       ? [
           {
-            label: `Look at the last good moments before ${seconds(state.time)}`,
+            label: t("Look at the last good moments before {time}", { time: seconds(state.time) }),
             run: () => session.seek(Math.max(0, state.time - 1)),
           },
         ]
@@ -46,7 +48,7 @@ function ways(session: Session, clear: () => void): Action[] {
     ...(stopped && session.canUndo
       ? [
           {
-            label: "Undo the last change",
+            label: t("Undo the last change"),
             run: () => {
               clear();
               void session.undo();
@@ -55,7 +57,7 @@ function ways(session: Session, clear: () => void): Action[] {
         ]
       : []),
     {
-      label: "Reset to the start",
+      label: t("Reset to the start"),
       run: () => {
         clear();
         void session.reset();

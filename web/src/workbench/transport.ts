@@ -1,8 +1,10 @@
 // Play, pause, step, look back: the clock of the page.
+
 import type { SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
 import { fixedPlain, seconds, typedNumber } from "../core/format";
 import { bind } from "../core/keys";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
 
@@ -19,39 +21,45 @@ export class Transport {
   readonly root: HTMLElement;
   private readonly stride = h(
     "select",
-    { class: "field compact", "aria-label": "Length of a step by time" },
+    { class: "field compact", "aria-label": t("Length of a step by time") },
     ...STRIDES.map((value) =>
       h("option", { value: String(value), selected: value === START_STRIDE }, `${value} s`),
     ),
   );
   private readonly speed = h(
     "select",
-    { class: "field compact", "aria-label": "Speed", title: "Speed" },
+    { class: "field compact", "aria-label": t("Speed"), title: t("Speed") },
     ...SPEEDS.map((value) =>
       h("option", { value: String(value), selected: value === START_SPEED }, `${value} ×`),
     ),
   );
-  private readonly play = button("play", "Play", "space", () => void this.session.toggle(), "primary play");
-  private readonly back = button("back", "Back to the moment before", "←", () => this.session.back());
+  private readonly play = button(
+    "play",
+    t("Play"),
+    t("space"),
+    () => void this.session.toggle(),
+    "primary play",
+  );
+  private readonly back = button("back", t("Back to the moment before"), "←", () => this.session.back());
   private readonly live = h(
     "button",
     {
       type: "button",
       class: "button small live",
       hidden: true,
-      title: "Looking back: go to the newest time",
+      title: t("Looking back: go to the newest time"),
       onclick: () => this.session.seek(Infinity),
     },
     icon("live"),
-    "To newest",
+    t("To newest"),
   );
   private readonly loop = h(
     "button",
     {
       type: "button",
       class: "button quiet small icon-only",
-      "aria-label": "Loop: show the run again and again",
-      title: "Loop: show the run again and again (L)",
+      "aria-label": t("Loop: show the run again and again"),
+      title: t("Loop: show the run again and again (L)"),
       "aria-pressed": "false",
       onclick: () => this.toggleLoop(),
     },
@@ -64,8 +72,8 @@ export class Transport {
     inputmode: "decimal",
     autocomplete: "off",
     value: "0.000",
-    "aria-label": "Run to a time, in seconds",
-    title: "Type a time and press Enter: the run goes there",
+    "aria-label": t("Run to a time, in seconds"),
+    title: t("Type a time and press Enter: the run goes there"),
   });
   private readonly until: HTMLElement;
   private readonly mode = h("span", { class: "clock-mode" });
@@ -86,12 +94,12 @@ export class Transport {
       max: String(plannedDuration ?? UNKNOWN_DURATION),
       step: "0.001",
       value: "0",
-      "aria-label": "Time",
+      "aria-label": t("Time"),
     });
     this.until = h(
       "span",
       { class: "clock-until" },
-      plannedDuration ? `of ${seconds(plannedDuration, 0)}` : "",
+      plannedDuration ? t("of {duration}", { duration: seconds(plannedDuration, 0) }) : "",
     );
     this.root = this.layout(more);
     this.listen();
@@ -110,7 +118,7 @@ export class Transport {
     const { session } = this;
     return h(
       "div",
-      { class: "transport", role: "group", "aria-label": "Run of the simulation" },
+      { class: "transport", role: "group", "aria-label": t("Run of the simulation") },
       h("div", { class: "timeline-row" }, this.timeline, this.loop, more),
       h(
         "div",
@@ -118,15 +126,15 @@ export class Transport {
         h(
           "div",
           { class: "transport-group" },
-          button("reset", "Reset to the start", "backspace", () => void session.reset()),
+          button("reset", t("Reset to the start"), t("backspace"), () => void session.reset()),
           this.back,
           this.play,
-          button("step", "One integrator step", "→", () => void session.forward()),
+          button("step", t("One integrator step"), "→", () => void session.forward()),
         ),
         h(
           "div",
           { class: "transport-group joined", hidden: !session.controls },
-          button("skip", "Step by time", "full stop", () => this.stepTime()),
+          button("skip", t("Step by time"), t("full stop"), () => this.stepTime()),
           this.stride,
         ),
         h(
@@ -160,29 +168,34 @@ export class Transport {
   private bindKeys(): () => void {
     const { session } = this;
     return bind([
-      { keys: [" "], shown: "space", does: "Play or pause", run: () => void session.toggle() },
+      { keys: [" "], shown: t("space"), does: t("Play or pause"), run: () => void session.toggle() },
       {
         keys: ["ArrowRight"],
         shown: "→",
-        does: "One integrator step, or the next moment while looking back",
+        does: t("One integrator step, or the next moment while looking back"),
         run: () => void session.forward(),
       },
       {
         keys: ["l", "L"],
         shown: "L",
-        does: "Loop: show the run again and again",
+        does: t("Loop: show the run again and again"),
         run: () => this.toggleLoop(),
       },
       {
         keys: ["ArrowLeft"],
         shown: "←",
-        does: "Back to the moment before, without computing",
+        does: t("Back to the moment before, without computing"),
         run: () => session.back(),
       },
-      { keys: ["."], shown: ".", does: "Step by time", run: () => this.stepTime() },
-      { keys: ["+", "="], shown: "+", does: "Faster", run: () => this.changeSpeed(1) },
-      { keys: ["-"], shown: "−", does: "Slower", run: () => this.changeSpeed(-1) },
-      { keys: ["Backspace"], shown: "Backspace", does: "Back to the start", run: () => void session.reset() },
+      { keys: ["."], shown: ".", does: t("Step by time"), run: () => this.stepTime() },
+      { keys: ["+", "="], shown: "+", does: t("Faster"), run: () => this.changeSpeed(1) },
+      { keys: ["-"], shown: "−", does: t("Slower"), run: () => this.changeSpeed(-1) },
+      {
+        keys: ["Backspace"],
+        shown: "Backspace",
+        does: t("Back to the start"),
+        run: () => void session.reset(),
+      },
     ]);
   }
 
@@ -207,8 +220,8 @@ export class Transport {
     if (!state) return;
     this.paintTimeline(session.time, state);
     if (document.activeElement !== this.clock) this.clock.value = fixedPlain(session.time, 3);
-    setText(this.until, `of ${Number(state.duration.toFixed(3))} s`);
-    setText(this.mode, session.replaying ? "replay" : modeOf(state));
+    setText(this.until, t("of {duration} s", { duration: Number(state.duration.toFixed(3)) }));
+    setText(this.mode, session.replaying ? t("replay") : modeOf(state));
     this.live.hidden = !session.reviewing || session.replaying;
     this.mode.hidden = !this.live.hidden;
     this.back.disabled = session.time <= 0;
@@ -224,23 +237,27 @@ export class Transport {
     timeline.style.setProperty("--computed", percent(computed));
     timeline.setAttribute(
       "aria-valuetext",
-      `${seconds(time)} of ${seconds(duration, 0)}, computed up to ${seconds(computed)}`,
+      t("{time} of {duration}, computed up to {computed}", {
+        time: seconds(time),
+        duration: seconds(duration, 0),
+        computed: seconds(computed),
+      }),
     );
   }
 
   private paintPlay(moving: boolean): void {
     this.moving = moving;
-    const label = moving ? "Pause" : "Play";
+    const label = moving ? t("Pause") : t("Play");
     this.play.replaceChildren(icon(moving ? "pause" : "play"));
     this.play.setAttribute("aria-label", label);
-    this.play.title = `${label} (space)`;
+    this.play.title = `${label} (${t("space")})`;
   }
 }
 
 function modeOf(state: SessionState): string {
-  if (state.error) return "stopped";
-  if (state.finished) return "complete";
-  return state.playing ? "running" : "paused";
+  if (state.error) return t("stopped");
+  if (state.finished) return t("complete");
+  return state.playing ? t("running") : t("paused");
 }
 
 function button(name: IconName, label: string, keys: string, run: () => void, cls = ""): HTMLButtonElement {

@@ -1,8 +1,10 @@
 // Analyses of the scene as it is now, besides its run.
+
 import { api } from "../../api/client";
 import type { ModesAbout } from "../../api/types";
 import { announce, h } from "../../core/dom";
 import { reducedMotion } from "../../core/prefs";
+import { t } from "../../core/texts";
 import { type Placed, placed, swung, visible } from "../../mechanics/pose";
 import type { Session } from "../../session/session";
 import { problemNotice } from "../../ui/notice";
@@ -24,10 +26,10 @@ import {
 const SHOWN_PERIOD = 2;
 
 /** What vibrations are about. */
-const ABOUT: Record<ModesAbout, string> = {
-  equilibrium: "about the equilibrium near the start",
-  start: "about the start, at rest",
-  steady: "about the steady motion near the start",
+const ABOUT: Record<ModesAbout, () => string> = {
+  equilibrium: () => t("about the equilibrium near the start"),
+  start: () => t("about the start, at rest"),
+  steady: () => t("about the steady motion near the start"),
 };
 
 export class AnalysesTab implements Panel {
@@ -35,18 +37,18 @@ export class AnalysesTab implements Panel {
   private readonly result = h("section", {
     class: "stack",
     "aria-live": "polite",
-    "aria-label": "Result of the analysis",
+    "aria-label": t("Result of the analysis"),
   });
   private readonly back = h(
     "button",
     { type: "button", class: "button small", hidden: true, onclick: () => this.pose(undefined) },
-    "Back to the run",
+    t("Back to the run"),
   );
 
   private readonly about = h(
     "select",
-    { class: "field compact", "aria-label": "What small vibrations are about" },
-    ...Object.entries(ABOUT).map(([value, label]) => h("option", { value }, label)),
+    { class: "field compact", "aria-label": t("What small vibrations are about") },
+    ...Object.entries(ABOUT).map(([value, label]) => h("option", { value }, label())),
   );
 
   constructor(private readonly session: Session) {
@@ -54,24 +56,24 @@ export class AnalysesTab implements Panel {
     this.root = h(
       "div",
       { class: "stack" },
-      h("p", { class: "help" }, "Asked of the scene with the numbers that it has now, from its start."),
+      h("p", { class: "help" }, t("Asked of the scene with the numbers that it has now, from its start.")),
       h(
         "div",
         { class: "row wrap" },
-        this.button("Count freedoms", async (it) => freedomsView(await api.check(JSON.stringify(it)))),
-        this.button("Assemble", async (it) =>
+        this.button(t("Count freedoms"), async (it) => freedomsView(await api.check(JSON.stringify(it)))),
+        this.button(t("Assemble"), async (it) =>
           assemblyView(await api.analyse<AssemblyResult>("assembly", scene(it))),
         ),
-        this.button("Kinematics and driving forces", async (it) =>
+        this.button(t("Kinematics and driving forces"), async (it) =>
           kinematicsView(await api.analyse<KinematicsResult>("kinematics", scene(it))),
         ),
-        this.button("Static equilibrium", async (it) =>
+        this.button(t("Static equilibrium"), async (it) =>
           this.equilibrium(await api.analyse<EquilibriumResult>("equilibrium", scene(it))),
         ),
-        this.button("Small vibrations", async (it) => {
+        this.button(t("Small vibrations"), async (it) => {
           const about = this.about.value as ModesAbout;
           const found = await api.analyse<ModesResult>("modes", { ...scene(it), about });
-          return modesView(found, ABOUT[about], (mode) => this.swing(found.bodies, mode));
+          return modesView(found, ABOUT[about](), (mode) => this.swing(found.bodies, mode));
         }),
         this.about,
         this.back,
@@ -95,7 +97,7 @@ export class AnalysesTab implements Panel {
       analyse(scene)
         .then((parts) => {
           this.result.replaceChildren(h("h3", null, label), ...parts);
-          announce(`${label}: the result is below.`);
+          announce(t("{label}: the result is below.", { label }));
         })
         .catch((error: unknown) => this.result.replaceChildren(problemNotice(error)))
         .finally(() => {

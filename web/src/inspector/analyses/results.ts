@@ -1,7 +1,9 @@
 // Results of the analyses, as tables and lists of figures.
+
 import type { CheckReport, Reaction, Vec3 } from "../../api/types";
 import { h } from "../../core/dom";
-import { fixed, num, plural, sci, seconds } from "../../core/format";
+import { fixed, num, sci, seconds } from "../../core/format";
+import { listed, t } from "../../core/texts";
 import type { ModeMotion, Placed } from "../../mechanics/pose";
 import { norm } from "../../mechanics/vec";
 import { liveTable } from "../../ui/table";
@@ -72,22 +74,22 @@ export function freedomsView(report: CheckReport): HTMLElement[] {
   const redundant = report.redundant.map((entry) => `${entry.joint} (${entry.rows.join(", ")})`);
   return [
     figures([
-      ["Bodies", String(report.bodies)],
-      ["Coordinates", String(report.coordinates)],
-      ["Rows", String(report.rows)],
-      ["Rank", String(report.rank)],
-      ["Degrees of freedom", String(report.degrees_of_freedom)],
+      [t("Bodies"), String(report.bodies)],
+      [t("Coordinates"), String(report.coordinates)],
+      [t("Rows"), String(report.rows)],
+      [t("Rank"), String(report.rank)],
+      [t("Degrees of freedom"), String(report.degrees_of_freedom)],
     ]),
     redundant.length > 0
-      ? h("p", null, "Redundant rows: ", redundant.join("; "), ".")
-      : h("p", null, "No row is redundant."),
+      ? h("p", null, t("Redundant rows:"), " ", redundant.join("; "), ".")
+      : h("p", null, t("No row is redundant.")),
   ];
 }
 
 export function assemblyView(found: AssemblyResult): HTMLElement[] {
-  const table = liveTable("Where the bodies came to lie", "Body", [
-    ...columns(["x", "y", "z", "moved"], "m"),
-    ...columns(["turned"], "rad"),
+  const table = liveTable(t("Where the bodies came to lie"), t("Body"), [
+    ...columns(["x", "y", "z", t("moved")], "m"),
+    ...columns([t("turned")], "rad"),
   ]);
   table.update(
     found.bodies.map((body) => ({
@@ -97,9 +99,9 @@ export function assemblyView(found: AssemblyResult): HTMLElement[] {
   );
   return [
     figures([
-      ["Steps", String(found.iterations)],
-      ["Open at the start", `${sci(found.opening)} m`],
-      ["Open now", `${sci(found.left)} m`],
+      [t("Steps"), String(found.iterations)],
+      [t("Open at the start"), `${sci(found.opening)} m`],
+      [t("Open now"), `${sci(found.left)} m`],
     ]),
     ...found.notes.map((note) => h("p", null, note)),
     table.root,
@@ -112,9 +114,12 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
     .filter((entry) => entry.driver)
     .map((entry) => entry.joint);
   const table = liveTable(
-    "What each driver must exert, in the world frame",
-    "Time",
-    drivers.flatMap((name) => [...columns([`${name}: force`], "N"), ...columns(["moment"], "N m")]),
+    t("What each driver must exert, in the world frame"),
+    t("Time"),
+    drivers.flatMap((name) => [
+      ...columns([t("{name}: force", { name })], "N"),
+      ...columns([t("moment")], "N m"),
+    ]),
   );
   const size = (parts: { value: number }[]): string => num(norm(parts.map((part) => part.value) as Vec3), 6);
   const stride = Math.max(1, Math.ceil(states.length / MAX_ROWS));
@@ -130,12 +135,32 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
       })),
   );
   return [
-    h("p", null, `${plural(states.length, "position")}, ${plural(found.steps, "step")} between them.`),
+    h(
+      "p",
+      null,
+      t("{positions}, {steps} between them.", {
+        positions: t("{n} position | {n} positions", { n: states.length }),
+        steps: t("{n} step | {n} steps", { n: found.steps }),
+      }),
+    ),
     ...found.passages.map((passed) =>
-      h("p", null, `Passes a singular position of ${passed.joints.join(", ")} at ${seconds(passed.time)}.`),
+      h(
+        "p",
+        null,
+        t("Passes a singular position of {joints} at {time}.", {
+          joints: passed.joints.join(", "),
+          time: seconds(passed.time),
+        }),
+      ),
     ),
     ...found.events.map((event) =>
-      h("p", null, `${event.name} at ${seconds(event.time)}${event.stop ? ", where the motion ends" : ""}.`),
+      h(
+        "p",
+        null,
+        event.stop
+          ? t("{name} at {time}, where the motion ends.", { name: event.name, time: seconds(event.time) })
+          : t("{name} at {time}.", { name: event.name, time: seconds(event.time) }),
+      ),
     ),
     ...found.notes.map((note) => h("p", null, note)),
     table.root,
@@ -144,14 +169,14 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
 
 /** `names` are those of the bodies, in their order. */
 export function equilibriumView(found: EquilibriumResult, names: string[]): HTMLElement[] {
-  const places = liveTable("Centres of mass at rest", "Body", columns(["x", "y", "z"], "m"));
+  const places = liveTable(t("Centres of mass at rest"), t("Body"), columns(["x", "y", "z"], "m"));
   places.update(
     found.bodies.map((body, k) => ({
       head: names[k] ?? "",
       cells: body.position.map((part) => fixed(part, 6)),
     })),
   );
-  const forces = liveTable("Reactions at rest, world frame", "Joint", [
+  const forces = liveTable(t("Reactions at rest, world frame"), t("Joint"), [
     ...columns(["Fx", "Fy", "Fz"], "N"),
     ...columns(["Mx", "My", "Mz"], "N m"),
   ]);
@@ -165,10 +190,10 @@ export function equilibriumView(found: EquilibriumResult, names: string[]): HTML
   );
   return [
     figures([
-      ["Stable", found.stable === null ? "undecided" : found.stable ? "yes" : "no"],
-      ["Least stiffness", `${num(found.least_stiffness, 5)} N/m`],
-      ["Left over", `${sci(found.residual)} N`],
-      ["Steps", String(found.iterations)],
+      [t("Stable"), found.stable === null ? t("undecided") : found.stable ? t("yes") : t("no")],
+      [t("Least stiffness"), `${num(found.least_stiffness, 5)} N/m`],
+      [t("Left over"), `${sci(found.residual)} N`],
+      [t("Steps"), String(found.iterations)],
     ]),
     places.root,
     forces.root,
@@ -180,7 +205,10 @@ export function modesView(found: ModesResult, about: string, show: (mode: Mode) 
     h(
       "p",
       null,
-      `${plural(found.freedoms, "degree")} of freedom ${about}. Choose a mode to see it swing in the drawing.`,
+      t("{degrees} of freedom {about}. Choose a mode to see it swing in the drawing.", {
+        degrees: t("{n} degree | {n} degrees", { n: found.freedoms }),
+        about,
+      }),
     ),
     ...steadyView(found.steady),
     modesTable(found.modes, show),
@@ -193,18 +221,26 @@ export function modesView(found: ModesResult, about: string, show: (mode: Mode) 
 function steadyView(steady: ModesResult["steady"]): HTMLElement[] {
   if (!steady) return [];
   const vector = (of: Vec3, unit: string): string => `(${of.map((x) => num(x, 4)).join(", ")}) ${unit}`;
-  const spins = steady.spins.map((spin) => `${spin.body} spins with ${num(spin.rate, 4)} rad/s`);
-  const frame = `The frame of the motion turns with ${vector(steady.turning, "rad/s")} and slides with ${vector(steady.sliding, "m/s")}`;
+  const spins = steady.spins.map((spin) =>
+    t("{body} spins with {rate} rad/s", { body: spin.body, rate: num(spin.rate, 4) }),
+  );
+  const frame = t("The frame of the motion turns with {turning} and slides with {sliding}", {
+    turning: vector(steady.turning, "rad/s"),
+    sliding: vector(steady.sliding, "m/s"),
+  });
   return [h("p", null, `${[frame, ...spins].join("; ")}.`)];
 }
 
 function leftOutView(found: ModesResult): HTMLElement[] {
   if (found.left_out === 0) return [];
   const axis = (to: Vec3): string => `(${to.map((x) => fixed(x, 3)).join(", ")})`;
-  const turns = found.without_inertia.map(
-    ({ body, axes }) => `${body} turns about ${axes.map(axis).join(" and ")}`,
+  const turns = found.without_inertia.map(({ body, axes }) =>
+    t("{body} turns about {axes}", { body, axes: listed(axes.map(axis)) }),
   );
-  const what = `${plural(found.left_out, "motion")} without inertia left out: ${turns.join("; ")}.`;
+  const what = t("{motions} without inertia left out: {turns}.", {
+    motions: t("{n} motion | {n} motions", { n: found.left_out }),
+    turns: turns.join("; "),
+  });
   return [h("p", { class: "help" }, what)];
 }
 
@@ -217,19 +253,19 @@ function modesTable(modes: Mode[], show: (mode: Mode) => void): HTMLElement {
         type: "button",
         class: "button small",
         "aria-pressed": "false",
-        "aria-label": `Show mode ${k + 1}`,
+        "aria-label": t("Show mode {number}", { number: k + 1 }),
         onclick: () => {
           for (const other of buttons) other.setAttribute("aria-pressed", String(other === button));
           show(mode);
         },
       },
-      "Show",
+      t("Show"),
     );
     buttons.push(button);
     return h(
       "tr",
       null,
-      h("th", { scope: "row" }, `Mode ${k + 1}, ${mode.kind}`),
+      h("th", { scope: "row" }, t("Mode {number}, {kind}", { number: k + 1, kind: mode.kind })),
       h("td", { class: "number" }, num(mode.frequency, 6)),
       h("td", { class: "number" }, mode.frequency > 0 ? num(1 / mode.frequency, 5) : "–"),
       h("td", { class: "number" }, num(mode.growth, 4)),
@@ -239,17 +275,17 @@ function modesTable(modes: Mode[], show: (mode: Mode) => void): HTMLElement {
   });
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": "Modes" },
+    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Modes") },
     h("table", { class: "data" }, modesHead(), h("tbody", null, ...rows)),
   );
 }
 
 function modesHead(): HTMLElement {
   const quantities = [
-    ["Frequency", "Hz"],
-    ["Period", "s"],
-    ["Growth", "1/s"],
-    ["Damping ratio", ""],
+    [t("Frequency"), "Hz"],
+    [t("Period"), "s"],
+    [t("Growth"), "1/s"],
+    [t("Damping ratio"), ""],
   ];
   return h(
     "thead",
@@ -257,7 +293,7 @@ function modesHead(): HTMLElement {
     h(
       "tr",
       null,
-      h("th", { scope: "col" }, "Mode"),
+      h("th", { scope: "col" }, t("Mode")),
       ...quantities.map(([label, unit]) =>
         h(
           "th",
@@ -266,7 +302,7 @@ function modesHead(): HTMLElement {
           unit ? h("span", { class: "unit" }, ` ${unit}`) : null,
         ),
       ),
-      h("th", { scope: "col" }, h("span", { class: "visually-hidden" }, "Picture")),
+      h("th", { scope: "col" }, h("span", { class: "visually-hidden" }, t("Picture"))),
     ),
   );
 }

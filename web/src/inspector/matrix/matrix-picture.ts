@@ -1,5 +1,7 @@
 // A sparse matrix as a picture that is pointed at, or walked through by arrow keys.
+
 import { h } from "../../core/dom";
+import { t } from "../../core/texts";
 import { onTheme } from "../../core/theme";
 import { cellAt, type Layout, layout, type Matrix } from "./matrix";
 import { type Cell, Painter } from "./painter";
@@ -22,9 +24,10 @@ export class MatrixPicture {
     tabindex: "0",
     "data-keys": "own",
     role: "application",
-    "aria-roledescription": "matrix picture",
-    "aria-label":
+    "aria-roledescription": t("matrix picture"),
+    "aria-label": t(
       "Matrix: arrow keys move from cell to cell, the value is read out above; Enter selects the joint of a row",
+    ),
   });
   readonly root = h("div", { class: "matrix-holder" }, this.canvas);
   private matrix: Matrix | undefined;

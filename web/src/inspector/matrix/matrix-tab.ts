@@ -1,8 +1,10 @@
 // Φ_q, the augmented matrix and S: picture, the value under the pointer, redundant rows, and the same as a table.
+
 import { api } from "../../api/client";
 import type { Jacobian, SymmetricMatrix } from "../../api/types";
 import { h } from "../../core/dom";
-import { num, plural, seconds } from "../../core/format";
+import { num, seconds } from "../../core/format";
+import { parts, t } from "../../core/texts";
 import { type LiveQuery, liveQuery } from "../../session/live-query";
 import type { Session } from "../../session/session";
 import { empty, problemNotice } from "../../ui/notice";
@@ -15,21 +17,23 @@ import { type Cell, MatrixPicture } from "./matrix-picture";
 const MAX_TABLE_ROWS = 600;
 type Which = "jacobian" | "augmented" | "schur";
 
-const ABOUT: Record<Which, string> = {
-  jacobian: "Every constraint row, differentiated by every coordinate.",
-  augmented:
-    "M and Φ_q as the equations of motion join them. Marked places are zero here, and filled when the coordinates " +
-    "are eliminated.",
-  schur:
-    "What is left when the bodies are eliminated, joint by joint in the order in which the solver takes them. " +
-    "Marked places are zero here, and filled in its factor.",
+const ABOUT: Record<Which, () => string> = {
+  jacobian: () => t("Every constraint row, differentiated by every coordinate."),
+  augmented: () =>
+    t(
+      "M and Φ_q as the equations of motion join them. Marked places are zero here, and filled when the coordinates are eliminated.",
+    ),
+  schur: () =>
+    t(
+      "What is left when the bodies are eliminated, joint by joint in the order in which the solver takes them. Marked places are zero here, and filled in its factor.",
+    ),
 };
 
 const KINDS = {
-  own: "changes with q",
-  constant: "constant",
-  changing: "changes with q",
-  fill: "zero here, filled in the factor",
+  own: () => t("changes with q"),
+  constant: () => t("constant"),
+  changing: () => t("changes with q"),
+  fill: () => t("zero here, filled in the factor"),
 };
 
 export class MatrixTab implements Panel {
@@ -37,9 +41,9 @@ export class MatrixTab implements Panel {
   private readonly select = h(
     "select",
     { class: "field compact" },
-    h("option", { value: "jacobian" }, "Jacobian Φ_q"),
-    h("option", { value: "augmented" }, "augmented matrix, with fill"),
-    h("option", { value: "schur" }, "solver’s matrix S, with fill"),
+    h("option", { value: "jacobian" }, t("Jacobian Φ_q")),
+    h("option", { value: "augmented" }, t("augmented matrix, with fill")),
+    h("option", { value: "schur" }, t("solver’s matrix S, with fill")),
   );
   private readonly explained = h("p", { class: "help" });
   private readonly about = h("p", { class: "when" });
@@ -54,19 +58,19 @@ export class MatrixTab implements Panel {
     (row) => this.selectJointOf(row),
   );
   private readonly table = liveTable(
-    "Entries that are not zero by structure",
-    "Row",
+    t("Entries that are not zero by structure"),
+    t("Row"),
     [
-      { label: "Column", number: false },
-      { label: "Value", number: true },
-      { label: "Kind", number: false },
+      { label: t("Column"), number: false },
+      { label: t("Value"), number: true },
+      { label: t("Kind"), number: false },
     ],
     true,
   );
   private readonly list = h(
     "details",
     { class: "as-table" },
-    h("summary", null, "The same as a table"),
+    h("summary", null, t("The same as a table")),
     this.table.root,
   );
   private readonly source: LiveQuery;
@@ -86,7 +90,7 @@ export class MatrixTab implements Panel {
     );
     this.list.addEventListener("toggle", () => this.fillTable());
     this.select.addEventListener("change", () => this.change(this.select.value as Which));
-    this.explained.textContent = ABOUT[this.which];
+    this.explained.textContent = ABOUT[this.which]();
     this.root = this.layout();
     this.read();
   }
@@ -103,7 +107,7 @@ export class MatrixTab implements Panel {
       h(
         "div",
         { class: "switches" },
-        h("label", { class: "switch" }, h("span", null, "Matrix"), this.select),
+        h("label", { class: "switch" }, h("span", null, t("Matrix")), this.select),
       ),
       h(
         "div",
@@ -113,12 +117,12 @@ export class MatrixTab implements Panel {
         h(
           "ul",
           { class: "legend" },
-          swatch("is-plus", "positive"),
-          swatch("is-minus", "negative"),
-          swatch("is-framed", "framed: constant"),
-          swatch("is-row", "constant row"),
-          swatch("is-fill", "fill"),
-          swatch("is-redundant", "too many rows"),
+          swatch("is-plus", t("positive")),
+          swatch("is-minus", t("negative")),
+          swatch("is-framed", t("framed: constant")),
+          swatch("is-row", t("constant row")),
+          swatch("is-fill", t("fill")),
+          swatch("is-redundant", t("too many rows")),
         ),
       ),
       this.redundant,
@@ -131,7 +135,7 @@ export class MatrixTab implements Panel {
 
   private change(which: Which): void {
     this.which = which;
-    this.explained.textContent = ABOUT[which];
+    this.explained.textContent = ABOUT[which]();
     this.cell = undefined;
     this.source.refresh();
   }
@@ -141,7 +145,7 @@ export class MatrixTab implements Panel {
     this.trouble.replaceChildren();
     if (this.matrix.rows.length === 0)
       this.trouble.replaceChildren(
-        empty("No constraints", "This scene has no constraint rows, so there is no matrix to show."),
+        empty(t("No constraints"), t("This scene has no constraint rows, so there is no matrix to show.")),
       );
     this.about.textContent = "columns" in value ? aboutJacobian(value) : aboutSymmetric(value);
     showRedundant(this.redundant, value);
@@ -164,8 +168,9 @@ export class MatrixTab implements Panel {
     const { matrix, cell } = this;
     if (!matrix || !cell) {
       this.readout.replaceChildren(
-        "Point at a cell, or walk with the arrow keys. A click, or Enter, marks the joint that the row belongs to, " +
-          "here and in the view.",
+        t(
+          "Point at a cell, or walk with the arrow keys. A click, or Enter, marks the joint that the row belongs to, here and in the view.",
+        ),
       );
       return;
     }
@@ -174,12 +179,12 @@ export class MatrixTab implements Panel {
     const name =
       this.which === "jacobian"
         ? [h("span", null, "∂ ", h("b", null, row), " / ∂ ", h("b", null, column))]
-        : [h("b", null, row), " with ", h("b", null, column)];
+        : parts("{row} with {column}", { row: h("b", null, row), column: h("b", null, column) });
     this.readout.replaceChildren(
-      ...name,
+      h("span", null, ...name),
       " = ",
       h("b", { class: "readout-value" }, entry && entry.kind !== "fill" ? num(entry.value, 7) : "0"),
-      h("span", { class: "readout-kind" }, entry ? KINDS[entry.kind] : "always zero"),
+      h("span", { class: "readout-kind" }, entry ? KINDS[entry.kind]() : t("always zero")),
     );
   }
 
@@ -189,7 +194,7 @@ export class MatrixTab implements Panel {
     this.table.update(
       entries.slice(0, MAX_TABLE_ROWS).map((entry) => ({
         head: rows[entry.row] ?? "",
-        cells: [columns[entry.column] ?? "", num(entry.value, 7), KINDS[entry.kind]],
+        cells: [columns[entry.column] ?? "", num(entry.value, 7), KINDS[entry.kind]()],
       })),
     );
   }
@@ -209,22 +214,22 @@ function aboutJacobian(value: Jacobian): string {
   const constant = constantRows(value).filter(Boolean).length;
   const filled = places > 0 ? (100 * value.entries.length) / places : 0;
   return [
-    `${plural(value.rows.length, "row")} (${constant} constant)`,
-    `rank ${value.rank}`,
-    plural(value.columns.length, "column"),
-    `${value.entries.length} entries`,
-    `${num(filled, 3)} % filled`,
-    `at ${seconds(value.time)}.`,
+    t("{rows} ({constant} constant)", { rows: t("{n} row | {n} rows", { n: value.rows.length }), constant }),
+    t("rank {rank}", { rank: value.rank }),
+    t("{n} column | {n} columns", { n: value.columns.length }),
+    t("{entries} entries", { entries: value.entries.length }),
+    t("{filled} % filled", { filled: num(filled, 3) }),
+    t("at {time}.", { time: seconds(value.time) }),
   ].join(", ");
 }
 
 function aboutSymmetric(value: SymmetricMatrix): string {
   const own = value.places.length - value.fill;
   return [
-    plural(value.names.length, "row"),
-    `${own} entries on and below the diagonal`,
-    `${value.fill} more by fill`,
-    `at ${seconds(value.time)}.`,
+    t("{n} row | {n} rows", { n: value.names.length }),
+    t("{own} entries on and below the diagonal", { own }),
+    t("{fill} more by fill", { fill: value.fill }),
+    t("at {time}.", { time: seconds(value.time) }),
   ].join(", ");
 }
 
@@ -233,13 +238,14 @@ function showRedundant(place: HTMLElement, value: Jacobian | SymmetricMatrix): v
   place.hidden = sets.length === 0;
   if (!("columns" in value)) return;
   place.replaceChildren(
-    h("b", null, "Too many: "),
+    h("b", null, t("Too many:")),
+    " ",
     sets
       .map((set) => {
         const names = set.rows.map((row) => value.rows[row] ?? "");
         return set.rows.length === set.dependent
           ? names.join(", ")
-          : `${set.dependent} of ${names.join(", ")}`;
+          : t("{dependent} of {names}", { dependent: set.dependent, names: names.join(", ") });
       })
       .join("; "),
     ".",

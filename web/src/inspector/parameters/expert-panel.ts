@@ -3,32 +3,35 @@
 import { at, type Leaf, leaves } from "../../api/numbers";
 import type { AfterChange } from "../../api/types";
 import { h, setText } from "../../core/dom";
-import { plural, typedNumber } from "../../core/format";
+import { typedNumber } from "../../core/format";
+import { t } from "../../core/texts";
 import type { Session } from "../../session/session";
 import type { Panel } from "../../ui/panel";
 
 /** Numbers that are shown at a time. */
 const MAX_ROWS = 120;
-const INTEGRATORS = [
-  ["auto", "Chosen by the engine"],
-  ["taylor", "Taylor series"],
-  ["dop853", "Dormand and Prince, order 8"],
-  ["dopri5", "Dormand and Prince, order 5"],
-  ["ode45", "Step control of MATLAB's ode45"],
-  ["radau", "Radau IIA, order 5: stiff"],
-  ["rattle", "RATTLE, order 6: long runs"],
+/** The word of a scene, and how it is told. */
+type Option = [word: string, told: () => string];
+const INTEGRATORS: Option[] = [
+  ["auto", () => t("Chosen by the engine")],
+  ["taylor", () => t("Taylor series")],
+  ["dop853", () => t("Dormand and Prince, order 8")],
+  ["dopri5", () => t("Dormand and Prince, order 5")],
+  ["ode45", () => t("Step control of MATLAB's ode45")],
+  ["radau", () => t("Radau IIA, order 5: stiff")],
+  ["rattle", () => t("RATTLE, order 6: long runs")],
 ];
-const COORDINATES = [
-  ["full", "12 a body (full)"],
-  ["reduced", "9 a body (reduced)"],
-  ["shared", "shared at revolute joints"],
+const COORDINATES: Option[] = [
+  ["full", () => t("12 a body (full)")],
+  ["reduced", () => t("9 a body (reduced)")],
+  ["shared", () => t("shared at revolute joints")],
 ];
-const CONSTRAINT_METHODS = [
-  ["projection", "projection"],
-  ["baumgarte", "Baumgarte"],
-  ["partitioning", "partitioning of the coordinates"],
-  ["penalty", "penalties"],
-  ["augmented-lagrangian", "augmented Lagrangian"],
+const CONSTRAINT_METHODS: Option[] = [
+  ["projection", () => t("projection")],
+  ["baumgarte", () => "Baumgarte"],
+  ["partitioning", () => t("partitioning of the coordinates")],
+  ["penalty", () => t("penalties")],
+  ["augmented-lagrangian", () => t("augmented Lagrangian")],
 ];
 /** What is written into the scene for each constraint method, with usual parameters. */
 const STABILIZATIONS: Record<string, Record<string, unknown>> = {
@@ -46,15 +49,15 @@ export class ExpertPanel implements Panel {
   private readonly filter = h("input", {
     type: "search",
     class: "field compact",
-    placeholder: "Find, such as bob mass",
-    "aria-label": "Find a number of the scene",
+    placeholder: t("Find, such as bob mass"),
+    "aria-label": t("Find a number of the scene"),
   });
   /** What the run does after a change. */
   private readonly after = h(
     "select",
     { class: "field compact" },
-    h("option", { value: "restart" }, "start over"),
-    h("option", { value: "continue" }, "go on"),
+    h("option", { value: "restart" }, t("start over")),
+    h("option", { value: "continue" }, t("go on")),
   );
   private readonly choices = h("div", { class: "expert-choices" });
   private readonly status = h("p", { class: "help", role: "status" });
@@ -87,11 +90,11 @@ export class ExpertPanel implements Panel {
   }
 
   private layout(): HTMLDetailsElement {
-    const columns = [h("th", { scope: "col" }, "Number"), h("th", { scope: "col" }, "Value")];
+    const columns = [h("th", { scope: "col" }, t("Number")), h("th", { scope: "col" }, t("Value"))];
     return h(
       "details",
       { class: "expert" },
-      h("summary", null, "All numbers of this scene"),
+      h("summary", null, t("All numbers of this scene")),
       h(
         "div",
         { class: "stack" },
@@ -100,7 +103,7 @@ export class ExpertPanel implements Panel {
           "div",
           { class: "row wrap" },
           this.filter,
-          h("label", { class: "switch" }, h("span", null, "After a change the run should"), this.after),
+          h("label", { class: "switch" }, h("span", null, t("After a change the run should")), this.after),
         ),
         this.status,
         h(
@@ -109,7 +112,7 @@ export class ExpertPanel implements Panel {
             class: "table-scroll",
             tabindex: "0",
             role: "region",
-            "aria-label": "All numbers of this scene",
+            "aria-label": t("All numbers of this scene"),
           },
           h(
             "table",
@@ -135,22 +138,25 @@ export class ExpertPanel implements Panel {
     setText(
       this.status,
       found.length > MAX_ROWS
-        ? `The first ${MAX_ROWS} of ${found.length} numbers: find others by their names.`
-        : plural(found.length, "number"),
+        ? t("The first {shown} of {found} numbers: find others by their names.", {
+            shown: MAX_ROWS,
+            found: found.length,
+          })
+        : t("{n} number | {n} numbers", { n: found.length }),
     );
   }
 
   private paintChoices(scene: unknown): void {
     const then = (): AfterChange => this.after.value as AfterChange;
     this.choices.replaceChildren(
-      choice("Integrator", INTEGRATORS, String(at(scene, "/simulation/integrator")), (value) =>
+      choice(t("Integrator"), INTEGRATORS, String(at(scene, "/simulation/integrator")), (value) =>
         this.set("/simulation/integrator", value, then()),
       ),
-      choice("Coordinates", COORDINATES, String(at(scene, "/coordinates")), (value) =>
+      choice(t("Coordinates"), COORDINATES, String(at(scene, "/coordinates")), (value) =>
         this.set("/coordinates", value, "restart"),
       ),
       choice(
-        "Constraints kept by",
+        t("Constraints kept by"),
         CONSTRAINT_METHODS,
         String(at(scene, "/simulation/stabilization/kind")),
         (value) =>
@@ -185,14 +191,14 @@ export class ExpertPanel implements Panel {
 
 function choice(
   label: string,
-  options: string[][],
+  options: Option[],
   value: string,
   changed: (value: string) => void,
 ): HTMLElement {
   const select = h(
     "select",
     { class: "field compact" },
-    ...options.map(([key, text]) => h("option", { value: key ?? "", selected: key === value }, text ?? "")),
+    ...options.map(([key, text]) => h("option", { value: key, selected: key === value }, text())),
   );
   select.addEventListener("change", () => changed(select.value));
   return h("label", { class: "switch" }, h("span", null, label), select);

@@ -1,7 +1,9 @@
 // One of the author's parameters: a slider, the number beside it, and the way back to the author's value.
+
 import type { SessionParameter } from "../../api/types";
 import { h, setText } from "../../core/dom";
 import { num, typedNumber } from "../../core/format";
+import { t } from "../../core/texts";
 
 /** Steps of a slider whose author chose none. */
 const STEPS = 200;
@@ -38,12 +40,12 @@ export class ParameterRow {
       inputmode: "decimal",
       autocomplete: "off",
       class: "field number compact",
-      "aria-label": `${label}${unit ? `, in ${unit}` : ""}`,
+      "aria-label": `${label}${unit ? `, ${t("in {unit}", { unit })}` : ""}`,
     });
     this.initial = h(
       "button",
       { type: "button", class: "button quiet small", hidden: true, onclick: () => set(initial) },
-      `back to ${num(initial)}`,
+      t("back to {initial}", { initial: num(initial) }),
     );
     this.root = this.layout();
     this.slider.addEventListener("input", () => this.drag());
@@ -79,8 +81,11 @@ export class ParameterRow {
         this.initial,
         h(
           "span",
-          { class: "help", title: goesOn ? "The run goes on from where it stands" : "The run starts over" },
-          goesOn ? "goes on" : "starts over",
+          {
+            class: "help",
+            title: goesOn ? t("The run goes on from where it stands") : t("The run starts over"),
+          },
+          goesOn ? t("goes on") : t("starts over"),
         ),
       ),
       h(
@@ -111,7 +116,10 @@ export class ParameterRow {
     const good = value >= low && value <= high;
     if (good) this.field.removeAttribute("aria-invalid");
     else this.field.setAttribute("aria-invalid", "true");
-    setText(this.wrong, good ? "" : `Write a number from ${num(low)} to ${num(high)}.`);
+    setText(
+      this.wrong,
+      good ? "" : t("Write a number from {low} to {high}.", { low: num(low), high: num(high) }),
+    );
     if (good) this.set(value);
   }
 }

@@ -3,7 +3,8 @@
 import { count, type Numbers, none } from "../../api/numbers";
 import type { AfterChange, SessionParameter } from "../../api/types";
 import { announce, h, setText } from "../../core/dom";
-import { plural } from "../../core/format";
+import { t } from "../../core/texts";
+
 import type { Session } from "../../session/session";
 import { empty } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
@@ -21,7 +22,7 @@ export class ParametersTab implements Panel {
   private readonly undo = h(
     "button",
     { type: "button", class: "button small", onclick: () => void this.attempt(() => this.session.undo()) },
-    "Undo",
+    t("Undo"),
   );
   private readonly reset = h(
     "button",
@@ -30,7 +31,7 @@ export class ParametersTab implements Panel {
       class: "button small",
       onclick: () => void this.attempt(() => this.session.change(none())),
     },
-    "Reset all",
+    t("Reset all"),
   );
   private readonly expert: ExpertPanel;
   private readonly pull: PullPanel;
@@ -57,7 +58,7 @@ export class ParametersTab implements Panel {
       this.paint();
       this.expert.refresh();
       if (count(session.numbers) === 0 && session.canUndo)
-        announce("All numbers stand as the author wrote them.");
+        announce(t("All numbers stand as the author wrote them."));
     });
   }
 
@@ -109,7 +110,12 @@ export class ParametersTab implements Panel {
       for (const parameter of view.parameters)
         this.rows.get(parameter.name)?.show(parameter, parameter.value);
     const changed = count(numbers);
-    setText(this.status, changed === 0 ? "As the author wrote it." : `${plural(changed, "number")} changed.`);
+    setText(
+      this.status,
+      changed === 0
+        ? t("As the author wrote it.")
+        : t("{numbers} changed.", { numbers: t("{n} number | {n} numbers", { n: changed }) }),
+    );
     this.undo.disabled = !canUndo;
     this.reset.disabled = changed === 0;
   }
@@ -125,8 +131,8 @@ export class ParametersTab implements Panel {
     if (parameters.length === 0)
       this.list.replaceChildren(
         empty(
-          "No sliders here",
-          "The author of this scene offers no parameters. Every number of it can be changed below.",
+          t("No sliders here"),
+          t("The author of this scene offers no parameters. Every number of it can be changed below."),
         ),
       );
   }

@@ -1,14 +1,16 @@
 // Pulling a body by numbers, for whoever cannot or will not drag it in the drawing.
+
 import type { Vec3 } from "../../api/types";
 import { h } from "../../core/dom";
 import { typedNumber } from "../../core/format";
+import { t } from "../../core/texts";
 import type { Session } from "../../session/session";
 import type { Panel } from "../../ui/panel";
 import { Attempts } from "./attempts";
 
 export class PullPanel implements Panel {
   readonly root: HTMLElement;
-  private readonly body = h("select", { class: "field compact", "aria-label": "Body to pull" });
+  private readonly body = h("select", { class: "field compact", "aria-label": t("Body to pull") });
   private readonly fields = ["x", "y", "z"].map((axis) =>
     h("input", {
       type: "text",
@@ -16,7 +18,7 @@ export class PullPanel implements Panel {
       autocomplete: "off",
       class: "field number compact",
       value: "0",
-      "aria-label": `Pull to ${axis}, in metres`,
+      "aria-label": t("Pull to {axis}, in metres", { axis }),
     }),
   );
   private readonly release = h(
@@ -26,7 +28,7 @@ export class PullPanel implements Panel {
       class: "button small",
       onclick: () => void this.attempts.run(() => this.session.pull(null)),
     },
-    "Let go",
+    t("Let go"),
   );
   private readonly attempts = new Attempts();
   /** Names of the bodies that are offered. */
@@ -51,23 +53,24 @@ export class PullPanel implements Panel {
     return h(
       "details",
       { class: "expert" },
-      h("summary", null, "Pull a body"),
+      h("summary", null, t("Pull a body")),
       h(
         "div",
         { class: "stack" },
         h(
           "p",
           { class: "help" },
-          "In the drawing, drag a body: a spring pulls it to the hand while the run goes on. " +
-            "Or pull the centre of mass by numbers, in metres.",
+          t(
+            "In the drawing, drag a body: a spring pulls it to the hand while the run goes on. Or pull the centre of mass by numbers, in metres.",
+          ),
         ),
         h(
           "div",
           { class: "row wrap" },
           this.body,
-          h("span", null, "to"),
+          h("span", null, t("to")),
           ...this.fields,
-          h("button", { type: "button", class: "button small", onclick: () => this.pull() }, "Pull"),
+          h("button", { type: "button", class: "button small", onclick: () => this.pull() }, t("Pull")),
           this.release,
         ),
         this.attempts.root,

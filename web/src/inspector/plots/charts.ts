@@ -1,5 +1,7 @@
 // What can be plotted of a run: energy, constraint violation, errors, the motion of each body, the reaction of each joint.
+
 import type { Accuracy, SessionState } from "../../api/types";
+import { t } from "../../core/texts";
 
 export interface Curve {
   label: string;
@@ -51,7 +53,7 @@ function errors(state: SessionState): Chart[] {
   const forces = state.forces.length > 0 ? [of("forces", "N", "force")] : [];
   return [
     {
-      label: "Estimated error",
+      label: t("Estimated error"),
       log: true,
       curves: [of("positions", "m", "position"), of("velocities", "m/s", "velocity"), ...forces],
     },
@@ -61,10 +63,10 @@ function errors(state: SessionState): Chart[] {
 /** All plots of a scene, by one of its states. */
 export function charts(state: SessionState): Chart[] {
   return [
-    { label: "Energy drift", curves: [{ label: "ΔE", unit: "J", of: (s) => s.energy_drift }] },
+    { label: t("Energy drift"), curves: [{ label: "ΔE", unit: "J", of: (s) => s.energy_drift }] },
     ...errors(state),
     {
-      label: "Constraint violation",
+      label: t("Constraint violation"),
       log: true,
       curves: [
         { label: "|Φ|", unit: "", of: (s) => s.position_violation },
@@ -73,29 +75,29 @@ export function charts(state: SessionState): Chart[] {
     },
     ...state.bodies.flatMap(({ name }, at): Chart[] => [
       {
-        label: `Acceleration of ${name}`,
+        label: t("Acceleration of {name}", { name }),
         curves: components("a", "m/s²", (s, k) => s.bodies[at]?.acceleration[k]),
       },
       {
-        label: `Position of ${name}`,
+        label: t("Position of {name}", { name }),
         curves: components("", "m", (s, k) => s.bodies[at]?.position[k], "position"),
       },
       {
-        label: `Velocity of ${name}`,
+        label: t("Velocity of {name}", { name }),
         curves: components("v", "m/s", (s, k) => s.bodies[at]?.velocity[k], "velocity"),
       },
       {
-        label: `Angular velocity of ${name}`,
+        label: t("Angular velocity of {name}", { name }),
         curves: components("ω", "rad/s", (s, k) => s.bodies[at]?.angular_velocity[k], "angular_velocity"),
       },
     ]),
     ...state.forces.flatMap(({ joint, on }, at): Chart[] => [
       {
-        label: `Force in ${joint} on ${on}`,
+        label: t("Force in {joint} on {on}", { joint, on }),
         curves: components("F", "N", (s, k) => s.forces[at]?.force[k], "force"),
       },
       {
-        label: `Moment in ${joint} on ${on}`,
+        label: t("Moment in {joint} on {on}", { joint, on }),
         curves: components("M", "N m", (s, k) => s.forces[at]?.moment[k], "moment"),
       },
     ]),

@@ -1,6 +1,8 @@
 // Curves that are laid over those of the run: an earlier run that was kept, or a reference from a file.
+
 import type { SessionState } from "../../api/types";
 import { sci } from "../../core/format";
+import { t } from "../../core/texts";
 import { type Chart, type Curve, errorOf } from "./charts";
 import { type Columns, difference, resample } from "./compare";
 import type { Line } from "./svg-file";
@@ -29,8 +31,8 @@ const DIFFERENCE_DASHES = [[], [8, 3]];
 /** A run that goes on to be shown beside later ones. */
 export function keptRun(name: string, states: SessionState[]): Overlay {
   return {
-    name: `Kept: ${name}`,
-    short: "kept",
+    name: t("Kept: {name}", { name }),
+    short: t("kept"),
     times: states.map((state) => state.time),
     of: (_, curve) => states.map(curve.of),
   };
@@ -46,7 +48,7 @@ export function reference(name: string, { times, columns }: Columns, charts: Cha
   );
   return {
     name,
-    short: "reference",
+    short: t("reference"),
     times,
     of: (chart, curve, k) =>
       (named ? columns.find((column) => names(column.label, chart.label, curve.label)) : columns[k])?.values,
@@ -96,7 +98,7 @@ export function compare(
         ? [
             {
               ...line,
-              label: `${curve.label} less ${overlay.short}`,
+              label: t("{label} less {short}", { label: curve.label, short: overlay.short }),
               values: apart.values,
               dash: DIFFERENCE_DASHES[at] ?? [],
             },
@@ -117,7 +119,9 @@ export function compare(
   const text = overlays.map((overlay, at) => {
     const found = largest[at] ?? [];
     const what =
-      found.length > 0 ? `largest difference ${found.join(", ")}` : "nothing of it belongs to this plot";
+      found.length > 0
+        ? t("largest difference {found}", { found: found.join(", ") })
+        : t("nothing of it belongs to this plot");
     return `${overlay.name}: ${what}.`;
   });
   return { lines, text: text.join(" ") };

@@ -3,6 +3,7 @@
 import type { SessionState } from "../../api/types";
 import { h, saveFile, setText } from "../../core/dom";
 import { num, sci, seconds } from "../../core/format";
+import { t } from "../../core/texts";
 import { onTheme } from "../../core/theme";
 import type { Session } from "../../session/session";
 import { empty } from "../../ui/notice";
@@ -25,12 +26,12 @@ export class PlotsTab implements Panel {
   private readonly apart = h("p", { class: "when", role: "status" });
   /** The values at the time that is shown. */
   private readonly readout = h("p", { class: "readout" });
-  private readonly table = h("details", { class: "as-table" }, h("summary", null, "The same as a table"));
+  private readonly table = h("details", { class: "as-table" }, h("summary", null, t("The same as a table")));
   private readonly mode = h(
     "select",
-    { class: "field compact", "aria-label": "Show both runs or their difference" },
-    h("option", { value: "both" }, "both runs"),
-    h("option", { value: "difference" }, "difference"),
+    { class: "field compact", "aria-label": t("Show both runs or their difference") },
+    h("option", { value: "both" }, t("both runs")),
+    h("option", { value: "difference" }, t("difference")),
   );
   private readonly modeLabel = h("span", { hidden: true }, this.mode);
   private readonly keepButton = h(
@@ -38,26 +39,26 @@ export class PlotsTab implements Panel {
     {
       type: "button",
       class: "button small",
-      title: "Lays this run over the next one",
+      title: t("Lays this run over the next one"),
       onclick: () => this.keep(),
     },
-    "Keep this run",
+    t("Keep this run"),
   );
   private readonly referenceButton = h(
     "button",
     {
       type: "button",
       class: "button small",
-      title: "A CSV file: time in the first column, values in the others, lines with # are remarks",
+      title: t("A CSV file: time in the first column, values in the others, lines with # are remarks"),
       onclick: () => this.chooseReference(),
     },
-    "Lay a reference over it",
+    t("Lay a reference over it"),
   );
   private readonly file = h("input", {
     type: "file",
     accept: ".csv,.txt",
     hidden: true,
-    "aria-label": "CSV file of a reference",
+    "aria-label": t("CSV file of a reference"),
   });
 
   private available: Chart[] = [];
@@ -89,11 +90,14 @@ export class PlotsTab implements Panel {
       const within = error === undefined ? "" : ` ± ${sci(error, 1)}`;
       return `${curve.label} = ${num(curve.of(state), 6)}${within} ${curve.unit}`.trim();
     });
-    this.readout.textContent = `At ${seconds(state.time)}: ${values.join(",  ")}`;
+    this.readout.textContent = t("At {time}: {values}", {
+      time: seconds(state.time),
+      values: values.join(",  "),
+    });
     this.fillTable(chart, states);
     if (states.length < 2)
       this.canvas.replaceChildren(
-        empty("Nothing to plot yet", "Play or step the run: the curves grow with it."),
+        empty(t("Nothing to plot yet"), t("Play or step the run: the curves grow with it.")),
       );
     else this.draw(chart, states);
   }
@@ -107,7 +111,7 @@ export class PlotsTab implements Panel {
       h(
         "div",
         { class: "row between" },
-        h("label", { class: "switch" }, h("span", null, "Plot"), this.select),
+        h("label", { class: "switch" }, h("span", null, t("Plot")), this.select),
         h(
           "span",
           { class: "row wrap tight" },
@@ -115,11 +119,11 @@ export class PlotsTab implements Panel {
           this.referenceButton,
           this.file,
           this.modeLabel,
-          h("span", { class: "help" }, "Save as"),
+          h("span", { class: "help" }, t("Save as")),
           save("CSV", () => this.saveCsv()),
           save("SVG", () => this.saveSvg()),
           save("PNG", () => void this.savePng()),
-          save("Table of the run …", () => tableDialog(this.session)),
+          save(t("Table of the run …"), () => tableDialog(this.session)),
         ),
       ),
       this.canvas,
@@ -189,7 +193,7 @@ export class PlotsTab implements Panel {
     if (this.rows?.label !== chart.label) {
       this.rows?.table.root.remove();
       const columns = chart.curves.map(({ label, unit }) => ({ label, unit, number: true }));
-      this.rows = { table: liveTable(chart.label, "Time", columns, true), label: chart.label };
+      this.rows = { table: liveTable(chart.label, t("Time"), columns, true), label: chart.label };
       this.table.append(this.rows.table.root);
     }
     const stride = Math.max(1, Math.ceil(states.length / TABLE_ROWS));
@@ -226,8 +230,10 @@ export class PlotsTab implements Panel {
     if (!columns) {
       setText(
         this.apart,
-        `${chosen.name} has no table of numbers: write time in the first column and values in the others, ` +
-          "separated by commas.",
+        t(
+          "{name} has no table of numbers: write time in the first column and values in the others, separated by commas.",
+          { name: chosen.name },
+        ),
       );
       return;
     }
@@ -236,8 +242,8 @@ export class PlotsTab implements Panel {
   }
 
   private paintOverlays(): void {
-    setText(this.keepButton, this.kept ? "Drop the kept run" : "Keep this run");
-    setText(this.referenceButton, this.reference ? "Drop the reference" : "Lay a reference over it");
+    setText(this.keepButton, this.kept ? t("Drop the kept run") : t("Keep this run"));
+    setText(this.referenceButton, this.reference ? t("Drop the reference") : t("Lay a reference over it"));
     this.modeLabel.hidden = !this.kept && !this.reference;
     this.refresh();
   }
@@ -246,7 +252,7 @@ export class PlotsTab implements Panel {
     const chart = this.chart();
     if (!chart) return;
     const lines = [
-      ["time", ...chart.curves.map((curve) => curve.label)].join(","),
+      [t("time"), ...chart.curves.map((curve) => curve.label)].join(","),
       ["s", ...chart.curves.map((curve) => curve.unit || "1")].join(","),
       ...this.session.past.all.map((entry) =>
         [entry.time, ...chart.curves.map((curve) => curve.of(entry))].join(","),
@@ -283,7 +289,7 @@ function runName(session: Session): string {
   const changed = [...Object.entries(values), ...Object.entries(places)].map(
     ([name, value]) => `${name} ${typeof value === "object" ? JSON.stringify(value) : String(value)}`,
   );
-  return changed.length > 0 ? changed.join(", ") : "the scene as its author wrote it";
+  return changed.length > 0 ? changed.join(", ") : t("the scene as its author wrote it");
 }
 
 const fileName = (chart: Chart, ending: string): string =>

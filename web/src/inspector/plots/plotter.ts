@@ -1,5 +1,7 @@
 // uPlot, fetched when a plot is first looked at.
+
 import uPlot from "uplot";
+import { t } from "../../core/texts";
 import "uplot/dist/uPlot.min.css";
 import type { Line } from "./svg-file";
 
@@ -72,7 +74,7 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
       height: HEIGHT,
       scales: { x: { time: false }, y: drawing.log ? { distr: 3 } : {} },
       axes: [
-        { ...axis, label: "Time, s", labelFont: font, labelSize: 20 },
+        { ...axis, label: t("Time, s"), labelFont: font, labelSize: 20 },
         {
           ...axis,
           size: 66,
@@ -83,7 +85,7 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
         },
       ],
       series: [
-        { label: "Time" },
+        { label: t("Time") },
         ...drawing.curves.map(
           (curve): uPlot.Series => ({
             label: units.size > 1 ? `${curve.label}, ${curve.unit}` : curve.label,

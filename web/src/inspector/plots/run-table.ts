@@ -3,23 +3,24 @@
 import { api } from "../../api/client";
 import type { Output, Scene } from "../../api/types";
 import { h, saveFile } from "../../core/dom";
+import { t } from "../../core/texts";
 import type { Session } from "../../session/session";
 import { dialog } from "../../ui/dialog";
 import { problemNotice } from "../../ui/notice";
 
 /** What may be chosen, in the order of the columns. */
-export const OUTPUTS: [Output, string][] = [
-  ["bodies", "Bodies: centre of mass, principal axes, velocities"],
-  ["frames", "Frames: reference point and axes as the scene writes them"],
-  ["accelerations", "Accelerations of bodies"],
-  ["reactions", "Reactions of joints and drivers"],
-  ["drivers", "Drivers: value, rate, effort, power"],
-  ["joints", "Joints: angles and slides with their rates"],
-  ["loads", "Loads: forces, lengths, powers"],
-  ["markers", "Markers: positions and velocities"],
-  ["energy", "Energy"],
-  ["balance", "Balance of energy"],
-  ["violations", "Violations of the constraints"],
+export const OUTPUTS: [Output, () => string][] = [
+  ["bodies", () => t("Bodies: centre of mass, principal axes, velocities")],
+  ["frames", () => t("Frames: reference point and axes as the scene writes them")],
+  ["accelerations", () => t("Accelerations of bodies")],
+  ["reactions", () => t("Reactions of joints and drivers")],
+  ["drivers", () => t("Drivers: value, rate, effort, power")],
+  ["joints", () => t("Joints: angles and slides with their rates")],
+  ["loads", () => t("Loads: forces, lengths, powers")],
+  ["markers", () => t("Markers: positions and velocities")],
+  ["energy", () => t("Energy")],
+  ["balance", () => t("Balance of energy")],
+  ["violations", () => t("Violations of the constraints")],
 ];
 /** What a table holds that nobody has chosen. */
 const USUAL: Output[] = ["bodies", "reactions", "energy", "violations"];
@@ -49,29 +50,33 @@ export function tableDialog(session: Session): void {
     value: String(scene.simulation?.every ?? 0.01),
   });
   const told = h("div", { "aria-live": "polite" });
-  const save = h("button", { type: "submit", class: "button primary" }, "Save as CSV");
+  const save = h("button", { type: "submit", class: "button primary" }, t("Save as CSV"));
   const form = h(
     "form",
     { class: "stack" },
-    h("p", { class: "help" }, "The scene with the numbers that it has now is run from its start to its end."),
+    h(
+      "p",
+      { class: "help" },
+      t("The scene with the numbers that it has now is run from its start to its end."),
+    ),
     h(
       "fieldset",
       { class: "stack" },
-      h("legend", null, "Columns"),
+      h("legend", null, t("Columns")),
       ...OUTPUTS.map(([, label], k) =>
-        h("label", { class: "switch" }, boxes[k] ?? "", h("span", null, label)),
+        h("label", { class: "switch" }, boxes[k] ?? "", h("span", null, label())),
       ),
     ),
-    h("label", { class: "switch" }, h("span", null, "Time between rows, s"), every),
+    h("label", { class: "switch" }, h("span", null, t("Time between rows, s")), every),
     told,
     save,
   );
-  const box = dialog("Table of the run", form);
+  const box = dialog(t("Table of the run"), form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const checked = boxes.filter((one) => one.checked).map((one) => one.value);
     if (checked.length === 0) {
-      told.replaceChildren(h("p", { class: "help" }, "Choose at least one group of columns."));
+      told.replaceChildren(h("p", { class: "help" }, t("Choose at least one group of columns.")));
       return;
     }
     save.disabled = true;

@@ -1,4 +1,5 @@
 // A plot as an SVG file.
+import { t } from "../../core/texts";
 
 export interface Line {
   label: string;
@@ -53,7 +54,7 @@ export function plotSvg(title: string, times: number[], lines: Line[], colors: C
     ...lines.map((line) => band(line, (k) => x(times[k] ?? 0), y)),
     ...lines.map((line) => curve(line, (k) => x(times[k] ?? 0), y)),
     ...lines.flatMap((line, k) => legendEntry(line, LEFT + k * LEGEND_ENTRY, colors)),
-    text(`x="${(LEFT + RIGHT) / 2}" y="${HEIGHT - 14}" text-anchor="middle"`, "Time, s", colors),
+    text(`x="${(LEFT + RIGHT) / 2}" y="${HEIGHT - 14}" text-anchor="middle"`, t("Time, s"), colors),
   ];
   const size = `viewBox="0 0 ${WIDTH} ${HEIGHT}" width="${WIDTH}" height="${HEIGHT}"`;
   return [

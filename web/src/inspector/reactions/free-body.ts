@@ -1,7 +1,9 @@
 // One body cut free, with every force on it, their sum, and mass times acceleration.
+
 import type { SessionState, Vec3 } from "../../api/types";
 import { h } from "../../core/dom";
 import { num } from "../../core/format";
+import { t } from "../../core/texts";
 import { type Drawn, freeBody, momentAbout } from "../../mechanics/forces";
 import { norm } from "../../mechanics/vec";
 
@@ -23,17 +25,22 @@ export function paintFreeBody(place: HTMLElement, state: SessionState | undefine
       moment ? null : h("td", { colspan: "3" }),
     );
   place.replaceChildren(
-    h("h3", null, `${drawn.body}, cut free`),
+    h("h3", null, t("{body}, cut free", { body: drawn.body })),
     h(
       "div",
-      { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Forces on ${drawn.body}` },
+      {
+        class: "table-scroll",
+        tabindex: "0",
+        role: "region",
+        "aria-label": t("Forces on {body}", { body: drawn.body }),
+      },
       h(
         "table",
         { class: "data" },
         h(
           "caption",
           null,
-          "Forces in newtons and moments about the centre of mass in newton metres, world frame",
+          t("Forces in newtons and moments about the centre of mass in newton metres, world frame"),
         ),
         h(
           "thead",
@@ -41,7 +48,7 @@ export function paintFreeBody(place: HTMLElement, state: SessionState | undefine
           h(
             "tr",
             null,
-            h("th", { scope: "col" }, "Force"),
+            h("th", { scope: "col" }, t("Force")),
             ...["Fx", "Fy", "Fz", "Mx", "My", "Mz"].map((name) =>
               h("th", { scope: "col", class: "number" }, name),
             ),
@@ -54,7 +61,7 @@ export function paintFreeBody(place: HTMLElement, state: SessionState | undefine
             line(arrow.label, arrow.force, arrow.kind === "load" ? null : momentAbout(arrow, body.position)),
           ),
           line("sum", sum, null, true),
-          line("mass × acceleration", inertia, null, true),
+          line(t("mass × acceleration"), inertia, null, true),
         ),
       ),
     ),

@@ -1,8 +1,10 @@
 // The reaction of one joint, stated completely: on which body, about which point, in which frame, unique or not; and the
 // multipliers that it is made of.
+
 import type { Reaction, Vec3 } from "../../api/types";
 import { h } from "../../core/dom";
 import { num } from "../../core/format";
+import { t } from "../../core/texts";
 import { norm } from "../../mechanics/vec";
 
 /** A reaction with its multipliers. */
@@ -13,7 +15,7 @@ export interface JointReaction extends Reaction {
 /** The card of a joint; `toggle` selects it, or no joint. */
 export function card(entry: JointReaction, selected: boolean, toggle: () => void): HTMLElement {
   const at = entry.about_at.map((part) => num(tidy(part, entry.about_at), 4)).join(", ");
-  const about = `moment about ${entry.about} at (${at}) m`;
+  const about = t("moment about {about} at ({at}) m", { about: entry.about, at });
   return h(
     "article",
     { class: selected ? "joint is-selected" : "joint" },
@@ -26,17 +28,22 @@ export function card(entry: JointReaction, selected: boolean, toggle: () => void
           type: "button",
           class: "joint-select",
           "aria-pressed": String(selected),
-          title: "Draw its force, mark its rows in the Jacobian",
+          title: t("Draw its force, mark its rows in the Jacobian"),
           onclick: toggle,
         },
         entry.joint,
       ),
-      entry.driver ? h("span", { class: "help" }, " driver") : null,
+      entry.driver ? h("span", { class: "help" }, " ", t("driver")) : null,
     ),
     h(
       "p",
       { class: "convention" },
-      `On ${entry.on}, from ${entry.by}; ${about}; components in ${entry.expressed_in}.`,
+      t("On {on}, from {by}; {about}; components in {expressed_in}.", {
+        on: entry.on,
+        by: entry.by,
+        about,
+        expressed_in: entry.expressed_in,
+      }),
     ),
     componentTable(entry),
     entry.rows.length > 0 ? multiplierList(entry) : null,
@@ -52,7 +59,12 @@ function componentTable(entry: JointReaction): HTMLElement {
       : ["u", "v", "w"];
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": `Reaction of ${entry.joint}` },
+    {
+      class: "table-scroll",
+      tabindex: "0",
+      role: "region",
+      "aria-label": t("Reaction of {joint}", { joint: entry.joint }),
+    },
     h(
       "table",
       { class: "data" },
@@ -62,39 +74,39 @@ function componentTable(entry: JointReaction): HTMLElement {
         h(
           "tr",
           null,
-          h("th", { scope: "col" }, "Quantity"),
+          h("th", { scope: "col" }, t("Quantity")),
           ...axes.map((axis) => h("th", { scope: "col" }, axis)),
-          h("th", { scope: "col" }, "Size"),
+          h("th", { scope: "col" }, t("Size")),
         ),
       ),
-      h("tbody", null, componentRow(entry, "Force", axes, "N"), componentRow(entry, "Moment", axes, "N m")),
+      h("tbody", null, componentRow(entry, "force", axes, "N"), componentRow(entry, "moment", axes, "N m")),
     ),
   );
 }
 
 function componentRow(
   entry: JointReaction,
-  label: "Force" | "Moment",
+  of: "force" | "moment",
   axes: string[],
   unit: string,
 ): HTMLElement {
-  const symbol = label === "Force" ? "F" : "M";
-  const parts = label === "Force" ? entry.force : entry.moment;
+  const symbol = of === "force" ? "F" : "M";
+  const parts = entry[of];
   // A moment beside the force, with an arm of a metre: less is rounding.
   const all = values([...entry.force, ...entry.moment]);
   const size = norm(values(parts) as Vec3);
   return h(
     "tr",
     null,
-    h("th", { scope: "row" }, label),
+    h("th", { scope: "row" }, of === "force" ? t("Force") : t("Moment")),
     ...parts.map((part, k) =>
       h(
         "td",
-        { class: part.unique ? "number" : "number is-shared", title: part.unique ? "" : "Not unique" },
+        { class: part.unique ? "number" : "number is-shared", title: part.unique ? "" : t("Not unique") },
         h("span", { class: "component-name" }, `${symbol}${axes[k]} `),
         part.unique ? "" : "≈ ",
         num(tidy(part.value, all), 6),
-        part.unique ? null : h("span", { class: "visually-hidden" }, " not unique"),
+        part.unique ? null : h("span", { class: "visually-hidden" }, " ", t("not unique")),
       ),
     ),
     h("td", { class: "number strong" }, `${num(tidy(size, all), 6)} `, h("span", { class: "unit" }, unit)),
@@ -104,7 +116,7 @@ function componentRow(
 function multiplierList({ joint, rows }: JointReaction): HTMLElement {
   return h(
     "ul",
-    { class: "lambdas", "aria-label": `Multipliers of ${joint}` },
+    { class: "lambdas", "aria-label": t("Multipliers of {joint}", { joint }) },
     ...rows.map((row) =>
       h("li", null, h("span", null, row.label), h("b", null, `λ = ${num(tidy(row.value, values(rows)), 6)}`)),
     ),

@@ -1,9 +1,11 @@
 // The reactions of every joint by the chosen convention, the joints that share redundant rows, one body cut free.
+
 import { api } from "../../api/client";
 import type { JointMultipliers, Reactions, SessionState } from "../../api/types";
 import { h, setText } from "../../core/dom";
 import { seconds } from "../../core/format";
 import { bind } from "../../core/keys";
+import { listed, t } from "../../core/texts";
 import type { Drawn } from "../../mechanics/forces";
 import type { ReactionConvention } from "../../session/events";
 import { type LiveQuery, liveQuery } from "../../session/live-query";
@@ -38,31 +40,31 @@ export class ReactionsTab implements Panel {
 
   constructor(private readonly session: Session) {
     this.on = choice(
-      "Acting on",
+      t("Acting on"),
       [
-        ["j", "second body"],
-        ["i", "first body"],
+        ["j", t("second body")],
+        ["i", t("first body")],
       ],
       (value) => session.setConvention({ on: value as ReactionConvention["on"] }),
     );
     this.about = choice(
-      "Moment about",
+      t("Moment about"),
       [
-        ["joint", "the joint"],
-        ["center", "centre of mass"],
+        ["joint", t("the joint")],
+        ["center", t("centre of mass")],
       ],
       (value) => session.setConvention({ about: value as ReactionConvention["about"] }),
     );
     this.frame = choice(
-      "Components in",
+      t("Components in"),
       [
-        ["world", "world frame"],
-        ["joint", "joint’s axes"],
-        ["body", "body axes"],
+        ["world", t("world frame")],
+        ["joint", t("joint’s axes")],
+        ["body", t("body axes")],
       ],
       (value) => session.setConvention({ in: value as ReactionConvention["in"] }),
     );
-    this.drawn = choice("Arrows", [], (value) => {
+    this.drawn = choice(t("Arrows"), [], (value) => {
       const drawn = drawnOf(value);
       if (drawn) session.draw(drawn);
     });
@@ -99,10 +101,10 @@ export class ReactionsTab implements Panel {
         type: "button",
         class: "button quiet small",
         hidden: !this.session.controls,
-        title: "Takes the length of the arrows from the recording so far",
+        title: t("Takes the length of the arrows from the recording so far"),
         onclick: () => this.session.fitScale(),
       },
-      "Fit the arrows",
+      t("Fit the arrows"),
     );
     return h(
       "div",
@@ -125,7 +127,7 @@ export class ReactionsTab implements Panel {
       {
         keys: ["f", "F"],
         shown: "F",
-        does: "Forces: selected joint, all joints, none",
+        does: t("Forces: selected joint, all joints, none"),
         run: () => session.draw(next(session.drawn)),
       },
     ]);
@@ -151,11 +153,11 @@ export class ReactionsTab implements Panel {
       const selected = session.joint === entry.joint;
       return card(entry, selected, () => session.select(selected ? null : entry.joint));
     });
-    setText(this.when, `At ${seconds(this.of?.time ?? state.time)}.`);
+    setText(this.when, t("At {time}.", { time: seconds(this.of?.time ?? state.time) }));
     list.replaceChildren(...cards);
     if (cards.length === 0)
       list.replaceChildren(
-        empty("No joints", "This scene has no joint, hence no multiplier that is a joint force."),
+        empty(t("No joints"), t("This scene has no joint, hence no multiplier that is a joint force.")),
       );
     restoreFocus();
     paintShared(this.shared, this.answer?.reactions);
@@ -165,10 +167,13 @@ export class ReactionsTab implements Panel {
   private paintChoices(): void {
     const { convention, drawn, latest } = this.session;
     this.drawn.offer([
-      ["joint", "selected joint"],
-      ["all", "all joints"],
+      ["joint", t("selected joint")],
+      ["all", t("all joints")],
       ["none", "none"],
-      ...(latest?.bodies ?? []).map(({ name }): [string, string] => [`body:${name}`, `${name} cut free`]),
+      ...(latest?.bodies ?? []).map(({ name }): [string, string] => [
+        `body:${name}`,
+        t("{name} cut free", { name }),
+      ]),
     ]);
     this.drawn.set(textOf(drawn));
     this.on.set(convention.on);
@@ -234,9 +239,13 @@ function paintShared(place: HTMLElement, known: Reactions | undefined): void {
 }
 
 function redundancyNotice(set: Reactions["redundancies"][number]): HTMLElement {
-  const rows = set.rows === 1 ? "one row" : `${set.rows} rows`;
-  const remedies = set.remedies.map(
-    (remedy) => `let ${remedy.joint} be ${remedy.becomes}, which gives up ${remedy.gives_up}`,
+  const rows = set.rows === 1 ? t("one row") : t("{rows} rows", { rows: set.rows });
+  const remedies = set.remedies.map((remedy) =>
+    t("let {joint} be {becomes}, which gives up {gives_up}", {
+      joint: remedy.joint,
+      becomes: remedy.becomes,
+      gives_up: remedy.gives_up,
+    }),
   );
   return h(
     "section",
@@ -247,16 +256,20 @@ function redundancyNotice(set: Reactions["redundancies"][number]): HTMLElement {
       h(
         "p",
         { class: "notice-title" },
-        `${set.joints.join(" and ")} share ${rows} too many: components marked ≈ are not unique.`,
+        t("{joints} share {rows} too many: components marked ≈ are not unique.", {
+          joints: listed(set.joints),
+          rows,
+        }),
       ),
       h(
         "p",
         null,
-        "The motion is the same however these joints share the load. " +
-          "What is shown is the smallest set of multipliers that gives it.",
+        t(
+          "The motion is the same however these joints share the load. What is shown is the smallest set of multipliers that gives it.",
+        ),
       ),
       remedies.length > 0
-        ? h("p", null, h("strong", null, "To make them unique: "), remedies.join("; "), ".")
+        ? h("p", null, h("strong", null, t("To make them unique:")), " ", remedies.join("; "), ".")
         : null,
     ),
   );
