@@ -9,6 +9,8 @@ use std::time::Duration;
 pub struct Limits {
     /// Live sessions at a time.
     pub sessions: usize,
+    /// Live sessions of one student of a class at a time: nobody takes all places.
+    pub sessions_each: usize,
     /// Bodies in a scene, checked before anything is built from it.
     pub bodies: usize,
     /// Bodies in a scene that is analysed: equilibria and modes take dense matrices, whose work grows with the cube.
@@ -43,6 +45,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             sessions: 64,
+            sessions_each: 4,
             bodies: 500,
             analysed_bodies: 60,
             connections: 2000,

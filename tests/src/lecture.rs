@@ -30,11 +30,16 @@ pub struct FollowerPage {
 impl FollowerPage {
     /// Joins a room.
     pub fn join(address: &str, code: &str, recording: bool) -> Self {
+        Self::open(address, &format!("/api/v1/rooms/{code}/stream?recording={recording}"))
+    }
+
+    /// Opens a stream.
+    pub fn open(address: &str, path: &str) -> Self {
         let mut socket = TcpStream::connect(address).unwrap();
         socket.set_read_timeout(Some(HANG)).unwrap();
         write!(
             socket,
-            "GET /api/v1/rooms/{code}/stream?recording={recording} HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\n\
+            "GET {path} HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\n\
              Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
         )
         .unwrap();
@@ -49,33 +54,49 @@ impl FollowerPage {
         Self { reader, bytes: 0 }
     }
 
+    /// The connection, for whoever ends it from outside.
+    pub fn socket(&self) -> TcpStream {
+        self.reader.get_ref().try_clone().unwrap()
+    }
+
     /// Waits for the next message.
     pub fn read(&mut self) -> Message {
+        let (kind, payload) = self.frame().unwrap();
+        match kind {
+            1 => Message::Text(serde_json::from_slice(&payload).unwrap()),
+            2 => Message::Block(payload.len()),
+            8 => Message::Close,
+            _ => Message::Other,
+        }
+    }
+
+    /// Waits for the next message and throws it away; whether there was one before the connection ended.
+    pub fn skim(&mut self) -> bool {
+        self.frame().is_ok_and(|(kind, _)| kind != 8)
+    }
+
+    /// The next message: its kind and what it says.
+    fn frame(&mut self) -> std::io::Result<(u8, Vec<u8>)> {
         let mut head = [0_u8; 2];
-        self.reader.read_exact(&mut head).unwrap();
+        self.reader.read_exact(&mut head)?;
         let mut long = [0_u8; 8];
         let length = match head[1] {
             126 => {
-                self.reader.read_exact(&mut long[6..]).unwrap();
+                self.reader.read_exact(&mut long[6..])?;
                 self.bytes += 2;
                 u64::from_be_bytes(long)
             }
             127 => {
-                self.reader.read_exact(&mut long).unwrap();
+                self.reader.read_exact(&mut long)?;
                 self.bytes += 8;
                 u64::from_be_bytes(long)
             }
             short => u64::from(short),
         };
         let mut payload = vec![0; usize::try_from(length).unwrap()];
-        self.reader.read_exact(&mut payload).unwrap();
+        self.reader.read_exact(&mut payload)?;
         self.bytes += 2 + payload.len();
-        match head[0] & 15 {
-            1 => Message::Text(serde_json::from_slice(&payload).unwrap()),
-            2 => Message::Block(payload.len()),
-            8 => Message::Close,
-            _ => Message::Other,
-        }
+        Ok((head[0] & 15, payload))
     }
 
     /// Reads on until a text of that type satisfies `wanted`.

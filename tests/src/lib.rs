@@ -17,6 +17,7 @@ pub mod options;
 pub mod refusals;
 
 pub mod lecture;
+pub mod load;
 
 use std::path::PathBuf;
 

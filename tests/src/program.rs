@@ -96,6 +96,11 @@ impl Server {
         Self::launch(folder, &["--port", port]).0
     }
 
+    /// Starts a server on a free port with more options.
+    pub fn start_with(folder: &Path, options: &[&str]) -> Self {
+        Self::launch(folder, &[&["--port", "0"], options].concat()).0
+    }
+
     /// Starts a server for a class; with the link with which its teacher comes in.
     pub fn start_class(folder: &Path) -> (Self, String) {
         let (server, mut lines) = Self::launch(folder, &["--port", "0", "--class"]);
@@ -174,6 +179,11 @@ impl Server {
     /// Memory that the server holds, MB, on Linux.
     pub fn memory(&self) -> f64 {
         self.status("VmRSS:") / 1024.0
+    }
+
+    /// Open files of the server, connections among them, on Linux.
+    pub fn files(&self) -> usize {
+        std::fs::read_dir(format!("/proc/{}/fd", self.child.id())).map_or(0, Iterator::count)
     }
 
     /// Threads of the server, on Linux.

@@ -7,10 +7,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
+use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use triad_tests::program::{HANG, Server, run, run_json};
+use triad_tests::program::{HANG, Server, assert_problem, run, run_json};
 
 /// How often the server is killed, unless `TRIAD_KILLS` says otherwise: 1000 take a quarter of an hour.
 const KILLS: u32 = 25;
@@ -189,5 +190,73 @@ fn a_gradebook_is_copied_while_it_is_used_and_brought_back_moved_and_thinned() {
     let erased = |one: &Value| one["name"].as_str().unwrap().starts_with("Erased");
     assert_eq!(grades(&moved).1["students"].as_array().unwrap().iter().filter(|one| erased(one)).count(), 1);
     assert_eq!(run_json(&["grades", "--check", "--database", &moved]), (0, json!([])));
+    server.stop();
+}
+
+/// A small disk of its own, gone at the end of the test.
+struct Disk(tempfile::TempDir);
+
+impl Disk {
+    /// One with room for so many megabytes; none where this machine does not let us.
+    fn of(megabytes: u32) -> Option<Self> {
+        let disk = Self(tempfile::tempdir().unwrap());
+        disk.mount(&["-t", "tmpfs", "-o", &format!("size={megabytes}m"), "tmpfs"]).then_some(disk)
+    }
+
+    fn mount(&self, how: &[&str]) -> bool {
+        let mut mount = Command::new("mount");
+        mount.args(how).arg(self.0.path()).stderr(Stdio::null());
+        mount.status().is_ok_and(|status| status.success())
+    }
+}
+
+impl Drop for Disk {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg("--lazy").arg(self.0.path()).stderr(Stdio::null()).status();
+    }
+}
+
+#[test]
+fn a_disk_that_is_full_or_read_only_is_named_and_loses_nothing() {
+    let Some(disk) = Disk::of(4) else {
+        eprintln!("full and read-only disks are not tried: it takes root, and a system that mounts tmpfs");
+        return;
+    };
+    let folder = disk.0.path();
+    let server = Server::start(folder);
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let hand_in = |student: usize| {
+        let value = format!("{student}.5{}", " ".repeat(100_000));
+        let answers = json!({"tension-bottom": {"value": value, "unit": "N"}});
+        server.post(path, &json!({"student": format!("student {student}"), "answers": answers}))
+    };
+    let mut kept = 0;
+    let refused = loop {
+        let reply = hand_in(kept);
+        if reply.status >= 300 {
+            break reply;
+        }
+        kept += 1;
+        assert!(kept < 200, "4 MB hold no 20 MB");
+    };
+    assert_eq!(refused.status, 507);
+    assert_problem(&refused.json(), "disk-full", "");
+    let listed =
+        |server: &Server| server.get("/api/v1/submissions?limit=1000").json().as_array().unwrap().len();
+    assert_eq!(listed(&server), kept);
+    // Room is made while it runs.
+    assert!(disk.mount(&["-o", "remount,size=64m"]));
+    assert!(hand_in(kept).status < 300);
+    server.stop();
+
+    assert!(disk.mount(&["-o", "remount,ro"]));
+    let database = folder.join("grades.db");
+    let (code, told) = run_json(&["serve", "--port", "0", "--database", text(&database)]);
+    assert_eq!(code, 4, "{told}");
+    assert_problem(&told, "database-unavailable", "");
+    assert!(told["detail"].as_str().unwrap().contains("Read-only file system"), "{told}");
+    assert!(disk.mount(&["-o", "remount,rw"]));
+    let server = Server::start(folder);
+    assert_eq!(listed(&server), kept + 1);
     server.stop();
 }

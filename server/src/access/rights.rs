@@ -45,6 +45,7 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/assignments/{slug}/questions/{id}", GRADER),
     ("GET", "/api/v1/assignments/{slug}/questions/{id}/answers.csv", GRADER),
     ("POST", "/api/v1/assignments/{slug}/regrades", INSTRUCTOR),
+    ("GET", "/api/v1/assignments/{slug}/regrades", INSTRUCTOR),
     ("GET", "/api/v1/regrades", GRADER),
     ("GET", "/api/v1/regrades/{id}/submissions/{submission}", INSTRUCTOR),
     ("POST", "/api/v1/regrades/{id}/apply", INSTRUCTOR),

@@ -5,7 +5,7 @@
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use utoipa::openapi::OpenApi;
 
 /// Where schemas stand in the description.
@@ -57,6 +57,7 @@ impl Schemas {
         schemas.extend(self.requests.take_definitions(true));
         for operation in operations(&mut document) {
             require_body(operation, &schemas);
+            allow_refusals(operation);
             name_refusals(operation);
         }
         document["components"]["schemas"] = schemas.into();
@@ -76,6 +77,16 @@ fn require_body(operation: &mut Value, schemas: &Map<String, Value>) {
         let schema = address.strip_prefix(PLACE).and_then(|name| schemas.get(name));
         let some_required = schema.is_some_and(|schema| schema["required"].is_array());
         body["required"] = some_required.into();
+    }
+}
+
+/// Any request may be refused, for what is wrong with it, for who asks, or because the server is full: the statuses that an
+/// operation names are those that have a meaning of their own there.
+fn allow_refusals(operation: &mut Value) {
+    if let Some(answers) = operation["responses"].as_object_mut() {
+        let refused = "Refused: `code` says why, `hint` what to do";
+        let content = json!({"application/json": {"schema": {"$ref": PROBLEM}}});
+        answers.insert("default".to_owned(), json!({"description": refused, "content": content}));
     }
 }
 

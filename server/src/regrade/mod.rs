@@ -15,7 +15,7 @@ use crate::problem::Problem;
 use crate::store::{Recorded, Store, StoredSubmission};
 use crate::variants::Variants;
 
-pub use preview::{Previews, preview};
+pub use preview::{Previews, Progress, preview};
 pub use told::{Changed, Counts, PersonChange, Preview, SubmissionChange};
 
 /// What came of grading a course again.

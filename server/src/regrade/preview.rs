@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
 use serde_json::Value;
@@ -16,6 +16,7 @@ use super::{again, first_difference, replace, stored};
 use crate::grades::{Book, Entry, assigned, case};
 use crate::policy::{Moment, standing};
 use crate::problem::Problem;
+use crate::session::step_back;
 use crate::store::hash::sha256;
 use crate::store::{
     Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError, StoredSubmission, identifier,
@@ -45,15 +46,48 @@ pub struct Computed {
     verdicts: usize,
 }
 
-/// Previews that were made and not applied yet.
+/// How far a preview is.
 #[derive(Debug, Default)]
-pub struct Previews(Mutex<VecDeque<Arc<Computed>>>);
+pub struct Progress {
+    done: AtomicUsize,
+    of: AtomicUsize,
+}
+
+impl Progress {
+    /// Submissions that were graded again, and those that are to be.
+    pub fn now(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.of.load(Ordering::Relaxed))
+    }
+}
+
+/// Previews that are being made, and those that were made and not applied yet.
+#[derive(Debug, Default)]
+pub struct Previews {
+    kept: Mutex<VecDeque<Arc<Computed>>>,
+    /// By lesson; of two of one lesson the later is told of.
+    coming: Mutex<HashMap<String, Weak<Progress>>>,
+}
 
 impl Previews {
+    /// A preview of a lesson that begins; it is told of until it is dropped.
+    pub fn begin(&self, lesson: &str) -> Arc<Progress> {
+        let progress = Arc::new(Progress::default());
+        let mut coming = self.coming.lock().unwrap_or_else(PoisonError::into_inner);
+        coming.retain(|_, one| one.strong_count() > 0);
+        coming.insert(lesson.to_owned(), Arc::downgrade(&progress));
+        progress
+    }
+
+    /// How far the preview of a lesson is, if one is being made.
+    pub fn progress(&self, lesson: &str) -> Option<(usize, usize)> {
+        let coming = self.coming.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(coming.get(lesson)?.upgrade()?.now())
+    }
+
     /// Keeps one.
     pub fn keep(&self, computed: Computed) -> Arc<Computed> {
         let computed = Arc::new(computed);
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.push_back(Arc::clone(&computed));
         while kept.len() > KEPT {
             kept.pop_front();
@@ -65,7 +99,7 @@ impl Previews {
     ///
     /// Errors if it is not kept any more.
     pub fn get(&self, id: &str) -> Result<Arc<Computed>, Problem> {
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let found = kept.iter().find(|one| one.shown.id == id).cloned();
         Ok(found.ok_or(StoreError::Unknown("preview of a regrade, or it is too old"))?)
     }
@@ -107,7 +141,12 @@ impl Computed {
 /// Grades everything that was handed in to a lesson again, and says what would change. Nothing is written.
 ///
 /// Errors if the gradebook cannot be read.
-pub async fn preview(store: &Store, course: &str, lesson: &Lesson) -> Result<Computed, Problem> {
+pub async fn preview(
+    store: &Store,
+    course: &str,
+    lesson: &Lesson,
+    progress: Arc<Progress>,
+) -> Result<Computed, Problem> {
     let started = Instant::now();
     let book = Book::open(store, course, None).await?;
     let assignment = book.assignment(&lesson.slug).cloned().unwrap_or_else(|| Assignment::of(&lesson.slug));
@@ -124,7 +163,8 @@ pub async fn preview(store: &Store, course: &str, lesson: &Lesson) -> Result<Com
         store.people(course).await?.into_iter().map(|person| (person.id, person.name)).collect();
     let bundle = new.bundle();
     let (version, verdicts, slug) = (sha256(&bundle), records.len(), lesson.slug.clone());
-    let graded = crate::blocking(move || Ok(all_again(&by_person(records), &old, &new))).await?;
+    progress.of.store(verdicts, Ordering::Relaxed);
+    let graded = crate::blocking(move || Ok(all_again(&by_person(records), &old, &new, &progress))).await?;
     let now = Moment::now();
     let mut people: Vec<(PersonChange, Vec<Graded>)> = graded
         .into_iter()
@@ -153,15 +193,18 @@ fn all_again(
     people: &[Vec<Recorded>],
     old: &HashMap<String, Option<Lesson>>,
     new: &Lesson,
+    progress: &Progress,
 ) -> Vec<Vec<Graded>> {
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(people.len().max(1));
     let work = || {
+        step_back();
         // The numbers of both versions are kept apart: they have the same seeds.
         let (before, after) = (Variants::default(), Variants::default());
         let mut done = Vec::new();
         while let Some(records) = people.get(next.fetch_add(1, Ordering::Relaxed)) {
             done.push(person_again(records, old, new, &before, &after));
+            progress.done.fetch_add(records.len(), Ordering::Relaxed);
         }
         done
     };

@@ -63,6 +63,8 @@ pub struct Session {
     hub: Arc<Hub>,
     track: Arc<Hub>,
     touched: Mutex<Instant>,
+    /// Among whose sessions it counts, if it is somebody's.
+    whose: Option<String>,
 }
 
 impl Session {
@@ -73,11 +75,12 @@ impl Session {
         original: Scene,
         change: &SceneChange,
         source: SceneSource,
+        whose: Option<String>,
         limits: &Limits,
     ) -> Result<Self, Problem> {
         let id = uuid::Uuid::new_v4().simple().to_string();
         let run = Run::start(id.clone(), original, change, source, samples_bytes(limits))?;
-        Self::begin(run, &id, Clock::start(), limits)
+        Ok(Self { whose, ..Self::begin(run, &id, Clock::start(), limits)? })
     }
 
     /// Goes on with a session that was kept, at the time and in the state of its run. Its recording begins anew.
@@ -118,7 +121,7 @@ impl Session {
                 worker.run(&received);
             })
             .map_err(Problem::internal)?;
-        Ok(Self { commands, signals, state, hub, track, touched: Mutex::new(Instant::now()) })
+        Ok(Self { commands, signals, state, hub, track, touched: Mutex::new(Instant::now()), whose: None })
     }
 
     /// The state now.
@@ -272,10 +275,22 @@ impl Session {
 
     /// How long nobody has asked for it or watched it.
     fn idle(&self) -> Duration {
-        if self.hub.watchers() + self.track.watchers() > 0 {
-            return Duration::ZERO;
-        }
+        if self.is_watched() { Duration::ZERO } else { self.untouched() }
+    }
+
+    /// Whether somebody watches it now.
+    fn is_watched(&self) -> bool {
+        self.hub.watchers() + self.track.watchers() > 0
+    }
+
+    /// How long nobody has asked for it.
+    fn untouched(&self) -> Duration {
         self.touched.lock().unwrap_or_else(PoisonError::into_inner).elapsed()
+    }
+
+    /// Among whose sessions it counts.
+    fn whose(&self) -> Option<&str> {
+        self.whose.as_deref()
     }
 
     /// Stops the thread as soon as it can leave its step.
@@ -300,13 +315,13 @@ fn gone() -> Problem {
     )
 }
 
-/// How much less a session's thread counts than one that answers, in the system's own measure (nice): where 200 play on two
-/// processors the runs become slower, and answers do not wait for them.
+/// How much less a thread that computes for long counts than one that answers, in the system's own measure (nice): where 200
+/// sessions play on two processors the runs become slower, and answers do not wait for them.
 #[cfg(target_os = "linux")]
 const LESS: i32 = 10;
 
 /// Lets those who answer go before this thread, where the system can.
-fn step_back() {
+pub(crate) fn step_back() {
     #[cfg(target_os = "linux")]
     rustix::process::setpriority_process(Some(rustix::thread::gettid()), LESS).unwrap_or_default();
 }

@@ -22,40 +22,65 @@ pub struct Registry {
 #[derive(Debug, Default)]
 struct Sessions {
     live: BTreeMap<String, Arc<Session>>,
-    /// Being assembled: they take a place already.
-    coming: usize,
+    /// Being assembled, by whose they are: they take a place already.
+    coming: Vec<Option<String>>,
+}
+
+impl Sessions {
+    /// Closes what somebody who has all their sessions used longest ago and does not look at.
+    ///
+    /// Errors if they look at all of them.
+    fn make_room(&mut self, whose: &str, limits: &Limits) -> Result<(), Problem> {
+        let is_theirs = |other: Option<&str>| other == Some(whose);
+        let coming = self.coming.iter().filter(|other| is_theirs(other.as_deref())).count();
+        let theirs = self.live.iter().filter(|(_, session)| is_theirs(session.whose()));
+        if coming + theirs.clone().count() < limits.sessions_each {
+            return Ok(());
+        }
+        let unseen = theirs.filter(|(_, session)| !session.is_watched());
+        let Some((id, _)) = unseen.max_by_key(|(_, session)| session.untouched()) else {
+            let all =
+                format!("you look at {} runs already, as many as one may have here", limits.sessions_each);
+            return Err(too_many(all, limits));
+        };
+        let id = id.clone();
+        if let Some(session) = self.live.remove(&id) {
+            session.close();
+        }
+        Ok(())
+    }
 }
 
 impl Registry {
-    /// Starts a session. Blocks until its scene is assembled.
+    /// Starts a session, for somebody of a class whose sessions are counted (`whose`) or for anybody. Blocks until its scene is
+    /// assembled.
     ///
-    /// Errors if there are as many as allowed, or the scene is refused.
+    /// Errors if there are as many as allowed, of everybody or of this one, or the scene is refused.
     pub fn start(
         &self,
         scene: Scene,
         change: &SceneChange,
         source: SceneSource,
+        whose: Option<String>,
         limits: &Limits,
     ) -> Result<Arc<Session>, Problem> {
         bounded(&scene, limits)?;
         self.expire(limits);
         {
             let mut sessions = self.lock();
-            if sessions.live.len() + sessions.coming >= limits.sessions {
-                return Err(Problem::new(
-                    StatusCode::SERVICE_UNAVAILABLE,
-                    "too-many-sessions",
+            if let Some(whose) = &whose {
+                sessions.make_room(whose, limits)?;
+            }
+            if sessions.live.len() + sessions.coming.len() >= limits.sessions {
+                return Err(too_many(
                     format!("all {} sessions of this server are in use", limits.sessions),
-                    format!(
-                        "delete a session that is no longer needed; idle ones are closed after {} minutes",
-                        limits.idle.as_secs() / 60
-                    ),
+                    limits,
                 ));
             }
-            sessions.coming += 1;
+            sessions.coming.push(whose.clone());
         }
-        let place = Place(self);
-        let session = Arc::new(Session::start(scene, change, source, limits)?);
+        let place = Place(self, whose.clone());
+        let session = Arc::new(Session::start(scene, change, source, whose, limits)?);
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)
@@ -128,12 +153,27 @@ impl Registry {
 }
 
 /// A place held for a session that is being assembled; given back however that ends.
-struct Place<'a>(&'a Registry);
+struct Place<'a>(&'a Registry, Option<String>);
 
 impl Drop for Place<'_> {
     fn drop(&mut self) {
-        self.0.lock().coming -= 1;
+        let mut sessions = self.0.lock();
+        if let Some(place) = sessions.coming.iter().position(|whose| *whose == self.1) {
+            sessions.coming.swap_remove(place);
+        }
     }
+}
+
+fn too_many(detail: String, limits: &Limits) -> Problem {
+    Problem::new(
+        StatusCode::SERVICE_UNAVAILABLE,
+        "too-many-sessions",
+        detail,
+        format!(
+            "delete a session that is no longer needed; idle ones are closed after {} minutes",
+            limits.idle.as_secs() / 60
+        ),
+    )
 }
 
 /// Refuses a scene that is too large for this server before anything is built from it.

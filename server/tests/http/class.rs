@@ -1,6 +1,7 @@
 //! A class: coming in, one's own numbers, the table of rights, and what other sites may not do.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use axum::Router;
 use axum::body::Body;
@@ -28,7 +29,11 @@ pub(crate) async fn class() -> Class {
 }
 
 pub(crate) async fn class_with(limits: Limits) -> Class {
-    let app = state(limits);
+    class_of(state(limits)).await
+}
+
+/// A class with a course and a gradebook of its own.
+pub(crate) async fn class_of(app: App) -> Class {
     let row = app.store.ensure_course(CLASS, "Mechanics").await.expect("a class");
     let setup = app.store.invite(CLASS, "triad", Role::Owner).await.expect("an invitation");
     let app = app.with_access(Access::class(&row, false));
@@ -36,6 +41,24 @@ pub(crate) async fn class_with(limits: Limits) -> Class {
 }
 
 impl Class {
+    /// The same class on a server that was started anew, with a course.
+    pub(crate) async fn again(&self, course: Arc<Course>) -> Self {
+        let row = self.app.store.course(CLASS).await.expect("a class");
+        let app = self.app.clone().with_access(Access::class(&row, false));
+        let app = App { course, ..app };
+        let (setup, code) = (self.setup.clone(), self.code.clone());
+        Self { server: triad::app(app.clone()), app, setup, code }
+    }
+
+    /// Asks as the presenter of a lecture.
+    pub(crate) async fn lead(&self, method: &str, path: &str, key: &str, body: Option<Value>) {
+        let request = Request::builder().method(method).uri(path).header(header::AUTHORIZATION, key);
+        let request = request.header(header::CONTENT_TYPE, "application/json");
+        let body = body.map_or_else(Body::empty, |body| Body::from(body.to_string()));
+        let reply = send(&self.server, request.body(body).expect("a request")).await;
+        assert!(reply.status.is_success(), "{method} {path}: {}", reply.status);
+    }
+
     /// Asks with a cookie; an empty one is nobody's.
     pub(crate) async fn ask(&self, method: &str, path: &str, cookie: &str, body: Option<Value>) -> Reply {
         let mut request = Request::builder().method(method).uri(path).header(header::COOKIE, cookie);

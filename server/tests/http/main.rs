@@ -22,6 +22,7 @@ mod schema;
 mod secrets;
 mod sessions;
 mod streams;
+mod term;
 mod variants;
 
 use std::time::Duration;

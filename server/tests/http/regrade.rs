@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use triad::access::Access;
 use triad::policy::Moment;
 use triad::store::CLASS;
 use triad_lessons::Course;
@@ -23,29 +22,28 @@ fn read(folder: &Path, at: &str, files: &mut BTreeMap<String, Vec<u8>>) {
     }
 }
 
-/// The course with one lesson whose tension at the bottom pays twice as much.
-fn mended() -> Course {
+/// The course with the file whose path ends so as an author edited it.
+pub(crate) fn course_with(end: &str, edit: impl FnOnce(String) -> String) -> Course {
     let mut files = BTreeMap::new();
     read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../lessons/course"), "", &mut files);
-    let path = files.keys().find(|path| path.ends_with("simple-pendulum/exercise.toml")).expect("it").clone();
-    let exercise = String::from_utf8(files[&path].clone()).expect("text");
-    let (head, tail) = exercise.split_once("id = \"tension-bottom\"").expect("the question");
-    let changed = format!("{head}id = \"tension-bottom\"{}", tail.replacen("points = 3", "points = 6", 1));
-    assert_ne!(changed, exercise);
-    files.insert(path, changed.into_bytes());
+    let path = files.keys().find(|path| path.ends_with(end)).expect("the file").clone();
+    let edited = edit(String::from_utf8(files[&path].clone()).expect("text"));
+    files.insert(path, edited.into_bytes());
     Course::from_files(files).expect("a course")
 }
 
-impl Class {
-    /// The same class, served with another course.
-    async fn with(&self, course: Course) -> Self {
-        let row = self.app.store.course(CLASS).await.expect("a class");
-        let mut app = self.app.clone().with_access(Access::class(&row, false));
-        app.course = course.into();
-        let (setup, code) = (self.setup.clone(), self.code.clone());
-        Self { server: triad::app(app.clone()), app, setup, code }
-    }
+/// The course with one lesson whose tension at the bottom pays twice as much.
+fn mended() -> Course {
+    course_with("simple-pendulum/exercise.toml", |exercise| {
+        let (head, tail) = exercise.split_once("id = \"tension-bottom\"").expect("the question");
+        let changed =
+            format!("{head}id = \"tension-bottom\"{}", tail.replacen("points = 3", "points = 6", 1));
+        assert_ne!(changed, exercise);
+        changed
+    })
+}
 
+impl Class {
     async fn submit(&self, who: &str, value: &str) -> Value {
         let body = json!({"answers": {"tension-bottom": {"value": value, "unit": "N"}}});
         self.ask("POST", "/api/v1/lessons/simple-pendulum/submissions", who, Some(body)).await.json()
@@ -77,7 +75,7 @@ async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     let ago = json!(Moment::now().after(-3_600_000));
     let late = json!({"due": ago, "late": [{"until": Moment::now().after(3_600_000), "share": 0.5}]});
     class.ask("PUT", "/api/v1/assignments/simple-pendulum", &owner, Some(late)).await;
-    let class = class.with(mended()).await;
+    let class = class.again(mended().into()).await;
     let seen = class.ask("POST", preview, &owner, None).await.json();
     assert_eq!(
         (&seen["counts"]["up"], &seen["counts"]["program"], &seen["of_other_versions"]),

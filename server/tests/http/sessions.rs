@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use triad::limits::Limits;
 use triad::live::{self, Which};
 
+use crate::class::class_with;
 use crate::{get, post, send, server, state};
 
 async fn start(server: &Router, body: Value) -> String {
@@ -108,6 +109,33 @@ async fn sessions_are_bounded_deleted_and_forgotten() {
     start(&server, body).await;
     app.sessions.expire(&Limits { idle: Duration::ZERO, ..Limits::default() });
     assert!(app.sessions.is_empty());
+}
+
+#[tokio::test]
+async fn no_student_takes_the_places_of_all() {
+    let class = class_with(Limits { sessions_each: 2, ..Limits::default() }).await;
+    let ((ada, _), (eve, _)) = (class.join("Ada").await, class.join("Eve").await);
+    let begin = async |who: &str| {
+        class.ask("POST", "/api/v1/sessions", who, Some(json!({"builtin": "free-body"}))).await
+    };
+    let id = |state: Value| state["id"].as_str().expect("an id").to_owned();
+    let (first, second) = (id(begin(&ada).await.json()), id(begin(&ada).await.json()));
+    // What was used longest ago, and is not looked at, goes.
+    class.app.sessions.get(&first).expect("hers").state();
+    let third = id(begin(&ada).await.json());
+    assert!(class.app.sessions.get(&second).is_err() && class.app.sessions.get(&first).is_ok());
+    let look = |id: &str| class.app.sessions.get(id).expect("hers").watch(triad::session::Watched::Track);
+    let watched = [look(&first), look(&third)];
+    begin(&ada).await.problem(503, "too-many-sessions");
+    assert_eq!(begin(&eve).await.status, 201, "others have places of their own");
+    drop(watched);
+    assert_eq!(begin(&ada).await.status, 201);
+    assert_eq!(class.app.sessions.len(), 3);
+    // Who teaches shows several.
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    for _ in 0..3 {
+        assert_eq!(begin(&owner).await.status, 201);
+    }
 }
 
 #[tokio::test]

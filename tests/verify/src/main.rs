@@ -6,6 +6,7 @@
 
 mod bits;
 mod deny;
+mod http;
 mod lti;
 mod python;
 mod setup;
@@ -35,7 +36,7 @@ impl Step {
 }
 
 /// The steps in their order.
-const STEPS: [Step; 12] = [
+const STEPS: [Step; 13] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, packages of npm and PyPI", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
@@ -57,6 +58,7 @@ const STEPS: [Step; 12] = [
         )
     })
     .if_named(),
+    Step::new("http", "the interface, asked by Schemathesis as it is described", http::run).if_named(),
     Step::new("lti", "a session with Open edX's learning platform, judged by PyLTI1p3 too", lti::run)
         .if_named(),
 ];

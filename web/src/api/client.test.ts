@@ -1,5 +1,12 @@
 import { afterEach, expect, test, vi } from "vitest";
+import * as here from "../engine/here";
 import { ApiError, api } from "./client";
+
+vi.mock("../engine/here", () => ({
+  canComputeHere: () => true,
+  isHere: () => false,
+  askHere: vi.fn(async () => ({ status: 201, text: '{"id":"here"}' })),
+}));
 
 afterEach(() => {
   vi.unstubAllGlobals();
@@ -13,7 +20,8 @@ function answering(...answers: [number, unknown][]): string[] {
   vi.stubGlobal("fetch", (path: string, request: { method: string }) => {
     asked.push(`${request.method} ${path}`);
     const [status, body] = answers[asked.length - 1] ?? [500, {}];
-    return Promise.resolve(new Response(JSON.stringify(body), { status }));
+    const headers = { "content-type": "application/json" };
+    return Promise.resolve(new Response(JSON.stringify(body), { status, headers }));
   });
   return asked;
 }
@@ -47,4 +55,21 @@ test("what could not be graded is the server's fault", async () => {
   answering([202, { id: "s", state: "waiting", before: 0 }], [200, { id: "s", state: "failed" }]);
   const error = await submitted([]);
   expect(error instanceof ApiError && error.problem.code).toBe("not-graded");
+});
+
+const full = { code: "too-many-sessions", title: "Too many sessions", status: 503 };
+
+test("what the server has no place for is computed in the page", async () => {
+  const told = vi.fn();
+  vi.stubGlobal("dispatchEvent", told);
+  const asked = answering([503, full], [200, { scene: { bodies: [] } }]);
+  const state = await api.createSession({ lesson: "screw" });
+  expect(state).toEqual({ id: "here" });
+  expect(asked).toEqual(["POST /api/v1/sessions", "GET /api/v1/lessons/screw"]);
+  expect(here.askHere).toHaveBeenCalledWith("POST", "/sessions", { lesson: "screw", scene: { bodies: [] } });
+  expect(told).toHaveBeenCalledOnce();
+  // The next run does not ask for a place that there is not.
+  answering([200, { scene: { bodies: [] } }]);
+  await api.createSession({ lesson: "screw" });
+  expect(here.askHere).toHaveBeenCalledTimes(2);
 });

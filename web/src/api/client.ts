@@ -6,7 +6,7 @@ import { t } from "../core/texts";
 import { askHere, isHere } from "../engine/here";
 import { fileAnswer, fileUrl, needsServer } from "./files";
 import type { Numbers } from "./numbers";
-import { computedHere } from "./place";
+import { canChoosePlace, computedHere, computeHereMeanwhile } from "./place";
 import type {
   AfterChange,
   Answer,
@@ -48,6 +48,7 @@ import type {
   QuestionAnalysis,
   Reactions,
   RegradePreview,
+  RegradeProgress,
   Scene,
   SceneEntry,
   SessionScene,
@@ -274,6 +275,7 @@ export const api = {
     `${BASE}/assignments/${id(slug)}/questions/${id(question)}`,
   answersUrl: (slug: string, question: string): string =>
     `${BASE}/assignments/${id(slug)}/questions/${id(question)}/answers.csv`,
+  regradeProgress: (slug: string) => call<RegradeProgress>("GET", `/assignments/${id(slug)}/regrades`),
   previewRegrade: (slug: string) => call<RegradePreview>("POST", `/assignments/${id(slug)}/regrades`),
   regrades: () => call<AppliedRegrade[]>("GET", "/regrades"),
   bothVerdicts: (regrade: string, submission: string) =>
@@ -366,8 +368,19 @@ export const api = {
 
   // The address of a run is that of its session, or of the lecture that follows it.
   createSession: async (source: SessionSource, change?: Numbers) => {
-    const sent = computedHere() ? await withScene(source) : own(source);
-    return call<SessionState>("POST", "/sessions", change ? { ...sent, change } : sent);
+    const begin = (sent: object): Promise<SessionState> =>
+      call<SessionState>("POST", "/sessions", change ? { ...sent, change } : sent);
+    if (!computedHere()) {
+      try {
+        return await begin(own(source));
+      } catch (error) {
+        // A class may have more pages than its server has places: what it does not take is computed here.
+        const full = error instanceof ApiError && error.problem.code === "too-many-sessions";
+        if (!full || !canChoosePlace()) throw error;
+        computeHereMeanwhile();
+      }
+    }
+    return begin(await withScene(source));
   },
   state: (run: string) => call<SessionState>("GET", run),
   sceneOf: (run: string) => call<SessionScene>("GET", `${run}/scene`),

@@ -3432,6 +3432,21 @@ export interface components {
             /** @description When it was taken back. */
             undone?: string | null;
         };
+        /** @description How far a preview is. */
+        RegradeProgress: {
+            /**
+             * Format: uint
+             * @description Submissions that were graded again.
+             */
+            done: number;
+            /**
+             * Format: uint
+             * @description Submissions that are to be; 0 until they are counted.
+             */
+            of: number;
+            /** @description Whether one is being made. */
+            under_way: boolean;
+        };
         /** @description Whether the results are released. */
         Release: {
             /** @description True to tell what waits for it. */

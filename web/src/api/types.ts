@@ -77,6 +77,7 @@ export type Policy = Schemas["Policy"];
 export type PolicyPreview = Schemas["PolicyPreview"];
 export type PersonRecord = Schemas["Record"];
 export type RegradePreview = Schemas["Preview"];
+export type RegradeProgress = Schemas["RegradeProgress"];
 export type LessonFigures = Schemas["LessonFigures"];
 export type QuestionAnalysis = Schemas["QuestionAnalysis"];
 export type QuestionFigures = Schemas["QuestionFigures"];

@@ -10,6 +10,9 @@ import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
 
+/** How often the page asks how far a preview is, ms. */
+const ASKED_EVERY_MS = 300;
+
 export function regradeSection(lesson: AssignedLesson): HTMLElement {
   const seen = h("div", { "aria-live": "polite" });
   const before = h("div");
@@ -22,11 +25,14 @@ export function regradeSection(lesson: AssignedLesson): HTMLElement {
       .catch(failed);
   look.addEventListener("click", () => {
     look.disabled = true;
+    const shown = underWay(lesson.slug);
+    seen.replaceChildren(shown.root);
     api
       .previewRegrade(lesson.slug)
-      .then((preview) => seen.replaceChildren(shown(preview, list, seen)))
+      .then((preview) => seen.replaceChildren(result(preview, list, seen)))
       .catch(failed)
       .finally(() => {
+        shown.end();
         look.disabled = false;
       });
   });
@@ -44,6 +50,31 @@ export function regradeSection(lesson: AssignedLesson): HTMLElement {
     seen,
     before,
   );
+}
+
+/** How far the preview is, asked for until `end`. */
+function underWay(slug: string): { root: HTMLElement; end: () => void } {
+  const bar = h("progress", { "aria-label": t("Submissions graded again") });
+  const said = h("span", null, t("Reading what was handed in"));
+  const ask = (): void =>
+    void api
+      .regradeProgress(slug)
+      .then(({ done, of }) => {
+        if (of === 0) return;
+        bar.max = of;
+        bar.value = done;
+        said.textContent = t(
+          "{done} of {n} submission graded again | {done} of {n} submissions graded again",
+          {
+            done,
+            n: of,
+          },
+        );
+      })
+      // The answer itself says what is wrong.
+      .catch(() => undefined);
+  const timer = setInterval(ask, ASKED_EVERY_MS);
+  return { root: h("p", { class: "row" }, bar, said), end: () => clearInterval(timer) };
 }
 
 function applied(
@@ -68,7 +99,7 @@ function applied(
   return h("ul", { class: "remarks", hidden: items.length === 0 }, ...items);
 }
 
-function shown(preview: RegradePreview, again: () => void, seen: HTMLElement): HTMLElement {
+function result(preview: RegradePreview, again: () => void, seen: HTMLElement): HTMLElement {
   const { counts } = preview;
   const sum = [
     t("{same} the same", { same: counts.same }),

@@ -1,7 +1,7 @@
 // Tells where the run is computed, and lets one choose.
 
 import { canChoosePlace, computedHere, computeHere } from "../api/place";
-import { h } from "../core/dom";
+import { announce, h } from "../core/dom";
 import { t } from "../core/texts";
 
 const about = (): string =>
@@ -24,5 +24,16 @@ export function placeMenu(): HTMLElement | null {
     // Every part of the page holds on to its run: it begins again with another.
     location.reload();
   });
+  // The menu lives as long as the page's view of the run; a word to one that has gone changes nothing.
+  addEventListener(
+    "triad:place",
+    () => {
+      choice.value = "here";
+      const full = t("All places of the server are in use: this page computes the run itself.");
+      choice.title = `${full} ${about()}`;
+      announce(full);
+    },
+    { once: true },
+  );
   return choice;
 }

@@ -26,11 +26,12 @@ use crate::store::{CLASS, RegradeRow};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<Preview>();
+    schemas.answer::<RegradeProgress>();
     schemas.answer::<BothVerdicts>();
     schemas.request::<Application>();
     schemas.answer::<RegradeList>();
     OpenApiRouter::new()
-        .routes(routes!(preview))
+        .routes(routes!(preview, progress))
         .routes(routes!(both))
         .routes(routes!(apply))
         .routes(routes!(undo))
@@ -47,8 +48,33 @@ async fn preview(
     PathParameters(slug): PathParameters<String>,
 ) -> Result<Answer<Preview>, Problem> {
     let lesson = lessons::find(&app, &slug)?.clone();
-    let computed = crate::regrade::preview(&app.store, CLASS, &lesson).await?;
+    let progress = app.regrades.begin(&lesson.slug);
+    let computed = crate::regrade::preview(&app.store, CLASS, &lesson, progress).await?;
     Ok(Answer(app.regrades.keep(computed).shown.clone()))
+}
+
+/// How far a preview is.
+#[derive(Debug, Serialize, JsonSchema)]
+struct RegradeProgress {
+    /// Whether one is being made.
+    under_way: bool,
+    /// Submissions that were graded again.
+    done: usize,
+    /// Submissions that are to be; 0 until they are counted.
+    of: usize,
+}
+
+/// How far the preview of a lesson is that is being made.
+#[utoipa::path(get, path = "/assignments/{slug}/regrades", operation_id = "get_regrade_progress", tag = "class", params(("slug" = String, Path)), responses(
+    (status = 200, description = "How far it is", body = ref(of::<RegradeProgress>())),
+    (status = 404, description = "No such lesson", body = ref(PROBLEM))))]
+async fn progress(
+    State(app): State<App>,
+    PathParameters(slug): PathParameters<String>,
+) -> Result<Answer<RegradeProgress>, Problem> {
+    let told = app.regrades.progress(&lessons::find(&app, &slug)?.slug);
+    let (done, of) = told.unwrap_or_default();
+    Ok(Answer(RegradeProgress { under_way: told.is_some(), done, of }))
 }
 
 /// The verdicts of a submission side by side.

@@ -21,6 +21,7 @@ use crate::api::extract::{Json, PathParameters};
 use crate::api::guard::Caller;
 use crate::app::App;
 use crate::problem::Problem;
+use crate::store::Role;
 use crate::{blocking, scenes};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -42,7 +43,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     (status = 201, description = "The session, at its start", body = ref(of::<SessionState>()),
         headers(("location" = String, description = "Its address"))),
     (status = 422, description = "The scene was refused", body = ref(PROBLEM)),
-    (status = 503, description = "All sessions are in use", body = ref(PROBLEM))))]
+    (status = 503, description = "All sessions are in use, or as many as one student may have", body = ref(PROBLEM))))]
 async fn create(
     State(app): State<App>,
     caller: Caller,
@@ -53,7 +54,9 @@ async fn create(
             choose(&app, &caller, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
         let written_here = matches!(source, SceneSource::Scene(_));
-        let started = app.sessions.start(scene, &wanted.change, source, &app.limits);
+        // Who teaches shows several things at a time; of students nobody takes the places of all.
+        let whose = caller.0.filter(|member| member.role == Role::Student).map(|member| member.id);
+        let started = app.sessions.start(scene, &wanted.change, source, whose, &app.limits);
         started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })
     })
     .await?;

@@ -1,5 +1,7 @@
 //! `triad regrade`.
 
+use std::sync::Arc;
+
 use axum::http::StatusCode;
 use clap::{ArgGroup, Args, ValueEnum};
 use tokio::runtime::Builder;
@@ -76,7 +78,7 @@ async fn of_lesson(
     json: bool,
 ) -> Result<Outcome, Problem> {
     let lesson = course.lesson(slug).ok_or_else(|| crate::api::unknown_lesson(course, slug))?;
-    let computed = regrade::preview(store, id, lesson).await?;
+    let computed = regrade::preview(store, id, lesson, Arc::default()).await?;
     if json {
         print_json(&computed.shown);
     } else {

@@ -294,6 +294,10 @@ export const classroom = {
   "{gradable} in what can be judged": "{gradable} darin anders, was beurteilt werden kann",
   "{failed} cannot be graded by the lesson as it is":
     "{failed} lassen sich mit der Lektion, wie sie ist, nicht bewerten",
+  "Submissions graded again": "Neu bewertete Abgaben",
+  "Reading what was handed in": "Die Abgaben werden gelesen",
+  "{done} of {n} submission graded again | {done} of {n} submissions graded again":
+    "{done} von {n} Abgabe neu bewertet | {done} von {n} Abgaben neu bewertet",
   "{submissions}, {of_other_versions} of them graded by another version of the lesson: {sum}.":
     "{submissions}, davon {of_other_versions} mit einer anderen Fassung der Lektion bewertet: {sum}.",
   "{n} submission | {n} submissions": "{n} Abgabe | {n} Abgaben",

@@ -237,6 +237,8 @@ export const frame = {
     "In der Zeichnung: Neben dem Mechanismus ziehen dreht den Blick, an einem Körper ziehen bewegt ihn, Strg und Mausrad holen näher heran; mit Tasten, wenn sie den Fokus hat: Umschalt und die Pfeile, + und −.",
   "Where the run is computed. Here: by the engine in this page, without the server; its last digits differ. Answers are always checked by the server's own runs.":
     "Wo der Lauf gerechnet wird. Hier: vom Rechenwerk auf dieser Seite, ohne den Server; seine letzten Ziffern weichen ab. Antworten werden immer mit den Läufen des Servers geprüft.",
+  "All places of the server are in use: this page computes the run itself.":
+    "Alle Plätze des Servers sind belegt: Diese Seite rechnet den Lauf selbst.",
   "Computed here": "Hier gerechnet",
   "Where the run is computed": "Wo der Lauf gerechnet wird",
   "On the server": "Auf dem Server",
