@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { axe, launch, say } from "./browser.mjs";
+import { faults, launch, say, SERIOUS } from "./browser.mjs";
 
 const [address, pictures, setup] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -28,10 +28,7 @@ async function look(page, view) {
   for (const theme of ["light", "dark"]) {
     await page.evaluate((wanted) => { document.documentElement.dataset.theme = wanted; }, theme);
     await page.screenshot({ path: join(pictures, `class-${view}-${theme}.png`), fullPage: true });
-    await page.evaluate(axe);
-    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-    const serious = violations.filter((fault) => ["serious", "critical"].includes(fault.impact));
-    assert.deepEqual(serious.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" "))]), [], `axe on ${view}, ${theme}`);
+    assert.deepEqual(await faults(page, { impacts: SERIOUS }), [], `axe on ${view}, ${theme}`);
   }
   await page.evaluate(() => { document.documentElement.dataset.theme = "light"; });
   say(`looked at ${view}`);

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { axe, launch } from "./browser.mjs";
+import { faults, launch } from "./browser.mjs";
 
 const [address, pictures, exported] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -26,9 +26,7 @@ async function reader(more = {}) {
 }
 
 async function clean(page, what) {
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  assert.deepEqual(violations.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" ")).slice(0, 5)]), [], `axe on ${what}`);
+  assert.deepEqual(await faults(page), [], `axe on ${what}`);
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   assert(wide <= 0, `${what} is ${wide} px wider than the screen`);
 }

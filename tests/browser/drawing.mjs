@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { Worker } from "node:worker_threads";
-import { launch, say } from "./browser.mjs";
+import { launch, say, until as patiently } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -32,17 +32,8 @@ page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => {
 const drawing = page.locator("canvas.drawing");
 /** The moment that is drawn and that of the clock, read at once. */
 const times = () => page.evaluate(() => [Number(document.querySelector("canvas.drawing")?.dataset.time), Number(document.querySelector(".clock")?.value)]);
-async function until(what, read, good) {
-  const end = performance.now() + 60_000;
-  let last;
-  while (performance.now() < end) {
-    last = await read();
-    if (good(last)) return last;
-    await page.waitForTimeout(50);
-  }
-  await page.screenshot({ path: join(pictures, "drawing-failed.png") });
-  throw new Error(`${what}: still ${JSON.stringify(last)}`);
-}
+const until = (what, read, good) =>
+  patiently(what, read, good, { failed: () => page.screenshot({ path: join(pictures, "drawing-failed.png") }) });
 
 async function plays() {
   const client = await context.newCDPSession(page);

@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
-import { axe, launch, say } from "./browser.mjs";
+import { faults, launch, say, until } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -26,20 +26,8 @@ async function visit(more = {}) {
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("request", (request) => { sessions += Number(request.method() === "POST" && request.url().endsWith("/sessions")); });
 }
-async function until(what, read, good) {
-  const end = performance.now() + 60_000;
-  let last;
-  while (performance.now() < end) {
-    last = await read();
-    if (good(last)) return last;
-    await page.waitForTimeout(50);
-  }
-  throw new Error(`${what}: still ${JSON.stringify(last)}`);
-}
 async function noFaults(view) {
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  assert.deepEqual(violations.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" "))]), [], `axe on ${view}`);
+  assert.deepEqual(await faults(page), [], `axe on ${view}`);
 }
 /** The moment that a recorded run shows; NaN while there is none. */
 const moment = (within) => page.locator(`${within} canvas.drawing`).evaluateAll((all) => Number(all[0]?.dataset.time ?? NaN));

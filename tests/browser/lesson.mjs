@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import { say, until as patiently } from "./browser.mjs";
 import { pendulum } from "./pendulum.mjs";
 
 const [visit, address, profile, pictures] = process.argv.slice(2);
@@ -37,20 +38,8 @@ const picture = async (name, target = page) => {
   await target.screenshot({ path });
   console.log(`picture ${path}`);
 };
-const say = (what) => console.log(`${(performance.now() / 1000).toFixed(1).padStart(6)} s  ${what}`);
 
-/** Waits until `read` gives something that `good` accepts. */
-async function until(what, read, good) {
-  const end = performance.now() + PATIENCE;
-  let last;
-  while (performance.now() < end) {
-    last = await read();
-    if (good(last)) return last;
-    await page.waitForTimeout(200);
-  }
-  await picture("failed");
-  throw new Error(`${what}: still ${JSON.stringify(last)} after ${PATIENCE / 1000} s`);
-}
+const until = (what, read, good) => patiently(what, read, good, { patience: PATIENCE, failed: () => picture("failed") });
 
 // A blank or broken picture has fewer colours.
 const BLANK = 40;

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { createReadStream, existsSync, mkdirSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
-import { launch, say } from "./browser.mjs";
+import { launch, say, until as patiently } from "./browser.mjs";
 
 const [site, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -40,17 +40,8 @@ page.on("pageerror", (error) => complaints.push(String(error)));
 /** Whether the mechanism is drawn at its start: before that there is nothing to play. */
 const drawn = () => page.evaluate(() => document.querySelector("canvas.drawing")?.dataset.time);
 const time = () => page.evaluate(() => Number(document.querySelector(".clock")?.value ?? Number.NaN));
-async function until(what, read, good) {
-  const end = performance.now() + 120_000;
-  let last;
-  while (performance.now() < end) {
-    last = await read();
-    if (good(last)) return last;
-    await page.waitForTimeout(50);
-  }
-  await page.screenshot({ path: join(pictures, "site-failed.png") });
-  throw new Error(`${what}: still ${JSON.stringify(last)}`);
-}
+const until = (what, read, good) =>
+  patiently(what, read, good, { patience: 120_000, failed: () => page.screenshot({ path: join(pictures, "site-failed.png") }) });
 
 async function reads() {
   await page.goto(address);

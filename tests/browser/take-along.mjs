@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { axe, launch, say } from "./browser.mjs";
+import { faults, launch, say, until } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -22,16 +22,6 @@ async function open(path) {
   await page.goto(path);
 }
 const moment = () => page.locator("canvas.drawing").evaluateAll((all) => Number(all[0]?.dataset.time ?? NaN));
-async function until(what, read, good) {
-  const end = performance.now() + 60_000;
-  let last;
-  while (performance.now() < end) {
-    last = await read();
-    if (good(last)) return last;
-    await page.waitForTimeout(50);
-  }
-  throw new Error(`${what}: still ${JSON.stringify(last)}`);
-}
 /** Presses a button and keeps what the browser saves. */
 async function saved(name) {
   const waiting = page.waitForEvent("download");
@@ -52,9 +42,7 @@ async function files() {
   await page.locator(".clock").press("Enter");
   await until("a second of it", moment, (time) => time === 1);
   await page.getByRole("button", { name: /^Take it along/ }).click();
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe.run(document.querySelector("dialog"), { resultTypes: ["violations"] }));
-  assert.deepEqual(violations.map((fault) => fault.id), [], "axe on the dialog");
+  assert.deepEqual(await faults(page, { within: "dialog" }), [], "axe on the dialog");
   assert.match(await page.getByLabel("Text of the frame").inputValue(), /^<iframe src="http.*\/embed\/scenes\/spatial-slider-crank\?play=1/);
   const png = readFileSync(await saved("Save as PNG"));
   assert.equal(png.subarray(1, 4).toString(), "PNG");

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { axe, launch, say } from "./browser.mjs";
+import { faults, launch, say, SERIOUS, until as patiently } from "./browser.mjs";
 import { pendulum } from "./pendulum.mjs";
 
 const [address, pictures] = process.argv.slice(2);
@@ -23,23 +23,11 @@ async function visitor(name, size = { width: 1280, height: 900 }, more = {}) {
 }
 
 async function noSeriousFaults(page, view) {
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  const serious = violations.filter((fault) => ["serious", "critical"].includes(fault.impact));
-  assert.deepEqual(serious.map((fault) => [fault.id, fault.nodes.map((node) => node.target.join(" "))]), [], `axe on ${view}`);
+  assert.deepEqual(await faults(page, { impacts: SERIOUS }), [], `axe on ${view}`);
 }
 const clock = (page) => page.locator(".clock").evaluate((field) => Number(field.value));
-async function until(page, what, read, good) {
-  const end = performance.now() + 60_000;
-  let last;
-  while (performance.now() < end) {
-    last = await read();
-    if (good(last)) return last;
-    await page.waitForTimeout(100);
-  }
-  await page.screenshot({ path: join(pictures, "workbench-failed.png") });
-  throw new Error(`${what}: still ${JSON.stringify(last)}`);
-}
+const until = (page, what, read, good) =>
+  patiently(what, read, good, { failed: () => page.screenshot({ path: join(pictures, "workbench-failed.png") }) });
 /** Walks with Tab until the focus satisfies a CSS selector. */
 async function tabTo(page, selector, key = "Tab") {
   for (let steps = 0; steps < 150; steps += 1) {

@@ -39,7 +39,9 @@ impl Step {
 const STEPS: [Step; 13] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, packages of npm and PyPI", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
-    Step::new("test", "all tests of all crates", |root| cargo(root, "test --release --workspace")),
+    Step::new("test", "all tests of all crates", |root| {
+        cargo(root, "test --release --workspace --no-fail-fast")
+    }),
     Step::new("bits", "the same results from builds for old and for new processors", bits::run),
     Step::new("size", "the program is at most 52 MB", size),
     Step::new("python", "the Python module: its wheel, its types, its tests and its notebooks", python::run),
