@@ -8,7 +8,7 @@ use serde_json::json;
 use tokio::runtime::Builder;
 
 use super::course::grades::existing;
-use super::serve::stopped;
+use super::stops::Stops;
 use super::terminal::{Outcome, counted, print_json, print_line};
 use crate::grader::{Grader, LEASE};
 use crate::problem::Problem;
@@ -48,10 +48,11 @@ pub(super) fn grader(options: &Options, json: bool) -> Result<Outcome, Problem> 
         let slots = options.slots.map_or(processors, usize::from);
         let lease = Duration::from_secs(options.lease);
         let grader = Grader::new(Arc::new(store), Arc::default(), Arc::default(), slots, lease);
+        let stops = Stops::listen();
         print_line(&format!("Grades what waits in {}, {slots} at a time", options.database));
         tokio::select! {
             () = Arc::clone(&grader).run() => {}
-            () = stopped() => {}
+            () = stops.next() => {}
         }
         drop(tokio::time::timeout(ENDING, grader.finish(slots)).await);
         Ok(Outcome::Done)

@@ -12,6 +12,7 @@ mod measure;
 mod output;
 mod scene;
 mod serve;
+mod stops;
 mod terminal;
 
 use std::ffi::OsString;

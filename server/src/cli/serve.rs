@@ -15,6 +15,7 @@ use tokio::time::sleep;
 use triad_lessons::Course;
 
 use super::logging::Log;
+use super::stops::Stops;
 use super::terminal::{Outcome, print_line};
 use crate::access::Access;
 use crate::app::{App, REPORTS};
@@ -195,6 +196,7 @@ fn live_file(options: &Serve) -> Option<PathBuf> {
 async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     let wanted = SocketAddr::new(options.host, options.port);
     let listener = bind(wanted).await?;
+    let stops = Stops::listen();
     let admin = admin(options, &app).await?;
     let address = listener.local_addr().map_err(Problem::internal)?;
     print_line(&format!(
@@ -235,7 +237,7 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         going.store(true, Ordering::Relaxed);
         sleep(patience).await;
     };
-    crate::listen::serve(listener, crate::app(app), stopped, draining, ending).await;
+    crate::listen::serve(listener, crate::app(app), || stops.clone().next(), draining, ending).await;
     if let Some(admin) = admin {
         admin.abort();
     }
@@ -308,20 +310,4 @@ fn reached_at(address: SocketAddr) -> SocketAddr {
         socket.local_addr()
     });
     own.map_or(address, |own| SocketAddr::new(own.ip(), address.port()))
-}
-
-/// Waits for Ctrl-C, or for the system's request to end.
-pub(super) async fn stopped() {
-    #[cfg(unix)]
-    {
-        use tokio::signal::unix::{SignalKind, signal};
-        if let Ok(mut term) = signal(SignalKind::terminate()) {
-            tokio::select! {
-                _ = tokio::signal::ctrl_c() => {}
-                _ = term.recv() => {}
-            }
-            return;
-        }
-    }
-    drop(tokio::signal::ctrl_c().await);
 }
