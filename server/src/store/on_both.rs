@@ -9,7 +9,7 @@ use sqlx::Executor;
 use triad_tests::postgres::{self, Postgres};
 
 use super::copies::tests::{all as listed, exported, new as with_work, whole};
-use super::tests::{hand_in, ids, new};
+use super::tests::{hand_in, ids, new, six_share};
 use super::*;
 use crate::policy::{Policy, Refusal};
 
@@ -36,26 +36,13 @@ fn everything_here_holds_on_postgresql_too() {
 async fn several_programs_make_and_share_one_database() {
     let Some(server) = postgres::given() else { return };
     let address = server.database();
-    let opened: Vec<_> = (0..6)
-        .map(|_| {
-            let address = address.clone();
-            tokio::spawn(async move {
-                let store = at(&address).await;
-                for _ in 0..10 {
-                    hand_in(&store, &new("ada")).await.expect("keeps");
-                }
-                store
-            })
-        })
-        .collect();
-    let mut stores = Vec::new();
-    for one in opened {
-        stores.push(one.await.expect("ends"));
-    }
-    assert_eq!(ids(&stores[0]).await.len(), 60);
-    assert_eq!(stores[5].faults().await.expect("looks"), Vec::<String>::new());
+    let store = six_share(|| {
+        let address = address.clone();
+        async move { at(&address).await }
+    })
+    .await;
     let later = sqlx::query("UPDATE triad_format SET version = 99");
-    later.execute(&stores[0].pools.writer).await.expect("writes");
+    later.execute(&store.pools.writer).await.expect("writes");
     let refused = Store::at(&address.parse().expect("an address")).await;
     assert!(matches!(refused, Err(StoreError::Newer { found: 99, known: schema::FORMAT })), "{refused:?}");
 }

@@ -46,6 +46,33 @@ pub(super) async fn ids(store: &Store) -> Vec<String> {
     store.list(&all()).await.expect("lists").into_iter().map(|one| one.id).collect()
 }
 
+/// Six programs open one gradebook at once, and each hands in ten times.
+pub(super) async fn six_share<O, S>(open: O) -> Store
+where
+    O: Fn() -> S,
+    S: Future<Output = Store> + Send + 'static,
+{
+    let opened: Vec<_> = (0..6)
+        .map(|_| {
+            let opening = open();
+            tokio::spawn(async move {
+                let store = opening.await;
+                for _ in 0..10 {
+                    hand_in(&store, &new("ada")).await.expect("keeps");
+                }
+                store
+            })
+        })
+        .collect();
+    let mut stores = Vec::new();
+    for one in opened {
+        stores.push(one.await.expect("ends"));
+    }
+    assert_eq!(ids(&stores[0]).await.len(), 60);
+    assert_eq!(stores[5].faults().await.expect("looks"), Vec::<String>::new());
+    stores.swap_remove(0)
+}
+
 /// A folder, and the path of a gradebook in it.
 fn place() -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -81,24 +108,11 @@ async fn what_was_handed_in_survives_a_restart_unchanged() {
 #[tokio::test(flavor = "multi_thread")]
 async fn several_programs_make_and_share_one_file() {
     let (_folder, path) = place();
-    let opened: Vec<_> = (0..6)
-        .map(|_| {
-            let path = path.clone();
-            tokio::spawn(async move {
-                let store = open(&path).await;
-                for _ in 0..10 {
-                    hand_in(&store, &new("ada")).await.expect("keeps");
-                }
-                store
-            })
-        })
-        .collect();
-    let mut stores = Vec::new();
-    for one in opened {
-        stores.push(one.await.expect("ends"));
-    }
-    assert_eq!(ids(&stores[0]).await.len(), 60);
-    assert_eq!(stores[5].faults().await.expect("looks"), Vec::<String>::new());
+    six_share(|| {
+        let path = path.clone();
+        async move { open(&path).await }
+    })
+    .await;
 }
 
 /// What is moved, replaced or removed, the database or its log of changes: nothing is acknowledged that a restart forgets.
