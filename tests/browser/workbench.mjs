@@ -22,6 +22,8 @@ async function visitor(name, size = { width: 1280, height: 900 }, more = {}) {
   return page;
 }
 
+/** What a follower loads until the mechanism moves with the presenter, bytes: a lecture hall has one network. */
+const MOST_FOLLOWED = 200e3;
 async function noSeriousFaults(page, view) {
   assert.deepEqual(await faults(page, { impacts: SERIOUS }), [], `axe on ${view}`);
 }
@@ -157,12 +159,18 @@ async function lecture() {
   await presenter.screenshot({ path: join(pictures, "workbench-invite.png") });
   await presenter.keyboard.press("Escape");
   const phone = await visitor("follower", { width: 390, height: 844 });
+  const network = await phone.context().newCDPSession(phone);
+  await network.send("Network.enable");
+  let loaded = 0;
+  network.on("Network.loadingFinished", ({ encodedDataLength }) => { loaded += encodedDataLength; });
   await phone.goto(`${address}/room`);
   await phone.getByLabel("Code of the room").fill(code.toLowerCase());
   await phone.getByRole("button", { name: "Join", exact: true }).click();
   await phone.getByRole("heading", { level: 1, name: /pendulum/i }).waitFor();
   await presenter.getByRole("button", { name: "Step by time" }).click();
   await until(phone, "the presenter's clock travels", () => clock(phone), (time) => time >= 0.099);
+  assert(loaded > 20e3 && loaded < MOST_FOLLOWED, `a follower loads ${loaded} bytes`);
+  say(`a follower loads ${(loaded / 1e3).toFixed(0)} kB`);
   await presenter.getByRole("tab", { name: "Reactions" }).click();
   await presenter.locator(".joint-select").first().click();
   await phone.locator(".joint.is-selected").waitFor();

@@ -107,6 +107,11 @@ fn the_drawing_shows_the_moment_of_the_clock_without_a_graphics_card_and_with_bu
 }
 
 #[test]
+fn traces_a_ghost_and_extremes_are_seen_beside_a_run_and_quantities_over_each_other() {
+    run("compare.mjs", &[]);
+}
+
+#[test]
 fn the_documentation_is_searched_and_read_in_light_and_dark_on_a_phone_and_from_a_disk() {
     let folder = tempfile::tempdir().unwrap();
     let written = program::run(&["export", "docs", folder.path().to_str().unwrap()]);

@@ -13,6 +13,7 @@ import { predictionCounts } from "../prediction/counts";
 import { PredictionPanel } from "../prediction/panel";
 import { requestedView } from "../session/requested-view";
 import { problemNotice, skeleton } from "../ui/notice";
+import { makePressable } from "./actions";
 import { handoutHead, printButton } from "./handout";
 import { trackReadingPosition } from "./reading-position";
 import { steps } from "./steps";
@@ -117,7 +118,9 @@ class LessonPage {
     const source = lesson.seed ? { lesson: this.slug, seed: lesson.seed } : { lesson: this.slug };
     const asked = lesson.predictions.length > 0 ? new PredictionPanel(lesson) : undefined;
     if (asked) this.undo.push(() => asked.dispose());
-    this.undo.push(workbench(this.bench, { source, scene: lesson.scene, seen, asked }));
+    const bench = workbench(this.bench, { source, scene: lesson.scene, seen, asked });
+    this.undo.push(bench.dispose);
+    for (const step of this.text.querySelectorAll<HTMLElement>("#steps li")) makePressable(step, bench.act);
   }
 
   private fail(error: unknown): void {

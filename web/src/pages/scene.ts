@@ -189,7 +189,7 @@ class ScenePage {
 
   private run(options: WorkbenchOptions): void {
     this.endRun?.();
-    this.endRun = workbench(this.bench, options);
+    this.endRun = workbench(this.bench, options).dispose;
   }
 
   private runText(seen?: SharedView): void {

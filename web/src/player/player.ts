@@ -6,10 +6,10 @@ import { seconds } from "../core/format";
 import { reducedMotion } from "../core/prefs";
 import { t } from "../core/texts";
 import type { Drawn } from "../session/events";
+import { Recorded } from "../session/recorded";
 import { Drawing } from "../stage/drawing";
 import { turning } from "../stage/hands";
 import { icon } from "../ui/icons";
-import { Recorded } from "./recorded";
 
 /** Pause at the end before it begins again, ms. */
 const REST_MS = 700;

@@ -1,12 +1,12 @@
 // A small picture of a mechanism at its start, drawn as the stage draws it.
 import type { Motion } from "../api/types";
+import { Recorded } from "../session/recorded";
 import { outline } from "../stage/extent";
 import { boxOf, Eye } from "../stage/eye";
 import { drawMechanism } from "../stage/mechanism";
 import { type Palette, palette } from "../stage/palette";
 import { SvgPen } from "../stage/pen";
 import { partsOf, planeOf } from "../stage/solids";
-import { Recorded } from "./recorded";
 
 /** In this size it is drawn: lines and joints keep their thickness, whatever the list makes of it. CSS pixels. */
 export const WIDTH = 240;

@@ -4,8 +4,10 @@ import type { SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { t } from "../core/texts";
-import { Emitter } from "./events";
+import { Emitter, type Traced } from "./events";
+import type { Ghost } from "./ghost";
 import { History } from "./history";
+import { type Mark, onward } from "./slow";
 import { Track } from "./track";
 
 /** Between two states of a running session, s. */
@@ -24,6 +26,12 @@ export class Clock extends Emitter {
   loop = false;
   /** What is shown instead of the run: the result of an analysis, at a moment of the wall clock in ms. */
   pose: ((now: number) => SessionState) | undefined;
+  /** The points that leave traces. */
+  traced: Traced = "none";
+  /** Another run that is seen behind this one. */
+  ghost: Ghost | undefined;
+  /** What is marked on the time line; a replay goes slowly there. */
+  marks: readonly Mark[] = [];
   protected cursor: number | null = null;
   protected cameAt = 0;
   private replay: { since: number; from: number; timer: number } | undefined;
@@ -112,7 +120,8 @@ export class Clock extends Emitter {
   }
 
   private replayed(replay: { since: number; from: number }): number {
-    return replay.from + ((performance.now() - replay.since) / 1000) * this.speed;
+    const passed = ((performance.now() - replay.since) / 1000) * this.speed;
+    return onward(replay.from, passed, this.marks, this.latest?.time ?? 0);
   }
 
   private replayOn(): void {
@@ -120,6 +129,7 @@ export class Clock extends Emitter {
     const newest = this.latest?.time ?? 0;
     if (!replay) return;
     const time = this.replayed(replay);
+    [replay.from, replay.since] = [time, performance.now()];
     if (time < newest) {
       this.cursor = time;
       this.emit("shown");
@@ -144,6 +154,26 @@ export class Clock extends Emitter {
       replay.since = performance.now();
     }
     this.speed = speed;
+  }
+
+  trace(traced: Traced): void {
+    this.traced = traced;
+    this.emit("view");
+  }
+
+  showGhost(ghost: Ghost | undefined): void {
+    this.ghost = ghost;
+    this.emit("view");
+  }
+
+  mark(marks: readonly Mark[]): void {
+    this.marks = marks;
+    this.emit("view");
+  }
+
+  /** The run as far as it has come. */
+  copy(): { past: History; track: Track } {
+    return { past: this.past.copy(), track: this.track.copy() };
   }
 
   setPose(pose: Clock["pose"]): void {

@@ -9,6 +9,9 @@ export interface ReactionConvention {
 
 export type { Drawn };
 
+/** The points that leave traces. */
+export type Traced = "none" | "bodies" | "joints" | "joint" | "markers";
+
 type Events = {
   /** A state arrived, or the cursor moved: what is shown has changed. */
   shown: () => void;

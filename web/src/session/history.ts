@@ -21,6 +21,12 @@ export class History {
       this.states = this.states.filter((_, k, all) => k % 2 === 0 || k === all.length - 1);
   }
 
+  copy(): History {
+    const other = new History();
+    other.states = [...this.states];
+    return other;
+  }
+
   clear(): void {
     this.states = [];
   }

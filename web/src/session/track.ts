@@ -27,6 +27,12 @@ export class Track {
     this.bytes = 0;
   }
 
+  copy(): Track {
+    const other = new Track();
+    [other.frames, other.bytes] = [[...this.frames], this.bytes];
+    return other;
+  }
+
   /** Adds a block as it came. */
   add(block: Uint8Array): void {
     const view = new DataView(block.buffer, block.byteOffset, block.byteLength);

@@ -3,7 +3,7 @@
 import type { Motion } from "../api/types";
 import { h } from "../core/dom";
 import { t } from "../core/texts";
-import { Recorded } from "../player/recorded";
+import { Recorded } from "../session/recorded";
 import type { Session } from "../session/session";
 import { Drawing } from "../stage/drawing";
 

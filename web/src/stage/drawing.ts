@@ -7,6 +7,7 @@ import { t } from "../core/texts";
 import { type Arrow, arrows } from "../mechanics/forces";
 import { add, dot, norm, scale, unit } from "../mechanics/vec";
 import type { Watched } from "../session/watched";
+import { Beside } from "./beside";
 import { circle, outline, pointsOf } from "./extent";
 import { type Box, boxOf, Eye } from "./eye";
 import { drawForces } from "./forces-picture";
@@ -55,6 +56,7 @@ export class Drawing {
   private swept = false;
   private easing: { from: [number, Point]; to: [number, Point]; since: number } | undefined;
   private toldAt = 0;
+  private readonly beside = new Beside();
   private readonly watch: ResizeObserver;
 
   constructor(
@@ -247,7 +249,10 @@ export class Drawing {
     const shown = this.shown();
     if (!shown) return;
     const { eye, colours, state } = shown;
-    drawMechanism(pen, shown);
+    drawMechanism(pen, shown, () => {
+      const { ghost, traced } = this.beside.draw(pen, shown, this.session);
+      Object.assign(this.root.dataset, { ghost: String(ghost), traced: String(traced) });
+    });
     drawPull(pen, this.session, state, eye, colours);
     drawForces(pen, this.session, state, eye, colours);
     if (!this.plain) drawWorldAxes(pen, eye, colours);

@@ -26,8 +26,10 @@ const FACES = [
   [1, 3, 7, 5],
 ] as const;
 
-export function drawMechanism(pen: Pen, shown: Shown): void {
+/** Draws the mechanism on its floor; what is drawn `behind` it stands on the floor too. */
+export function drawMechanism(pen: Pen, shown: Shown, behind?: () => void): void {
   if (shown.floor !== undefined && shown.eye.seesFloor) drawFloor(pen, shown, shown.floor);
+  behind?.();
   const items = [
     ...shown.parts.solids.map((solid) => drawnSolid(pen, shown, solid)),
     ...shown.parts.joints.flatMap((joint) => drawnJoint(pen, shown, joint)),

@@ -242,6 +242,7 @@ export class Stage {
   private drawPose(): boolean {
     const { pose } = this.session;
     this.root.classList.toggle("is-posed", pose !== undefined);
+    this.root.dataset.posed = t("result of an analysis");
     if (!pose) return false;
     this.drawing.update(pose(performance.now()));
     return true;

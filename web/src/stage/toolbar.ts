@@ -6,6 +6,7 @@ import { bind } from "../core/keys";
 import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
+import { besideMenu } from "./beside-menu";
 import type { Drawing } from "./drawing";
 
 export function toolbar(
@@ -27,14 +28,22 @@ export function toolbar(
     { keys: ["0"], shown: "0", does: t("Show all of the mechanism, as large as it fits"), run: fit },
     { keys: ["e", "E"], shown: "E", does: t("The drawing on the entire screen, and back"), run: whole },
   ]);
+  const beside = besideMenu(session);
   const root = h(
     "div",
     { class: "stage-tools", role: "group", "aria-label": t("Drawing") },
     tool("fit", t("Show all of it, as large as it fits (0)"), fit),
     tool("full", t("Entire screen (E)"), whole),
     tool("save", t("Save this picture (SVG)"), save),
+    beside.root,
   );
-  return { root, dispose: release };
+  return {
+    root,
+    dispose: () => {
+      release();
+      beside.dispose();
+    },
+  };
 }
 
 function tool(name: IconName, title: string, run: () => void): HTMLElement {

@@ -66,6 +66,9 @@ export class Transport {
     icon("loop"),
   );
   private readonly timeline: HTMLInputElement;
+  /** What is marked, as strokes; the panel that marks it tells it in words. */
+  private readonly ticks = h("span", { class: "timeline-marks", "aria-hidden": "true" });
+  private ticked = "";
   private readonly clock = h("input", {
     class: "clock",
     type: "text",
@@ -106,7 +109,14 @@ export class Transport {
     const waits = (): void => {
       this.root.classList.toggle("waits", session.held);
     };
-    this.undo = [session.on("shown", () => this.paint()), session.on("view", waits), this.bindKeys()];
+    this.undo = [
+      session.on("shown", () => this.paint()),
+      session.on("view", () => {
+        waits();
+        this.paint();
+      }),
+      this.bindKeys(),
+    ];
     waits();
   }
 
@@ -119,7 +129,13 @@ export class Transport {
     return h(
       "div",
       { class: "transport", role: "group", "aria-label": t("Run of the simulation") },
-      h("div", { class: "timeline-row" }, this.timeline, this.loop, more),
+      h(
+        "div",
+        { class: "timeline-row" },
+        h("span", { class: "timeline-box" }, this.timeline, this.ticks),
+        this.loop,
+        more,
+      ),
       h(
         "div",
         { class: "transport-row" },
@@ -229,12 +245,21 @@ export class Transport {
   }
 
   private paintTimeline(time: number, { time: computed, duration }: SessionState): void {
-    const { timeline } = this;
+    const { timeline, ticks } = this;
     const percent = (part: number): string => `${duration > 0 ? (100 * part) / duration : 0}%`;
     timeline.max = String(duration);
     timeline.value = String(time);
     timeline.style.setProperty("--done", percent(time));
     timeline.style.setProperty("--computed", percent(computed));
+    const ticked = `${duration}|${this.session.marks.map((mark) => mark.time).join("|")}`;
+    if (ticked !== this.ticked) {
+      this.ticked = ticked;
+      ticks.replaceChildren(
+        ...this.session.marks.map((mark) =>
+          h("i", { style: `--at:${duration > 0 ? mark.time / duration : 0}` }),
+        ),
+      );
+    }
     timeline.setAttribute(
       "aria-valuetext",
       t("{time} of {duration}, computed up to {computed}", {

@@ -10,6 +10,7 @@ import { restore, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
 import { takeAlongButton } from "../share/dialog";
 import { Stage } from "../stage/stage";
+import { type Action, acting } from "./acting";
 import { placeMenu } from "./place-menu";
 import { trouble } from "./run-problems";
 import { Transport } from "./transport";
@@ -25,8 +26,11 @@ export interface WorkbenchOptions {
   asked?: Asked | undefined;
 }
 
-/** Fills `root` and starts the run; the returned function ends both. */
-export function workbench(root: HTMLElement, options: WorkbenchOptions): () => void {
+/** Fills `root` and starts the run; the text beside it may ask it to act. */
+export function workbench(
+  root: HTMLElement,
+  options: WorkbenchOptions,
+): { dispose: () => void; act: (action: Action) => void } {
   const session = new Session(options.source, options.seen?.numbers);
   const made = mountWorkbench(root, session, options);
   options.asked?.hold(session);
@@ -34,7 +38,7 @@ export function workbench(root: HTMLElement, options: WorkbenchOptions): () => v
     await options.asked?.given;
     if (options.seen && session.latest) await restore(session, options.seen);
   });
-  return made.dispose;
+  return { dispose: made.dispose, act: acting(session, root, made.selectPanel) };
 }
 
 /** Picture, controls and inspector of a run that somebody else starts. */

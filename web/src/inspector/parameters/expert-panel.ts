@@ -93,7 +93,7 @@ export class ExpertPanel implements Panel {
     const columns = [h("th", { scope: "col" }, t("Number")), h("th", { scope: "col" }, t("Value"))];
     return h(
       "details",
-      { class: "expert" },
+      { class: "expert", id: "all-numbers" },
       h("summary", null, t("All numbers of this scene")),
       h(
         "div",

@@ -16,6 +16,8 @@ export interface Curve {
 export interface Chart {
   label: string;
   curves: Curve[];
+  /** What each curve is drawn over in place of time: a phase plot, or a hodograph. */
+  across?: Curve[];
   /** Values are positive and spread over many powers of ten. */
   log?: boolean;
 }
@@ -50,15 +52,24 @@ function errors(state: SessionState): Chart[] {
     unit,
     of: (s) => s.accuracy?.[error] ?? NaN,
   });
-  const forces = state.forces.length > 0 ? [of("forces", "N", "force")] : [];
+  const forces = state.forces.length > 0 ? [of(t("forces"), "N", "force")] : [];
   return [
     {
       label: t("Estimated error"),
       log: true,
-      curves: [of("positions", "m", "position"), of("velocities", "m/s", "velocity"), ...forces],
+      curves: [of(t("positions"), "m", "position"), of(t("velocities"), "m/s", "velocity"), ...forces],
     },
   ];
 }
+
+/** Each quantity of a vector over the next: the way of its tip, seen along the three axes. */
+function hodograph(label: string, curves: Curve[]): Chart {
+  const [x, y, z] = curves as [Curve, Curve, Curve];
+  return { label, curves: [y, z, z], across: [x, x, y] };
+}
+
+/** The quantities of a chart, each once. */
+export const quantities = (chart: Chart): Curve[] => [...new Set([...(chart.across ?? []), ...chart.curves])];
 
 /** All plots of a scene, by one of its states. */
 export function charts(state: SessionState): Chart[] {
@@ -73,33 +84,39 @@ export function charts(state: SessionState): Chart[] {
         { label: "|dΦ/dt|", unit: "", of: (s) => s.velocity_violation },
       ],
     },
-    ...state.bodies.flatMap(({ name }, at): Chart[] => [
-      {
-        label: t("Acceleration of {name}", { name }),
-        curves: components("a", "m/s²", (s, k) => s.bodies[at]?.acceleration[k]),
-      },
-      {
-        label: t("Position of {name}", { name }),
-        curves: components("", "m", (s, k) => s.bodies[at]?.position[k], "position"),
-      },
-      {
-        label: t("Velocity of {name}", { name }),
-        curves: components("v", "m/s", (s, k) => s.bodies[at]?.velocity[k], "velocity"),
-      },
-      {
-        label: t("Angular velocity of {name}", { name }),
-        curves: components("ω", "rad/s", (s, k) => s.bodies[at]?.angular_velocity[k], "angular_velocity"),
-      },
-    ]),
-    ...state.forces.flatMap(({ joint, on }, at): Chart[] => [
-      {
-        label: t("Force in {joint} on {on}", { joint, on }),
-        curves: components("F", "N", (s, k) => s.forces[at]?.force[k], "force"),
-      },
-      {
-        label: t("Moment in {joint} on {on}", { joint, on }),
-        curves: components("M", "N m", (s, k) => s.forces[at]?.moment[k], "moment"),
-      },
-    ]),
+    ...state.bodies.flatMap(({ name }, at) => ofBody(name, at)),
+    ...state.forces.flatMap(({ joint, on }, at) => ofJoint(joint, on, at)),
+  ];
+}
+
+function ofBody(name: string, at: number): Chart[] {
+  const place = components("", "m", (s, k) => s.bodies[at]?.position[k], "position");
+  const velocity = components("v", "m/s", (s, k) => s.bodies[at]?.velocity[k], "velocity");
+  return [
+    {
+      label: t("Acceleration of {name}", { name }),
+      curves: components("a", "m/s²", (s, k) => s.bodies[at]?.acceleration[k]),
+    },
+    { label: t("Position of {name}", { name }), curves: place },
+    { label: t("Velocity of {name}", { name }), curves: velocity },
+    {
+      label: t("Angular velocity of {name}", { name }),
+      curves: components("ω", "rad/s", (s, k) => s.bodies[at]?.angular_velocity[k], "angular_velocity"),
+    },
+    { label: t("Phase plot of {name}", { name }), curves: velocity, across: place },
+    hodograph(t("Path of {name}", { name }), place),
+    hodograph(t("Hodograph of the velocity of {name}", { name }), velocity),
+  ];
+}
+
+function ofJoint(joint: string, on: string, at: number): Chart[] {
+  const force = components("F", "N", (s, k) => s.forces[at]?.force[k], "force");
+  return [
+    { label: t("Force in {joint} on {on}", { joint, on }), curves: force },
+    {
+      label: t("Moment in {joint} on {on}", { joint, on }),
+      curves: components("M", "N m", (s, k) => s.forces[at]?.moment[k], "moment"),
+    },
+    hodograph(t("Hodograph of the force in {joint} on {on}", { joint, on }), force),
   ];
 }

@@ -6,12 +6,15 @@ import { num, sci, seconds } from "../../core/format";
 import { t } from "../../core/texts";
 import { onTheme } from "../../core/theme";
 import type { Session } from "../../session/session";
+import { keptGhost } from "../../stage/ghosts";
 import { empty } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
 import { type LiveTable, liveTable } from "../../ui/table";
-import { type Chart, charts, errorOf } from "./charts";
+import { type Chart, charts, errorOf, quantities } from "./charts";
 import { columnsOf } from "./compare";
+import { ExtremeMarks } from "./marks";
 import { type Comparison, compare, keptRun, type Overlay, reference } from "./overlay";
+import { PhaseView } from "./phase-view";
 import { tableDialog } from "./run-table";
 import { plotSvg } from "./svg-file";
 
@@ -39,7 +42,7 @@ export class PlotsTab implements Panel {
     {
       type: "button",
       class: "button small",
-      title: t("Lays this run over the next one"),
+      title: t("Lays this run over the next one, in the plots and as a ghost in the drawing"),
       onclick: () => this.keep(),
     },
     t("Keep this run"),
@@ -61,6 +64,8 @@ export class PlotsTab implements Panel {
     "aria-label": t("CSV file of a reference"),
   });
 
+  private readonly marks: ExtremeMarks;
+  private readonly phase: PhaseView;
   private available: Chart[] = [];
   /** Names of the bodies that the offered plots are about. */
   private bodies = "";
@@ -71,6 +76,8 @@ export class PlotsTab implements Panel {
   private rows: { table: LiveTable; label: string } | undefined;
 
   constructor(private readonly session: Session) {
+    this.marks = new ExtremeMarks(session, () => this.refresh());
+    this.phase = new PhaseView(this.canvas, session);
     this.root = this.layout();
     for (const choice of [this.select, this.mode]) choice.addEventListener("change", () => this.refresh());
     this.table.addEventListener("toggle", () => this.refresh());
@@ -85,7 +92,7 @@ export class PlotsTab implements Panel {
     const chart = this.chart();
     if (!chart) return;
     const states = this.session.past.all;
-    const values = chart.curves.map((curve) => {
+    const values = quantities(chart).map((curve) => {
       const error = errorOf(curve, state);
       const within = error === undefined ? "" : ` ± ${sci(error, 1)}`;
       return `${curve.label} = ${num(curve.of(state), 6)}${within} ${curve.unit}`.trim();
@@ -95,10 +102,12 @@ export class PlotsTab implements Panel {
       values: values.join(",  "),
     });
     this.fillTable(chart, states);
+    this.marks.update(chart, states);
     if (states.length < 2)
       this.canvas.replaceChildren(
         empty(t("Nothing to plot yet"), t("Play or step the run: the curves grow with it.")),
       );
+    else if (chart.across) this.phase.draw(chart, states, state, this.kept);
     else this.draw(chart, states);
   }
 
@@ -127,6 +136,7 @@ export class PlotsTab implements Panel {
         ),
       ),
       this.canvas,
+      this.marks.root,
       this.apart,
       this.readout,
       this.table,
@@ -192,7 +202,7 @@ export class PlotsTab implements Panel {
     if (!this.table.open) return;
     if (this.rows?.label !== chart.label) {
       this.rows?.table.root.remove();
-      const columns = chart.curves.map(({ label, unit }) => ({ label, unit, number: true }));
+      const columns = quantities(chart).map(({ label, unit }) => ({ label, unit, number: true }));
       this.rows = { table: liveTable(chart.label, t("Time"), columns, true), label: chart.label };
       this.table.append(this.rows.table.root);
     }
@@ -202,14 +212,16 @@ export class PlotsTab implements Panel {
         .filter((_, k) => k % stride === 0 || k === states.length - 1)
         .map((entry) => ({
           head: seconds(entry.time),
-          cells: chart.curves.map((curve) => sci(curve.of(entry), 5)),
+          cells: quantities(chart).map((curve) => sci(curve.of(entry), 5)),
         })),
     );
   }
 
   /** Keeps this run to lay it over the next one, or drops the kept one. */
   private keep(): void {
-    this.kept = this.kept ? undefined : keptRun(runName(this.session), [...this.session.past.all]);
+    const name = runName(this.session);
+    this.kept = this.kept ? undefined : keptRun(name, [...this.session.past.all]);
+    this.session.showGhost(this.kept && keptGhost(this.session, name));
     this.paintOverlays();
   }
 
@@ -252,10 +264,10 @@ export class PlotsTab implements Panel {
     const chart = this.chart();
     if (!chart) return;
     const lines = [
-      [t("time"), ...chart.curves.map((curve) => curve.label)].join(","),
-      ["s", ...chart.curves.map((curve) => curve.unit || "1")].join(","),
+      [t("time"), ...quantities(chart).map((curve) => curve.label)].join(","),
+      ["s", ...quantities(chart).map((curve) => curve.unit || "1")].join(","),
       ...this.session.past.all.map((entry) =>
-        [entry.time, ...chart.curves.map((curve) => curve.of(entry))].join(","),
+        [entry.time, ...quantities(chart).map((curve) => curve.of(entry))].join(","),
       ),
     ];
     saveFile(new Blob([`${lines.join("\n")}\n`], { type: "text/csv" }), fileName(chart, "csv"));
@@ -267,18 +279,25 @@ export class PlotsTab implements Panel {
     const states = this.session.past.all;
     const css = getComputedStyle(this.canvas);
     const color = (name: string): string => css.getPropertyValue(name).trim();
+    const title = `${chart.label}, ${runName(this.session)}`;
+    const colors = { ink: color("--ink"), line: color("--line"), paper: color("--surface") };
+    if (chart.across) {
+      const text = this.phase.file(title, colors, color);
+      saveFile(new Blob([text], { type: "image/svg+xml" }), fileName(chart, "svg"));
+      return;
+    }
     const text = plotSvg(
-      `${chart.label}, ${runName(this.session)}`,
+      title,
       states.map((entry) => entry.time),
       this.compared(chart, states).lines.map((line) => ({ ...line, color: color(line.color) })),
-      { ink: color("--ink"), line: color("--line"), paper: color("--surface") },
+      colors,
     );
     saveFile(new Blob([text], { type: "image/svg+xml" }), fileName(chart, "svg"));
   }
 
   private async savePng(): Promise<void> {
     const chart = this.chart();
-    const blob = await this.plotter?.png(this.canvas);
+    const blob = chart?.across ? await this.phase.png() : await this.plotter?.png(this.canvas);
     if (chart && blob) saveFile(blob, fileName(chart, "png"));
   }
 }

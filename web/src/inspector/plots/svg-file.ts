@@ -26,7 +26,7 @@ const TICKS = 6;
 /** Larger than the number of values that an axis can name: a guard against an endless loop. */
 const MAX_TICKS = 20;
 
-interface Colors {
+export interface Colors {
   ink: string;
   line: string;
   paper: string;
@@ -43,26 +43,52 @@ export function plotSvg(title: string, times: number[], lines: Line[], colors: C
   const x = (t: number): number => LEFT + ((t - x0) / (x1 - x0 || 1)) * (RIGHT - LEFT);
   const y = (v: number): number => BOTTOM - ((v - y0) / (y1 - y0)) * (BOTTOM - TOP);
   const parts = [
-    ...ticks(x0, x1).flatMap((t) => [
-      `<path d="M${r(x(t))} ${TOP}V${BOTTOM}" stroke="${colors.line}"/>`,
-      text(`x="${r(x(t))}" y="${BOTTOM + 22}" text-anchor="middle"`, short(t), colors),
-    ]),
-    ...ticks(y0, y1).flatMap((v) => [
-      `<path d="M${LEFT} ${r(y(v))}H${RIGHT}" stroke="${colors.line}"/>`,
-      text(`x="${LEFT - 10}" y="${r(y(v) + 5)}" text-anchor="end"`, short(v), colors),
-    ]),
+    ...mesh(
+      { left: LEFT, right: RIGHT, top: TOP, bottom: BOTTOM },
+      [
+        [x0, x1],
+        [y0, y1],
+      ],
+      { x, y },
+      [t("Time, s"), ""],
+      colors,
+    ),
     ...lines.map((line) => band(line, (k) => x(times[k] ?? 0), y)),
     ...lines.map((line) => curve(line, (k) => x(times[k] ?? 0), y)),
-    ...lines.flatMap((line, k) => legendEntry(line, LEFT + k * LEGEND_ENTRY, colors)),
-    text(`x="${(LEFT + RIGHT) / 2}" y="${HEIGHT - 14}" text-anchor="middle"`, t("Time, s"), colors),
+    ...lines.flatMap((line, k) => legendEntry(line, LEFT + k * LEGEND_ENTRY, 30, colors)),
   ];
-  const size = `viewBox="0 0 ${WIDTH} ${HEIGHT}" width="${WIDTH}" height="${HEIGHT}"`;
+  return [openSvg(title, WIDTH, HEIGHT, 16, colors), ...parts, "</svg>\n"].join("");
+}
+
+/** The beginning of a file: its title for those who do not see it, and the paper. */
+export function openSvg(title: string, width: number, height: number, font: number, colors: Colors): string {
+  const size = `viewBox="0 0 ${width} ${height}" width="${width}" height="${height}"`;
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" ${size} font-family="sans-serif" font-size="${font}">` +
+    `<title>${escapeXml(title)}</title><rect width="${width}" height="${height}" fill="${colors.paper}"/>`
+  );
+}
+
+/** Lines at round values of both axes, with the values and what the axes show. */
+export function mesh(
+  at: { left: number; right: number; top: number; bottom: number },
+  [across, up]: [[number, number], [number, number]],
+  { x, y }: { x: (value: number) => number; y: (value: number) => number },
+  [below, beside]: [string, string],
+  colors: Colors,
+): string[] {
   return [
-    `<svg xmlns="http://www.w3.org/2000/svg" ${size} font-family="sans-serif" font-size="16">`,
-    `<title>${escapeXml(title)}</title><rect width="${WIDTH}" height="${HEIGHT}" fill="${colors.paper}"/>`,
-    ...parts,
-    "</svg>\n",
-  ].join("");
+    ...ticks(...across).flatMap((value) => [
+      `<path d="M${r(x(value))} ${at.top}V${at.bottom}" stroke="${colors.line}"/>`,
+      text(`x="${r(x(value))}" y="${at.bottom + 20}" text-anchor="middle"`, short(value), colors),
+    ]),
+    ...ticks(...up).flatMap((value) => [
+      `<path d="M${at.left} ${r(y(value))}H${at.right}" stroke="${colors.line}"/>`,
+      text(`x="${at.left - 10}" y="${r(y(value) + 5)}" text-anchor="end"`, short(value), colors),
+    ]),
+    text(`x="${(at.left + at.right) / 2}" y="${at.bottom + 40}" text-anchor="middle"`, below, colors),
+    text(`x="${at.left - 10}" y="${at.top - 10}" text-anchor="end"`, beside, colors),
+  ];
 }
 
 /** A line through all finite values; it breaks where there is none. */
@@ -99,14 +125,20 @@ function band(line: Line, x: (k: number) => number, y: (value: number) => number
   return path && `<path d="${path}" fill="${line.color}" fill-opacity="0.2"/>`;
 }
 
-function legendEntry(line: Line, left: number, colors: Colors): string[] {
+export function legendEntry(
+  line: Pick<Line, "label" | "unit" | "color" | "dash">,
+  left: number,
+  top: number,
+  colors: Colors,
+): string[] {
   return [
-    `<path d="M${left} 30h28" stroke="${line.color}" stroke-width="3"${dashes(line)}/>`,
-    text(`x="${left + 36}" y="35"`, `${line.label}${line.unit ? `, ${line.unit}` : ""}`, colors),
+    `<path d="M${left} ${top}h28" stroke="${line.color}" stroke-width="3"${dashes(line)}/>`,
+    text(`x="${left + 36}" y="${top + 5}"`, `${line.label}${line.unit ? `, ${line.unit}` : ""}`, colors),
   ];
 }
 
-const dashes = ({ dash }: Line): string => (dash.length > 0 ? ` stroke-dasharray="${dash.join(" ")}"` : "");
+const dashes = ({ dash }: Pick<Line, "dash">): string =>
+  dash.length > 0 ? ` stroke-dasharray="${dash.join(" ")}"` : "";
 
 const text = (place: string, body: string, { ink }: Colors): string =>
   `<text ${place} fill="${ink}">${escapeXml(body)}</text>`;

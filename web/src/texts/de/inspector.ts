@@ -181,7 +181,8 @@ export const inspector = {
   "nothing of it belongs to this plot": "nichts davon gehört zu diesen Kurven",
   "Show both runs or their difference": "Beide Läufe oder ihren Unterschied zeigen",
   "both runs": "beide Läufe",
-  "Lays this run over the next one": "Legt diesen Lauf über den nächsten",
+  "Lays this run over the next one, in the plots and as a ghost in the drawing":
+    "Legt diesen Lauf über den nächsten, in den Kurven und als Schatten in der Zeichnung",
   "Keep this run": "Diesen Lauf behalten",
   "A CSV file: time in the first column, values in the others, lines with # are remarks":
     "Eine CSV-Datei: Zeit in der ersten Spalte, Werte in den anderen, Zeilen mit # sind Anmerkungen",
@@ -303,4 +304,20 @@ export const inspector = {
   "per s": "je s",
   "Show all {q} coordinates": "Alle {q} Koordinaten zeigen",
   difference: "Unterschied",
+  positions: "Lagen",
+  velocities: "Geschwindigkeiten",
+  forces: "Kräfte",
+  largest: "am größten",
+  smallest: "am kleinsten",
+  maximum: "Maximum",
+  minimum: "Minimum",
+  "Marks on the time line where these curves are largest and smallest and where they turn; a replay goes slowly there":
+    "Markiert auf der Zeitleiste, wo diese Kurven am größten und am kleinsten sind und wo sie umkehren; eine Wiederholung geht dort langsam",
+  "Mark the extremes": "Extreme markieren",
+  "{curve} {kind} {value} at {time}": "{curve} {kind} {value} bei {time}",
+  "{y} over {x}": "{y} über {x}",
+  "Phase plot of {name}": "Phasenbild von {name}",
+  "Path of {name}": "Bahn von {name}",
+  "Hodograph of the velocity of {name}": "Hodograph der Geschwindigkeit von {name}",
+  "Hodograph of the force in {joint} on {on}": "Hodograph der Kraft in {joint} auf {on}",
 };

@@ -1,8 +1,8 @@
 // A run that was recorded, watched as a live one is.
 import type { Camera, Motion, Scene, SessionState, Vec3 } from "../api/types";
-import type { Drawn, ReactionConvention } from "../session/events";
-import { Track } from "../session/track";
-import type { Watched } from "../session/watched";
+import type { Drawn, ReactionConvention } from "./events";
+import { Track } from "./track";
+import type { Watched } from "./watched";
 
 const NOWHERE: Vec3 = [0, 0, 0];
 
