@@ -293,7 +293,11 @@ async function editing() {
   await area.evaluate((field) => { field.value = field.value.replace('"mass": 2', '"mass": -2'); field.dispatchEvent(new Event("input")); });
   await page.locator(".gutter .is-marked").waitFor();
   await noSeriousFaults(page, "the editor");
-  say("a robot imported, completion, freedoms while typing, an error at its place");
+  await area.evaluate((field) => { field.value = field.value.replace('"mass": -2', '"masss": 2'); field.dispatchEvent(new Event("input")); });
+  await page.getByRole("button", { name: "Write “mass” in place of “masss”" }).click();
+  assert.match(await area.inputValue(), /"mass": 2/);
+  await page.getByText("This scene can run.").waitFor();
+  say("a robot imported, completion, freedoms while typing, an error at its place, and what was meant");
   await page.context().close();
 }
 

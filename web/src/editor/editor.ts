@@ -7,6 +7,7 @@ import { t } from "../core/texts";
 
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
+import { type Meant, meantBy } from "./meant";
 import { lineOf, locate } from "./pointer";
 import { suggestions } from "./suggest";
 
@@ -92,6 +93,21 @@ export class SceneEditor {
     this.mark([line]);
   }
 
+  /** Puts the word that was meant in the place of the one that was written. */
+  private offer({ given, meant, from, to }: Meant): { label: string; run: () => void } {
+    const { area } = this;
+    return {
+      label: t("Write “{meant}” in place of “{given}”", { meant, given }),
+      run: () => {
+        // What was written since is not overwritten.
+        if (area.value.slice(from, to) !== JSON.stringify(given)) return;
+        area.focus();
+        area.setRangeText(JSON.stringify(meant), from, to, "end");
+        area.dispatchEvent(new Event("input"));
+      },
+    };
+  }
+
   private checkSoon(): void {
     this.numberLines();
     clearTimeout(this.timer);
@@ -117,7 +133,9 @@ export class SceneEditor {
     } catch (error) {
       if (signal.aborted) return;
       if (error instanceof ApiError) this.mark(linesOf(error.problem, text));
-      this.result.replaceChildren(problemNotice(error, [], { open: (pointer) => this.goTo(pointer) }));
+      const meant = error instanceof ApiError ? meantBy(error.problem, text) : undefined;
+      const offers = meant ? [this.offer(meant)] : [];
+      this.result.replaceChildren(problemNotice(error, offers, { open: (pointer) => this.goTo(pointer) }));
     }
   }
 }

@@ -304,4 +304,5 @@ export const learning = {
   "What happened:": "Was geschah:",
   "Run it: at {seen_at} you will have seen it.": "Lass ihn laufen: Bei {seen_at} hast du es gesehen.",
   "Run it, and you will see.": "Lass ihn laufen, dann siehst du es.",
+  "Write “{meant}” in place of “{given}”": "„{meant}“ statt „{given}“ schreiben",
 };
