@@ -4,6 +4,7 @@
 use triad_engine::scene::expression::{Expression, begins_factor, notation};
 
 use super::number;
+use super::units::Unit;
 
 /// The entries row by row, each as text, and a unit behind all of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,19 +16,23 @@ pub(crate) struct Cells {
 /// Longest text that is taken apart, in characters.
 const MAX_LENGTH: usize = 4000;
 /// What programs write in front of the brackets of an array.
-const NAMES: [&str; 12] = [
-    "np.array",
-    "numpy.array",
+const NAMES: [&str; 16] = [
     "array",
-    "np.matrix",
     "matrix",
     "Matrix",
+    "ImmutableMatrix",
     "vector",
     "Vector",
+    "Vector3",
     "vec",
+    "vec!",
+    "std::vec!",
+    "vec3",
+    "torch.tensor",
     "tensor",
     "list",
     "tuple",
+    "c",
 ];
 /// Names of the unit vectors.
 const BASES: [[&str; 3]; 6] = [
@@ -94,6 +99,12 @@ fn unnamed(plain: &str) -> String {
     }
 }
 
+/// The bars beside the rows of a matrix, `| 1 0 |`.
+fn without_bars(line: &str) -> &str {
+    let inner = line.strip_prefix('|').and_then(|rest| rest.strip_suffix('|'));
+    inner.filter(|inner| !inner.contains('|')).unwrap_or(line).trim()
+}
+
 /// What stands in the outermost brackets, and the unit behind them.
 fn around(plain: &str) -> (String, String) {
     let mut text = plain.trim();
@@ -156,7 +167,8 @@ fn matrix(inner: &str, rows: usize, columns: usize) -> Option<Vec<String>> {
     if lines.len() != rows {
         return None;
     }
-    let rows: Option<Vec<Vec<String>>> = lines.into_iter().map(|line| flat(line, columns)).collect();
+    let rows: Option<Vec<Vec<String>>> =
+        lines.into_iter().map(|line| flat(without_bars(line), columns)).collect();
     Some(rows?.concat())
 }
 
@@ -183,7 +195,9 @@ fn by_spaces(text: &str) -> Vec<String> {
     for piece in pieces(joined.split_whitespace().map(|piece| piece.trim_matches(','))) {
         match out.last_mut() {
             Some(last)
-                if piece.starts_with(|c: char| c.is_alphabetic() || c == '/') && !begins_factor(&piece) =>
+                if piece.starts_with(|c: char| c.is_alphabetic() || c == '/')
+                    && !piece.contains('=')
+                    && !begins_factor(&piece) =>
             {
                 *last = format!("{last} {piece}");
             }
@@ -213,8 +227,20 @@ fn signs_joined(text: &str) -> String {
     out
 }
 
-/// A sum of multiples of unit vectors, each at most once: `3 i − 2 k`.
+/// A sum of multiples of unit vectors, each at most once, and a unit behind it: `3 i − 2 k`, `(3 i − 2 k) N m`.
 fn in_unit_vectors(plain: &str) -> Option<Cells> {
+    let whole = sum_of_unit_vectors(plain);
+    let spaces = plain.char_indices().filter(|(_, c)| *c == ' ').map(|(at, _)| at);
+    whole.or_else(|| {
+        spaces.rev().find_map(|at| {
+            let unit = plain[at..].trim();
+            Unit::parse(unit).ok()?;
+            Some(Cells { unit: unit.to_owned(), ..sum_of_unit_vectors(plain[..at].trim_end())? })
+        })
+    })
+}
+
+fn sum_of_unit_vectors(plain: &str) -> Option<Cells> {
     BASES.iter().find_map(|names| {
         let sum = Expression::parse(plain, names).ok()?;
         let at = |point: [f64; 3]| sum.eval(&point);
@@ -273,6 +299,13 @@ mod tests {
             "Matrix([1, -2.5, 3])",
             "tensor([1., -2.5, 3.])",
             "1 , -2.5 , 3 ;",
+            "x=1 y=-2.5 z=3",
+            "(1, -2.5, 3)ᵀ",
+            "torch.tensor([1., -2.5, 3.])",
+            "c(1, -2.5, 3)",
+            "vec![1.0, -2.5, 3.0]",
+            "î − 2.5 ĵ + 3 k̂",
+            r"\langle 1, -2.5, 3\rangle",
         ] {
             assert_eq!(read(text, 3, 1), (vec![1.0, -2.5, 3.0], String::new()), "{text}");
         }
@@ -282,6 +315,9 @@ mod tests {
             ("(1, -2.5, 3) [N]", "[N]"),
             ("(1, -2.5, 3) kg/(m s)", "kg/(m s)"),
             ("[1, -2.5, 3]*N", "N"),
+            ("1 i - 2.5 j + 3 k N m", "N m"),
+            ("(i - 2.5 j + 3 k) N", "N"),
+            ("[1, -2.5, 3]ᵀ N", "N"),
         ] {
             assert_eq!(read(text, 3, 1), (vec![1.0, -2.5, 3.0], unit.to_owned()), "{text}");
         }
@@ -304,6 +340,8 @@ mod tests {
             "[[1 2]\n [3 4]]",
             "1\t2\n3\t4",
             "1,0 2,0; 3,0 4,0",
+            "| 1 2 |\n| 3 4 |",
+            "sp.Matrix([[1, 2], [3, 4]])",
         ] {
             assert_eq!(read(text, 2, 2), (vec![1.0, 2.0, 3.0, 4.0], String::new()), "{text}");
         }

@@ -5,6 +5,11 @@ use serde::{Deserialize, Serialize};
 
 /// Name of the place where the weight acts, the centre of mass.
 pub(crate) const CENTRE: &str = "centre";
+/// A place of a body as people read it: `motor-2` is motor 2.
+pub(crate) fn place_in_words(name: &str) -> String {
+    if name == CENTRE { "centre of mass".to_owned() } else { name.replace('-', " ") }
+}
+
 /// Most arrows of a diagram.
 pub(crate) const MAX_ARROWS: usize = 60;
 
@@ -99,15 +104,15 @@ impl Sense {
         }
     }
 
-    /// As it is written.
+    /// As people read it.
     pub(crate) fn text(self) -> &'static str {
         match self {
             Self::PlusX => "+x",
-            Self::MinusX => "-x",
+            Self::MinusX => "\u{2212}x",
             Self::PlusY => "+y",
-            Self::MinusY => "-y",
+            Self::MinusY => "\u{2212}y",
             Self::PlusZ => "+z",
-            Self::MinusZ => "-z",
+            Self::MinusZ => "\u{2212}z",
         }
     }
 }

@@ -5,6 +5,7 @@
 use thiserror::Error;
 use triad_engine::scene::expression::{Cursor, begins_factor, leading_value, notation};
 
+use super::factors::{Sign, mixed, next_factor, times_unit};
 use crate::text::shorten;
 
 /// Longest number text that is read, in characters.
@@ -57,17 +58,41 @@ impl NumberError {
     }
 }
 
-/// Reads a number, or a little arithmetic (`3*9.81`, `sqrt(2)`), and hands back the text after it (a unit, perhaps), trimmed
-/// and in plain notation. What decorates it (`F =`, `≈`, brackets, `± 0.1`) is left out.
+/// Reads a number, or a little arithmetic (`3*9.81`, `sqrt(2)`, `3 kg * 9.81 m/s^2`), and hands back the text after it (a
+/// unit, perhaps), trimmed and in plain notation. What decorates it (`F =`, `≈`, brackets, `± 0.1`) is left out.
 ///
 /// Errors if no finite number begins the text.
 pub fn read(text: &str) -> Result<(ParsedNumber, String), NumberError> {
+    let (mut number, mut unit) = one(text)?;
+    while let Some((before, sign, factor)) = next_factor(&unit) {
+        let (other, behind) = one(factor)?;
+        let value = match sign {
+            Sign::Times => number.value * other.value,
+            Sign::Over => number.value / other.value,
+        };
+        number = ParsedNumber { value, half_ulp_decimal: 0.0 };
+        // The unit of the factor may be followed by another one.
+        let (own, more) =
+            next_factor(&behind).map_or((behind.as_str(), ""), |(own, ..)| (own, &behind[own.len()..]));
+        unit = times_unit(before, sign, own) + more;
+    }
+    if number.value.is_finite() {
+        Ok((number, unit))
+    } else {
+        Err(NumberError::NotFinite { text: shorten(text) })
+    }
+}
+
+/// One number, or arithmetic without units, and the text after it.
+fn one(text: &str) -> Result<(ParsedNumber, String), NumberError> {
     let not_a_number = || NumberError::NotANumber { text: shorten(text) };
     if text.chars().count() > MAX_LENGTH {
         return Err(not_a_number());
     }
     let plain = notation::plain(text);
     let answer = notation::undecorated(&plain);
+    let spelled = answer.strip_prefix("minus ").map(|size| format!("-{}", size.trim_start()));
+    let answer = spelled.as_deref().unwrap_or(answer);
     if answer.is_empty() {
         return Err(NumberError::Empty);
     }
@@ -80,6 +105,9 @@ pub fn read(text: &str) -> Result<(ParsedNumber, String), NumberError> {
         return Err(not_a_number());
     }
     let (number, rest) = match literal(answer) {
+        _ if let Some((value, rest)) = mixed(answer).filter(|(_, rest)| ends_value(rest)) => {
+            (ParsedNumber { value, half_ulp_decimal: 0.0 }, rest.to_owned())
+        }
         Some(Err(Comma)) => return Err(NumberError::AmbiguousComma { text: shorten(text) }),
         Some(Ok((number, rest))) if ends_value(&rest) => (number, rest),
         found => match (leading_value(answer), found) {
@@ -305,6 +333,12 @@ mod tests {
             ("4,429e0", 4.429),
             ("2.9 E1", 29.0),
             ("2π√4", 4.0 * std::f64::consts::PI),
+            ("9 3/8", 9.375),
+            ("-1 1/2", -1.5),
+            ("minus 0.35", -0.35),
+            ("3 kg * 9.81 m/s^2", 29.43),
+            ("3kg·9.81m/s²·2", 58.86),
+            ("30 N / 4 kg", 7.5),
             ("-.5", -0.5),
             ("+ 3", 3.0),
         ] {
@@ -318,6 +352,10 @@ mod tests {
         assert_eq!(read("3/s").unwrap().1, "/s");
         assert_eq!(read("3 1/s").unwrap().1, "1/s");
         assert_eq!(read("30°").unwrap().1, "°");
+        assert_eq!(read("3 kg * 9.81 m/s^2").unwrap().1, "kg*m/s^2");
+        assert_eq!(read("3 m/s * 2 s").unwrap().1, "(m/s)*s");
+        assert_eq!(read("30 N / 4 kg").unwrap().1, "N/(kg)");
+        assert_eq!(read("3 kg m**2").unwrap().1, "kg m**2");
         assert_eq!(
             read("3e2m").unwrap(),
             (ParsedNumber { value: 300.0, half_ulp_decimal: 50.0 }, "m".to_owned())

@@ -6,10 +6,12 @@ use thiserror::Error;
 
 use super::findings::Findings;
 use super::references::{judged, quantity_answer, reference_submission};
-use crate::answers::Submission;
+use crate::answers::{Answer, Submission, TypedValue, number};
 use crate::exercise::{Question, QuestionBody};
 use crate::files::WrongFile;
 use crate::grading::{grade, judge};
+use crate::lesson::Lesson;
+use crate::text::plain;
 use crate::verdict::Mark;
 use crate::verdict::feedback::Judgement;
 
@@ -87,7 +89,11 @@ fn wrong_answer_fails(name: &str, wrong: &WrongFile, shown: &mut Shown, found: &
         return;
     }
     let mut submission = reference_submission(lesson);
-    submission.answers.extend(wrong.answers.clone());
+    for (id, answer) in &wrong.answers {
+        let is_number = lesson.question(id).is_some_and(|q| matches!(q.body, QuestionBody::Quantity(_)));
+        let answer = if is_number { calculated(lesson, answer) } else { answer.clone() };
+        submission.answers.insert(id.clone(), answer);
+    }
     let judgements = match judge(lesson, &submission) {
         Ok(judgements) => judgements,
         Err(error) => return found.add(name, 0, error.to_string(), "correct the id"),
@@ -99,10 +105,41 @@ fn wrong_answer_fails(name: &str, wrong: &WrongFile, shown: &mut Shown, found: &
                 shown.insert((question.id.clone(), expected.clone()));
             }
             Err(complaint) => {
-                let what = format!("{}: {complaint}", question.id);
+                let leads_to = leads_to(question, expected);
+                let what = format!("{}: {complaint}{leads_to}", question.id);
                 found.add(name, 0, what, "correct the answer or the feedback");
             }
         }
+    }
+}
+
+/// The answer with its expressions in the lesson's parameters evaluated, so that it need not be calculated by hand.
+fn calculated(lesson: &Lesson, answer: &Answer) -> Answer {
+    fn with_numbers(lesson: &Lesson, value: &TypedValue) -> TypedValue {
+        match value {
+            // `29.4 m` is in metres, `29.4*m` is a product with the mass.
+            TypedValue::Text(text) if text.contains('*') || number::read(text).is_err() => {
+                let value = lesson.parameters.eval(text).ok().filter(|value| value.is_finite());
+                TypedValue::Text(value.map_or_else(|| text.clone(), |value| format!("{value:.15e}")))
+            }
+            TypedValue::List(list) => {
+                TypedValue::List(list.iter().map(|one| with_numbers(lesson, one)).collect())
+            }
+            other => other.clone(),
+        }
+    }
+    Answer { value: answer.value.as_ref().map(|value| with_numbers(lesson, value)), ..answer.clone() }
+}
+
+/// What a misconception leads to with the numbers of the text, for an author who expected something else.
+fn leads_to(question: &Question, misconception: &str) -> String {
+    let QuestionBody::Quantity(q) = &question.body else { return String::new() };
+    let Some(known) = q.misconceptions.iter().find(|m| m.id == misconception) else { return String::new() };
+    let numbers: Vec<String> = known.value.iter().copied().map(plain).collect();
+    let unit = q.unit.text();
+    match numbers.as_slice() {
+        [one] => format!("; {misconception} leads to {one} {unit}"),
+        all => format!("; {misconception} leads to ({}) {unit}", all.join(", ")),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Proving a course: what an author promises is tried out, and every complaint names its place and a remedy.
 
+mod again;
 mod answers;
 mod diagram;
 mod findings;
@@ -73,9 +74,11 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
     texts::about(course, &mut found);
     notions::in_order(course, &mut found);
     texts::text(course, &mut found);
+    texts::all_placeholders(&mut found);
     texts::stray_files(&mut found);
     texts::unfinished(&mut found);
     measured::scene(&mut found);
+    again::all(&mut found);
     predictions::written(course, &mut found);
     predictions::happen(&mut found);
     for question in &lesson.exercise.questions {

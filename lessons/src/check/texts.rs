@@ -98,8 +98,33 @@ pub(super) fn text(course: &Course, found: &mut Findings) {
     }
 }
 
-/// Checks a text that stands in a TOML file: its links, and that it is plain Markdown without figures.
+/// A name in double braces for which nothing is drawn: students would read it as it is written.
+fn placeholders(text: &str, file: &str, line: usize, found: &mut Findings) {
+    for name in found.lesson.parameters.unknown(text) {
+        let remedy = format!("correct the name, or add {name} to [parameters] of exercise.toml");
+        found.add(file, line, format!("{{{{{name}}}}} is no parameter"), remedy);
+    }
+}
+
+/// The same of the scene's description, and of the lesson's text, which is the same for everybody.
+pub(super) fn all_placeholders(found: &mut Findings) {
+    let lesson = found.lesson;
+    placeholders(&lesson.sources.description, "scene.json", 0, found);
+    let text = lesson.files.get("lesson.md").map(|bytes| String::from_utf8_lossy(bytes)).unwrap_or_default();
+    for (at, line) in text.lines().enumerate() {
+        placeholders(line, "lesson.md", at + 1, found);
+        for (name, _) in
+            lesson.parameters.iter().filter(|(name, _)| line.contains(&format!("{{{{{name}}}}}")))
+        {
+            let what = format!("{{{{{name}}}}} stands in the text, which is the same for everybody");
+            found.add("lesson.md", at + 1, what, "name the number in a step or a question");
+        }
+    }
+}
+
+/// Checks a text that stands in a TOML file: its links, its numbers, and that it is plain Markdown without figures.
 pub(super) fn short(course: &Course, text: &str, file: &str, line: usize, found: &mut Findings) {
+    placeholders(text, file, line, found);
     let rendered = markdown::render(text, &BTreeMap::new());
     for (_, what) in rendered.problems {
         found.add(file, line, what, "correct the text");

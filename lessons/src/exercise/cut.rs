@@ -8,7 +8,7 @@ use triad_engine::scene::{Scene, Shape};
 use triad_engine::state::BodyFrame;
 
 use super::diagram::Diagram;
-use crate::answers::diagram::{Arrow, ArrowKind, Axis, CENTRE, Sense};
+use crate::answers::diagram::{Arrow, ArrowKind, Axis, CENTRE, Sense, place_in_words};
 use crate::rendering::html::escape;
 use crate::scenario::measure::{MeasureError, Observation, run_to};
 use crate::text::plain;
@@ -61,6 +61,7 @@ impl<'a> Cut<'a> {
             bodies.push((outlines(&task.scene, body, frame), places));
         }
         let (shapes, places) = laid_out(task.view, &bodies);
+        let shapes = shapes + &titles(&task.bodies, &places);
         Ok(Self { task, places, values, shapes })
     }
 
@@ -151,7 +152,7 @@ pub(crate) fn in_words(arrow: &Arrow, value: Option<f64>) -> String {
         ArrowKind::Force => ("force", "along", "N"),
         ArrowKind::Moment => ("moment", "about", "N m"),
     };
-    let at = if arrow.at == CENTRE { "the centre of mass" } else { arrow.at.as_str() };
+    let at = place_in_words(&arrow.at);
     let size = value.map_or(String::new(), |value| format!(" of {} {unit}", plain(rounded(value.abs()))));
     format!("{kind}{size} {about} {} at {at} on {}", arrow.along.text(), arrow.on)
 }
@@ -280,6 +281,23 @@ fn laid_out(view: Axis, bodies: &[Measured]) -> (String, Vec<Vec<Place>>) {
         placed.push(places);
     }
     (svg, placed)
+}
+
+/// The name of each body above it.
+fn titles(names: &[String], places: &[Vec<Place>]) -> String {
+    /// Height of the names, px from above.
+    const LINE: f64 = 24.0;
+    let title = |(name, places): (&String, &Vec<Place>)| {
+        let (left, right) = places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), place| {
+            (left.min(place.at[0]), right.max(place.at[0]))
+        });
+        format!(
+            "<text x=\"{:.1}\" y=\"{LINE}\" text-anchor=\"middle\" font-weight=\"bold\" fill=\"currentColor\">{}</text>",
+            (left + right) / 2.0,
+            escape(name)
+        )
+    };
+    names.iter().zip(places).map(title).collect()
 }
 
 /// A shape, grey on light and on dark paper.

@@ -45,6 +45,19 @@ impl Parameters {
         })
     }
 
+    /// The names in double braces of a text that stand for no parameter.
+    pub(crate) fn unknown(&self, text: &str) -> Vec<String> {
+        let rest = text.split("{{").skip(1).filter_map(|part| Some(part.split_once("}}")?.0.trim()));
+        let is_name = |name: &&str| {
+            name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+                && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        };
+        rest.filter(is_name)
+            .filter(|name| !self.names.iter().any(|own| own == name))
+            .map(str::to_owned)
+            .collect()
+    }
+
     /// One more named number.
     pub(crate) fn add(&mut self, name: &str, value: f64) {
         self.names.push(name.to_owned());

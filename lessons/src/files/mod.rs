@@ -24,7 +24,7 @@ pub use exercise::{
 pub use lesson::{CourseFile, LessonFile, OpensFile, PartFile, StepFile, StepKind};
 pub use measured::{Component, CountKind, MeasuredFile, MotionKind};
 pub use prediction::{PredictionFile, PredictionOptionFile};
-pub use reference::{ProvenanceKind, ReferenceFile, WrongFile};
+pub use reference::{AgainFile, ProvenanceKind, ReferenceFile, WrongFile};
 pub use tasks::{
     EquationPart, FollowFile, ImplementFile, ModelFile, ScoreBand, TrajectoryFile, TuningFile, WatchFile,
     WrongModel, WrongModelFile, earlier_value,

@@ -30,6 +30,19 @@ pub struct ReferenceFile {
     /// Where the scenario shows the same value; the check runs the scene and compares.
     #[serde(default)]
     pub measured: Option<MeasuredFile>,
+    /// The same from another computation, where the scenario does not show it.
+    #[serde(default)]
+    pub again: Option<AgainFile>,
+}
+
+/// A number that was computed twice: a slip in an expression shows where the two do not agree.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AgainFile {
+    /// With the default numbers, in the question's unit.
+    pub value: TypedValue,
+    /// By what: not the expression of `value` once more.
+    pub by: String,
 }
 
 /// Where a reference comes from.

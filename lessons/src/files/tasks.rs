@@ -218,9 +218,9 @@ fn default_bodies() -> usize {
     10
 }
 
-/// Relative difference of a student's program where the author gives none.
+/// Relative difference of a student's program where the author gives none: six digits are enough.
 fn default_program_tolerance() -> f64 {
-    1e-6
+    1e-5
 }
 
 /// The degrees of freedom are compared unless the author says otherwise.

@@ -38,10 +38,13 @@ fn text(answer: &Answer) -> Option<&str> {
     }
 }
 
-/// The id in `B)`, `(b)` or `option b`, in small letters.
+/// What stands in front of an id, in small letters.
+const LEADS: [&str; 6] = ["the answer is", "my answer is", "i choose", "option", "answer", "choice"];
+
+/// The id in `B)`, `(b)`, `**b**` or `option b`, in small letters.
 fn id(text: &str) -> String {
     let plain = notation::plain(text).to_lowercase();
-    let plain = notation::undecorated(&plain);
-    let named = plain.strip_prefix("option").or_else(|| plain.strip_prefix("answer")).unwrap_or(plain);
+    let plain = notation::undecorated(plain.trim_matches('*'));
+    let named = LEADS.iter().find_map(|lead| plain.strip_prefix(lead)).unwrap_or(plain);
     named.trim().trim_end_matches([')', '.', ':']).trim().to_owned()
 }

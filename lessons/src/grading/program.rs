@@ -16,7 +16,7 @@ use crate::verdict::feedback::{Discrepancy, Feedback, Judgement, PartFinding};
 use crate::verdict::invalid::InvalidProgram;
 
 /// Difference below which a wrong entry is a multiple of the right one, relative to 1 plus its size.
-const SAME_MULTIPLE: f64 = 1e-6;
+const SAME_MULTIPLE: f64 = 1e-5;
 
 /// Judges what a program sent; `seed` is that of the instances.
 pub(super) fn judge(

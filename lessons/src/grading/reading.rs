@@ -42,12 +42,18 @@ pub(super) fn read(question: &QuantityQuestion, answer: &Answer) -> Result<Readi
         (false, _) => &shared,
     };
     of_some_only(question, &numbers, behind_all)?;
+    let unit_of_others = numbers.iter().map(|(_, own)| own.as_str()).find(|own| !own.is_empty());
     let mut entries = Vec::with_capacity(numbers.len());
     for (number, own) in &numbers {
         if !own.is_empty() && !behind_all.is_empty() && !same_unit(question, own, behind_all) {
             return Err(two_units(own, behind_all));
         }
-        let text = if own.is_empty() { behind_all } else { own };
+        // Zero is zero in every unit: `(3 N, 0, 4 N)`.
+        let text = match (own.is_empty(), behind_all.is_empty(), number.value == 0.0) {
+            (true, true, true) => unit_of_others.unwrap_or(behind_all),
+            (true, ..) => behind_all,
+            (false, ..) => own,
+        };
         entries.push(Entry { number: *number, unit: unit(question, text)? });
     }
     let factor = |entry: &Entry| {
@@ -83,7 +89,7 @@ fn of_some_only(
     numbers: &[(ParsedNumber, String)],
     behind_all: &str,
 ) -> Result<(), InvalidQuantity> {
-    let without = numbers.iter().position(|(_, own)| own.is_empty());
+    let without = numbers.iter().position(|(number, own)| own.is_empty() && number.value != 0.0);
     let with = numbers.iter().position(|(_, own)| !own.is_empty());
     match (without, with) {
         (Some(_), Some(with)) if behind_all.is_empty() => {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::answers::diagram::{Axis, CENTRE};
+use crate::answers::diagram::{Axis, place_in_words};
 use crate::exercise::Diagram;
 use crate::exercise::cut::{Cut, SIZE, handedness};
 
@@ -53,7 +53,7 @@ impl DiagramView {
         let place = |body: usize, name: &str| {
             let places = cut.as_ref().and_then(|cut| cut.places.get(body));
             let at = places.and_then(|places| places.iter().find(|place| place.name == name));
-            let label = if name == CENTRE { "centre of mass".to_owned() } else { name.replace('-', " ") };
+            let label = place_in_words(name);
             PlaceView {
                 id: name.to_owned(),
                 label,

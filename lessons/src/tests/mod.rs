@@ -9,6 +9,7 @@ mod pools;
 mod predictions;
 mod properties;
 mod refusals;
+mod rounded_files;
 mod tasks;
 mod typical_mistakes;
 mod ways_of_writing;
@@ -229,11 +230,38 @@ fn findings_of_the_check_name_place_and_remedy() {
             "the steps are not predict, run, check, explain",
         ),
         ("lesson.md", "## A hinge", "A $ sign\n\n## A hinge", "lesson.md:1: a $ is left"),
+        ("exercise.toml", "The bob has {{m}} kg. How", "The bob has {{M}} kg. How", "{{M}} is no parameter"),
+        ("lesson.toml", "text = \"", "text = \"{{mass}} ", "lesson.toml: {{mass}} is no parameter"),
+        ("lesson.md", "## A hinge", "Of {{b}} m.\n\n## A hinge", "lesson.md:1: {{b}} is no parameter"),
+        ("lesson.md", "## A hinge", "Of {{m}} kg.\n\n## A hinge", "is the same for everybody"),
+        ("scene.json", "\"description\": \"", "\"description\": \"{{b}}: ", "{{b}} is no parameter"),
+        // Nobody need calculate what a misconception leads to.
+        ("wrong/other-side.toml", "14.21", "15.21", "other-side leads to (14.21093, 10.89654, 0) N"),
     ] {
         // The prerequisite is not part of this small course; that complaint is always there.
         let problems = broken(path, from, to).unwrap_or_else(|e| panic!("{path}: {e}"));
         assert!(problems.iter().any(|p| p.contains(says)), "{path} {to}: {problems:#?}");
     }
+}
+
+/// Authors write what they mean: the check calculates it with the numbers of the text.
+#[test]
+fn a_wrong_answer_may_be_an_expression_in_the_parameters() {
+    let (from, by_hand) = ("\"14.21\", \"10.90\"", "\"14.2109311*m\", \"10.8965368*m\"");
+    let problems = broken("wrong/other-side.toml", from, by_hand).unwrap();
+    let with_numbers = broken(
+        "wrong/other-side.toml",
+        "",
+        &std::fs::read_to_string(
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("course/02-simple-pendulum/wrong/other-side.toml"),
+        )
+        .unwrap(),
+    )
+    .unwrap();
+    assert_eq!(problems, with_numbers);
+    let other = broken("wrong/other-side.toml", from, "\"-14.2109311*m\", \"-10.8965368*m\"").unwrap();
+    assert!(other.iter().any(|p| p.contains("judged Right")), "{other:#?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::feedback::{
     Demand, DemandResult, DiagramFinding, DiagramSlip, Discrepancy, Feedback, FormulaFinding, MotionFinding,
     NumberFinding, PartFinding, QuantityFeedback, TuningFeedback, UnitFinding,
 };
-use crate::answers::diagram::{Arrow, CENTRE};
+use crate::answers::diagram::{Arrow, place_in_words};
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
 use crate::exercise::cut::in_words;
@@ -71,8 +71,8 @@ fn diagram_right(numbers: &[(Arrow, f64)], note: &str) -> String {
 fn diagram(slip: DiagramSlip, findings: &[DiagramFinding]) -> String {
     let line = |finding: &DiagramFinding| match finding {
         DiagramFinding::Missing(arrow) => {
-            let at = if arrow.at == CENTRE { "the centre of mass" } else { arrow.at.as_str() };
-            format!("<li>Missing: something at {} on {}.</li>", escape(at), escape(&arrow.on))
+            let at = escape(&place_in_words(&arrow.at));
+            format!("<li>Missing: something at {at} on {}.</li>", escape(&arrow.on))
         }
         DiagramFinding::Opposite(arrow) => {
             format!("<li>Points the wrong way: {}.</li>", escape(&in_words(arrow, None)))

@@ -11,7 +11,28 @@ pub fn plain(text: &str) -> String {
     } else {
         text.to_owned()
     };
-    signs::plain(&text).trim().to_owned()
+    without_modules(signs::plain(&text).trim())
+}
+
+/// Where programs keep their functions: `np.sqrt(2)` is `sqrt(2)`.
+const MODULES: [&str; 6] = ["np.", "numpy.", "math.", "Math.", "sp.", "sympy."];
+
+/// Without the names of modules in front of names of functions.
+fn without_modules(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        let begins = !out.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '.');
+        let behind = MODULES.iter().filter(|_| begins).find_map(|module| rest.strip_prefix(module));
+        match behind.filter(|behind| behind.starts_with(|c: char| c.is_alphabetic())) {
+            Some(behind) => rest = behind,
+            None => {
+                out.push(c);
+                rest = &rest[c.len_utf8()..];
+            }
+        }
+    }
+    out
 }
 
 /// What is meant as the answer, of plain text such as `F = 29.4 N`, `(29.4)`, `approx. 29.4 ± 0.1`.
@@ -118,6 +139,10 @@ mod tests {
             ("5 µm", "5 um"),
             ("𝑚𝑔", "mg"),
             ("30º", "30°"),
+            ("3 î − 2 k̂", "3 i - 2 k"),
+            ("[1]ᵀ", "[1]^T"),
+            ("np.sqrt(2)*math.cos(0)", "sqrt(2)*cos(0)"),
+            ("3 N.m", "3 N.m"),
         ] {
             assert_eq!(plain(typed), wanted, "{typed}");
         }
@@ -136,6 +161,8 @@ mod tests {
             (r"\begin{pmatrix} 1 \\ 2 \\ 3 \end{pmatrix}", "[1 ; 2 ; 3]"),
             (r"30^\circ", "30°"),
             (r"\SI{29.4}{\newton}", "29.4(newton)"),
+            (r"\tfrac{1}{2}3", "((1)/(2))*3"),
+            (r"\langle 1, 2\rangle", "<1, 2>"),
         ] {
             let got = plain(typed).split_whitespace().collect::<Vec<_>>().join(" ");
             let got = got.replace("( ", "(").replace("[ ", "[").replace(" ]", "]").replace(" )", ")");

@@ -27,6 +27,7 @@ const SILENT: &[&str] = &[
     "unit",
     "si",
     "hat",
+    "num",
 ];
 /// Commands that are a sign.
 const SIGNS: &[(&str, &str)] = &[
@@ -43,6 +44,8 @@ const SIGNS: &[(&str, &str)] = &[
     ("varepsilon", " epsilon "),
     ("degree", "°"),
     ("circ", "°"),
+    ("langle", "<"),
+    ("rangle", ">"),
 ];
 
 /// LaTeX as plain text; what is not known keeps its name.
@@ -130,7 +133,9 @@ impl Reader {
             "frac" | "dfrac" | "tfrac" | "cfrac" => {
                 let above = self.argument(depth);
                 let below = self.argument(depth);
-                format!("(({above})/({below}))")
+                // What follows is another factor: \frac{1}{2}3 is no number with the digits of both.
+                let times = if self.peek().is_some_and(|c| c.is_ascii_digit()) { "*" } else { "" };
+                format!("(({above})/({below})){times}")
             }
             "sqrt" => {
                 let third = self.peek() == Some('[') && self.chars.get(self.at + 1) == Some(&'3');

@@ -84,6 +84,12 @@ fn root(out: &mut String, name: &str, after: &[char]) -> usize {
 fn letter(c: char) -> Option<char> {
     Some(match c {
         '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{2064}' | '\u{ad}' => return None,
+        // The hat of a unit vector, the arrow over a vector, the dot over a rate.
+        '\u{302}' | '\u{307}' | '\u{20d7}' => return None,
+        'î' => 'i',
+        'ĵ' => 'j',
+        'ŷ' => 'y',
+        'ẑ' => 'z',
         '\u{2212}' | '\u{2010}'..='\u{2015}' | '\u{fe63}' => '-',
         '·' | '⋅' | '×' | '∙' | '•' | '∗' | '✕' | '⨯' => '*',
         '\u{2215}' | '\u{2044}' | '÷' => '/',
@@ -118,8 +124,10 @@ fn offset(c: char, first: u32, stands_for: char) -> char {
 }
 
 fn superscript(c: char) -> Option<char> {
-    if c == '⁻' {
-        return Some('-');
+    match c {
+        '⁻' => return Some('-'),
+        'ᵀ' => return Some('T'),
+        _ => {}
     }
     "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c).map(|digit| char::from(b"0123456789"[digit]))
 }
