@@ -17,6 +17,23 @@ import {
 } from "./arrows";
 import type { Inputs, QuestionContext } from "./field";
 
+/** Width of a letter of a point's name at most, px of the picture. */
+const LETTER = 6.6;
+
+/** Lines of names below a body: each name stands on the first where there is room for it. */
+class LabelRows {
+  private readonly taken: [number, number][][] = [];
+
+  take(x: number, words: string): number {
+    const end = x + LETTER * words.length;
+    const free = (spans: [number, number][]): boolean => spans.every(([from, to]) => end < from || x > to);
+    const found = this.taken.findIndex(free);
+    const row = found < 0 ? this.taken.push([]) - 1 : found;
+    this.taken[row]?.push([x, end]);
+    return row;
+  }
+}
+
 /** Radius within which a point is taken, px of the picture. */
 const REACH = 18;
 
@@ -41,6 +58,7 @@ class DiagramField {
   private readonly body: HTMLSelectElement;
   private readonly place: HTMLSelectElement;
   private readonly what: HTMLSelectElement;
+  private readonly add: HTMLButtonElement;
 
   constructor(
     private readonly diagram: Diagram,
@@ -64,7 +82,7 @@ class DiagramField {
     this.body.append(...diagram.bodies.map((one) => h("option", { value: one.name }, one.name)));
     this.what.append(...choicesOf(diagram).map((one, at) => h("option", { value: String(at) }, one.label)));
     this.body.addEventListener("change", () => this.offerPlaces());
-    const add = h(
+    this.add = h(
       "button",
       { type: "button", class: "button small", onclick: () => this.addChosen() },
       t("Add"),
@@ -80,7 +98,7 @@ class DiagramField {
           "Drag a force out of a point. Click a point for a moment, again for the other sense, again to take it away. Or choose:",
         ),
       ),
-      h("div", { class: "settings" }, body.root, place.root, what.root, add),
+      h("div", { class: "settings" }, body.root, place.root, what.root, this.add),
       this.list,
     );
     this.offerPlaces();
@@ -96,11 +114,16 @@ class DiagramField {
     return this.diagram.bodies.flatMap((body) => {
       const spots = new Map<string, typeof body.places>();
       for (const place of body.places) spots.set(`${place.at}`, [...(spots.get(`${place.at}`) ?? []), place]);
-      return [...spots.values()].map((places, row) => {
+      const rows = new LabelRows();
+      return [...spots.values()].map((places) => {
         const [x, y] = (places[0]?.at ?? [0, 0]) as [number, number];
         const point = svg("circle", { cx: x, cy: y, r: REACH, class: "cut-point" });
         const words = places.map((place) => place.label).join(", ");
-        const name = svg("text", { x: x + 8, y: y + 28 + 16 * (row % 2), class: "cut-name" }, words);
+        const name = svg(
+          "text",
+          { x: x + 8, y: y + 28 + 16 * rows.take(x, words), class: "cut-name" },
+          words,
+        );
         const ids = { force: places[0]?.id ?? "", moment: places.at(-1)?.id ?? "" };
         point.addEventListener("pointerdown", (event) => this.drag(event, body.name, ids, [x, y]));
         return svg("g", {}, point, name);
@@ -170,6 +193,14 @@ class DiagramField {
     this.changed(t("Removed: {arrow}", { arrow: inWords(this.diagram, arrow) }));
   }
 
+  /** The list is painted anew: the focus goes on to the next arrow's button, so that the keyboard keeps its place. */
+  private removeListed(arrow: Arrow): void {
+    const at = this.arrows.indexOf(arrow);
+    this.remove(arrow);
+    const buttons = this.list.querySelectorAll("button");
+    (buttons[Math.min(at, buttons.length - 1)] ?? this.add).focus();
+  }
+
   private changed(said: string): void {
     this.paint();
     announce(said);
@@ -193,7 +224,7 @@ class DiagramField {
             type: "button",
             class: "button quiet small",
             "aria-label": t("Remove {words}", { words }),
-            onclick: () => this.remove(arrow),
+            onclick: () => this.removeListed(arrow),
           },
           t("Remove"),
         );
