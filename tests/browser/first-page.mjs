@@ -47,6 +47,9 @@ async function languages() {
   assert(apart(await header()), `German on a phone: ${JSON.stringify(await header())}`);
   await noFaults("the first page in German");
   await page.screenshot({ path: join(pictures, "home-german.png") });
+  await page.setViewportSize({ width: 320, height: 256 });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320, "at 400 % zoom nothing is scrolled to the side");
+  await page.setViewportSize({ width: 390, height: 844 });
   await page.keyboard.press("?");
   await page.getByRole("dialog").getByRole("button", { name: "English" }).click();
   await page.getByRole("link", { name: "Start with the first lesson" }).waitFor();
