@@ -14,6 +14,7 @@ use crate::limits::Limits;
 use crate::lti::Lti;
 use crate::metrics::Metrics;
 use crate::motion::Shelf;
+use crate::nodes::Node;
 use crate::regrade::Previews;
 use crate::session::Registry;
 use crate::store::Store;
@@ -32,6 +33,8 @@ pub struct App {
     pub variants: Arc<Variants>,
     /// The gradebook.
     pub store: Arc<Store>,
+    /// Which of several servers this is.
+    pub node: Arc<Node>,
     /// The live simulations.
     pub sessions: Arc<Registry>,
     /// The lectures.
@@ -56,6 +59,8 @@ pub struct App {
     pub lti: Option<Arc<Lti>>,
     /// What this server allows.
     pub limits: Arc<Limits>,
+    /// The path below which everything stands, as `/triad`; empty at the root of a name.
+    pub base: Arc<str>,
     /// The folder with the reports of commands.
     pub reports: Arc<Path>,
     /// The file in which sessions and rooms outlive the server; nothing if they do not.
@@ -69,6 +74,7 @@ impl App {
             course: Arc::new(course),
             variants: Arc::default(),
             store: Arc::new(store),
+            node: Arc::default(),
             sessions: Arc::default(),
             lectures: Arc::default(),
             work: Arc::default(),
@@ -81,9 +87,17 @@ impl App {
             access: Arc::new(Access::home(false, [])),
             lti: None,
             limits: Arc::new(limits),
+            base: "".into(),
             reports: Path::new(REPORTS).into(),
             live: None,
         }
+    }
+
+    /// The same server, one of several; no session yet.
+    #[must_use]
+    pub fn with_node(self, node: Node) -> Self {
+        let (sessions, lectures) = (Registry::of(node.clone()), Lectures::of(node.clone()));
+        Self { node: node.into(), sessions: sessions.into(), lectures: lectures.into(), ..self }
     }
 
     /// The same server, used in another way than at home.
@@ -102,6 +116,12 @@ impl App {
     #[must_use]
     pub fn with_live(self, file: &Path) -> Self {
         Self { live: Some(file.into()), ..self }
+    }
+
+    /// The same server, below a path, as `/triad`.
+    #[must_use]
+    pub fn below(self, base: &str) -> Self {
+        Self { base: base.into(), ..self }
     }
 
     /// The same server, with reports in another folder.

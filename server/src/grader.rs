@@ -6,13 +6,15 @@ use std::time::Duration;
 
 use tokio::sync::{Semaphore, SemaphorePermit};
 use tokio::time::sleep;
+use tracing::Instrument;
 use triad_lessons::Lesson;
 
 use crate::blocking;
+use crate::grading;
 use crate::handing::{self, Judged, Who};
 use crate::metrics::Metrics;
 use crate::problem::Problem;
-use crate::store::{Claim, Job, Store, StoreError, identifier};
+use crate::store::{Claim, Job, Judging, Store, StoreError, identifier};
 use crate::variants::Variants;
 
 /// How long a claim holds, unless it is renewed. A grader that ends holds up what it had for as long.
@@ -21,6 +23,10 @@ pub const LEASE: Duration = Duration::from_secs(15);
 const PAUSE: Duration = Duration::from_millis(500);
 /// Lessons that are kept: as many as a course has.
 const LESSONS: usize = 64;
+/// What is claimed at once of what is judged again: most take milliseconds, and a claim as long.
+const BATCH: i64 = 8;
+/// How long such a claim holds, in leases: it is not renewed.
+const BATCH_LEASE: u32 = 4;
 
 /// Grades what waits in a gradebook, so much at a time.
 #[derive(Debug)]
@@ -32,6 +38,12 @@ pub struct Grader {
     slots: Arc<Semaphore>,
     lease: Duration,
     name: String,
+}
+
+/// Something to do.
+enum Task {
+    Grade(Box<Job>),
+    Again(Vec<Judging>),
 }
 
 impl Grader {
@@ -56,11 +68,11 @@ impl Grader {
                 continue;
             };
             while let Ok(place) = Arc::clone(&self.slots).acquire_owned().await {
-                match self.store.claim(&self.name, self.lease).await {
-                    Ok(Some(job)) => {
+                match self.next().await {
+                    Ok(Some(task)) => {
                         let grader = Arc::clone(&self);
                         tokio::spawn(async move {
-                            grader.grade(job).await;
+                            grader.work(task).await;
                             drop(place);
                         });
                     }
@@ -77,6 +89,70 @@ impl Grader {
                 }
             }
         }
+    }
+
+    /// What is to be done next: what students wait for, and else what is judged again.
+    async fn next(&self) -> Result<Option<Task>, StoreError> {
+        if let Some(job) = self.store.claim(&self.name, self.lease).await? {
+            return Ok(Some(Task::Grade(Box::new(job))));
+        }
+        let again = self.store.claim_judgings(self.lease * BATCH_LEASE, BATCH, false).await?;
+        Ok((!again.is_empty()).then_some(Task::Again(again)))
+    }
+
+    async fn work(self: &Arc<Self>, task: Task) {
+        match task {
+            Task::Grade(job) => {
+                // The request with which it came, in the log of whoever grades it.
+                let id = job.accepted.request.clone();
+                let span = tracing::error_span!(target: "triad", "grading", id = id.as_str());
+                self.grade(*job).instrument(span).await;
+            }
+            Task::Again(batch) => {
+                // What cannot be kept now is claimed again when the lease ends.
+                if let Err(problem) = self.judge_batch(batch, false).await {
+                    tracing::error!(target: "triad", code = problem.code(), "could not be judged again");
+                }
+            }
+        }
+    }
+
+    /// Judges again what is asked for until nothing is left to begin, whether students wait or not: for a program that is nobody's
+    /// server.
+    ///
+    /// Errors if the database does not answer.
+    pub async fn judge_again(self: &Arc<Self>) -> Result<(), Problem> {
+        loop {
+            let place = Arc::clone(&self.slots).acquire_owned().await.map_err(Problem::internal)?;
+            let batch = self.store.claim_judgings(self.lease * BATCH_LEASE, BATCH, true).await?;
+            if batch.is_empty() {
+                return Ok(());
+            }
+            let grader = Arc::clone(self);
+            tokio::spawn(async move {
+                drop(grader.judge_batch(batch, true).await);
+                drop(place);
+            });
+        }
+    }
+
+    /// Judges one after the other. As soon as a student waits, the rest is left; `all_the_same`: it is not.
+    async fn judge_batch(self: &Arc<Self>, batch: Vec<Judging>, all_the_same: bool) -> Result<(), Problem> {
+        let mut judged = Vec::with_capacity(batch.len());
+        let mut left = batch.into_iter();
+        while let Some(one) = left.next() {
+            let lesson = self.lesson(&one.lesson_sha256).await?;
+            let grader = Arc::clone(self);
+            let outcome = blocking(move || {
+                let outcome = grading::judge_again(&lesson, &grader.variants, &one.answers, &one.seed);
+                Ok((one, serde_json::to_string(&outcome).map_err(Problem::internal)?))
+            });
+            judged.push(outcome.await?);
+            if !all_the_same && self.store.students_wait().await? {
+                break;
+            }
+        }
+        Ok(self.store.keep_judgings(&judged, left.as_slice()).await?)
     }
 
     /// Waits until nothing is under way any more; nothing is begun afterwards.

@@ -55,6 +55,27 @@ pub fn grade(
     Ok((submission, verdict))
 }
 
+/// Judges what is kept of a submission by itself, without what came before; a class's seed is not told.
+///
+/// Errors, with a sentence, if the lesson or this program cannot judge it.
+pub fn judge_again(
+    lesson: &Lesson,
+    variants: &Variants,
+    answers: &str,
+    seed: &str,
+) -> Result<Verdict, String> {
+    let submission = answered(answers)?;
+    let own = variants.of(lesson, seed).map_err(|problem| problem.to_string())?;
+    triad_lessons::grade(&own, &submission).map_err(|error| error.to_string())
+}
+
+/// The answers that are kept of a submission.
+///
+/// Errors, with a sentence, if this program cannot read them.
+pub fn answered(answers: &str) -> Result<Submission, String> {
+    Submission::from_json(&format!("{{\"answers\":{answers}}}")).map_err(|error| error.to_string())
+}
+
 /// Puts what a student's earlier submissions to the lesson, the oldest first, decide into the verdict of one more.
 ///
 /// Errors if one that is kept cannot be read.

@@ -26,6 +26,10 @@ pub mod handing;
 
 pub mod grader;
 
+pub mod nodes;
+
+pub mod aside;
+
 pub mod session;
 
 pub mod lecture;

@@ -79,6 +79,8 @@ async fn accept(
             sleep(PAUSE).await;
             continue;
         };
+        // A socket that hears both kinds of addresses names the older ones in the words of the newer.
+        let from = SocketAddr::new(from.ip().to_canonical(), from.port());
         let Some(place) = Places::take(places, from) else {
             // It fits into the socket's buffer, so that nothing waits here.
             drop(timeout(PAUSE, socket.write_all(FULL)).await);

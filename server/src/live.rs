@@ -21,6 +21,9 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// What is written.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Kept {
+    /// The server's name among several: it stands in those of the sessions.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    node: String,
     sessions: Vec<KeptSession>,
     rooms: Vec<KeptLecture>,
 }
@@ -54,7 +57,7 @@ pub async fn keep(path: &Path, sessions: &Registry, lectures: &Lectures, which: 
         .into_iter()
         .map(|session| tokio::spawn(async move { timeout(PATIENCE, session.keep()).await }))
         .collect();
-    let mut kept = Kept { sessions: Vec::new(), rooms };
+    let mut kept = Kept { node: sessions.node().to_owned(), sessions: Vec::new(), rooms };
     for one in asked {
         if let Ok(Ok(Ok(session))) = one.await {
             kept.sessions.push(session);
@@ -74,6 +77,12 @@ pub async fn keep(path: &Path, sessions: &Registry, lectures: &Lectures, which: 
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
     options.open(&part)?.write_all(&serde_json::to_vec(&kept)?)?;
     fs::rename(&part, path)
+}
+
+/// The name among several servers under which was written what is there.
+pub fn name(path: &Path) -> Option<String> {
+    let kept: Kept = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    Some(kept.node).filter(|name| !name.is_empty())
 }
 
 /// Goes on with what was written; how many sessions came back. Each counts once: the file is removed before anything is begun,

@@ -43,7 +43,7 @@ struct Graded {
 type Durations<L> = Family<L, Histogram, fn() -> Histogram>;
 
 /// What lives at this moment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Living {
     /// Live simulations.
     pub sessions: usize,
@@ -51,7 +51,9 @@ pub struct Living {
     pub lectures: usize,
     /// Callers that wait for something to be computed.
     pub waiting: usize,
-    /// Whether the server can take something now.
+    /// Submissions that wait for a grader or are with one, and those that ended three.
+    pub queue: (i64, i64),
+    /// Whether something can be handed in, or graded, now.
     pub ready: bool,
 }
 
@@ -64,6 +66,7 @@ pub struct Metrics {
     sessions: Gauge,
     lectures: Gauge,
     waiting: Gauge,
+    queue: [Gauge; 2],
     ready: Gauge,
 }
 
@@ -91,12 +94,16 @@ impl Default for Metrics {
         let sessions = gauge("sessions", "Live simulations");
         let lectures = gauge("lectures", "Lectures");
         let waiting = gauge("waiting", "Callers that wait for something to be computed");
-        let ready = gauge("ready", "Whether something could be handed in now");
+        let queue = [
+            gauge("queue_waiting", "Submissions that wait for a grader or are with one"),
+            gauge("queue_aside", "Submissions that ended three graders"),
+        ];
+        let ready = gauge("ready", "Whether something could be handed in, or graded, now");
         let started = Gauge::<f64, AtomicU64>::default();
         started.set(jiff::Timestamp::now().as_millisecond() as f64 / 1e3);
         let about = "When the server was started, in seconds since 1970";
         registry.register_with_unit("start_time", about, Unit::Seconds, started);
-        Self { registry, requests, seconds, gradings, sessions, lectures, waiting, ready }
+        Self { registry, requests, seconds, gradings, sessions, lectures, waiting, queue, ready }
     }
 }
 
@@ -126,6 +133,8 @@ impl Metrics {
         self.sessions.set(count(living.sessions));
         self.lectures.set(count(living.lectures));
         self.waiting.set(count(living.waiting));
+        self.queue[0].set(living.queue.0);
+        self.queue[1].set(living.queue.1);
         self.ready.set(i64::from(living.ready));
         let mut text = String::new();
         encode(&mut text, &self.registry)?;

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use axum::http::StatusCode;
 use tokio::sync::Semaphore;
 
+use crate::aside;
 use crate::problem::Problem;
 
 /// Callers that may wait for a place. At some tenths of a second each, the last waits longer than people do.
@@ -34,7 +35,7 @@ impl Work {
         self.waiting.load(Ordering::Relaxed)
     }
 
-    /// Runs `work` on a thread that may block, when its turn comes. A caller that leaves before has not asked; what one that
+    /// Runs `work` on a thread that may block and lets verdicts go first, when its turn comes. A caller that leaves before has not asked; what one that
     /// leaves later began keeps its place to its end, so that no more is computed at a time however many come and go.
     ///
     /// Errors if too many wait already, and as `work` does.
@@ -46,7 +47,7 @@ impl Work {
             let _waiting = Waiting::among(&self.waiting)?;
             Arc::clone(&self.places).acquire_owned().await.map_err(Problem::internal)?
         };
-        crate::blocking(move || {
+        aside::run(move || {
             let _place = place;
             work()
         })

@@ -223,7 +223,7 @@ async function trouble() {
   // The session expires.
   const first = session;
   await page.evaluate((link) => fetch(link, { method: "DELETE" }), first);
-  await page.getByText("The simulation had expired on the server.").first().waitFor();
+  await page.getByText("The simulation was gone from the server.").first().waitFor();
   assert.notEqual(session, first, "a fresh session took its place");
   // The server is gone, and comes back.
   await page.context().route("**/api/**", (route) => route.abort());
@@ -236,7 +236,7 @@ async function trouble() {
   await page.screenshot({ path: join(pictures, "workbench-server-gone.png") });
   await page.context().unroute("**/api/**");
   await page.getByRole("button", { name: "Try now" }).click();
-  await page.getByText("The simulation had expired on the server.").first().waitFor();
+  await page.getByText("The simulation was gone from the server.").first().waitFor();
   say("an expired session and a lost server are told and mended");
   // A run that cannot go on: the slider is driven farther than its rod is long.
   const scene = await page.evaluate(async () => (await fetch("/api/v1/scenes/spatial-slider-crank")).json());

@@ -6,6 +6,8 @@
 
 pub mod accuracy;
 #[cfg(unix)]
+pub mod cable;
+#[cfg(unix)]
 pub mod postgres;
 pub mod probe;
 pub mod program;

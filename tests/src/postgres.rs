@@ -6,6 +6,8 @@ use std::process::{Command, Output};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tempfile::TempDir;
 
+use crate::cable::Cable;
+
 /// Names the server in the tests that [`again`] runs, or another one to be used instead.
 const GIVEN: &str = "TRIAD_TEST_POSTGRES";
 /// Whoever is root lets the server run as nobody: it refuses to be run by root.
@@ -76,6 +78,15 @@ impl Postgres {
     pub fn address(&self, name: &str) -> String {
         let (before, after) = self.url.split_once("/postgres?").unwrap_or((&self.url, ""));
         format!("{before}/{name}?{after}")
+    }
+
+    /// A cable to it, and the address of a database at its end.
+    pub fn by_cable(&self, database: &str) -> (Cable, String) {
+        let folder = self.folder.as_ref().expect("a server of its own").path();
+        let cable = Cable::to(folder.join(".s.PGSQL.5432"));
+        let (before, _) = database.split_once('?').unwrap_or((database, ""));
+        let address = before.replace("localhost", &format!("127.0.0.1:{}", cable.port));
+        (cable, format!("{address}?sslmode=disable"))
     }
 
     /// What a statement says, in its first database.

@@ -137,7 +137,8 @@ impl Server {
         let mut lines = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
         lines.read_line(&mut line).unwrap();
-        let at = line.split("http://").nth(1).and_then(|rest| rest.split_whitespace().next());
+        // A path below which it stands is not part of its address.
+        let at = line.split("http://").nth(1).and_then(|rest| rest.split(['/', ' ']).next());
         let address = at.unwrap_or_else(|| panic!("the server said {line:?}")).to_owned();
         // Whatever else it says must not fill the pipe.
         let (said, heard) = std::sync::mpsc::channel();

@@ -7,11 +7,12 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use triad_tests::cable::Cable;
 use triad_tests::postgres::Postgres;
 use triad_tests::program::{HANG, run_json, triad};
 
@@ -23,6 +24,31 @@ const GRADERS: usize = 4;
 const CLIENTS: u32 = 8;
 /// The time between two kills.
 const LIFE: Duration = Duration::from_millis(250);
+/// How long a cable is held up: longer than the leases of the graders.
+const STALL: Duration = Duration::from_secs(3);
+
+/// Debian's package of that name.
+const FAKETIME: &str = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
+
+/// Where a program runs: by which address it finds the database, and how far its clock is off, in words of faketime.
+#[derive(Debug, Clone)]
+struct Machine {
+    url: String,
+    clock: Option<&'static str>,
+}
+
+impl Machine {
+    /// So many machines: of the first the clock is half an hour fast, of the second the cable is held up and cut, of the third the
+    /// clock is half an hour slow.
+    fn park(count: usize, url: &str, by_cable: &str) -> Vec<Self> {
+        let is_there = Path::new(FAKETIME).exists();
+        let machine = |k| Self {
+            url: if k == 1 { by_cable.to_owned() } else { url.to_owned() },
+            clock: [Some("+30m"), None, Some("-30m")].get(k).copied().flatten().filter(|_| is_there),
+        };
+        (0..count).map(machine).collect()
+    }
+}
 
 /// A program that is killed and started again; its address, where it is a server.
 struct Process {
@@ -31,9 +57,9 @@ struct Process {
 }
 
 impl Process {
-    fn server(url: &str, folder: &Path) -> Self {
+    fn server(machine: &Machine, folder: &Path) -> Self {
         // Nothing is answered at once: all of it goes through the queue.
-        let mut child = Self::start(&["serve", "--port", "0", "--at-once", "0", "--database", url], folder);
+        let mut child = Self::start(&["serve", "--port", "0", "--at-once", "0"], machine, folder);
         let mut lines = BufReader::new(child.stdout.take().unwrap());
         let mut line = String::new();
         lines.read_line(&mut line).unwrap();
@@ -44,14 +70,26 @@ impl Process {
         Self { child, address }
     }
 
-    fn grader(url: &str, folder: &Path) -> Self {
-        let child = Self::start(&["grader", "--slots", "2", "--lease", "2", "--database", url], folder);
+    fn grader(machine: &Machine, folder: &Path) -> Self {
+        let child = Self::start(&["grader", "--slots", "2", "--lease", "2"], machine, folder);
         Self { child, address: String::new() }
     }
 
-    fn start(arguments: &[&str], folder: &Path) -> Child {
+    fn start(arguments: &[&str], machine: &Machine, folder: &Path) -> Child {
         let mut command = Command::new(triad());
-        command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped());
+        if let Some(clock) = machine.clock {
+            // What is waited for by the program itself takes as long as ever.
+            command
+                .env("LD_PRELOAD", FAKETIME)
+                .env("FAKETIME", clock)
+                .env("FAKETIME_DONT_FAKE_MONOTONIC", "1");
+        }
+        command
+            .args(arguments)
+            .args(["--database", &machine.url])
+            .current_dir(folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped());
         command.stderr(Stdio::null()).spawn().unwrap()
     }
 }
@@ -104,27 +142,70 @@ fn rows(export: &Path, table: &str) -> Vec<Value> {
     lines.filter(|line| line[0] == table).map(|mut line| line[1].take()).collect()
 }
 
-/// Kills one after the other, in an order without a rhythm, and starts another in its place.
-fn kill(
-    servers: &[Mutex<Process>],
-    graders: &[Mutex<Process>],
-    url: &str,
-    folder: &Path,
-    stop: &AtomicBool,
-) -> u32 {
-    let mut kills = 0;
-    while !stop.load(Ordering::Relaxed) {
-        std::thread::sleep(LIFE);
-        let which = (f64::from(kills) * 0.618_034).fract() * (SERVERS + GRADERS) as f64;
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // below seven
-        let which = which as usize;
-        match servers.get(which) {
-            Some(server) => *server.lock().unwrap() = Process::server(url, folder),
-            None => *graders[which - SERVERS].lock().unwrap() = Process::grader(url, folder),
+/// What is killed, and where each was.
+#[derive(Clone)]
+struct Park {
+    servers: Arc<Vec<Mutex<Process>>>,
+    graders: Arc<Vec<Mutex<Process>>>,
+    machines: Arc<[Vec<Machine>; 2]>,
+    folder: Arc<PathBuf>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Park {
+    fn start(machines: [Vec<Machine>; 2], folder: &Path) -> Self {
+        let [at, graders_at] = &machines;
+        // The first makes the tables.
+        let servers = at.iter().map(|machine| Mutex::new(Process::server(machine, folder))).collect();
+        let graders = graders_at.iter().map(|machine| Mutex::new(Process::grader(machine, folder))).collect();
+        let (folder, stop) = (Arc::new(folder.to_owned()), Arc::default());
+        Self {
+            servers: Arc::new(servers),
+            graders: Arc::new(graders),
+            machines: machines.into(),
+            folder,
+            stop,
         }
-        kills += 1;
     }
-    kills
+
+    fn is_over(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Kills one after the other, in an order without a rhythm, and starts another in its place.
+    fn kill(&self) -> u32 {
+        let mut kills = 0;
+        while !self.is_over() {
+            std::thread::sleep(LIFE);
+            let which = (f64::from(kills) * 0.618_034).fract() * (SERVERS + GRADERS) as f64;
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // below seven
+            let which = which as usize;
+            let [servers, graders] = &*self.machines;
+            match self.servers.get(which) {
+                Some(server) => *server.lock().unwrap() = Process::server(&servers[which], &self.folder),
+                None => {
+                    let at = which - SERVERS;
+                    *self.graders[at].lock().unwrap() = Process::grader(&graders[at], &self.folder);
+                }
+            }
+            kills += 1;
+        }
+        kills
+    }
+
+    /// Holds the cable up for longer than leases last, and cuts it, in turns.
+    fn disturb(&self, cable: &Cable) -> u32 {
+        let mut cuts = 0;
+        while !self.is_over() {
+            std::thread::sleep(2 * LIFE);
+            cable.hold_up(3 * LIFE);
+            cable.cut();
+            cuts += 1;
+            std::thread::sleep(2 * LIFE);
+            cable.hold_up(STALL);
+        }
+        cuts
+    }
 }
 
 #[test]
@@ -134,11 +215,23 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let submissions = std::env::var("TRIAD_CHAOS").map_or(SUBMISSIONS, |count| count.parse().unwrap());
     let folder = tempfile::tempdir().unwrap();
     let url = postgres.database();
-    // The first makes the tables.
-    let servers: Vec<_> = (0..SERVERS).map(|_| Mutex::new(Process::server(&url, folder.path()))).collect();
-    let graders: Vec<_> = (0..GRADERS).map(|_| Mutex::new(Process::grader(&url, folder.path()))).collect();
-    let (servers, graders) = (Arc::new(servers), Arc::new(graders));
-    let (next, stop) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(false)));
+    let (cable, by_cable) = postgres.by_cable(&url);
+    let cable = Arc::new(cable);
+    if !Path::new(FAKETIME).exists() {
+        println!(
+            "left out: clocks that are off: faketime is not installed (Debian: apt-get install libfaketime)"
+        );
+    }
+    let machines = [SERVERS, GRADERS].map(|count| Machine::park(count, &url, &by_cable));
+    let park = Park::start(machines, folder.path());
+    let (servers, next) = (Arc::clone(&park.servers), Arc::new(AtomicU32::new(0)));
+    let clock = || {
+        postgres
+            .ask("SELECT CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000 AS BIGINT)")
+            .parse::<i64>()
+            .unwrap()
+    };
+    let first = clock();
     let began = Instant::now();
     let clients: Vec<_> = (0..CLIENTS)
         .map(|_| {
@@ -158,11 +251,10 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
             })
         })
         .collect();
-    let killer = {
-        let (servers, graders, stop) = (Arc::clone(&servers), Arc::clone(&graders), Arc::clone(&stop));
-        let (url, folder) = (url.clone(), folder.path().to_owned());
-        std::thread::spawn(move || kill(&servers, &graders, &url, &folder, &stop))
-    };
+    let [killer, disturber] = [true, false].map(|kills| {
+        let (park, cable) = (park.clone(), Arc::clone(&cable));
+        std::thread::spawn(move || if kills { park.kill() } else { park.disturb(&cable) })
+    });
     for part in 1..3 {
         while next.load(Ordering::Relaxed) < submissions * part / 3 {
             std::thread::sleep(Duration::from_millis(10));
@@ -172,8 +264,9 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let told: BTreeMap<String, String> =
         clients.into_iter().flat_map(|client| client.join().unwrap()).collect();
     let accepted = began.elapsed();
-    stop.store(true, Ordering::Relaxed);
-    let kills = killer.join().unwrap();
+    let last = clock();
+    park.stop.store(true, Ordering::Relaxed);
+    let (kills, cuts) = (killer.join().unwrap(), disturber.join().unwrap());
     let waiting = || run_json(&["grader", "--look", "--database", &url]).1;
     let mut state = waiting();
     while state["waiting"] != 0 {
@@ -200,6 +293,11 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     assert_eq!(kept, told, "what was acknowledged is kept under its name, once");
     assert_eq!(kept.len(), submissions as usize);
     assert_eq!(rows(&export, "verdict").len(), kept.len(), "one verdict each");
+    let times = rows(&export, "submission").into_iter().map(|row| row["received_at"].as_i64().unwrap());
+    assert!(
+        times.clone().all(|at| (first..=last).contains(&at)),
+        "by the clock of the database: {first} {last}"
+    );
     assert_eq!(run_json(&["grades", "--check", "--database", &url]), (0, json!([])), "the log is whole");
     // A single process, on a copy in a file, makes each verdict again, byte for byte.
     let file = folder.path().join("single.db");
@@ -208,7 +306,7 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let (code, rebuilt) = run_json(&["regrade", "--check", "--database", file]);
     assert_eq!((code, &rebuilt["same"]), (0, &json!(submissions)), "{rebuilt}");
     println!(
-        "{submissions} submissions, {kills} kills, 2 crashes of PostgreSQL: 0 lost, 0 doubled, {aside} put aside on the way; \
+        "{submissions} submissions, {kills} kills, 2 crashes of PostgreSQL, {cuts} cuts of a cable: 0 lost, 0 doubled, {aside} put aside on the way; \
          accepted in {:.0} s, graded in {:.0} s",
         accepted.as_secs_f64(),
         all.as_secs_f64()

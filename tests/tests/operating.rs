@@ -13,7 +13,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
-use triad_tests::program::{HANG, Reply, Server, assert_problem, triad};
+use triad_tests::postgres::Postgres;
+use triad_tests::program::{HANG, Reply, Server, assert_problem, run_json, triad};
 use triad_tests::root;
 
 /// `triad` with these words, in an environment of its own.
@@ -252,22 +253,27 @@ fn the_settings_that_are_shown_are_settings() {
 }
 
 #[test]
-fn the_unit_is_one_for_systemd() {
+fn the_units_are_ones_for_systemd() {
     if !has("systemd-analyze") {
-        eprintln!("docs/deploy/triad.service is not verified: systemd-analyze is missing");
+        eprintln!("the units in docs/deploy are not verified: systemd-analyze is missing");
         return;
     }
     let folder = TempDir::new().unwrap();
-    let unit = folder.path().join("triad.service");
-    let text = deployed("triad.service");
-    assert!(text.contains("ExecStart=/usr/local/bin/triad serve --config"));
-    fs::write(&unit, text.replace("/usr/local/bin/triad", triad().to_str().unwrap())).unwrap();
-    let output = Command::new("systemd-analyze").arg("verify").arg(&unit).output().unwrap();
-    let said =
-        String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
-    // Units of this machine that it pulls in are not ours.
-    let ours: Vec<&str> = said.lines().filter(|line| line.contains("triad.service")).collect();
-    assert!(ours.is_empty() && (output.status.success() || !said.contains("triad")), "{said}");
+    for (file, name, start) in [
+        ("triad.service", "triad.service", "serve --config"),
+        ("triad-grader@.service", "triad-grader@1.service", "grader"),
+    ] {
+        let unit = folder.path().join(name);
+        let text = deployed(file);
+        assert!(text.contains(&format!("ExecStart=/usr/local/bin/triad {start}")));
+        fs::write(&unit, text.replace("/usr/local/bin/triad", triad().to_str().unwrap())).unwrap();
+        let output = Command::new("systemd-analyze").arg("verify").arg(&unit).output().unwrap();
+        let said =
+            String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
+        // Units of this machine that it pulls in are not ours.
+        let ours: Vec<&str> = said.lines().filter(|line| line.contains(name)).collect();
+        assert!(ours.is_empty() && (output.status.success() || !said.contains("triad")), "{said}");
+    }
 }
 
 #[test]
@@ -422,4 +428,81 @@ fn behind_nginx_pages_streams_and_names_of_requests_pass() {
     assert!(seen.starts_with(b"HTTP/1.1 101"), "{}", String::from_utf8_lossy(&seen));
     drop((stream, proxy));
     server.stop();
+}
+
+/// A class of the newer addresses, below a path: the page, a run and its stream; and whoever hears all machines has accounts.
+#[test]
+fn at_an_address_of_ipv6_and_below_a_path_pages_and_streams_pass() {
+    let folder = TempDir::new().unwrap();
+    let log = folder.path().join("log");
+    let options =
+        ["--host", "::1", "--base-path", "/school/triad/", "--admin-address", "[::1]:0", "--log", "json"];
+    let server = Server::logging(folder.path(), &options, &log);
+    assert!(server.address.starts_with("[::1]:"), "{}", server.address);
+    let page = server.get("/school/triad/");
+    assert_eq!(page.status, 200);
+    assert!(page.head.contains(&format!(" ws://{0} wss://{0} ", server.address)), "{}", page.head);
+    assert_eq!(admin(&log, "/readyz").status, 200);
+
+    let session = server.post("/school/triad/api/v1/sessions", &json!({"builtin": "simple-pendulum"}));
+    let at = session.head.lines().find_map(|line| line.strip_prefix("location: ")).unwrap();
+    let mut stream = TcpStream::connect(&server.address).unwrap();
+    stream.set_read_timeout(Some(HANG)).unwrap();
+    write!(
+        stream,
+        "GET {at}/stream HTTP/1.1\r\nHost: {0}\r\nOrigin: http://{0}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
+         Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n",
+        server.address
+    )
+    .unwrap();
+    let mut head = [0; 12];
+    stream.read_exact(&mut head).unwrap();
+    assert_eq!(&head, b"HTTP/1.1 101");
+    drop(stream);
+    server.stop();
+
+    let book = folder.path().join("g.db");
+    let book = book.to_str().unwrap();
+    for (words, code) in [
+        (&["--host", "::"][..], "open-to-all"),
+        (&["--host", "2001:db8::7"], "open-to-all"),
+        (&["--class", "--url", "https://school.example/triad"], "settings-contradict"),
+    ] {
+        let all = [&["serve", "--port", "0", "--database", book], words].concat();
+        assert_problem(&run_json(&all).1, code, "");
+    }
+}
+
+/// A grader by itself: its counters, and the name of the request with which it was asked.
+#[test]
+fn a_grader_tells_what_it_does_and_for_which_request() {
+    let Some(postgres) = Postgres::start("counters and log of a grader") else { return };
+    let (folder, url) = (TempDir::new().unwrap(), postgres.database());
+    let log = folder.path().join("log");
+    let mut server = Command::new(triad());
+    server.args(["serve", "--port", "0", "--at-once", "0", "--database", &url]).current_dir(folder.path());
+    let server = Server::of(server.stderr(Stdio::null()));
+    let mut grader = Command::new(triad());
+    grader.args(["grader", "--log", "json", "--admin-address", "0", "--slots", "1", "--database", &url]);
+    grader.stdout(Stdio::null()).stderr(fs::File::create(&log).unwrap());
+    let mut grader = Proxy(grader.spawn().unwrap());
+    // The server grades as well: until one of them was this grader's.
+    let graded = |line: &Value| line["message"] == "graded";
+    let (began, mut number) = (Instant::now(), 0);
+    while !log.exists() || !lines(&log).iter().any(graded) {
+        assert!(began.elapsed() < HANG && grader.0.try_wait().unwrap().is_none());
+        number += 1;
+        let body = json!({"student": format!("student {number}"), "answers": {}}).to_string();
+        let name = format!("X-Request-Id: asked-{number}\r\n");
+        let path = "/api/v1/lessons/screw/submissions";
+        assert_eq!(server.ask_with("POST", path, &name, Some(body.as_bytes())).status, 202);
+    }
+    let line = lines(&log).into_iter().find(graded).unwrap();
+    assert!(line["span"]["id"].as_str().unwrap().starts_with("asked-"), "{line}");
+    let counted = admin(&log, "/metrics").text();
+    assert!(counted.contains("triad_queue_aside 0") && counted.contains("lesson=\"screw\""), "{counted}");
+    assert_eq!(admin(&log, "/readyz").status, 200);
+    postgres.stop();
+    assert_eq!(admin(&log, "/readyz").status, 503);
+    drop(grader);
 }

@@ -21,7 +21,7 @@ const head = document.getElementById("header");
 const main = document.getElementById("main");
 if (head && main) {
   // In a frame of another site nobody is signed in, and there is nowhere to go.
-  if (location.pathname.startsWith("/embed/")) void speaks.finally(() => routes(main));
+  if (pathOf(location).startsWith("/embed/")) void speaks.finally(() => routes(main));
   else void Promise.allSettled([speaks, loadMe()]).then(() => start(head, main));
 }
 

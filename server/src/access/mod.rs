@@ -32,6 +32,8 @@ pub struct Access {
     /// Whether any name of the server is taken for its own.
     any_host: bool,
     hosts: BTreeSet<String>,
+    /// Whether everything stands below a path of another site's name.
+    below: bool,
     /// Proxies that say for whom they ask.
     proxies: BTreeSet<IpAddr>,
     tries: Limiter<IpAddr>,
@@ -67,6 +69,7 @@ impl Access {
             class,
             any_host,
             hosts,
+            below: false,
             proxies: BTreeSet::new(),
             tries: RateLimiter::hashmap(quota(TRIES)),
             words: RateLimiter::hashmap(Quota::per_minute(positive(1)).allow_burst(positive(WORDS))),
@@ -79,19 +82,25 @@ impl Access {
     /// The same, believing these proxies for whom they ask.
     #[must_use]
     pub fn behind(self, proxies: impl IntoIterator<Item = IpAddr>) -> Self {
-        Self { proxies: proxies.into_iter().collect(), ..self }
+        Self { proxies: proxies.into_iter().map(|address| address.to_canonical()).collect(), ..self }
+    }
+
+    /// The same, below a path of another site's name.
+    #[must_use]
+    pub fn below(self, base: &str) -> Self {
+        Self { below: !base.is_empty(), ..self }
     }
 
     /// Who asks, by address: `peer` itself, or, where that is a proxy of ours, the last address that it forwards for and that
     /// is no proxy of ours. What anybody else says of itself is not believed.
     pub fn client(&self, peer: IpAddr, forwarded_for: &str) -> IpAddr {
-        let mut client = peer;
+        let mut client = peer.to_canonical();
         for address in forwarded_for.rsplit(',') {
             if !self.proxies.contains(&client) {
                 break;
             }
-            let Ok(before) = address.trim().parse() else { break };
-            client = before;
+            let Ok(before) = address.trim().parse::<IpAddr>() else { break };
+            client = before.to_canonical();
         }
         client
     }
@@ -103,10 +112,11 @@ impl Access {
 
     /// The head of the cookie that holds a session, and what follows its value.
     pub fn cookie(&self) -> (&'static str, &'static str) {
-        if self.class.as_ref().is_some_and(|class| class.encrypted) {
-            ("__Host-triad", "; Path=/; HttpOnly; SameSite=Lax; Secure")
-        } else {
-            ("triad", "; Path=/; HttpOnly; SameSite=Lax")
+        match (self.class.as_ref().is_some_and(|class| class.encrypted), self.below) {
+            (true, false) => ("__Host-triad", "; Path=/; HttpOnly; SameSite=Lax; Secure"),
+            // What belongs to the whole host cannot be held to a path.
+            (true, true) => ("__Secure-triad", "; Path=/; HttpOnly; SameSite=Lax; Secure"),
+            (false, _) => ("triad", "; Path=/; HttpOnly; SameSite=Lax"),
         }
     }
 
@@ -211,6 +221,10 @@ mod tests {
             (near, "10.0.0.9, 10.0.0.2", far),
             (near, "nonsense", near),
             (far, "127.0.0.1", far),
+            // As a socket that hears both kinds of addresses names the older ones.
+            (ip("::ffff:127.0.0.1"), "10.0.0.9", far),
+            (ip("::1"), "10.0.0.9", ip("::1")),
+            (near, "2001:db8::7", ip("2001:db8::7")),
         ] {
             assert_eq!(behind.client(peer, forwarded), client, "{peer} for {forwarded}");
         }

@@ -65,7 +65,11 @@ impl FromRequestParts<App> for Peer {
 
 /// The secret of the session that a request brings.
 pub(in crate::api) fn session_token(app: &App, headers: &HeaderMap) -> Option<String> {
-    let (name, _) = app.access.cookie();
+    cookie(headers, app.access.cookie().0)
+}
+
+/// The value of a cookie.
+pub(in crate::api) fn cookie(headers: &HeaderMap, name: &str) -> Option<String> {
     let lists = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
     let mut pairs = lists.flat_map(|list| list.split(';')).filter_map(|pair| pair.trim().split_once('='));
     pairs.find(|(key, _)| *key == name).map(|(_, value)| value.to_owned())

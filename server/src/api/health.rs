@@ -15,7 +15,7 @@ use utoipa_axum::routes;
 use super::describe::{Schemas, of};
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::StoreError;
+use crate::store::{Store, StoreError};
 
 /// How long the gradebook may take to say that it is ready.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -78,7 +78,14 @@ pub(super) async fn ready(State(app): State<App>) -> Result<&'static str, Proble
             "name a folder with lessons: triad --course DIR serve",
         ));
     }
-    let waiting = timeout(PATIENCE, app.store.ready()).await.unwrap_or(Err(StoreError::Busy));
+    writable(&app.store).await
+}
+
+/// Whether the gradebook takes something now.
+///
+/// Errors with what is in the way.
+pub(super) async fn writable(store: &Store) -> Result<&'static str, Problem> {
+    let waiting = timeout(PATIENCE, store.ready()).await.unwrap_or(Err(StoreError::Busy));
     // Whatever it is: others are to ask elsewhere, or later.
     waiting.map(|()| "ready\n").map_err(|error| Problem::from(error).unavailable())
 }

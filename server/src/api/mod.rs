@@ -1,10 +1,12 @@
 //! The HTTP interface under `/api/v1`, and the one router of the server.
 
 mod admin;
+mod below;
 mod bounds;
 mod class;
 mod describe;
 mod extract;
+mod forward;
 mod guard;
 mod health;
 mod lectures;
@@ -14,6 +16,7 @@ mod observed;
 mod scenes;
 mod sessions;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
@@ -23,7 +26,7 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use serde_json::Value;
+use serde_json::{Value, json};
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 
@@ -33,8 +36,9 @@ use crate::live::{self, Which};
 use crate::page;
 use crate::problem::{Problem, ProblemDocument};
 use crate::reports;
+use crate::store::HEARD;
 
-pub use admin::admin;
+pub use admin::{admin, admin_of_grader};
 use describe::Schemas;
 pub(crate) use extract::parse;
 pub(crate) use lessons::{instances, starter_of, unknown as unknown_lesson};
@@ -81,6 +85,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(lessons::routes(&mut schemas))
                 .merge(lessons::predictions::routes(&mut schemas))
                 .merge(lessons::submissions::routes(&mut schemas))
+                .merge(lessons::waiting::routes(&mut schemas))
                 .merge(scenes::routes(&mut schemas))
                 .merge(scenes::import::routes(&mut schemas))
                 .merge(sessions::routes(&mut schemas))
@@ -107,10 +112,14 @@ pub fn openapi() -> Value {
 
 /// The whole server: page, interface and streams on one port.
 pub fn router(app: App) -> Router {
-    let (routes, described) = described();
+    let (routes, mut described) = described();
+    if !app.base.is_empty() {
+        described["servers"] = json!([{ "url": &*app.base }]);
+    }
+    let base = Arc::clone(&app.base);
     let document = Bytes::from(described.to_string());
     let limit = app.limits.request_bytes;
-    routes
+    let server = routes
         .route(
             "/api/openapi.json",
             get(move || async move { ([(header::CONTENT_TYPE, "application/json")], document) }),
@@ -124,12 +133,14 @@ pub fn router(app: App) -> Router {
         .merge(docs::routes(described))
         .fallback(page::serve)
         .method_not_allowed_fallback(|| async { page::method_not_allowed() })
+        .layer(middleware::from_fn_with_state(app.clone(), forward::where_it_lives))
         .layer(DefaultBodyLimit::max(limit))
         .layer(middleware::from_fn_with_state(app.clone(), bounds::refuse_large_bodies))
         .layer(middleware::from_fn(uncached_interface))
         .layer(middleware::from_fn_with_state(app.clone(), guard::admit))
         .layer(middleware::from_fn_with_state(app.clone(), observed::observe))
-        .with_state(app)
+        .with_state(app);
+    below::below(&base, server)
 }
 
 async fn unknown_address(uri: axum::http::Uri) -> Response {
@@ -153,6 +164,21 @@ async fn uncached_interface(request: axum::extract::Request, next: Next) -> Resp
 }
 
 pub use lti::keep_told;
+
+/// Hears which verdicts graders elsewhere give, for as long as the server runs.
+pub async fn keep_listening(app: App) {
+    app.store.hear_verdicts().await;
+}
+
+/// Lets the other servers hear of this one for as long as it runs.
+pub async fn keep_heard(app: App) {
+    let mut often = tokio::time::interval(HEARD);
+    loop {
+        often.tick().await;
+        // Where the database is away nobody else hears anything either.
+        drop(app.node.is_here(&app.store).await);
+    }
+}
 
 /// Closes idle sessions and lectures for as long as the server runs.
 pub async fn keep_house(app: App) {

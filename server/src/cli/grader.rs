@@ -1,5 +1,6 @@
 //! `triad grader`.
 
+use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -8,9 +9,13 @@ use serde_json::json;
 use tokio::runtime::Builder;
 
 use super::course::grades::existing;
+use super::logging::Log;
+use super::serve::{admin_address, listen_aside};
 use super::stops::Stops;
 use super::terminal::{Outcome, counted, print_json, print_line};
+use crate::api;
 use crate::grader::{Grader, LEASE};
+use crate::metrics::Metrics;
 use crate::problem::Problem;
 use crate::store::{Location, Store};
 
@@ -28,6 +33,12 @@ pub(in crate::cli) struct Options {
     /// Seconds after which another grader takes over what this one had, where it ends in the middle.
     #[arg(long, value_name = "S", default_value_t = LEASE.as_secs(), value_parser = clap::value_parser!(u64).range(1..=3600))]
     lease: u64,
+    /// What is logged on the standard error.
+    #[arg(long, default_value = "faults", value_name = "WHAT", env = "TRIAD_LOG")]
+    pub(in crate::cli) log: Log,
+    /// Address for counters (/metrics) and probes (/livez, /readyz), as 127.0.0.1:9464; a port alone is one of this machine.
+    #[arg(long, value_name = "ADDRESS", value_parser = admin_address, env = "TRIAD_ADMIN_ADDRESS")]
+    admin_address: Option<SocketAddr>,
     /// Tell how much waits and how much was put aside, and end.
     #[arg(long, conflicts_with_all = ["slots", "again"])]
     look: bool,
@@ -47,7 +58,10 @@ pub(super) fn grader(options: &Options, json: bool) -> Result<Outcome, Problem> 
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
         let slots = options.slots.map_or(processors, usize::from);
         let lease = Duration::from_secs(options.lease);
-        let grader = Grader::new(Arc::new(store), Arc::default(), Arc::default(), slots, lease);
+        let (store, metrics) = (Arc::new(store), Arc::new(Metrics::default()));
+        let admin = api::admin_of_grader(Arc::clone(&store), Arc::clone(&metrics));
+        let admin = listen_aside(options.admin_address, admin).await?;
+        let grader = Grader::new(store, Arc::default(), metrics, slots, lease);
         let stops = Stops::listen();
         print_line(&format!("Grades what waits in {}, {slots} at a time", options.database));
         tokio::select! {
@@ -55,6 +69,9 @@ pub(super) fn grader(options: &Options, json: bool) -> Result<Outcome, Problem> 
             () = stops.next() => {}
         }
         drop(tokio::time::timeout(ENDING, grader.finish(slots)).await);
+        if let Some(admin) = admin {
+            admin.abort();
+        }
         Ok(Outcome::Done)
     });
     runtime.shutdown_background();

@@ -28,13 +28,14 @@ pub(in crate::cli) fn start(log: Log) {
     let ours = Targets::new().with_target("triad", level);
     let layer = match log {
         Log::Faults | Log::Text => {
-            layer().with_writer(io::stderr).with_target(false).with_ansi(false).with_filter(ours).boxed()
+            layer().with_writer(io::stderr).with_target(false).with_ansi(false).boxed()
         }
         Log::Json => {
             let json = json_subscriber::fmt::layer().with_writer(io::stderr).with_target(false);
-            json.flatten_event(true).with_current_span(true).with_span_list(false).with_filter(ours).boxed()
+            json.flatten_event(true).with_current_span(true).with_span_list(false).boxed()
         }
     };
+    // For all layers: a filter of one forgets lines and spans where a library asks whether its own would be written (sqlx does).
     // A second log of one process would be a mistake of this program; the first one stays.
-    drop(tracing_subscriber::registry().with(layer).try_init());
+    drop(tracing_subscriber::registry().with(ours).with(layer).try_init());
 }

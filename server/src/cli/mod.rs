@@ -322,7 +322,11 @@ fn dispatch(Understood { arguments, matches, settings }: Understood) -> Result<O
     let course = || lesson::course(folder.as_deref());
     // `understood` has put one there.
     let Some(command) = command else { return Ok(Outcome::No) };
-    logging::start(if let Command::Serve(options) = &command { options.log } else { Log::Faults });
+    logging::start(match &command {
+        Command::Serve(options) => options.log,
+        Command::Grader(options) => options.log,
+        _ => Log::Faults,
+    });
     match command {
         Command::Serve(options) => serve::serve(&options, course()?),
         Command::Config(_) => Ok(match matches.subcommand() {

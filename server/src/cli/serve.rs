@@ -7,12 +7,14 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use axum::Router;
 use axum::http::StatusCode;
 use clap::Args;
 use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 use tokio::time::sleep;
 use triad_lessons::Course;
+use url::Url;
 
 use super::logging::Log;
 use super::stops::Stops;
@@ -23,6 +25,7 @@ use crate::grader::{Grader, LEASE};
 use crate::limits::Limits;
 use crate::live::{self, Which};
 use crate::lti::Lti;
+use crate::nodes::Node;
 use crate::problem::Problem;
 use crate::store::{CLASS, Location, Quotas, Role, Store};
 
@@ -81,6 +84,9 @@ pub(in crate::cli) struct Serve {
     /// Where the class finds the server, as https://triad.example.org behind a proxy that encrypts.
     #[arg(long, value_name = "URL", env = "TRIAD_URL")]
     pub(in crate::cli) url: Option<String>,
+    /// The path below which everything stands, where a proxy hands on a part of another site, as /triad.
+    #[arg(long, default_value = "", value_name = "PATH", value_parser = base_path, env = "TRIAD_BASE_PATH")]
+    pub(in crate::cli) base_path: String,
     /// Address of a proxy that says for whom it asks (X-Forwarded-For); may be given more than once.
     #[arg(long, value_name = "ADDRESS", value_delimiter = ',', env = "TRIAD_PROXY")]
     pub(in crate::cli) proxy: Vec<IpAddr>,
@@ -93,16 +99,38 @@ pub(in crate::cli) struct Serve {
     /// Seconds from the request to stop until the server goes: it answers, and says at /readyz that it is going.
     #[arg(long, default_value_t = 0, value_name = "S", env = "TRIAD_DRAIN")]
     pub(in crate::cli) drain: u64,
+    /// Host and port at which the other servers of the same database reach this one, as 10.0.0.5:8080; where it listens if it is not
+    /// given. They hand on to it what lives in it.
+    #[arg(long, value_name = "ADDRESS", value_parser = node_address, env = "TRIAD_NODE_ADDRESS")]
+    pub(in crate::cli) node_address: Option<String>,
     /// Another name by which the server may be asked for without --class; may be given more than once.
     #[arg(long, value_name = "NAME", value_delimiter = ',', env = "TRIAD_ALLOW_HOST")]
     pub(in crate::cli) allow_host: Vec<String>,
 }
 
 /// An address, or a port of this machine.
-fn admin_address(text: &str) -> Result<SocketAddr, String> {
+pub(super) fn admin_address(text: &str) -> Result<SocketAddr, String> {
     let here = text.trim_start_matches(':').parse().map(|port| SocketAddr::from(([127, 0, 0, 1], port)));
     here.or_else(|_| text.parse())
         .map_err(|_| "write an address and a port, as 127.0.0.1:9464, or a port".to_owned())
+}
+
+/// A path without a slash at its end; empty for the root.
+fn base_path(text: &str) -> Result<String, String> {
+    let path = text.trim_end_matches('/');
+    let plain = |part: &str| {
+        !matches!(part, "" | "." | "..")
+            && part.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'))
+    };
+    let is_path = path.is_empty() || path.strip_prefix('/').is_some_and(|rest| rest.split('/').all(plain));
+    is_path.then(|| path.to_owned()).ok_or_else(|| "write a path of plain words, as /triad".to_owned())
+}
+
+/// A host and a port.
+fn node_address(text: &str) -> Result<String, String> {
+    let port = text.rsplit_once(':').filter(|(host, _)| !host.is_empty()).map(|(_, port)| port);
+    let is_address = port.is_some_and(|port| port.parse::<u16>().is_ok());
+    is_address.then(|| text.to_owned()).ok_or_else(|| "write a host and a port, as 10.0.0.5:8080".to_owned())
 }
 
 /// What is said once where settings contradict each other, wherever each comes from.
@@ -118,6 +146,13 @@ fn check(options: &Serve) -> Result<(), Problem> {
     }
     if !options.class && (options.new_owner || options.url.is_some()) {
         return refused("new-owner and url belong to a class, and class is not set", "add --class");
+    }
+    let path = options.url.as_deref().and_then(|url| Url::parse(url).ok()).map(|url| url.path().to_owned());
+    if path.is_some_and(|path| path.trim_end_matches('/') != options.base_path) {
+        return refused(
+            "url and base-path name different paths",
+            "write the same path in both, as --url https://school.example/triad --base-path /triad",
+        );
     }
     if !(options.host.is_loopback() || options.class || options.open) {
         return Err(Problem::new(
@@ -147,40 +182,61 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
     let runtime =
         tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(Problem::internal)?;
     let served = runtime.block_on(async {
-        let quotas = Quotas {
-            person_bytes: options.person_quota.saturating_mul(1 << 20),
-            file_bytes: options.quota.saturating_mul(1 << 20),
-            ..Quotas::default()
-        };
-        let store = Store::at(&options.database).await?.with_quotas(quotas);
-        let mut lti = None;
-        let access = if options.class {
-            let class = store.ensure_course(CLASS, &course.title).await?;
-            // Where browsers would not bring back what they are given, platforms send nobody: `triad lti tool` says so.
-            lti = options.url.as_deref().and_then(|url| Lti::at(url, &class.secret).ok());
-            Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
-        } else {
-            Access::home(options.open, options.allow_host.iter().cloned())
-        };
-        let access = access.behind(options.proxy.iter().copied());
-        let app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
-        let app = match live_file(options) {
-            Some(file) => app.with_live(&file),
-            None => app,
-        };
-        let app = if let Some(lti) = lti { app.with_lti(lti) } else { app };
-        let coming = app.clone();
-        crate::blocking(move || {
-            Ok(coming
-                .live
-                .map(|path| live::bring_back(&path, &coming.sessions, &coming.lectures, &coming.limits)))
-        })
-        .await?;
-        listen(options, app).await
+        let listener = bind(SocketAddr::new(options.host, options.port)).await?;
+        let app = prepare(options, course, limits, &listener).await?;
+        listen(options, app, listener).await
     });
     // What still computes for callers that are gone is not waited for.
     runtime.shutdown_background();
     served.map(|()| Outcome::Done)
+}
+
+/// The server as it is set up, with what lived in it before.
+async fn prepare(
+    options: &Serve,
+    course: Course,
+    limits: Limits,
+    listener: &TcpListener,
+) -> Result<App, Problem> {
+    let quotas = Quotas {
+        person_bytes: options.person_quota.saturating_mul(1 << 20),
+        file_bytes: options.quota.saturating_mul(1 << 20),
+        ..Quotas::default()
+    };
+    let store = Store::at(&options.database).await?.with_quotas(quotas);
+    let mut lti = None;
+    let access = if options.class {
+        let class = store.ensure_course(CLASS, &course.title).await?;
+        // Where browsers would not bring back what they are given, platforms send nobody: `triad lti tool` says so.
+        lti = options.url.as_deref().and_then(|url| Lti::at(url, &class.secret).ok());
+        Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))
+    } else {
+        Access::home(options.open, options.allow_host.iter().cloned())
+    };
+    let access = access.behind(options.proxy.iter().copied()).below(&options.base_path);
+    let live = live_file(options);
+    let mut app = App::new(course, store, limits).with_reports(&options.reports).with_access(access);
+    app = app.below(&options.base_path);
+    if app.store.is_shared() {
+        let here = reached_at(listener.local_addr().map_err(Problem::internal)?);
+        let address = options.node_address.clone().unwrap_or_else(|| here.to_string());
+        let before = live.as_deref().and_then(live::name);
+        app = Node::among(&app.store, before, address).await.map(|node| app.with_node(node))?;
+    }
+    if let Some(file) = live {
+        app = app.with_live(&file);
+    }
+    if let Some(lti) = lti {
+        app = app.with_lti(lti);
+    }
+    let coming = app.clone();
+    crate::blocking(move || {
+        Ok(coming
+            .live
+            .map(|path| live::bring_back(&path, &coming.sessions, &coming.lectures, &coming.limits)))
+    })
+    .await?;
+    Ok(app)
 }
 
 /// Where sessions and rooms outlive the server: beside the gradebook, or, where that is on another machine, in a file of this
@@ -193,14 +249,13 @@ fn live_file(options: &Serve) -> Option<PathBuf> {
     }
 }
 
-async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
-    let wanted = SocketAddr::new(options.host, options.port);
-    let listener = bind(wanted).await?;
+async fn listen(options: &Serve, app: App, listener: TcpListener) -> Result<(), Problem> {
     let stops = Stops::listen();
-    let admin = admin(options, &app).await?;
+    let admin = listen_aside(options.admin_address, crate::admin(app.clone())).await?;
     let address = listener.local_addr().map_err(Problem::internal)?;
     print_line(&format!(
-        "Triad is at http://{address}  ({} lessons; Ctrl-C stops it)",
+        "Triad is at http://{address}{}  ({} lessons; Ctrl-C stops it)",
+        app.base,
         app.course.lessons().len()
     ));
     print_line(&format!("Submissions are kept in {}", options.database));
@@ -211,6 +266,9 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
     let grader = Grader::new(app.store.clone(), app.variants.clone(), app.metrics.clone(), slots, LEASE);
     let grading = tokio::spawn(Arc::clone(&grader).run());
     let telling = tokio::spawn(crate::api::keep_told(app.clone()));
+    let heard = tokio::spawn(crate::api::keep_heard(app.clone()));
+    let listening = tokio::spawn(crate::api::keep_listening(app.clone()));
+    let going_app = app.clone();
     let (sessions, lectures) = (app.sessions.clone(), app.lectures.clone());
     // Open streams end with their sessions; otherwise they would keep the server up.
     let live_at = app.live.clone();
@@ -222,6 +280,10 @@ async fn listen(options: &Serve, app: App) -> Result<(), Problem> {
         // A score under way is sent again by the next one who looks: the platform takes the same twice.
         telling.abort();
         drop(telling.await);
+        listening.abort();
+        heard.abort();
+        drop(heard.await);
+        drop(going_app.node.leaves(&going_app.store).await);
         if let Some(path) = live_at
             && let Err(error) = live::keep(&path, &sessions, &lectures, Which::All).await
         {
@@ -259,13 +321,15 @@ async fn bind(wanted: SocketAddr) -> Result<TcpListener, Problem> {
 }
 
 /// Answers those who run the server at their own address, to the end of the process: probes are answered while it goes.
-async fn admin(options: &Serve, app: &App) -> Result<Option<JoinHandle<()>>, Problem> {
-    let Some(wanted) = options.admin_address else { return Ok(None) };
+pub(super) async fn listen_aside(
+    wanted: Option<SocketAddr>,
+    admin: Router,
+) -> Result<Option<JoinHandle<()>>, Problem> {
+    let Some(wanted) = wanted else { return Ok(None) };
     let listener = bind(wanted).await?;
-    let admin = listener.local_addr().map_err(Problem::internal)?.to_string();
-    tracing::info!(target: "triad", admin = admin.as_str(), "counters and probes");
-    let app = crate::admin(app.clone());
-    Ok(Some(tokio::spawn(crate::listen::serve(listener, app, pending, pending, pending))))
+    let address = listener.local_addr().map_err(Problem::internal)?.to_string();
+    tracing::info!(target: "triad", admin = address.as_str(), "counters and probes");
+    Ok(Some(tokio::spawn(crate::listen::serve(listener, admin, pending, pending, pending))))
 }
 
 /// Says how the server is used, and how a teacher comes in.
@@ -282,8 +346,10 @@ async fn tell_use(options: &Serve, app: &App, address: SocketAddr) -> Result<(),
         );
         return Ok(());
     }
-    let reached =
-        options.url.as_ref().map_or_else(|| format!("http://{}", reached_at(address)), Clone::clone);
+    let reached = options
+        .url
+        .as_ref()
+        .map_or_else(|| format!("http://{}{}", reached_at(address), app.base), Clone::clone);
     let reached = reached.trim_end_matches('/');
     if options.new_owner || !app.store.has_owner(CLASS).await? {
         let token = app.store.invite(CLASS, "triad", Role::Owner).await?;

@@ -60,6 +60,9 @@ documents! {
         "lessons/README.md" as "course.html", "Writing a course";
         "docs/LMS.md" as "lms.html", "Your learning platform";
     }
+    "Run" {
+        "docs/OPERATING.md" as "operating.html", "Running it for others";
+    }
     "Trust" {
         "docs/theory-mathml.md" as "theory.html", "The equations";
         "docs/ACCURACY.md" as "accuracy.html", "Accuracy";
@@ -169,7 +172,7 @@ pub fn routes<S: Clone + Send + Sync + 'static>(interface: Value) -> Router<S> {
     let site = std::sync::Arc::new((interface, OnceLock::<Site>::new()));
     let show = move |name: &str| {
         let (interface, made) = &*site;
-        let site = made.get_or_init(|| Site::new(interface, Some("/")));
+        let site = made.get_or_init(|| Site::new(interface, Some("../")));
         site.files.get(name).map_or_else(missing, |text| file(name, text))
     };
     let index = show.clone();
@@ -200,7 +203,7 @@ fn file(name: &str, text: &str) -> Response {
 
 fn missing() -> Response {
     let text = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Not in the documentation</title>\
-                <h1>There is no such page</h1><p><a href=\"/docs/\">To the documentation</a></p></html>";
+                <h1>There is no such page</h1><p><a href=\"./\">To the documentation</a></p></html>";
     let mut response = file("missing.html", text);
     *response.status_mut() = StatusCode::NOT_FOUND;
     response

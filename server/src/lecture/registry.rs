@@ -7,21 +7,24 @@ use axum::http::StatusCode;
 
 use super::{KeptLecture, Lecture};
 use crate::limits::Limits;
+use crate::nodes::Node;
 use crate::problem::Problem;
 use crate::session::Session;
-
-/// Characters of a code: none that is mistaken for another, no vowel that makes a word.
-const CODE_CHARACTERS: &[u8; 28] = b"BCDFGHJKLMNPQRSTVWXZ23456789";
-/// Characters in a code: 17 million codes, short enough to be read aloud.
-const CODE_LENGTH: usize = 5;
 
 /// The lectures of one server.
 #[derive(Debug, Default)]
 pub struct Lectures {
+    /// The server, whose name is in the codes.
+    node: Node,
     open: Mutex<BTreeMap<String, Arc<Lecture>>>,
 }
 
 impl Lectures {
+    /// No lecture yet, in that server.
+    pub fn of(node: Node) -> Self {
+        Self { node, ..Self::default() }
+    }
+
     /// Opens a lecture for a session. Needs the async runtime. Errors if there are as many lectures as allowed.
     pub fn open(&self, session: Arc<Session>, limits: &Limits) -> Result<Arc<Lecture>, Problem> {
         self.expire(limits);
@@ -34,7 +37,9 @@ impl Lectures {
                 "close a room that is no longer needed, or start the server with a larger --max-rooms",
             ));
         }
-        let code = std::iter::repeat_with(new_code).find(|code| !open.contains_key(code)).unwrap_or_default();
+        let code = std::iter::repeat_with(|| self.node.code())
+            .find(|code| !open.contains_key(code))
+            .unwrap_or_default();
         let lecture = Lecture::open(code.clone(), session, limits.followers);
         open.insert(code, Arc::clone(&lecture));
         Ok(lecture)
@@ -108,13 +113,4 @@ impl Lectures {
     fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Lecture>>> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-fn new_code() -> String {
-    let random = uuid::Uuid::new_v4();
-    // The first bytes of a random UUID are random; its version stands behind them.
-    random.as_bytes()[..CODE_LENGTH]
-        .iter()
-        .map(|byte| char::from(CODE_CHARACTERS[usize::from(*byte) % CODE_CHARACTERS.len()]))
-        .collect()
 }

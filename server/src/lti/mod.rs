@@ -87,6 +87,17 @@ impl Lti {
         self.base.starts_with("https:")
     }
 
+    /// What the names of our cookies begin with, so that browsers hold them to what they are: of this host alone where it is ours to
+    /// its root, and sent encrypted.
+    pub fn cookie_prefix(&self) -> &'static str {
+        let root = Url::parse(&self.base).is_ok_and(|url| url.path() == "/");
+        match (self.is_encrypted(), root) {
+            (true, true) => "__Host-",
+            (true, false) => "__Secure-",
+            (false, _) => "",
+        }
+    }
+
     /// The path of an address of ours, with a slash before it.
     ///
     /// Errors if it is another's.

@@ -7,10 +7,11 @@
 mod asset;
 mod player;
 
-use axum::extract::Request;
+use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
+use crate::app::App;
 use crate::problem::Problem;
 use asset::{ASSETS, Asset, Encoding, find};
 pub use player::playing;
@@ -47,13 +48,13 @@ fn is_host(host: &str) -> bool {
 }
 
 /// Answers every request that is not for the API: a file of the page, or the page itself.
-pub async fn serve(request: Request) -> Response {
+pub async fn serve(State(app): State<App>, request: Request) -> Response {
     if !matches!(*request.method(), Method::GET | Method::HEAD) {
         return method_not_allowed();
     }
     let path = request.uri().path().trim_start_matches('/');
     if let Some(asset) = find(if path.is_empty() { "index.html" } else { path }) {
-        return respond(asset, request.headers(), false).await;
+        return respond(asset, request.headers(), false, &app.base).await;
     }
     let first = path.split('/').next().unwrap_or(path);
     // Addresses without a file name belong to the page, which says of most that there is nothing.
@@ -61,7 +62,7 @@ pub async fn serve(request: Request) -> Response {
     let is_page = !["api", "assets"].contains(&first) && !last.contains('.');
     match find("index.html").filter(|_| is_page) {
         Some(page) => {
-            let mut response = respond(page, request.headers(), first == FRAMED).await;
+            let mut response = respond(page, request.headers(), first == FRAMED, &app.base).await;
             if !VIEWS.contains(&first) && response.status() == StatusCode::OK {
                 *response.status_mut() = StatusCode::NOT_FOUND;
             }
@@ -99,7 +100,7 @@ pub fn method_not_allowed() -> Response {
     .into_response()
 }
 
-async fn respond(asset: &'static Asset, request: &HeaderMap, framed: bool) -> Response {
+async fn respond(asset: &'static Asset, request: &HeaderMap, framed: bool, base: &str) -> Response {
     let cache =
         if asset.path.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
     let mut headers = HeaderMap::new();
@@ -116,6 +117,9 @@ async fn respond(asset: &'static Asset, request: &HeaderMap, framed: bool) -> Re
     {
         return (StatusCode::NOT_MODIFIED, headers).into_response();
     }
+    if let Some(page) = asset.text().filter(|_| asset.path == "index.html" && !base.is_empty()) {
+        return (headers, below(page, base)).into_response();
+    }
     let (encoding, body) = match asset.bytes(|encoding| accepts(request, encoding.name())).await {
         Ok(found) => found,
         Err(problem) => return problem.into_response(),
@@ -124,6 +128,12 @@ async fn respond(asset: &'static Asset, request: &HeaderMap, framed: bool) -> Re
         headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static(encoding.name()));
     }
     (headers, body).into_response()
+}
+
+/// The page as it stands below a path: it says so, and finds its files there.
+fn below(page: &str, base: &str) -> String {
+    let named = page.replacen("<html ", &format!("<html data-base=\"{base}\" "), 1);
+    named.replace("=\"/assets/", &format!("=\"{base}/assets/"))
 }
 
 /// Whether the caller reads gzip.

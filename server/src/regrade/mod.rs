@@ -1,5 +1,6 @@
 //! Grading again what was handed in, with the lesson that graded it then.
 
+mod judged;
 mod told;
 
 mod preview;
@@ -8,14 +9,15 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 use serde_json::{Value, json};
-use triad_lessons::{Lesson, Submission};
+use triad_lessons::{Lesson, Verdict};
 
 use crate::grading;
 use crate::problem::Problem;
 use crate::store::{Recorded, Store, StoredSubmission};
 use crate::variants::Variants;
 
-pub use preview::{Previews, Progress, preview};
+pub use judged::Progress;
+pub use preview::{Previews, preview};
 pub use told::{Changed, Counts, PersonChange, Preview, SubmissionChange};
 
 /// What came of grading a course again.
@@ -68,7 +70,8 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
             lessons.insert(record.lesson_sha256.clone(), Lesson::from_bundle(&bundle).ok());
         }
         let lesson = lessons.get(&record.lesson_sha256).and_then(Option::as_ref);
-        match again(&record, lesson, &variants, earlier) {
+        let judge = |lesson: &Lesson| grading::judge_again(lesson, &variants, &record.answers, &record.seed);
+        match again(&record, lesson, judge, earlier) {
             // As texts: byte for byte.
             Ok(now) if record.body == format!("{now}") => rebuilt.same += 1,
             now => rebuilt.changed.push(change(&record, now)),
@@ -92,15 +95,13 @@ fn replace(all: &mut Vec<StoredSubmission>, record: &Recorded) -> Vec<StoredSubm
 fn again(
     record: &Recorded,
     lesson: Option<&Lesson>,
-    variants: &Variants,
+    judge: impl FnOnce(&Lesson) -> Result<Verdict, String>,
     earlier: Vec<StoredSubmission>,
 ) -> Result<Value, String> {
     let lesson = lesson.ok_or("this program cannot read the lesson")?;
     let before: Value = serde_json::from_str(&record.body).map_err(|error| error.to_string())?;
-    let text = format!("{{\"answers\":{}}}", record.answers);
-    let submission = Submission::from_json(&text).map_err(|error| error.to_string())?;
-    let own = variants.of(lesson, &record.seed).map_err(|problem| problem.to_string())?;
-    let mut verdict = triad_lessons::grade(&own, &submission).map_err(|error| error.to_string())?;
+    let submission = grading::answered(&record.answers)?;
+    let mut verdict = judge(lesson)?;
     verdict.student = before["student"].as_str().map(str::to_owned);
     if before["provenance"]["seed"] == "" {
         // A class does not tell it.

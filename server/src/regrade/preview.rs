@@ -9,18 +9,18 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
 use serde_json::Value;
-use triad_lessons::Lesson;
+use triad_lessons::{Lesson, Verdict};
 
+use super::judged::{Judged, Progress, Version, by_graders};
 use super::told::{Changed, Counts, PersonChange, Preview, SubmissionChange};
 use super::{again, first_difference, replace, stored};
+use crate::aside;
 use crate::grades::{Book, Entry, assigned, case};
+use crate::grading;
 use crate::policy::{Moment, standing};
 use crate::problem::Problem;
-use crate::session::step_back;
 use crate::store::hash::sha256;
-use crate::store::{
-    Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError, StoredSubmission, identifier,
-};
+use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError, StoredSubmission};
 use crate::variants::Variants;
 
 /// Previews that are kept until they are applied: one that is pushed out is made anew.
@@ -44,20 +44,6 @@ pub struct Computed {
     people: Vec<(PersonChange, Vec<Graded>)>,
     bundle: String,
     verdicts: usize,
-}
-
-/// How far a preview is.
-#[derive(Debug, Default)]
-pub struct Progress {
-    done: AtomicUsize,
-    of: AtomicUsize,
-}
-
-impl Progress {
-    /// Submissions that were graded again, and those that are to be.
-    pub fn now(&self) -> (usize, usize) {
-        (self.done.load(Ordering::Relaxed), self.of.load(Ordering::Relaxed))
-    }
 }
 
 /// Previews that are being made, and those that were made and not applied yet.
@@ -138,11 +124,13 @@ impl Computed {
     }
 }
 
-/// Grades everything that was handed in to a lesson again, and says what would change. Nothing is written.
+/// Grades everything that was handed in to a lesson again, and says under a new name what would change. Nothing of the course is
+/// written.
 ///
 /// Errors if the gradebook cannot be read.
 pub async fn preview(
     store: &Store,
+    id: String,
     course: &str,
     lesson: &Lesson,
     progress: Arc<Progress>,
@@ -163,8 +151,15 @@ pub async fn preview(
         store.people(course).await?.into_iter().map(|person| (person.id, person.name)).collect();
     let bundle = new.bundle();
     let (version, verdicts, slug) = (sha256(&bundle), records.len(), lesson.slug.clone());
-    progress.of.store(verdicts, Ordering::Relaxed);
-    let graded = crate::blocking(move || Ok(all_again(&by_person(records), &old, &new, &progress))).await?;
+    let judges = if store.is_shared() {
+        let version = Version { sha256: &version, slug: &slug, bundle: &bundle };
+        Judges::Graders(by_graders(store, &records, &old, &version, &progress).await?)
+    } else {
+        progress.of.store(verdicts, Ordering::Relaxed);
+        Judges::Here(progress)
+    };
+    let lessons = Lessons { old, new, version: version.clone() };
+    let graded = aside::run(move || Ok(all_again(&by_person(records), &lessons, &judges))).await?;
     let now = Moment::now();
     let mut people: Vec<(PersonChange, Vec<Graded>)> = graded
         .into_iter()
@@ -172,7 +167,7 @@ pub async fn preview(
         .collect();
     people.sort_by(|a, b| a.0.name.cmp(&b.0.name));
     let mut shown = summary(&people, crate::grades::possible(lesson));
-    shown.lesson = slug;
+    (shown.id, shown.lesson) = (id, slug);
     let all = people.iter().flat_map(|(_, graded)| graded);
     shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != version).count();
     shown.seconds = started.elapsed().as_secs_f64();
@@ -188,27 +183,59 @@ fn by_person(records: Vec<Recorded>) -> Vec<Vec<Recorded>> {
     all.into_values().collect()
 }
 
+/// The lessons that judged, and the one that is to.
+struct Lessons {
+    /// By SHA-256; none where this program cannot read it.
+    old: HashMap<String, Option<Lesson>>,
+    new: Lesson,
+    /// SHA-256 of the new one.
+    version: String,
+}
+
+/// Who judges.
+enum Judges {
+    /// This program, beside those who answer.
+    Here(Arc<Progress>),
+    /// Graders have.
+    Graders(Judged),
+}
+
+impl Judges {
+    fn judge(
+        &self,
+        record: &Recorded,
+        lesson: &Lesson,
+        sha256: &str,
+        variants: &Variants,
+    ) -> Result<Verdict, String> {
+        match self {
+            Self::Here(_) => grading::judge_again(lesson, variants, &record.answers, &record.seed),
+            Self::Graders(judged) => {
+                let found = judged.get(&(record.id.clone(), sha256.to_owned()));
+                found.cloned().unwrap_or_else(|| Err("no grader has judged it".to_owned()))
+            }
+        }
+    }
+}
+
 /// Grades again, each person by one thread: what came before decides what a later submission earns.
-fn all_again(
-    people: &[Vec<Recorded>],
-    old: &HashMap<String, Option<Lesson>>,
-    new: &Lesson,
-    progress: &Progress,
-) -> Vec<Vec<Graded>> {
+fn all_again(people: &[Vec<Recorded>], lessons: &Lessons, judges: &Judges) -> Vec<Vec<Graded>> {
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(people.len().max(1));
     let work = || {
-        step_back();
         // The numbers of both versions are kept apart: they have the same seeds.
-        let (before, after) = (Variants::default(), Variants::default());
+        let variants = [Variants::default(), Variants::default()];
         let mut done = Vec::new();
         while let Some(records) = people.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.push(person_again(records, old, new, &before, &after));
-            progress.done.fetch_add(records.len(), Ordering::Relaxed);
+            done.push(person_again(records, lessons, judges, &variants));
+            if let Judges::Here(progress) = judges {
+                progress.done.fetch_add(records.len(), Ordering::Relaxed);
+            }
         }
         done
     };
     std::thread::scope(|scope| {
+        // They step back as the thread does that starts them.
         let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         // Nobody is left out in silence: what fails in one fails the preview.
         started
@@ -220,20 +247,22 @@ fn all_again(
 
 fn person_again(
     records: &[Recorded],
-    old: &HashMap<String, Option<Lesson>>,
-    new: &Lesson,
-    before: &Variants,
-    after: &Variants,
+    lessons: &Lessons,
+    judges: &Judges,
+    [before, after]: &[Variants; 2],
 ) -> Vec<Graded> {
     let mut known: Vec<StoredSubmission> = Vec::new();
     let mut graded: Vec<Graded> = Vec::new();
     for record in records {
         let earlier = replace(&mut known, record);
-        let lesson = old.get(&record.lesson_sha256).and_then(Option::as_ref);
-        let control = (!record.lesson_sha256.is_empty()).then(|| again(record, lesson, before, earlier));
+        let sha256 = record.lesson_sha256.as_str();
+        let lesson = lessons.old.get(sha256).and_then(Option::as_ref);
+        let judge = |lesson: &Lesson| judges.judge(record, lesson, sha256, before);
+        let control = (!sha256.is_empty()).then(|| again(record, lesson, judge, earlier));
         let place = graded.iter().position(|one| one.record.id == record.id).unwrap_or(graded.len());
         let told: Vec<StoredSubmission> = graded[..place].iter().map(newly_stored).collect();
-        let now = again(record, Some(new), after, told).ok();
+        let judge = |lesson: &Lesson| judges.judge(record, lesson, &lessons.version, after);
+        let now = again(record, Some(&lessons.new), judge, told).ok();
         let change = submission_change(record, control, now.as_ref());
         let one = Graded { record: record.clone(), change, body: now };
         match graded.get_mut(place) {
@@ -364,7 +393,7 @@ fn summary(people: &[(PersonChange, Vec<Graded>)], possible: f64) -> Preview {
         bars
     };
     Preview {
-        id: identifier(),
+        id: String::new(),
         lesson: String::new(),
         submissions: people.iter().map(|(_, graded)| graded.len()).sum(),
         of_other_versions: 0,

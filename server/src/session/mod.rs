@@ -20,6 +20,7 @@ use triad_session::change::{Drag, SceneChange, SessionScene};
 use triad_session::drawing::{Arrows, Camera};
 use triad_session::{KeptSession, Run, SceneSource, SessionState};
 
+use crate::aside;
 use crate::limits::Limits;
 use crate::problem::Problem;
 use crate::stream::{Hub, Watcher};
@@ -68,17 +69,17 @@ pub struct Session {
 }
 
 impl Session {
-    /// Assembles a scene and starts its thread. Blocks until the scene is assembled.
+    /// Assembles a scene and starts its thread, under a name that was never used. Blocks until the scene is assembled.
     ///
     /// Errors if the scene or the change of it is refused, or the thread cannot be started.
     pub fn start(
+        id: String,
         original: Scene,
         change: &SceneChange,
         source: SceneSource,
         whose: Option<String>,
         limits: &Limits,
     ) -> Result<Self, Problem> {
-        let id = uuid::Uuid::new_v4().simple().to_string();
         let run = Run::start(id.clone(), original, change, source, samples_bytes(limits))?;
         Ok(Self { whose, ..Self::begin(run, &id, Clock::start(), limits)? })
     }
@@ -117,7 +118,7 @@ impl Session {
         std::thread::Builder::new()
             .name("triad-session".into())
             .spawn(move || {
-                step_back();
+                aside::step_back();
                 worker.run(&received);
             })
             .map_err(Problem::internal)?;
@@ -313,15 +314,4 @@ fn gone() -> Problem {
         "the session was closed while it was asked",
         "start another session",
     )
-}
-
-/// How much less a thread that computes for long counts than one that answers, in the system's own measure (nice): where 200
-/// sessions play on two processors the runs become slower, and answers do not wait for them.
-#[cfg(target_os = "linux")]
-const LESS: i32 = 10;
-
-/// Lets those who answer go before this thread, where the system can.
-pub(crate) fn step_back() {
-    #[cfg(target_os = "linux")]
-    rustix::process::setpriority_process(Some(rustix::thread::gettid()), LESS).unwrap_or_default();
 }

@@ -11,11 +11,14 @@ use triad_session::{KeptSession, SceneSource};
 
 use super::Session;
 use crate::limits::Limits;
+use crate::nodes::Node;
 use crate::problem::Problem;
 
 /// The sessions of one server, bounded in number, closed when nobody wants them any more.
 #[derive(Debug, Default)]
 pub struct Registry {
+    /// The server, whose name is in the ids.
+    node: Node,
     sessions: Mutex<Sessions>,
 }
 
@@ -52,6 +55,11 @@ impl Sessions {
 }
 
 impl Registry {
+    /// No session yet, in that server.
+    pub fn of(node: Node) -> Self {
+        Self { node, ..Self::default() }
+    }
+
     /// Starts a session, for somebody of a class whose sessions are counted (`whose`) or for anybody. Blocks until its scene is
     /// assembled.
     ///
@@ -80,7 +88,8 @@ impl Registry {
             sessions.coming.push(whose.clone());
         }
         let place = Place(self, whose.clone());
-        let session = Arc::new(Session::start(scene, change, source, whose, limits)?);
+        let id = self.node.identifier();
+        let session = Arc::new(Session::start(id, scene, change, source, whose, limits)?);
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)
@@ -94,6 +103,11 @@ impl Registry {
         let session = Arc::new(Session::resume(kept, limits)?);
         self.lock().live.insert(id, Arc::clone(&session));
         Ok(session)
+    }
+
+    /// The name of the server; empty where it is alone.
+    pub fn node(&self) -> &str {
+        self.node.name()
     }
 
     /// All of them.

@@ -4,17 +4,20 @@
 //! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: each
 //! submission is one transaction, written through before it returns.
 
+mod bell;
 mod class;
 mod copies;
 mod database;
 mod error;
 mod file;
 pub mod hash;
+mod judging;
 mod kind;
 mod location;
 mod log;
 mod lti;
 pub mod names;
+mod nodes;
 #[cfg(all(test, unix))]
 mod on_both;
 #[cfg(all(test, unix))]
@@ -38,6 +41,8 @@ use sqlx::Any;
 use sqlx::pool::PoolConnection;
 use tokio::sync::Notify;
 
+use bell::Verdicts;
+pub use bell::{Awaited, Bell};
 pub use class::{
     Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded,
     VerdictHistory,
@@ -48,12 +53,14 @@ use copies::{LEFT, OF_COURSE};
 use database::Pools;
 pub use error::StoreError;
 use file::Place;
+pub use judging::{Judging, NewJudging, Outcome};
 use kind::Kind;
 pub use location::Location;
 pub use lti::{Admission, Arrival, Column, ColumnState, Context, Due, Pause, Platform, Told, Wanted};
+pub use nodes::{GONE, HEARD, Whereabouts};
 pub use people::{CLASS, CourseRow, LIFE, Member, Return, Role};
 pub use predictions::{KeptPrediction, NewPrediction};
-pub use queue::{Accept, Accepted, Bell, Claim, Job, STARTS, Waiting};
+pub use queue::{Accept, Accepted, Claim, Job, STARTS, Waiting};
 pub use quotas::Quotas;
 pub use submissions::{HandIn, Kept, Query, Recorded, StoredSubmission, Whose};
 use transaction::Transaction;
@@ -72,6 +79,8 @@ pub struct Store {
     server: Option<String>,
     /// Wakes graders in this program.
     work: Notify,
+    /// Tells students in this program that their verdicts are there.
+    verdicts: Verdicts,
 }
 
 impl Store {
@@ -111,7 +120,14 @@ impl Store {
     }
 
     fn of(pools: Pools) -> Self {
-        Self { pools, place: None, quotas: Quotas::default(), server: None, work: Notify::new() }
+        Self {
+            pools,
+            place: None,
+            quotas: Quotas::default(),
+            server: None,
+            work: Notify::new(),
+            verdicts: Verdicts::default(),
+        }
     }
 
     /// A gradebook that is forgotten when it is dropped.
@@ -166,6 +182,13 @@ impl Store {
     pub async fn ready(&self) -> Result<(), StoreError> {
         self.place_is_right()?;
         self.write().await?.rollback().await
+    }
+
+    /// The time by which everybody is measured, in milliseconds since 1970: that of the database.
+    ///
+    /// Errors if it cannot be asked.
+    pub async fn clock(&self) -> Result<i64, StoreError> {
+        database::clock(&mut *self.pools.readers.acquire().await?).await
     }
 
     /// Writes into the log of a course what somebody did that changed nothing: that they looked, or took a copy.

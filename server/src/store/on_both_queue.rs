@@ -25,6 +25,7 @@ fn waits(student: &str, lesson: &str) -> Accept {
         seed: None,
         key: None,
         bundle: "the lesson".into(),
+        request: "a-request".into(),
     }
 }
 
@@ -201,4 +202,101 @@ async fn many_who_claim_at_once_get_each_one_once() {
     assert_eq!((all.len(), all.iter().collect::<BTreeSet<_>>().len()), (20, 20));
     assert_eq!(ids(&store).await.len(), 20);
     assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+/// So many submissions that a regrade asks about, and the SHA-256 of the lesson that is to judge them.
+async fn regraded(store: &Store, count: usize) -> String {
+    let mut asked = Vec::new();
+    let lesson = hash::sha256("the mended lesson");
+    for k in 0..count {
+        let kept = hand_in(store, &new(&format!("student {k}"))).await.expect("keeps");
+        let submission = kept.verdict["id"].as_str().expect("an id").to_owned();
+        asked.push(NewJudging { submission, lesson_sha256: lesson.clone() });
+    }
+    let mended = (lesson.as_str(), "pendulum", "the mended lesson");
+    store.ask_judgings(mended, &asked).await.expect("asks");
+    lesson
+}
+
+async fn again(store: &Store, lease: Duration, all_the_same: bool) -> Vec<Judging> {
+    store.claim_judgings(lease, 8, all_the_same).await.expect("claims")
+}
+
+#[tokio::test]
+async fn a_student_goes_before_a_thousand_that_are_judged_again() {
+    let store = fresh().await;
+    let lesson = regraded(&store, 1000).await;
+    let batch = again(&store, LONG, false).await;
+    assert_eq!((batch.len(), store.students_wait().await.expect("looks")), (8, false));
+
+    // As soon as somebody hands in nothing more is begun, and what is claimed is left.
+    let ada = enqueue(&store, "Ada", "pendulum").await;
+    assert!(store.students_wait().await.expect("looks"));
+    assert_eq!(again(&store, LONG, false).await, []);
+    let done: Vec<_> = batch[..1].iter().map(|one| (one.clone(), "right".to_owned())).collect();
+    store.keep_judgings(&done, &batch[1..]).await.expect("keeps");
+    assert_eq!(store.judgings_open(&lesson).await.expect("counts"), 999);
+    let job = claim(&store, LONG).await.expect("hers");
+    assert_eq!(job.claim.id, ada);
+    // While hers is graded nobody waits: whoever has time goes on, with what was left first.
+    assert_eq!(again(&store, LONG, false).await[0].submission, batch[1].submission);
+    close(&store, &job).await.expect("closes");
+}
+
+/// Who ends in the middle holds nothing up, what is judged twice is kept once, and what ends its graders is told.
+#[tokio::test]
+async fn what_is_judged_again_is_judged_whatever_ends() {
+    let store = fresh().await;
+    let lesson = regraded(&store, 20).await;
+    let first = again(&store, Duration::ZERO, false).await;
+    tokio::time::sleep(Duration::from_millis(5)).await;
+    let second = again(&store, Duration::ZERO, false).await;
+    let names = |batch: &[Judging]| batch.iter().map(|one| one.submission.clone()).collect::<BTreeSet<_>>();
+    assert_eq!(names(&first), names(&second), "they are claimed anew");
+    for (batch, word) in [(&second, "kept"), (&first, "late")] {
+        let done: Vec<_> = batch[..4].iter().map(|one| (one.clone(), word.to_owned())).collect();
+        store.keep_judgings(&done, &[]).await.expect("keeps");
+    }
+    let told = store.judged(&lesson).await.expect("reads");
+    assert_eq!(told.iter().map(|one| one.told.as_deref()).collect::<Vec<_>>(), [Some("kept"); 4]);
+    tokio::time::sleep(Duration::from_millis(5)).await;
+    // The other four were begun twice; the third start is the last.
+    assert_eq!(again(&store, Duration::ZERO, false).await.len(), 8);
+    tokio::time::sleep(Duration::from_millis(5)).await;
+    let told = store.judged(&lesson).await.expect("reads");
+    assert_eq!((told.len(), told.iter().filter(|one| one.told.is_none()).count()), (8, 4));
+    assert_eq!(store.judgings_open(&lesson).await.expect("counts"), 12);
+    let put_aside = told.iter().find(|one| one.told.is_none()).expect("one").submission.clone();
+    let asked = [NewJudging { submission: put_aside.clone(), lesson_sha256: lesson.clone() }];
+    store.ask_judgings((&lesson, "pendulum", "the mended lesson"), &asked).await.expect("asks again");
+    assert_eq!(store.judgings_open(&lesson).await.expect("counts"), 13);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn many_who_judge_again_get_each_one_once() {
+    let store = Arc::new(fresh().await);
+    let lesson = regraded(&store, 100).await;
+    let judging: Vec<_> = (0..8)
+        .map(|_| {
+            let store = Arc::clone(&store);
+            tokio::spawn(async move {
+                let mut mine = Vec::new();
+                loop {
+                    let batch = again(&store, LONG, false).await;
+                    if batch.is_empty() {
+                        return mine;
+                    }
+                    mine.extend(batch.iter().map(|one| one.submission.clone()));
+                    let done: Vec<_> = batch.into_iter().map(|one| (one, String::new())).collect();
+                    store.keep_judgings(&done, &[]).await.expect("keeps");
+                }
+            })
+        })
+        .collect();
+    let mut all = Vec::new();
+    for one in judging {
+        all.extend(one.await.expect("ends"));
+    }
+    assert_eq!((all.len(), all.iter().collect::<BTreeSet<_>>().len()), (100, 100));
+    assert_eq!(store.judged(&lesson).await.expect("reads").len(), 100);
 }

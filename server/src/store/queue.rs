@@ -7,8 +7,6 @@
 use std::time::Duration;
 
 use sqlx::AnyConnection;
-use sqlx::postgres::PgListener;
-use tokio::time::timeout;
 
 use super::class::Assignment;
 use super::class::assignments::{ensured, extension_of};
@@ -17,15 +15,13 @@ use super::error::StoreError;
 use super::hash::sha256;
 use super::kind::Kind;
 use super::submissions::{self, HandIn, Kept, Whose, person_of};
-use super::{Store, identifier, log, now, sql};
+use super::{Store, identifier, log, sql};
 use crate::policy::{Moment, admit};
 
 /// A grading that was begun so often and never ended is put aside: it ends its graders.
 pub const STARTS: i64 = 3;
 /// Gradings of one person that may wait at a time.
 const MOST_OPEN: i64 = 100;
-/// Graders that heard nothing look all the same after this.
-const LOOK: Duration = Duration::from_secs(2);
 
 /// What is handed in, before it is graded.
 #[derive(Debug, Clone)]
@@ -46,6 +42,8 @@ pub struct Accept {
     pub key: Option<String>,
     /// The lesson as [`triad_lessons::Lesson::bundle`] writes it.
     pub bundle: String,
+    /// The name of the request with which it came: it stands in the log of whoever grades it.
+    pub request: String,
 }
 
 /// What came of it.
@@ -106,6 +104,7 @@ type Row = (
     Option<String>,
     String,
     i64,
+    String,
 );
 
 impl Store {
@@ -116,9 +115,8 @@ impl Store {
         self.place_is_right()?;
         let mut transaction = self.write().await?;
         let accepted = accept(&mut transaction, new, &self.quotas).await?;
-        if matches!(accepted, Accepted::Waiting(_)) && Kind::of(&transaction) == Kind::Postgres {
-            // Only wakes: what is to be done stands in the rows.
-            sqlx::query("SELECT pg_notify('triad_grading', '')").execute(&mut *transaction).await?;
+        if matches!(accepted, Accepted::Waiting(_)) {
+            self.wake(&mut transaction).await?;
         }
         transaction.commit().await?;
         self.work.notify_one();
@@ -174,7 +172,9 @@ impl Store {
             return Err(StoreError::Fenced);
         }
         submissions::keep_accepted(&mut transaction, new).await?;
+        self.tell_verdict(&mut transaction, &claim.id).await?;
         transaction.commit().await?;
+        self.verdicts.tell(&claim.id);
         self.place_is_right()
     }
 
@@ -217,49 +217,29 @@ impl Store {
         transaction.commit().await?;
         Ok(again.rows_affected())
     }
-
-    /// What wakes graders of this gradebook.
-    ///
-    /// Errors if the server cannot be reached.
-    pub async fn bell(&self) -> Result<Bell<'_>, StoreError> {
-        let mut listener = None;
-        if let Some(url) = &self.server {
-            let mut one = PgListener::connect(url).await?;
-            one.listen("triad_grading").await?;
-            listener = Some(one);
-        }
-        Ok(Bell { store: self, listener })
-    }
 }
 
-/// Wakes a grader when something comes, and now and then without that: a bell that is not heard costs two seconds.
-#[derive(Debug)]
-pub struct Bell<'a> {
-    store: &'a Store,
-    listener: Option<PgListener>,
-}
-
-impl Bell<'_> {
-    /// Waits until there may be work.
-    pub async fn rings(&mut self) {
-        let Some(listener) = &mut self.listener else {
-            drop(timeout(LOOK, self.store.work.notified()).await);
-            return;
-        };
-        // Where the connection is gone it is made again; until then the clock alone wakes.
-        if let Ok(Err(_)) = timeout(LOOK, listener.recv()).await {
-            tokio::time::sleep(LOOK).await;
-        }
-    }
-}
-
-fn milliseconds(time: Duration) -> i64 {
+pub(super) fn milliseconds(time: Duration) -> i64 {
     i64::try_from(time.as_millis()).unwrap_or(i64::MAX / 2)
 }
 
 fn job(row: Row) -> Job {
-    let (id, fence, start, course, lesson, person, student, body, lesson_sha256, key, seed, _, received_at) =
-        row;
+    let (
+        id,
+        fence,
+        start,
+        course,
+        lesson,
+        person,
+        student,
+        body,
+        lesson_sha256,
+        key,
+        seed,
+        _,
+        received_at,
+        request,
+    ) = row;
     let accepted = Accept {
         course: course.clone(),
         lesson,
@@ -269,6 +249,7 @@ fn job(row: Row) -> Job {
         seed,
         key,
         bundle: String::new(),
+        request,
     };
     Job { claim: Claim { id, fence, course }, accepted, lesson_sha256, received_at, start }
 }
@@ -313,9 +294,9 @@ async fn accept(
     }
     let (id, lesson) = (identifier(), sha256(&new.bundle));
     let add = sqlx::query(sql::ADD_LESSON).bind(&lesson).bind(&new.lesson).bind(&new.bundle);
-    add.bind(now()).execute(&mut *connection).await?;
+    add.bind(at).execute(&mut *connection).await?;
     let add = sqlx::query(sql::ADD_GRADING).bind(&id).bind(&new.course).bind(&assignment).bind(&person);
     let add = add.bind(n).bind(at).bind(&new.student).bind(&new.body).bind(&new.key).bind(&new.seed);
-    add.bind(&lesson).bind(fair).execute(&mut *connection).await?;
+    add.bind(&lesson).bind(fair).bind(&new.request).execute(&mut *connection).await?;
     Ok(Accepted::Waiting(id))
 }

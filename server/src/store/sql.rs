@@ -84,6 +84,20 @@ pub(super) const ADDED_5: &[&str] = &[
     "CREATE INDEX grading_by_person ON grading (person, assignment, n)",
 ];
 
+/// What format 7 adds: what is judged again when nothing else waits. It holds no answers, and names the program that is to judge.
+pub(super) const ADDED_7: &[&str] = &[
+    "CREATE TABLE judging (submission TEXT NOT NULL REFERENCES submission(id), \
+     lesson_sha256 TEXT NOT NULL REFERENCES lesson_version(sha256), build TEXT NOT NULL, asked_at BIGINT NOT NULL, \
+     starts BIGINT NOT NULL, lease_until BIGINT NOT NULL, outcome TEXT, PRIMARY KEY (submission, lesson_sha256, build))",
+    "CREATE INDEX judging_by_turn ON judging (build, asked_at, submission)",
+];
+
+/// What format 8 adds: the servers that share the gradebook, and with which request something came that waits.
+pub(super) const ADDED_8: &[&str] = &[
+    "ALTER TABLE grading ADD COLUMN request TEXT NOT NULL DEFAULT ''",
+    "CREATE TABLE node (name TEXT PRIMARY KEY NOT NULL, address TEXT NOT NULL, seen_at BIGINT NOT NULL)",
+];
+
 /// What is a record is added to and never changed. In SQLite's words: `database.rs` says them in PostgreSQL's.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
@@ -115,10 +129,29 @@ macro_rules! claim {
              ORDER BY g.fair, g.n LIMIT 1",
             $lock,
             ") RETURNING id, fence, starts, course, (SELECT slug FROM assignment a WHERE a.id = assignment), person, student, \
-             body, lesson_sha256, request_key, seed, worker, received_at"
+             body, lesson_sha256, request_key, seed, worker, received_at, request"
         )
     };
 }
+
+/// Claims what is to be judged again, several at a time: found once, whatever the plan.
+macro_rules! claim_judgings {
+    ($lock:literal) => {
+        concat!(
+            "WITH next AS MATERIALIZED (SELECT j.submission, j.lesson_sha256 FROM judging j WHERE j.build = $1 \
+             AND j.outcome IS NULL AND j.starts < $3 AND j.lease_until < $2 ORDER BY j.asked_at, j.submission LIMIT $5",
+            $lock,
+            ") UPDATE judging SET starts = starts + 1, lease_until = $4 WHERE build = $1 AND outcome IS NULL \
+             AND (submission, lesson_sha256) IN (SELECT n.submission, n.lesson_sha256 FROM next n) \
+             RETURNING submission, lesson_sha256, starts, \
+             (SELECT s.answers FROM submission s WHERE s.id = judging.submission), \
+             (SELECT v.seed FROM verdict v WHERE v.submission = judging.submission AND v.run = 0)"
+        )
+    };
+}
+
+/// The same where many claim at once.
+pub(super) const CLAIM_JUDGINGS_OF_MANY: &str = claim_judgings!(" FOR UPDATE OF j SKIP LOCKED");
 
 /// The claim where many claim at once: what another is about to claim is passed over.
 pub(super) const CLAIM_OF_MANY: &str = claim!(" FOR UPDATE OF g SKIP LOCKED");
@@ -289,8 +322,8 @@ statements! {
     OPEN_OF = "SELECT received_at FROM grading WHERE assignment = $1 AND person = $2 AND state <> 'dead'";
     GRADING_BY_KEY = "SELECT id FROM grading WHERE assignment = $1 AND person = $2 AND request_key = $3";
     ADD_GRADING = "INSERT INTO grading (id, course, assignment, person, n, received_at, student, body, request_key, seed, \
-        lesson_sha256, fair, state, not_before, starts, fence, lease_until, worker, error) \
-        VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, 'queued', 0, 0, 0, 0, '', '')";
+        lesson_sha256, fair, request, state, not_before, starts, fence, lease_until, worker, error) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, 'queued', 0, 0, 0, 0, '', '')";
     CLAIM = claim!("");
     RENEW = "UPDATE grading SET lease_until = $3 WHERE id = $1 AND fence = $2 AND state = 'running'";
     CLOSE = "DELETE FROM grading WHERE id = $1 AND fence = $2 AND state = 'running'";
@@ -301,4 +334,29 @@ statements! {
     PLACE = "SELECT g.person, g.state, (SELECT COUNT(*) FROM grading e WHERE e.state <> 'dead' \
         AND (e.fair < g.fair OR e.fair = g.fair AND e.n < g.n)) FROM grading g WHERE g.id = $1";
     REMOVE_GRADINGS = "DELETE FROM grading WHERE person = $1";
+    STUDENTS_WAIT = "SELECT COUNT(*) FROM grading WHERE state = 'queued' AND not_before <= $1 AND starts < $2";
+
+    // Servers; see `nodes.rs`.
+    TAKE_NODE = "INSERT INTO node (name, address, seen_at) VALUES ($1, $2, $3) ON CONFLICT (name) DO UPDATE SET \
+        address = $2, seen_at = $3 WHERE node.address = $2 OR node.seen_at < $4";
+    NODE = "SELECT address, seen_at FROM node WHERE name = $1";
+    LEAVE_NODE = "UPDATE node SET seen_at = 0 WHERE name = $1 AND address = $2";
+    FORGET_NODES = "DELETE FROM node WHERE seen_at > 0 AND seen_at < $1";
+
+    // What is judged again; see `judging.rs`.
+    ADD_JUDGING = "INSERT INTO judging (submission, lesson_sha256, build, asked_at, starts, lease_until) \
+        VALUES ($1, $2, $3, $4, 0, 0) ON CONFLICT (submission, lesson_sha256, build) DO UPDATE SET asked_at = $4, \
+        starts = CASE WHEN judging.outcome IS NULL THEN 0 ELSE judging.starts END";
+    OPEN_JUDGINGS = "SELECT COUNT(*) FROM judging WHERE build = $1 AND outcome IS NULL AND starts < $2";
+    CLAIM_JUDGINGS = claim_judgings!("");
+    KEEP_JUDGING = "UPDATE judging SET outcome = $4 WHERE submission = $1 AND lesson_sha256 = $2 AND build = $3 \
+        AND outcome IS NULL";
+    LEAVE_JUDGING = "UPDATE judging SET starts = starts - 1, lease_until = 0 WHERE submission = $1 AND lesson_sha256 = $2 \
+        AND build = $3 AND outcome IS NULL AND starts = $4";
+    JUDGINGS_OPEN = "SELECT COUNT(*) FROM judging WHERE lesson_sha256 = $1 AND build = $2 AND outcome IS NULL \
+        AND (starts < $3 OR lease_until >= $4)";
+    JUDGED = "SELECT submission, outcome FROM judging WHERE lesson_sha256 = $1 AND build = $2 \
+        AND (outcome IS NOT NULL OR starts >= $3 AND lease_until < $4)";
+    FORGET_JUDGED = "DELETE FROM judging WHERE asked_at < $1";
+    REMOVE_JUDGINGS = "DELETE FROM judging WHERE submission IN (SELECT id FROM submission WHERE person = $1)";
 }

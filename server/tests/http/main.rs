@@ -5,6 +5,7 @@
 
 mod analysis;
 mod bad_input;
+mod below;
 mod changes;
 mod class;
 mod described;

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
+use triad::grader::{Grader, LEASE};
 use triad::policy::Moment;
 use triad::store::CLASS;
 use triad_lessons::Course;
@@ -62,6 +64,9 @@ impl Class {
 #[tokio::test]
 async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     let class = class().await;
+    // Where graders share the gradebook they judge again, too.
+    let grader = Grader::new(Arc::clone(&class.app.store), Arc::default(), Arc::default(), 1, LEASE);
+    let grading = tokio::spawn(grader.run());
     let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
     let ((ada, _), (eve, _)) = (class.join("Ada").await, class.join("Eve").await);
     let first = class.submit(&ada, "1.000").await;
@@ -122,5 +127,6 @@ async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     assert_eq!((&listed[1]["id"], &listed[1]["earned"]), (&first["id"], &json!(0.0)));
     let rebuilt = triad::regrade::check(&class.app.store, CLASS).await.expect("rebuilds");
     assert!(rebuilt.changed.is_empty(), "{rebuilt:?}");
+    grading.abort();
     assert_eq!(class.app.store.faults().await.expect("looks"), Vec::<String>::new());
 }

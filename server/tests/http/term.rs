@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use futures_util::{StreamExt, stream};
 use serde_json::{Value, json};
+use triad::grader::{Grader, LEASE};
 use triad::limits::Limits;
 use triad::policy::Moment;
 use triad::store::{CLASS, Store};
@@ -280,7 +281,11 @@ async fn regrade(term: &mut Term, right: usize) {
     term.class = term.class.again(Arc::clone(&term.truth)).await;
     let began = Instant::now();
     let preview = format!("/api/v1/assignments/{FAULTY}/regrades");
+    // Where graders share the gradebook they judge again, too.
+    let store = Arc::clone(&term.class.app.store);
+    let grading = tokio::spawn(Grader::new(store, Arc::default(), Arc::default(), 2, LEASE).run());
     let seen = term.teacher("POST", &preview, None).await.json();
+    grading.abort();
     let counts = &seen["counts"];
     assert_eq!((&counts["up"], &counts["down"], &counts["program"]), (&json!(right), &json!(0), &json!(0)));
     Term::step(began, &format!("a regrade of {} submissions is looked at: {right} up", seen["submissions"]));

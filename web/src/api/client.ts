@@ -1,6 +1,6 @@
 // HTTP client of /api/v1. Every failure becomes an ApiError that carries a Problem.
 
-import { site } from "../core/address";
+import { base, site } from "../core/address";
 import { student as who } from "../core/prefs";
 import { t } from "../core/texts";
 import { askHere, isHere } from "../engine/here";
@@ -63,6 +63,10 @@ import type {
 } from "./types";
 
 const BASE = "/api/v1";
+/** Seconds that a request waits for a verdict. */
+const WAIT = 8;
+/** Pause after which a server is asked again that is away, ms. */
+const AGAIN_MS = 2000;
 
 export class ApiError extends Error {
   constructor(readonly problem: Problem) {
@@ -141,7 +145,7 @@ async function ask(
     const headers: Record<string, string> = { accept: "application/json, application/problem+json", ...more };
     if (body !== undefined) headers["content-type"] = "application/json";
     if (key !== undefined) headers.authorization = `Bearer ${key}`;
-    response = await fetch(path.startsWith("/api/") ? path : BASE + path, {
+    response = await fetch(base + (path.startsWith("/api/") ? path : BASE + path), {
       method,
       headers,
       signal: signal ?? null,
@@ -181,12 +185,8 @@ async function hereAnswer(method: string, path: string, body: unknown): Promise<
 
 const id = encodeURIComponent;
 
-/** Asks for what waits to be graded until it is: soon at first, then every two seconds. */
-async function graded(
-  state: SubmissionState,
-  waiting: (before: number) => void,
-  pause = 200,
-): Promise<GradedSubmission> {
+/** Waits for what is to be graded. Each request is answered as the verdict comes, or after some seconds with the place in the queue. */
+async function graded(state: SubmissionState, waiting: (before: number) => void): Promise<GradedSubmission> {
   if (state.verdict) return state.verdict;
   if (state.state === "failed")
     throw new ApiError({
@@ -196,10 +196,20 @@ async function graded(
       hint: t("No attempt is used. Tell your teacher; there is nothing to send again."),
     });
   waiting(state.before ?? 0);
-  await new Promise((done) => setTimeout(done, pause));
-  const next = await call<SubmissionState>("GET", `/submissions/${id(state.id)}`);
-  return graded(next, waiting, Math.min(2000, pause * 1.5));
+  return graded(await nextState(state), waiting);
 }
+
+async function nextState(state: SubmissionState): Promise<SubmissionState> {
+  try {
+    return await call<SubmissionState>("GET", `/submissions/${id(state.id)}?wait=${WAIT}`);
+  } catch (error) {
+    // What was accepted is kept: a server that is away comes back, or another one answers.
+    if (!(error instanceof ApiError) || !(error.offline || error.problem.status === 503)) throw error;
+    await new Promise((done) => setTimeout(done, AGAIN_MS));
+    return state;
+  }
+}
+
 const when = (at: number | undefined): string => (at === undefined ? "" : `?at=${at}`);
 
 /** Whose numbers: a student's name, or another seed. */
@@ -408,7 +418,7 @@ export const api = {
   /** Sent while the page goes away, so nobody waits for the answer. */
   dropSession: (run: string): void => {
     if (isHere(run)) void askHere("DELETE", run.slice(BASE.length), undefined);
-    else void fetch(run, { method: "DELETE", keepalive: true }).catch(() => undefined);
+    else void fetch(base + run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
   openLecture: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
@@ -432,7 +442,7 @@ export const api = {
   /** The address of a stream, as the browser opens it; that of a run in this page stays as it is. */
   streamUrl: (path: string): string => {
     if (isHere(path)) return path;
-    const url = new URL(path, location.href);
+    const url = new URL(base + path, location.href);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     return url.href;
   },

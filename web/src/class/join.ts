@@ -3,6 +3,7 @@
 import { api } from "../api/client";
 import { loadMe, me } from "../api/identity";
 import type { Welcome } from "../api/types";
+import { addressOf } from "../core/address";
 import { h } from "../core/dom";
 import { navigate, type Page } from "../core/router";
 import { parts, t } from "../core/texts";
@@ -124,7 +125,7 @@ async function welcome(root: HTMLElement, told: Welcome, then: string, label: st
   await loadMe();
   // The secret of an invitation is used up and need not stay in the address.
   history.replaceState(null, "", location.pathname);
-  const link = `${location.origin}/return#${told.link}`;
+  const link = `${location.origin}${addressOf("/return")}#${told.link}`;
   root.replaceChildren(
     h("h1", null, t("Welcome, {name}", { name: told.person.name })),
     h(

@@ -3,6 +3,7 @@
 import { api } from "../api/client";
 import { me } from "../api/identity";
 import type { ClassView, Filled, GradeTable, Reached, StudentRow } from "../api/types";
+import { addressOf } from "../core/address";
 import { h, saveFile } from "../core/dom";
 import { dateTime, points } from "../core/format";
 import type { Page } from "../core/router";
@@ -53,7 +54,7 @@ export function classPage(outlet: HTMLElement): Page {
 }
 
 function paintDoor(root: HTMLElement, view: ClassView): void {
-  const address = `${location.origin}/join?code=${view.join_code}`;
+  const address = `${location.origin}${addressOf("/join")}?code=${view.join_code}`;
   const change = (label: string, what: { join_open?: boolean; new_code?: boolean }): HTMLElement => {
     const button = h("button", { type: "button", class: "button small" }, label);
     button.addEventListener("click", () => {
@@ -72,7 +73,9 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
       h(
         "p",
         null,
-        ...parts("Students open {address} and type", { address: h("code", null, `${location.host}/join`) }),
+        ...parts("Students open {address} and type", {
+          address: h("code", null, `${location.host}${addressOf("/join")}`),
+        }),
       ),
       h("p", { class: "class-code" }, view.join_code),
       h(

@@ -3,6 +3,7 @@
 import { api } from "../api/client";
 import { me, roleWord } from "../api/identity";
 import type { Somebody } from "../api/types";
+import { addressOf } from "../core/address";
 import { h } from "../core/dom";
 import type { Page } from "../core/router";
 import { t } from "../core/texts";
@@ -69,7 +70,9 @@ function invitations(): HTMLElement {
     event.preventDefault();
     api
       .invite(role.value)
-      .then(({ token }) => said.replaceChildren(invitation(`${location.origin}/setup#${token}`, role.value)))
+      .then(({ token }) =>
+        said.replaceChildren(invitation(`${location.origin}${addressOf("/setup")}#${token}`, role.value)),
+      )
       .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
   });
   return h("section", null, h("h2", null, t("Invite somebody who grades or teaches")), form);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { addressOf, inSite, pageIn } from "./address";
+import { addressOf, inSite, pageIn, withoutBase } from "./address";
 
 describe("an address in a site of files", () => {
   it("names the page in its query, beside what else is asked", () => {
@@ -19,6 +19,13 @@ describe("an address in a site of files", () => {
       expect(url.pathname).toBe("/some/course/");
       expect(pageIn(url.search)).toBe(path);
     }
+  });
+
+  it("is known below the path of a server that stands at a part of another site", () => {
+    expect(withoutBase("/triad/lessons/x", "/triad")).toBe("/lessons/x");
+    expect(withoutBase("/triad", "/triad")).toBe("/");
+    expect(withoutBase("/triads/x", "/triad")).toBe("/triads/x");
+    expect(withoutBase("/lessons/x", "")).toBe("/lessons/x");
   });
 
   it("is the path itself where there is a server", () => {

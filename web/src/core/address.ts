@@ -5,6 +5,9 @@
 export const site: boolean =
   typeof document === "object" && document.documentElement.dataset.site !== undefined;
 
+/** The path below which a server answers that stands at a part of another site, as `/triad`: it writes it into the page. */
+export const base: string = typeof document === "object" ? (document.documentElement.dataset.base ?? "") : "";
+
 const NAME = "page";
 
 /** The address of a page in a site: `/lessons/x?y#z` as it is written there. */
@@ -25,11 +28,16 @@ export function inSite(path: string): string {
 export const pageIn = (search: string): string => new URLSearchParams(search).get(NAME) ?? "/";
 
 /** The address of a page, for a link. */
-export const addressOf = (path: string): string => (site && /^\/(?!\/)/.test(path) ? inSite(path) : path);
+export const addressOf = (path: string): string =>
+  /^\/(?!\/)/.test(path) ? (site ? inSite(path) : base + path) : path;
+
+/** The path below `base`: what the server names stands there. */
+export const withoutBase = (path: string, base: string): string =>
+  path === base || path.startsWith(`${base}/`) ? path.slice(base.length) || "/" : path;
 
 /** The path of the page that an address names. */
 export const pathOf = (place: { pathname: string; search: string }): string =>
-  site ? pageIn(place.search) : place.pathname;
+  site ? pageIn(place.search) : withoutBase(place.pathname, base);
 
 /** The address of a file of the site, where there is one; it stands beside the page. */
 export const fileOf = (path: string): string => new URL(path, document.baseURI).href;

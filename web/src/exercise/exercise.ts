@@ -2,7 +2,7 @@
 
 import { api, problemOf } from "../api/client";
 import type { Answer, GradedSubmission, Lesson } from "../api/types";
-import { site } from "../core/address";
+import { addressOf, site } from "../core/address";
 import { announce, authored, h, saveFile } from "../core/dom";
 import { points } from "../core/format";
 import { setMaths } from "../core/maths";
@@ -138,7 +138,7 @@ class ExerciseSection {
   private async submit(): Promise<void> {
     const who = this.name.value.trim();
     const { has_variants: hasVariants, seed } = this.lesson;
-    if (student.known() && !who) location.assign("/join");
+    if (student.known() && !who) location.assign(addressOf("/join"));
     else if (!who) this.demandName();
     else if (hasVariants && seed !== who) this.changeVariant(who);
     else {

@@ -2,6 +2,7 @@
 
 import { ApiError, api } from "../api/client";
 import type { Tally } from "../api/types";
+import { addressOf } from "../core/address";
 import { announce, h, setText } from "../core/dom";
 import { parts, t } from "../core/texts";
 import type { Session } from "../session/session";
@@ -278,7 +279,7 @@ function action(label: string, cls: string, run: () => void): HTMLButtonElement 
 /** Shows the code in type that is read from the back of a lecture hall, and the address as a picture for phones. */
 async function invite(lecture: OwnLecture): Promise<void> {
   const { qr } = await import("./qr");
-  const address = new URL(`/room/${lecture.code}`, location.href).href;
+  const address = new URL(addressOf(`/room/${lecture.code}`), location.href).href;
   const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
   const box = dialog(
     t("Join this lecture"),
@@ -293,7 +294,11 @@ async function invite(lecture: OwnLecture): Promise<void> {
           "p",
           null,
           ...parts("Open {address} and type", {
-            address: h("b", null, new URL("/room", location.href).href.replace(/^https?:\/\//, "")),
+            address: h(
+              "b",
+              null,
+              new URL(addressOf("/room"), location.href).href.replace(/^https?:\/\//, ""),
+            ),
           }),
         ),
         h("p", { class: "invite-code" }, lecture.code),

@@ -403,8 +403,10 @@ export class Session extends Clock {
     }
   }
 
-  /** The server forgot the session (it expired, or the server restarted): a fresh one takes its place. */
+  /** The session is gone (it expired, or its server went): a fresh one takes its place, at the time that was reached. */
   protected async recreate(): Promise<void> {
+    // A run that was changed or pulled on its way does not come there again.
+    const time = this.altered ? 0 : (this.latest?.time ?? 0);
     this.connection.close();
     this.past.clear();
     this.toNewest();
@@ -412,15 +414,39 @@ export class Session extends Clock {
       this.latest = undefined;
       this.drawnAs = "";
       this.accept(await this.create());
+      const reached = time > 0 ? await this.runTo(time) : 0;
       this.connection.open();
       void this.redraw(false);
-      announce(t("The simulation had expired on the server and was started anew, at time 0."));
-      banner(t("The simulation had expired on the server. A fresh one stands at time 0."), {
+      const there = time > 0 && reached === time;
+      announce(
+        there
+          ? t("The simulation was gone from the server and was started anew, at the time that was reached.")
+          : t("The simulation was gone from the server and was started anew, at time {time}.", {
+              time: reached,
+            }),
+      );
+      const said = there
+        ? t("The simulation was gone from the server. A fresh one stands at the time that was reached.")
+        : t("The simulation was gone from the server. A fresh one stands at time {time}.", { time: reached });
+      banner(said, {
         label: t("Fine"),
         run: () => banner(null),
       });
     } catch (error) {
       this.emit("problem", error);
+    }
+  }
+
+  /** Runs a fresh session up to a time; where it cannot, it stands where it is. The time that it has then. */
+  private async runTo(time: number): Promise<number> {
+    const run = this.address;
+    if (!run) return 0;
+    try {
+      this.accept(await api.step(run, { seconds: time }));
+      return this.latest?.time ?? 0;
+    } catch (error) {
+      this.emit("problem", error);
+      return 0;
     }
   }
 

@@ -2,6 +2,7 @@
 
 import { isNone } from "../api/numbers";
 import type { Motion, Scene } from "../api/types";
+import { addressOf } from "../core/address";
 import { announce, h, saveFile, setText } from "../core/dom";
 import { fileName } from "../core/format";
 import { t } from "../core/texts";
@@ -163,7 +164,7 @@ function frameRow(session: Session): HTMLElement[] {
         ? `lessons/${source.lesson}`
         : "";
   if (!place || !isNone(session.numbers)) return [];
-  const address = new URL(`/embed/${place}`, location.href);
+  const address = new URL(addressOf(`/embed/${place}`), location.href);
   address.searchParams.set("play", "1");
   if (session.drawn.what === "all") address.searchParams.set("forces", "all");
   if (session.camera !== "corner") address.searchParams.set("from", session.camera);

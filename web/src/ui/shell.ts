@@ -2,7 +2,7 @@
 
 import { api } from "../api/client";
 import { inClass, me, roleWord, teaches } from "../api/identity";
-import { site } from "../core/address";
+import { addressOf, site } from "../core/address";
 import { h } from "../core/dom";
 import { bind, shortcuts } from "../core/keys";
 import { student } from "../core/prefs";
@@ -68,7 +68,7 @@ function nameButton(): HTMLElement {
   const press = (): void => {
     if (!inClass()) askName();
     else if (me().person) account();
-    else location.assign("/join");
+    else location.assign(addressOf("/join"));
   };
   const button = h("button", { type: "button", class: "header-button", id: "who", onclick: press });
   paintName(button);
@@ -151,7 +151,7 @@ function paintName(button: HTMLButtonElement): void {
 function account(): void {
   const { course, person } = me();
   const leave = h("button", { type: "button", class: "button" }, t("Sign out of this browser"));
-  leave.addEventListener("click", () => void api.signOut().then(() => location.assign("/")));
+  leave.addEventListener("click", () => void api.signOut().then(() => location.assign(addressOf("/"))));
   dialog(
     person?.name ?? "",
     h(

@@ -49,7 +49,8 @@ async fn preview(
 ) -> Result<Answer<Preview>, Problem> {
     let lesson = lessons::find(&app, &slug)?.clone();
     let progress = app.regrades.begin(&lesson.slug);
-    let computed = crate::regrade::preview(&app.store, CLASS, &lesson, progress).await?;
+    let computed =
+        crate::regrade::preview(&app.store, app.node.identifier(), CLASS, &lesson, progress).await?;
     Ok(Answer(app.regrades.keep(computed).shown.clone()))
 }
 

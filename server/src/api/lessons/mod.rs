@@ -6,6 +6,7 @@
 pub(in crate::api) mod predictions;
 pub(in crate::api) mod submissions;
 pub(in crate::api) mod told;
+pub(in crate::api) mod waiting;
 
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,12 +25,14 @@ use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::api::lessons::told::{self, GradedSubmission};
+use crate::api::lessons::waiting::{self, SubmissionState};
 use crate::app::App;
 use crate::blocking;
 use crate::grades::{Book, assigned};
 use crate::handing::{self, Judged, Who};
 use crate::policy::{Moment, Policy, When};
 use crate::problem::Problem;
+use crate::request;
 use crate::store::{
     Accept, Accepted, CLASS, HOME, Kept, Member, Query, StoreError, StoredSubmission, Whose, identifier,
     names,
@@ -45,8 +47,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<Submission>();
     schemas.answer::<GradedSubmission>();
     schemas.answer::<SubmissionList>();
-    schemas.answer::<SubmissionState>();
-    OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list)).routes(routes!(state))
+    OpenApiRouter::new().routes(routes!(submit)).routes(routes!(list))
 }
 
 /// Hand in answers to a lesson's exercise.
@@ -83,7 +84,7 @@ async fn submit(
     let kept = match at_once(&app, &lesson, body.to_string(), &who, key.as_deref()).await? {
         Some((seed, kept)) => (seed, kept.verdict),
         None => match later(&app, &lesson, body.to_string(), &who, key).await? {
-            Accepted::Waiting(id) => return waiting(&app, id).await,
+            Accepted::Waiting(id) => return waiting::accepted(&app, id).await,
             // Repeated, and graded meanwhile.
             Accepted::Kept(kept) => (seed_of(&who, &kept.verdict), kept.verdict),
         },
@@ -93,7 +94,7 @@ async fn submit(
 }
 
 /// What a student is told of a verdict, with the seed of its numbers.
-async fn told(
+pub(super) async fn told(
     app: &App,
     lesson: Lesson,
     policy: Policy,
@@ -149,7 +150,9 @@ async fn at_once(
     };
     judged.tell(&app.metrics);
     loop {
-        let new = handing::settled(&app.store, &judged, identifier(), jiff::Timestamp::now()).await?;
+        let received =
+            jiff::Timestamp::from_millisecond(app.store.clock().await?).map_err(Problem::internal)?;
+        let new = handing::settled(&app.store, &judged, identifier(), received).await?;
         match app.store.hand_in(&new).await {
             // Each time around, one more of theirs is kept.
             Err(StoreError::Overtaken) => {}
@@ -178,59 +181,9 @@ async fn later(
         seed: who.seed.clone(),
         key,
         bundle: lesson.bundle(),
+        request: request::current(),
     };
     Ok(app.store.enqueue(&accept).await?)
-}
-
-/// A submission that has no verdict yet, or has one by now.
-#[derive(Debug, Serialize, JsonSchema)]
-struct SubmissionState {
-    /// Its name.
-    id: String,
-    /// `waiting`, `graded`, or `failed`: it could not be graded, which is not the student's fault and uses no attempt.
-    state: &'static str,
-    /// How many come before it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    before: Option<i64>,
-    /// What it earned.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    verdict: Option<GradedSubmission>,
-}
-
-/// The answer to what waits for its verdict.
-async fn waiting(app: &App, id: String) -> Result<Response, Problem> {
-    let location = format!("/api/v1/submissions/{id}");
-    let before = app.store.waiting(&id).await?.and_then(|waiting| waiting.before);
-    let state = SubmissionState { id, state: "waiting", before, verdict: None };
-    Ok((StatusCode::ACCEPTED, [(header::LOCATION, location)], Answer(state)).into_response())
-}
-
-/// Where a submission stands.
-///
-/// For what is graded later: ask until it is graded.
-#[utoipa::path(get, path = "/submissions/{id}", operation_id = "get_submission", tag = "submissions", params(("id" = String, Path)), responses(
-    (status = 200, description = "Waiting with its place, graded with its verdict, or failed", body = ref(of::<SubmissionState>())),
-    (status = 404, description = "There is no such submission of whoever asks", body = ref(PROBLEM))))]
-async fn state(
-    State(app): State<App>,
-    PathParameters(id): PathParameters<String>,
-    caller: Caller,
-) -> Result<Answer<SubmissionState>, Problem> {
-    let member = if app.access.is_class() { Some(caller.member()?) } else { None };
-    let is_theirs = |person: &str| member.as_ref().is_none_or(|member| member.id == person);
-    if let Some(waiting) = app.store.waiting(&id).await?.filter(|waiting| is_theirs(&waiting.person)) {
-        let state = if waiting.before.is_some() { "waiting" } else { "failed" };
-        return Ok(Answer(SubmissionState { id, state, before: waiting.before, verdict: None }));
-    }
-    let course = if member.is_some() { CLASS } else { HOME };
-    let found = app.store.submission(course, &id).await?.filter(|(person, _)| is_theirs(person));
-    let (person, kept) = found.ok_or(StoreError::Unknown("submission"))?;
-    let policy = app.store.assignment(course, &kept.lesson).await?.policy;
-    let lesson = assigned(lessons::find(&app, &kept.lesson)?, &policy);
-    let own = kept.verdict["provenance"]["seed"].as_str().unwrap_or_default().to_owned();
-    let seed = member.as_ref().map_or(own, |member| app.access.seed_of(member));
-    let verdict = told(&app, lesson, policy, Some(person), (seed, kept.verdict)).await?;
-    Ok(Answer(SubmissionState { id, state: "graded", before: None, verdict: Some(verdict) }))
 }
 
 /// The name that the client gave to the request.

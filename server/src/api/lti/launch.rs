@@ -17,6 +17,7 @@ use crate::app::App;
 use crate::grades::possible;
 use crate::lti::claims::{CHOOSES, Claims, OPENS, nameless};
 use crate::lti::refusal::{Refusal, shortened};
+use crate::lti::registration::CHOICE;
 use crate::lti::roles::role;
 use crate::lti::services::{LINE_ITEM, SCORE};
 use crate::lti::ticket::{self, Begun, Choosing};
@@ -223,9 +224,10 @@ async fn offered(app: &App, lti: &Lti, platform: &Platform, claims: &Claims) -> 
         );
     }
     let body = format!(
-        "<p>Each lesson that you choose becomes a link in your course{}.</p><form method=\"post\" action=\"/lti/choice\">\
+        "<p>Each lesson that you choose becomes a link in your course{}.</p><form method=\"post\" action=\"{}\">\
          <input type=\"hidden\" name=\"ticket\" value=\"{}\"><ul>{list}</ul><p><button>Add to the course</button></p></form>",
         if begun.columns { ", with a column for its scores" } else { "" },
+        page::escaped(&lti.url(CHOICE)),
         page::escaped(&ticket)
     );
     Ok(page::page(StatusCode::OK, "Choose lessons", &body))

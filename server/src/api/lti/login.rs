@@ -69,7 +69,7 @@ async fn begin(app: &App, headers: &HeaderMap, login: &Login) -> Result<Response
     let chooses = lti.own_path(&target)? == CHOICE;
     let is_framed = is_framed(headers);
     if is_framed && !chooses {
-        return Ok(in_a_window(login));
+        return Ok(in_a_window(lti, login));
     }
     let browser = if is_framed { String::new() } else { format!("{}{}", identifier(), identifier()) };
     let begun = Begun {
@@ -121,8 +121,8 @@ pub(super) fn given(lti: &Lti, nonce: &str, value: &str, seconds: i64) -> Result
 
 /// Several launches may be under way in one browser.
 pub(super) fn cookie_name(lti: &Lti, nonce: &str) -> String {
-    let host = if lti.is_encrypted() { "__Host-" } else { "" };
-    format!("{host}triad-lti-{}", nonce.get(..8).unwrap_or_default())
+    let prefix = lti.cookie_prefix();
+    format!("{prefix}triad-lti-{}", nonce.get(..8).unwrap_or_default())
 }
 
 /// Whether what is answered is shown in a frame of another page.
@@ -132,7 +132,7 @@ pub(super) fn is_framed(headers: &HeaderMap) -> bool {
 }
 
 /// In a frame of the platform browsers keep nothing of ours: the launch begins anew in a window of its own.
-fn in_a_window(login: &Login) -> Response {
+fn in_a_window(lti: &Lti, login: &Login) -> Response {
     let fields = [
         ("iss", &login.iss),
         ("login_hint", &login.login_hint),
@@ -143,7 +143,7 @@ fn in_a_window(login: &Login) -> Response {
     ];
     let fields: Vec<(&str, &str)> =
         fields.iter().filter_map(|(name, value)| Some((*name, value.as_deref()?))).collect();
-    let form = page::form("/lti/login", " target=\"_blank\"", &fields, "Open the lesson");
+    let form = page::form(&lti.url("/lti/login"), " target=\"_blank\"", &fields, "Open the lesson");
     let body = format!("<p>Your course opens this lesson in a window of its own.</p>{form}");
     page::page(StatusCode::OK, "Triad", &body)
 }

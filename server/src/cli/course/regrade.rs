@@ -1,17 +1,24 @@
 //! `triad regrade`.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use axum::http::StatusCode;
 use clap::{ArgGroup, Args, ValueEnum};
 use tokio::runtime::Builder;
+use tokio::time::sleep;
 use triad_lessons::Course;
 
 use super::grades::{existing, kept_course};
+use crate::aside::step_back;
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
+use crate::grader::{Grader, LEASE};
 use crate::problem::Problem;
 use crate::regrade::{self, Preview, Rebuilt};
-use crate::store::{Location, Role, Store};
+use crate::store::{Location, Role, Store, identifier};
+
+/// The pause between two looks for what is to be judged.
+const LOOK: Duration = Duration::from_millis(50);
 
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).args(["check", "lesson", "undo"]))]
@@ -47,9 +54,11 @@ pub(in crate::cli) enum Choice {
 
 /// Rebuilds every verdict, or judges a lesson anew, or takes that back.
 pub(in crate::cli) fn regrade(options: &Regrade, course: &Course, json: bool) -> Result<Outcome, Problem> {
+    // Whatever server runs on this machine goes first.
+    step_back();
     let runtime = Builder::new_current_thread().enable_all().build().map_err(Problem::internal)?;
     runtime.block_on(async {
-        let store = Store::at(existing(&options.database)?).await?;
+        let store = Arc::new(Store::at(existing(&options.database)?).await?);
         let (id, _) = kept_course(&store).await;
         if let Some(slug) = &options.lesson {
             return of_lesson(&store, id, course, slug, options, json).await;
@@ -70,7 +79,7 @@ pub(in crate::cli) fn regrade(options: &Regrade, course: &Course, json: bool) ->
 }
 
 async fn of_lesson(
-    store: &Store,
+    store: &Arc<Store>,
     id: &str,
     course: &Course,
     slug: &str,
@@ -78,7 +87,10 @@ async fn of_lesson(
     json: bool,
 ) -> Result<Outcome, Problem> {
     let lesson = course.lesson(slug).ok_or_else(|| crate::api::unknown_lesson(course, slug))?;
-    let computed = regrade::preview(store, id, lesson, Arc::default()).await?;
+    let computed = tokio::select! {
+        computed = regrade::preview(store, identifier(), id, lesson, Arc::default()) => computed?,
+        failed = help(store) => return Err(failed),
+    };
     if json {
         print_json(&computed.shown);
     } else {
@@ -93,6 +105,18 @@ async fn of_lesson(
         }
     }
     Ok(Outcome::Done)
+}
+
+/// Judges what the regrade asks for, beside the graders that there may be; ends only by a failure.
+async fn help(store: &Arc<Store>) -> Problem {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let grader = Grader::new(Arc::clone(store), Arc::default(), Arc::default(), processors, LEASE);
+    loop {
+        if let Err(problem) = grader.judge_again().await {
+            return problem;
+        }
+        sleep(LOOK).await;
+    }
 }
 
 /// In whose name the command line acts: an owner of the class, or at home anybody.

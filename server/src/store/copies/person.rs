@@ -70,6 +70,7 @@ async fn forget(connection: &mut AnyConnection, course: &str, person: &str) -> R
         sql::REMOVE_IDENTITIES,
         sql::REMOVE_SESSIONS,
         sql::REMOVE_GRADINGS,
+        sql::REMOVE_JUDGINGS,
         sql::lti::FORGET_SUBJECT,
         sql::lti::FORGET_SCORES,
     ];

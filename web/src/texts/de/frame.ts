@@ -110,10 +110,14 @@ export const frame = {
     "Dieser Link ist beschädigt: Die Lektion oder Szene wird von Anfang an gezeigt.",
   Fine: "In Ordnung",
   "Back at the start, time 0.": "Wieder am Anfang, Zeit 0.",
-  "The simulation had expired on the server and was started anew, at time 0.":
-    "Die Simulation war auf dem Server abgelaufen und wurde neu gestartet, bei Zeit 0.",
-  "The simulation had expired on the server. A fresh one stands at time 0.":
-    "Die Simulation war auf dem Server abgelaufen. Eine frische steht bei Zeit 0.",
+  "The simulation was gone from the server and was started anew, at the time that was reached.":
+    "Die Simulation gab es auf dem Server nicht mehr; sie wurde neu begonnen, zur erreichten Zeit.",
+  "The simulation was gone from the server and was started anew, at time {time}.":
+    "Die Simulation gab es auf dem Server nicht mehr; sie wurde neu begonnen, zur Zeit {time}.",
+  "The simulation was gone from the server. A fresh one stands at the time that was reached.":
+    "Die Simulation gab es auf dem Server nicht mehr. Eine neue steht zur erreichten Zeit.",
+  "The simulation was gone from the server. A fresh one stands at time {time}.":
+    "Die Simulation gab es auf dem Server nicht mehr. Eine neue steht zur Zeit {time}.",
   "Copy a link to this view": "Link zu dieser Ansicht kopieren",
   "Copy a link to this view: numbers, time, joint, panel":
     "Link zu dieser Ansicht kopieren: Zahlen, Zeit, Gelenk, Tafel",

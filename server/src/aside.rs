@@ -1,0 +1,51 @@
+//! Computing that lets others go first: runs that play, analyses and regrades, beside verdicts and answers.
+
+use tokio::runtime::Handle;
+use tokio::sync::oneshot;
+
+use crate::problem::Problem;
+
+/// How much less such a thread counts than one that answers, in the system's own measure (nice): where 200 runs play on two
+/// processors the runs become slower, and answers do not wait for them.
+#[cfg(target_os = "linux")]
+const LESS: i32 = 10;
+
+/// Lets those who answer go before this thread and those that it starts, where the system can. It stays so.
+pub fn step_back() {
+    #[cfg(target_os = "linux")]
+    rustix::process::setpriority_process(Some(rustix::thread::gettid()), LESS).unwrap_or_default();
+}
+
+/// Runs work on a thread of its own that steps back: those of the runtime serve others afterwards, and could not step forward.
+///
+/// Errors if there is no thread, and as `work` does.
+pub async fn run<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+) -> Result<T, Problem> {
+    let (tell, told) = oneshot::channel();
+    // What is logged there belongs to the request that asked for it.
+    let (runtime, request) = (Handle::current(), tracing::Span::current());
+    let thread = std::thread::Builder::new().name("triad-aside".into());
+    let begun = thread.spawn(move || {
+        let _runtime = runtime.enter();
+        step_back();
+        drop(tell.send(request.in_scope(work)));
+    });
+    begun.map_err(Problem::internal)?;
+    told.await.map_err(Problem::internal)?
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn what_runs_aside_counts_less_and_the_others_as_before() {
+        let own = || rustix::process::getpriority_process(Some(rustix::thread::gettid())).ok();
+        let before = own().expect("a priority");
+        let aside = run(move || Ok(own())).await.expect("runs").expect("a priority");
+        assert_eq!((aside, own()), ((before + LESS).min(19).max(LESS), Some(before)));
+        let broken = run(|| -> Result<(), Problem> { std::panic::panic_any(()) }).await;
+        assert_eq!(broken.expect_err("says so").code(), "internal");
+    }
+}
