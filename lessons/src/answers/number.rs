@@ -294,6 +294,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::too_many_lines)] // one line for each way to write a number
     fn further_spellings() {
         for (text, wanted) in [
             ("- 2", -2.0),

@@ -293,7 +293,7 @@ fn titles(names: &[String], places: &[Vec<Place>]) -> String {
         });
         format!(
             "<text x=\"{:.1}\" y=\"{LINE}\" text-anchor=\"middle\" font-weight=\"bold\" fill=\"currentColor\">{}</text>",
-            (left + right) / 2.0,
+            f64::midpoint(left, right),
             escape(name)
         )
     };

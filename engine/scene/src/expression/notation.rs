@@ -24,12 +24,11 @@ fn without_modules(text: &str) -> String {
     while let Some(c) = rest.chars().next() {
         let begins = !out.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '.');
         let behind = MODULES.iter().filter(|_| begins).find_map(|module| rest.strip_prefix(module));
-        match behind.filter(|behind| behind.starts_with(|c: char| c.is_alphabetic())) {
-            Some(behind) => rest = behind,
-            None => {
-                out.push(c);
-                rest = &rest[c.len_utf8()..];
-            }
+        if let Some(behind) = behind.filter(|behind| behind.starts_with(|c: char| c.is_alphabetic())) {
+            rest = behind;
+        } else {
+            out.push(c);
+            rest = &rest[c.len_utf8()..];
         }
     }
     out

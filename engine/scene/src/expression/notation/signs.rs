@@ -83,9 +83,14 @@ fn root(out: &mut String, name: &str, after: &[char]) -> usize {
 /// One character for one: dashes, dots, spaces, full-width and mathematical letters; nothing for what cannot be seen.
 fn letter(c: char) -> Option<char> {
     Some(match c {
-        '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{2064}' | '\u{ad}' => return None,
-        // The hat of a unit vector, the arrow over a vector, the dot over a rate.
-        '\u{302}' | '\u{307}' | '\u{20d7}' => return None,
+        // With the hat of a unit vector, the arrow over a vector, the dot over a rate.
+        '\u{feff}'
+        | '\u{200b}'..='\u{200f}'
+        | '\u{2060}'..='\u{2064}'
+        | '\u{ad}'
+        | '\u{302}'
+        | '\u{307}'
+        | '\u{20d7}' => return None,
         'î' => 'i',
         'ĵ' => 'j',
         'ŷ' => 'y',
