@@ -100,6 +100,27 @@ fn hanging(server: &Server, session: &str) -> Vec<TcpStream> {
     open
 }
 
+/// Lets students ask while the sessions play, and prints how long they waited.
+fn measure(server: &Server, players: &[Player], pause: Duration) {
+    let (before, began, busy) = (times(server, players), Instant::now(), server.processor_time());
+    let waits = ask_around(server, players, ROUNDS * players.len(), pause);
+    let (wall, busy) = (began.elapsed().as_secs_f64(), server.processor_time().saturating_sub(busy));
+    let [least, median] = pace(&before, &times(server, players), wall);
+    println!("{} sessions of {SCENE} play and are watched, {wall:.1} s", players.len());
+    println!("  simulated seconds a second: {median:.2} median, {least:.2} least");
+    println!(
+        "  server: {:.2} processors, {:.0} MB, {:.0} threads",
+        busy.as_secs_f64() / wall,
+        server.memory(),
+        server.threads()
+    );
+    for (what, calls, [half, most, all]) in waits.table() {
+        println!(
+            "  {what:<10} {calls:>6} calls, ms: {half:>7.1} median, {most:>7.1} p99, {all:>7.1} longest"
+        );
+    }
+}
+
 #[test]
 fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
     let wanted = std::env::var("TRIAD_LOAD").ok().map(|count| count.parse().unwrap());
@@ -124,24 +145,7 @@ fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
     );
 
     let players: Vec<Player> = (0..count).map(|_| Player::start(&server, SCENE)).collect();
-    let (before, began, busy) = (times(&server, &players), Instant::now(), server.processor_time());
-    let pause = wanted.map_or(Duration::ZERO, |_| PAUSE);
-    let waits = ask_around(&server, &players, ROUNDS * count, pause);
-    let (wall, busy) = (began.elapsed().as_secs_f64(), server.processor_time().saturating_sub(busy));
-    let [least, median] = pace(&before, &times(&server, &players), wall);
-    println!("{count} sessions of {SCENE} play and are watched, {wall:.1} s");
-    println!("  simulated seconds a second: {median:.2} median, {least:.2} least");
-    println!(
-        "  server: {:.2} processors, {:.0} MB, {:.0} threads",
-        busy.as_secs_f64() / wall,
-        server.memory(),
-        server.threads()
-    );
-    for (what, calls, [half, most, all]) in waits.table() {
-        println!(
-            "  {what:<10} {calls:>6} calls, ms: {half:>7.1} median, {most:>7.1} p99, {all:>7.1} longest"
-        );
-    }
+    measure(&server, &players, wanted.map_or(Duration::ZERO, |_| PAUSE));
     // Nobody was sent away, every submission is kept, and every watcher was served.
     let kept = server.get("/api/v1/submissions?limit=1000").json();
     assert_eq!(kept.as_array().map(Vec::len), Some((1 + ROUNDS * count).min(1000)));
