@@ -5,6 +5,7 @@ mod spatial;
 
 mod edge;
 mod tree;
+mod tree_dynamics;
 
 mod numbers;
 

@@ -1,20 +1,26 @@
 //! Whether a scene is stiff: whether an explicit method would take its steps from stability instead of accuracy.
 
+use crate::scene::ConstraintMethod;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state;
 
-/// Decays of a load in a run above which an implicit method pays: the steps of the series grow with their number, those of the
-/// implicit method with how far the mechanism moves. Measured in processor time, both cost the same at `MANY_DECAYS` and
-/// `DECAYS_A_RADIAN` more for each radian of the motion: at 5e3 on three rods in 4 s, at 1.2e4 on the flyball governor in 10 s.
-/// At tolerances from 1e-3 to 1e-10 alike: at tighter ones the implicit method takes more steps, the series dearer ones.
+/// Decays of a load in a run above which an implicit method pays where loops, drivers or dry friction leave multipliers to solve
+/// for: the steps of the series grow with their number, those of the implicit method with how far the mechanism moves. Both cost
+/// the same at `MANY_DECAYS` and `DECAYS_A_RADIAN` more for each radian of the motion, at tolerances from 1e-3 to 1e-10 alike: at
+/// tighter ones the implicit method takes more steps, the series dearer ones.
 const MANY_DECAYS: f64 = 1.5e3;
 const DECAYS_A_RADIAN: f64 = 200.0;
+/// The same on open trees. Measured in processor time with the estimate of errors, both cost the same at 1.4e3 decays on three rods in
+/// 4 s, at 3e3 on eight, and at 2.3e3 on the flyball governor in 10 s.
+const MANY_DECAYS_OPEN: f64 = 7e2;
+const DECAYS_A_RADIAN_OPEN: f64 = 25.0;
 /// Radians of an oscillation that may be left out that are as costly for the series as a decay.
 const RADIANS_A_DECAY: f64 = 0.4;
 /// Freedoms that make an evaluation of the implicit method twice as dear, for its Jacobian matrix, and how much dearer it is
 /// where loops must be closed.
 const MANY_FREEDOMS: f64 = 16.0;
+const MANY_FREEDOMS_OPEN: f64 = 4.0;
 const CLOSED: f64 = 3.0;
 /// Rate of an oscillation's coordinate above which it counts as excited, in tolerances times the length of the mechanism for each
 /// second: only what is smaller may be left out.
@@ -71,9 +77,13 @@ fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> f64 {
     let system = &mechanism.system;
     let (settings, gravity) = (&system.model.settings, system.model.gravity.norm());
     // How far the mechanism moves, by its velocities or as a pendulum of its length would.
-    let pace = state::fastest(system, y).max((gravity / system.length).sqrt());
-    let dearer = if system.constraints.len() > system.bodies.len() { CLOSED } else { 1.0 };
-    (MANY_DECAYS + DECAYS_A_RADIAN * pace * settings.duration)
-        * (1.0 + freedoms as f64 / MANY_FREEDOMS)
-        * dearer
+    let radians = state::fastest(system, y).max((gravity / system.length).sqrt()) * settings.duration;
+    let closed = system.constraints.len() > system.bodies.len();
+    let partitioned = settings.constraint_method == ConstraintMethod::Partitioning;
+    if closed || partitioned || !system.frictions.is_empty() || system.regularizes_inertia() {
+        let dearer = if closed { CLOSED } else { 1.0 };
+        (MANY_DECAYS + DECAYS_A_RADIAN * radians) * (1.0 + freedoms as f64 / MANY_FREEDOMS) * dearer
+    } else {
+        (MANY_DECAYS_OPEN + DECAYS_A_RADIAN_OPEN * radians) * (1.0 + freedoms as f64 / MANY_FREEDOMS_OPEN)
+    }
 }

@@ -236,9 +236,9 @@ impl Chart {
         self.numbers.commit(found.p.as_slice());
     }
 
-    /// η̈ = L p̈ of the accelerations that were solved last, at the state in place, which is the guess.
-    pub fn accelerations(&mut self, mechanism: &Mechanism, guess: &Guess, out: &mut [f64]) {
-        self.numbers.second_derivatives(mechanism, &guess.p_dot, &mut self.change);
+    /// Writes η̈ = L p̈ at the state in place, which is the guess; `moved` says that the positions are others than last time.
+    pub fn accelerate(&mut self, mechanism: &mut Mechanism, guess: &Guess, moved: bool, out: &mut [f64]) {
+        self.numbers.accelerate(mechanism, &guess.p_dot, moved, &mut self.change);
         self.gap.gemv(1.0, &self.functionals, &self.change, 0.0);
         out.copy_from_slice(self.gap.as_slice());
     }

@@ -1,6 +1,7 @@
 //! The numbers among which a chart chooses: the coordinates q themselves, or those of joints along a tree.
 
 use super::tree::Tree;
+use super::tree_dynamics::TreeDynamics;
 use nalgebra::{DMatrix, DVector, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::model::{BodyMotion, Motions};
@@ -17,6 +18,8 @@ pub enum Numbers {
         tree: Box<Tree>,
         /// Room for a correction of q, which the bodies' own motions say better.
         unused: Vec<f64>,
+        /// The equations of motion in these coordinates, where the tree alone decides how the mechanism moves.
+        dynamics: Option<Box<TreeDynamics>>,
     },
 }
 
@@ -24,7 +27,9 @@ impl Numbers {
     /// Coordinates of joints about the state in place.
     pub fn joints(mechanism: &Mechanism) -> Self {
         let unused = vec![0.0; mechanism.system.coordinates];
-        Self::Joints { tree: Box::new(Tree::new(mechanism)), unused }
+        let tree = Box::new(Tree::new(mechanism));
+        let dynamics = TreeDynamics::new(mechanism, &tree).map(Box::new);
+        Self::Joints { tree, unused, dynamics }
     }
 
     /// How many they are.
@@ -86,7 +91,7 @@ impl Numbers {
         let Mechanism { system, state, elimination, .. } = mechanism;
         match self {
             Self::Coordinates => elimination.correct_positions(system, state, p.as_mut_slice()),
-            Self::Joints { tree, unused } => {
+            Self::Joints { tree, unused, .. } => {
                 let size = elimination.correct_positions(system, state, unused);
                 tree.rates(|body| elimination.bodies()[body].twist, change.as_mut_slice());
                 *p += &*change;
@@ -105,7 +110,7 @@ impl Numbers {
         let Mechanism { system, state, elimination, .. } = mechanism;
         match self {
             Self::Coordinates => elimination.correct_velocities(system, state, p_dot.as_mut_slice()),
-            Self::Joints { tree, unused } => {
+            Self::Joints { tree, unused, .. } => {
                 let size = elimination.correct_velocities(system, state, unused);
                 tree.rates(|body| elimination.bodies()[body].twist, change.as_mut_slice());
                 *p_dot += &*change;
@@ -114,16 +119,25 @@ impl Numbers {
         }
     }
 
-    /// Writes p̈ of the accelerations that were solved last, at the state in place.
-    pub fn second_derivatives(
+    /// Writes p̈ at the state in place, where the rates are ṗ; `moved` says that the positions are others than last time.
+    pub fn accelerate(
         &mut self,
-        mechanism: &Mechanism,
+        mechanism: &mut Mechanism,
         p_dot: &DVector<f64>,
+        moved: bool,
         out: &mut DVector<f64>,
     ) {
+        if let Self::Joints { tree, dynamics: Some(dynamics), .. } = self {
+            dynamics.accelerate(mechanism, tree, p_dot.as_slice(), moved, out.as_mut_slice());
+            return;
+        }
         let Mechanism { system, state, elimination, .. } = mechanism;
+        if moved {
+            elimination.linearize(system, state);
+        }
+        let found = elimination.accelerate_here(system, state, (0.0, 0.0));
         match self {
-            Self::Coordinates => elimination.last_accelerations(system, state).write(out.as_mut_slice()),
+            Self::Coordinates => found.write(out.as_mut_slice()),
             Self::Joints { tree, .. } => {
                 // ω̇ = ½ Σ e_k × ë_k: what was solved is the part of ω̇ beyond the particular acceleration, which for a reduced
                 // body has one of its own.

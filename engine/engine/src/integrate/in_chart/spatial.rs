@@ -60,6 +60,11 @@ impl Twist {
         self.flow + self.spin.cross(at)
     }
 
+    /// The same with the velocity of the point at `center` in the place of that at the origin.
+    pub fn about(&self, center: &Vector3<f64>) -> Self {
+        Self { spin: self.spin, flow: self.at(center) }
+    }
+
     /// Rate of a twist that is constant in a frame that moves with this one.
     pub fn drag(&self, carried: &Self) -> Self {
         Self {

@@ -18,6 +18,8 @@ const LONGEST_TURN: f64 = 1.5;
 pub struct Tree {
     /// Each after the one of its parent.
     edges: Vec<Edge>,
+    /// How many of them are joints: the others are bodies that move freely.
+    joints: usize,
     length: f64,
     /// Angles that must not turn far within a step, with their values at its start: none where nothing counts turns.
     watched: Vec<(usize, f64)>,
@@ -38,7 +40,7 @@ impl Tree {
         let system = &mechanism.system;
         let bodies = system.bodies.len();
         let places: Vec<Placement> = mechanism.state.bodies().iter().map(placement).collect();
-        let edges = span(system, &places);
+        let (edges, joints) = span(system, &places);
         let coordinates = edges.last().map_or(0, |edge| edge.range().end);
         let counts = !system.angles.is_empty();
         let watched = edges.iter().filter(|_| counts).flat_map(Edge::angles).map(|place| (place, 0.0));
@@ -52,7 +54,33 @@ impl Tree {
             accelerations: vec![Twist::zero(); bodies],
             natural: vec![NaturalCoordinates::default(); bodies],
             edges,
+            joints,
         }
+    }
+
+    /// How each body moves against another, each after the one of its parent.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// Number of joints that hold by themselves.
+    pub fn joints(&self) -> usize {
+        self.joints
+    }
+
+    /// Twist of a coordinate at the positions in place.
+    pub fn twist(&self, place: usize) -> &Twist {
+        &self.twists[place]
+    }
+
+    /// How that twist changes for each unit of its coordinate's rate, at the velocities in place.
+    pub fn drag(&self, place: usize) -> &Twist {
+        &self.drags[place]
+    }
+
+    /// Twist of a body at the velocities in place.
+    pub fn velocity(&self, body: usize) -> &Twist {
+        &self.velocities[body]
     }
 
     /// Number of coordinates.
@@ -181,11 +209,12 @@ fn placement(body: &BodyState) -> Placement {
     Placement { turn: Matrix3::from_columns(&body.q.e), at: body.q.r }
 }
 
-/// Edges that reach all bodies from the ground, each by the joint that leaves the fewest motions; a body that no such joint holds
-/// moves freely.
-fn span(system: &System, places: &[Placement]) -> Vec<Edge> {
+/// Edges that reach all bodies from the ground, each by the joint that leaves the fewest motions, and how many are joints; a body that
+/// no such joint holds moves freely.
+fn span(system: &System, places: &[Placement]) -> (Vec<Edge>, usize) {
     let mut reached = vec![false; places.len()];
     let mut edges: Vec<Edge> = Vec::with_capacity(places.len());
+    let mut joints = 0;
     let known = |reached: &[bool], body: BodyRef| match body {
         BodyRef::Ground => true,
         BodyRef::Moving(body) => reached[body],
@@ -205,6 +234,7 @@ fn span(system: &System, places: &[Placement]) -> Vec<Edge> {
                 BodyRef::Ground => None,
                 BodyRef::Moving(parent) => Some(parent),
             };
+            joints += 1;
             let from = parent.map_or_else(Placement::identity, |parent| places[parent]);
             Edge::by_joint(joint, side, [body, first], parent, places[body].seen_from(&from))
         } else {
@@ -214,5 +244,5 @@ fn span(system: &System, places: &[Placement]) -> Vec<Edge> {
         reached[edge.body] = true;
         edges.push(edge);
     }
-    edges
+    (edges, joints)
 }

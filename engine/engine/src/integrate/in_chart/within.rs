@@ -8,6 +8,7 @@ use crate::integrate::stepper::{OdeMethod, Stepper};
 use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::system::System;
 
 /// The mechanism in the coordinates of a chart.
 struct InCoordinates<'a> {
@@ -40,12 +41,12 @@ impl InCoordinates<'_> {
         self.found
     }
 
-    /// The rate of x at the state in place, whose accelerations were solved.
-    fn write_rate(&mut self, x: &[f64], rate: &mut [f64]) {
+    /// The rate of x at the state in place; `moved` says that the positions are others than last time.
+    fn write_rate(&mut self, x: &[f64], moved: bool, rate: &mut [f64]) {
         let guess = self.at.and_then(|stage| self.at_stages.get(stage)).unwrap_or(self.guess);
         let f = self.chart.freedoms();
         rate[..f].copy_from_slice(&x[f..]);
-        self.chart.accelerations(self.mechanism, guess, &mut rate[f..]);
+        self.chart.accelerate(self.mechanism, guess, moved, &mut rate[f..]);
     }
 }
 
@@ -56,9 +57,7 @@ impl OdeSystem for InCoordinates<'_> {
             rate.fill(f64::NAN);
             return;
         }
-        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
-        elimination.accelerate(system, state, (0.0, 0.0));
-        self.write_rate(x, rate);
+        self.write_rate(x, true, rate);
     }
 
     fn rhs_at_rates(&mut self, _: f64, x: &[f64], rate: &mut [f64]) {
@@ -67,9 +66,7 @@ impl OdeSystem for InCoordinates<'_> {
             rate.fill(f64::NAN);
             return;
         }
-        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
-        elimination.accelerate_here(system, state, (0.0, 0.0));
-        self.write_rate(x, rate);
+        self.write_rate(x, false, rate);
     }
 
     fn power_at(&mut self, t: f64, x: &[f64]) -> Option<f64> {
@@ -77,7 +74,7 @@ impl OdeSystem for InCoordinates<'_> {
             return None;
         }
         let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
-        if system.model.drivers.is_empty() && system.frictions.is_empty() {
+        if !follows_reactions(system) {
             return Some(load_power(system, state));
         }
         Some(power(&elimination.accelerate(system, state, (0.0, 0.0)).multipliers))
@@ -99,7 +96,13 @@ impl OdeSystem for InCoordinates<'_> {
 
     fn power(&self) -> Option<f64> {
         let Mechanism { system, state, elimination, .. } = &*self.mechanism;
-        (!system.is_conservative()).then(|| power(&elimination.last_accelerations(system, state).multipliers))
+        (!system.is_conservative()).then(|| {
+            if follows_reactions(system) {
+                power(&elimination.last_accelerations(system, state).multipliers)
+            } else {
+                load_power(system, state)
+            }
+        })
     }
 
     fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {
@@ -110,6 +113,11 @@ impl OdeSystem for InCoordinates<'_> {
         self.mechanism.state.commit_revolutions();
         self.chart.commit(self.guess);
     }
+}
+
+/// Whether something that changes the energy follows from reactions.
+fn follows_reactions(system: &System) -> bool {
+    !(system.model.drivers.is_empty() && system.frictions.is_empty())
 }
 
 /// How a method is started.

@@ -33,6 +33,9 @@ pub struct Factors {
     pub h: f64,
     real: RealLu,
     pairs: Vec<ComplexLu>,
+    /// The halves a of solutions.
+    half: DVector<f64>,
+    half_pair: DVector<Complex<f64>>,
 }
 
 impl Factors {
@@ -55,41 +58,41 @@ impl Factors {
         });
         let pairs: Vec<ComplexLu> = pairs.collect();
         let regular = real.is_invertible() && pairs.iter().all(ComplexLu::is_invertible);
-        regular.then_some(Self { h, real, pairs })
+        regular.then(|| Self { h, real, pairs, half: DVector::zeros(f), half_pair: DVector::zeros(f) })
     }
 
     /// (μ I − J)⁻¹ r with the real μ, in place. From the halves of (μ I − J)(a, b) = r:
     /// b = μ a − r_a, (μ² − μ C − K) a = r_b + (μ − C) r_a.
-    pub fn solve_real(&self, jacobian: &RateJacobian, tables: &Tables, r: &mut DVector<f64>) {
-        let f = r.len() / 2;
-        let mu = tables.real / self.h;
-        let top = r.rows(0, f).into_owned();
-        let mut a = r.rows(f, f) + &top * mu;
-        a.gemv(-1.0, &jacobian.damping, &top, 1.0);
-        self.real.solve_mut(&mut a);
-        r.rows_mut(f, f).copy_from(&(&a * mu - top));
-        r.rows_mut(0, f).copy_from(&a);
+    pub fn solve_real(&mut self, jacobian: &RateJacobian, tables: &Tables, r: &mut DVector<f64>) {
+        let (f, mu, a) = (r.len() / 2, tables.real / self.h, &mut self.half);
+        for i in 0..f {
+            a[i] = r[f + i] + r[i] * mu;
+        }
+        a.gemv(-1.0, &jacobian.damping, &r.rows(0, f), 1.0);
+        self.real.solve_mut(a);
+        for i in 0..f {
+            (r[i], r[f + i]) = (a[i], a[i] * mu - r[i]);
+        }
     }
 
     /// The same with the complex μ of a pair.
     pub fn solve_pair(
-        &self,
+        &mut self,
         jacobian: &RateJacobian,
         tables: &Tables,
         pair: usize,
         r: &mut DVector<Complex<f64>>,
     ) {
-        let f = r.len() / 2;
-        let mu = tables.pairs[pair] / self.h;
-        let top = r.rows(0, f).into_owned();
-        let mut a = r.rows(f, f) + &top * mu;
+        let (f, mu, a) = (r.len() / 2, tables.pairs[pair] / self.h, &mut self.half_pair);
         for i in 0..f {
+            a[i] = r[f + i] + r[i] * mu;
             for j in 0..f {
-                a[i] -= top[j] * jacobian.damping[(i, j)];
+                a[i] -= r[j] * jacobian.damping[(i, j)];
             }
         }
-        self.pairs[pair].solve_mut(&mut a);
-        r.rows_mut(f, f).copy_from(&(&a * mu - top));
-        r.rows_mut(0, f).copy_from(&a);
+        self.pairs[pair].solve_mut(a);
+        for i in 0..f {
+            (r[i], r[f + i]) = (a[i], a[i] * mu - r[i]);
+        }
     }
 }

@@ -42,8 +42,9 @@ impl Updates {
     /// Makes the correction better by those before it, in the norm of numbers times `scale`, which repeats. Returns its size.
     pub fn improve(&mut self, scale: &[f64]) -> f64 {
         let product = |a: &[f64], b: &[f64]| -> f64 {
-            let weights = scale.iter().cycle();
-            a.iter().zip(b).zip(weights).map(|((a, b), weight)| a * weight * (b * weight)).sum()
+            let parts = a.chunks_exact(scale.len().max(1)).zip(b.chunks_exact(scale.len().max(1)));
+            let terms = parts.flat_map(|(a, b)| a.iter().zip(b).zip(scale));
+            terms.fold(0.0, |sum, ((a, b), weight)| sum + a * weight * (b * weight))
         };
         let made = self.squares.len();
         let (before, rest) = self.steps.split_at_mut(made);
