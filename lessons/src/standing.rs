@@ -35,7 +35,7 @@ fn of_question(question: &Question, opens: OpensFile, attempts: &[Attempt]) -> Q
     for attempt in attempts.iter().filter(|attempt| attempt.verdict.gradable) {
         let given = attempt.verdict.questions.iter().find(|q| q.id == question.id);
         let (Some(given), Some(answer)) = (given, attempt.answers.get(&question.id)) else { continue };
-        if found.open || !matches!(given.verdict, Mark::Right | Mark::Wrong) {
+        if found.open || !matches!(given.verdict, Mark::Right | Mark::Wrong | Mark::Kept) {
             continue;
         }
         found.best = found.best.max(given.earned);
@@ -54,6 +54,8 @@ fn most_attempts(question: &Question, opens: OpensFile) -> Option<usize> {
     let most = match &question.body {
         // When one option is left it is known.
         QuestionBody::Choice { options, .. } => opens.choices.map(|n| n.min(options.len().saturating_sub(1))),
+        // There is no right one.
+        QuestionBody::Explanation(_) => None,
         _ => opens.attempts,
     };
     most.map(|most| most.max(1))

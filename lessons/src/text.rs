@@ -27,3 +27,8 @@ pub(crate) fn plain(value: f64) -> String {
     }
     rounded.to_string()
 }
+
+/// Words of a text: what has a letter between spaces.
+pub(crate) fn words(text: &str) -> usize {
+    text.split_whitespace().filter(|word| word.chars().any(char::is_alphabetic)).count()
+}

@@ -95,7 +95,7 @@ pub async fn data(course: Course) -> Result<Files, Problem> {
     let lessons = course.lessons().to_vec();
     let server = crate::app(App::new(course, Store::in_memory(), Limits::default()));
     let mut files = Files::new();
-    for path in ["/me", "/lessons", "/schema/scene"] {
+    for path in ["/me", "/lessons", "/notions", "/schema/scene"] {
         add(&mut files, &server, path, "json").await?;
     }
     // A family of scenes is shown by its second.

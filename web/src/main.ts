@@ -87,6 +87,10 @@ function routes(main: HTMLElement): void {
         open: lazily(t("Student"), () => import("./class/student").then((page) => page.studentPage)),
       },
       {
+        pattern: /^\/course$/,
+        open: lazily(t("The course"), () => import("./pages/course").then((page) => page.coursePage)),
+      },
+      {
         pattern: /^\/scenes$/,
         open: lazily(t("Scenes"), () => import("./pages/scenes").then((page) => page.scenesPage)),
       },

@@ -35,7 +35,7 @@ pub(super) fn blank_fails(found: &mut Findings) {
 /// The references must pass.
 pub(super) fn reference_passes(found: &mut Findings) {
     let Ok(verdict) = grade(found.lesson, &reference_submission(found.lesson)) else { return };
-    for question in verdict.questions.iter().filter(|q| q.verdict != Mark::Right) {
+    for question in verdict.questions.iter().filter(|q| !matches!(q.verdict, Mark::Right | Mark::Kept)) {
         let what = format!("its own reference is judged {:?}", question.verdict);
         found.question(&question.id, what, "compare reference/answers.toml with the question");
     }
@@ -150,6 +150,7 @@ fn misconceptions(question: &Question) -> Vec<&str> {
         QuestionBody::Formula(f) => f.misconceptions.iter().map(|(id, ..)| id.as_str()).collect(),
         QuestionBody::Choice { .. }
         | QuestionBody::Diagram(_)
+        | QuestionBody::Explanation(_)
         | QuestionBody::Implement(_)
         | QuestionBody::Trajectory(_)
         | QuestionBody::Model(_)

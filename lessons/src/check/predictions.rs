@@ -40,6 +40,10 @@ pub(super) fn written(course: &Course, found: &mut Findings) {
         if !(one.points.is_finite() && one.points >= 0.0) {
             fault(found, id, "its points are negative", "give points for predicting, or none");
         }
+        if !one.with.is_empty() && one.measured.is_none() {
+            let remedy = "say in measured where the run with these numbers shows it";
+            fault(found, id, "it sets parameters and measures nothing", remedy);
+        }
         let duration = lesson.scene.pointer("/simulation/duration").and_then(serde_json::Value::as_f64);
         if !(0.0..=duration.unwrap_or(f64::INFINITY)).contains(&one.seen_at) {
             fault(found, id, "the run ends before seen_at", "give a time of the run, in seconds");
@@ -82,6 +86,8 @@ pub(super) fn happen(found: &mut Findings) {
         let Some(measured) = &one.measured else { continue };
         let value =
             Scene::from_json(&lesson.scene.to_string()).map_err(|e| e.to_string()).and_then(|scene| {
+                let values = one.with.iter().map(|(name, value)| (name.as_str(), *value));
+                let scene = scene.changed(values, []).map_err(|e| e.to_string())?;
                 let mut run = start(&scene).map_err(|e| e.to_string())?;
                 run.advance_to(measured.time).map_err(|e| e.to_string())?;
                 measure(&scene, &run, measured).map_err(|e| e.to_string())

@@ -32,6 +32,15 @@ pub(super) fn itself(question: &Question, found: &mut Findings) {
             }
         }
         QuestionBody::Formula(f) => formula(id, f, found),
+        QuestionBody::Explanation(e) => {
+            if e.purpose.trim().is_empty() {
+                found.question(
+                    id,
+                    "its purpose is empty",
+                    "say in a sentence what the explanation is to show",
+                );
+            }
+        }
         QuestionBody::Diagram(_)
         | QuestionBody::Implement(_)
         | QuestionBody::Trajectory(_)

@@ -39,6 +39,9 @@ pub(super) fn reference_answer(lesson: &Lesson, question: &Question) -> Answer {
         }
         QuestionBody::Trajectory(task) => reference_csv(task, 1000).map(file).unwrap_or_default(),
         QuestionBody::Model(task) => file(task.reference.to_json()),
+        QuestionBody::Explanation(task) => {
+            Answer { value: Some(TypedValue::Text(task.example.clone())), ..Answer::default() }
+        }
         QuestionBody::Tuning(task) => Answer { settings: Some(task.reference.clone()), ..Answer::default() },
     }
 }

@@ -27,7 +27,10 @@ pub(super) fn task(question: &Question, found: &mut Findings) {
             model(found, id, task);
             Ok(())
         }
-        QuestionBody::Quantity(_) | QuestionBody::Choice { .. } | QuestionBody::Formula(_) => Ok(()),
+        QuestionBody::Quantity(_)
+        | QuestionBody::Choice { .. }
+        | QuestionBody::Formula(_)
+        | QuestionBody::Explanation(_) => Ok(()),
     };
     if let Err(problem) = done {
         found.question(id, problem, "correct the question or its scene");

@@ -41,7 +41,10 @@ pub(super) fn all_fit(found: &mut Findings) {
         let reference = reference(&lesson, k < RUN);
         let Ok(verdict) = grade(&lesson, &reference) else { return };
         let answered = |id: &String| reference.answers.contains_key(id);
-        if let Some(question) = verdict.questions.iter().find(|q| answered(&q.id) && q.verdict != Mark::Right)
+        if let Some(question) = verdict
+            .questions
+            .iter()
+            .find(|q| answered(&q.id) && !matches!(q.verdict, Mark::Right | Mark::Kept))
         {
             let what = format!("its reference is judged {:?} for {numbers}", question.verdict);
             return found.question(

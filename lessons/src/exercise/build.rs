@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::context::{BuildContext, BuildError, QuestionError, build_error, refuse};
 use super::question::{Exercise, QuantityQuestion, Question, QuestionBody};
-use super::{closed, diagram, pools, quantity, tasks};
+use super::{closed, diagram, explanation, pools, quantity, tasks};
 use crate::answers::tolerance::ValueShape;
 use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile, earlier_value};
 
@@ -81,6 +81,7 @@ fn build_question(
         QuestionKind::Trajectory => tasks::trajectory(&question, context),
         QuestionKind::Model => tasks::model(&question, context),
         QuestionKind::Tuning => tasks::tuning(&question, &reference, context),
+        QuestionKind::Explanation => explanation::explanation(&question, &reference),
     }?;
     foreign_tables(&question)?;
     let fill = |text: &String| context.parameters.fill(text);
@@ -137,5 +138,6 @@ fn foreign_tables(question: &QuestionFile) -> Result<(), BuildError> {
     refuse(question.trajectory.is_some() && kind != Kind::Trajectory, "the table trajectory", &name)?;
     refuse(question.model.is_some() && kind != Kind::Model, "the table model", &name)?;
     refuse(question.tuning.is_some() && kind != Kind::Tuning, "the table tuning", &name)?;
+    refuse(question.explanation.is_some() && kind != Kind::Explanation, "the table explanation", &name)?;
     refuse(question.follows.is_some() && !quantity, "the table follows", &name)
 }

@@ -7,6 +7,7 @@ mod context;
 pub(crate) mod cut;
 pub mod derivation;
 mod diagram;
+mod explanation;
 pub mod parameters;
 mod pools;
 mod quantity;
@@ -20,6 +21,6 @@ pub use diagram::Diagram;
 pub use parameters::Parameters;
 pub(crate) use quantity::numbers;
 pub use question::{
-    ChoiceOption, Exercise, Formula, Implement, Misconception, ModelTask, QuantityQuestion, Question,
-    QuestionBody, Trajectory, Tuning,
+    ChoiceOption, Exercise, Explanation, Formula, Implement, Misconception, ModelTask, QuantityQuestion,
+    Question, QuestionBody, Trajectory, Tuning,
 };

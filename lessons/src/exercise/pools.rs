@@ -25,14 +25,20 @@ impl Exercise {
         self.questions.retain(|question| question.pool.is_none() || dealt.contains(&question.id));
     }
 
-    /// The points that a student can reach, whichever questions the pools deal.
+    /// The points that a program gives at most, whichever questions the pools deal. Those of explanations come on top of them.
     pub fn possible(&self) -> f64 {
-        let common = self.questions.iter().filter(|q| q.pool.is_none()).map(|q| q.points).sum::<f64>();
+        let is_common = |q: &&Question| q.pool.is_none() && !q.is_judged_by_people();
+        let common = self.questions.iter().filter(is_common).map(|q| q.points).sum::<f64>();
         let dealt = self.draw.iter().map(|(pool, count)| {
             let points = self.pool(pool).map(|q| q.points);
             points.take(*count).sum::<f64>()
         });
         common + dealt.sum::<f64>()
+    }
+
+    /// The points that people give at most.
+    pub fn by_people(&self) -> f64 {
+        self.questions.iter().filter(|q| q.is_judged_by_people()).map(|q| q.points).sum()
     }
 
     /// The largest number of points that such questions can have in anybody's hand.

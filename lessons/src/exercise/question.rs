@@ -53,6 +53,11 @@ pub struct Question {
 }
 
 impl Question {
+    /// Whether people judge the answer: no program gives its points.
+    pub fn is_judged_by_people(&self) -> bool {
+        matches!(self.body, QuestionBody::Explanation(_))
+    }
+
     /// Every text of the question that a student can come to see.
     pub fn texts(&self) -> Vec<&str> {
         let mut texts = vec![self.prompt.as_str(), self.right.as_str()];
@@ -65,6 +70,7 @@ impl Question {
             QuestionBody::Formula(f) => {
                 texts.extend(f.misconceptions.iter().map(|(.., feedback)| feedback.as_str()));
             }
+            QuestionBody::Explanation(e) => texts.extend([e.purpose.as_str(), e.example.as_str()]),
             QuestionBody::Model(m) => texts.extend(m.watches().iter().map(|w| w.feedback.as_str())),
             QuestionBody::Diagram(_)
             | QuestionBody::Implement(_)
@@ -101,6 +107,8 @@ pub enum QuestionBody {
     Model(ModelTask),
     /// Settings under a budget.
     Tuning(Tuning),
+    /// Words that people judge.
+    Explanation(Explanation),
 }
 
 /// Numbers with a unit.
@@ -167,6 +175,17 @@ pub struct Formula {
     pub reference_text: String,
     /// Wrong formulas that are recognised: name, formula, feedback.
     pub misconceptions: Vec<(String, Expression, String)>,
+}
+
+/// An explanation that people judge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// What it is to show (Markdown).
+    pub purpose: String,
+    /// Words from which it is taken.
+    pub min_words: usize,
+    /// A good one (Markdown).
+    pub example: String,
 }
 
 /// The equations of a mechanism at given states.

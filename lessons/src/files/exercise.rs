@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::diagram::DiagramFile;
+use super::explanation::ExplanationFile;
 use super::tasks::{FollowFile, ImplementFile, ModelFile, TrajectoryFile, TuningFile, WrongModelFile};
 use crate::answers::TypedValue;
 
@@ -77,6 +78,8 @@ pub enum QuestionKind {
     Model,
     /// Settings of a run under a budget.
     Tuning,
+    /// An explanation in words, judged by people.
+    Explanation,
 }
 
 /// One question. Which keys it needs depends on its kind.
@@ -128,6 +131,8 @@ pub struct QuestionFile {
     pub model: Option<ModelFile>,
     /// What may be chosen, and the budget (tuning).
     pub tuning: Option<TuningFile>,
+    /// What is to be explained (explanation).
+    pub explanation: Option<ExplanationFile>,
 }
 
 /// How close is close enough.

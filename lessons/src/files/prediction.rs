@@ -1,5 +1,7 @@
 //! `[[prediction]]` of `lesson.toml`: what students say before they run the scene, and what the run shows then.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -24,6 +26,9 @@ pub struct PredictionFile {
     /// Points for having predicted, right or wrong. Skipping earns none.
     #[serde(default)]
     pub points: f64,
+    /// Parameters of the scene that are set before the run, by name: the page sets them when the prediction is given.
+    #[serde(default)]
+    pub with: BTreeMap<String, f64>,
     /// Id of the option that comes true.
     pub happens: String,
     /// What the run shows, and why it does, in Markdown.

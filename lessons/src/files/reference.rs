@@ -13,7 +13,7 @@ use crate::answers::{Answer, RunSettings, TypedValue};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceFile {
-    /// Number or expression, list of these, formula, or the id of the right option. Not for `engine`, nor where the
+    /// Number or expression, list of these, formula, the id of the right option, or a good explanation. Not for `engine`, nor where the
     /// question is answered by work.
     pub value: Option<TypedValue>,
     /// Settings that meet the demand (tuning).

@@ -32,7 +32,7 @@ pub(super) fn judge(
                 quantity::magnitudes(own, submission.answers.get(id)?)?
             }
             Mark::Right => own.reference.clone(),
-            Mark::Blank | Mark::Invalid | Mark::Waiting => return None,
+            Mark::Blank | Mark::Invalid | Mark::Waiting | Mark::Kept => return None,
         };
         if norm(&values) == 0.0 {
             return None;

@@ -3,6 +3,7 @@
 
 pub(crate) mod closed;
 mod diagram;
+mod explanation;
 mod follow;
 pub(crate) mod formula;
 mod model;
@@ -71,7 +72,9 @@ pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeE
     let mut judgements = judge(lesson, submission)?;
     if judgements.iter().any(|judgement| judgement.mark == Mark::Invalid) {
         // Nobody tries answers one by one beside a field that cannot be read.
-        for judgement in judgements.iter_mut().filter(|j| matches!(j.mark, Mark::Right | Mark::Wrong)) {
+        for judgement in
+            judgements.iter_mut().filter(|j| matches!(j.mark, Mark::Right | Mark::Wrong | Mark::Kept))
+        {
             *judgement = Judgement::waiting();
         }
     }
@@ -153,6 +156,7 @@ fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer) -> Judgem
         QuestionBody::Trajectory(task) => trajectory::judge(task, note, answer).map_err(Into::into),
         QuestionBody::Model(task) => model::judge(task, note, answer).map_err(Into::into),
         QuestionBody::Tuning(task) => tuning::judge(task, note, answer).map_err(Into::into),
+        QuestionBody::Explanation(task) => explanation::judge(task, answer).map_err(Into::into),
     };
     judged.unwrap_or_else(Judgement::invalid)
 }
@@ -162,7 +166,7 @@ fn sent(question: &Question, judgement: Judgement) -> QuestionVerdict {
     QuestionVerdict {
         id: question.id.clone(),
         earned: judgement.share * question.points,
-        possible: question.points,
+        possible: if question.is_judged_by_people() { 0.0 } else { question.points },
         verdict: judgement.mark,
         message_html: html::message(&judgement.feedback),
         misconception: judgement.misconception,

@@ -34,6 +34,7 @@ pub(crate) fn same(question: &Question, a: &Answer, b: &Answer) -> bool {
             arrows(a) == arrows(b)
         }
         QuestionBody::Tuning(_) => a.settings == b.settings,
+        QuestionBody::Explanation(_) => a.value == b.value,
         QuestionBody::Implement(_) | QuestionBody::Trajectory(_) | QuestionBody::Model(_) => {
             let lines = |answer: &Answer| {
                 answer.file.as_ref().map(|f| f.split_whitespace().map(str::to_owned).collect::<Vec<_>>())

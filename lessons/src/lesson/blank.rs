@@ -23,7 +23,7 @@ fn blank(question: &QuestionView) -> Value {
         QuestionKind::Vector => json!({"value": vec![""; rows * columns], "unit": unit}),
         QuestionKind::Matrix => json!({"value": vec![vec![""; columns]; rows], "unit": unit}),
         QuestionKind::Choice => json!({"choice": ""}),
-        QuestionKind::Formula => json!({"value": ""}),
+        QuestionKind::Formula | QuestionKind::Explanation => json!({"value": ""}),
         QuestionKind::Diagram => json!({"diagram": []}),
         QuestionKind::Implement | QuestionKind::Trajectory | QuestionKind::Model => json!({"file": ""}),
         QuestionKind::Tuning => {

@@ -14,6 +14,10 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(super) fn conventions(scene: &Scene) -> String {
     let mut sentences = vec![gravity(scene.gravity)];
     sentences.extend(masses(&scene.bodies));
+    if scene.bodies.iter().any(|body| matches!(body.inertia, Some(Inertia::Principal(_)))) {
+        let axes = "$\\mathbf u,\\mathbf v,\\mathbf w$";
+        sentences.push(format!("Moments of inertia are about {axes} through the centre of mass."));
+    }
     sentences.extend(sides(&scene.joints));
     sentences.extend(scene.drivers.iter().filter_map(|driver| positive(driver, &scene.joints)));
     sentences.push("Angles, angular velocities and moments are positive by the right-hand rule.".to_owned());
@@ -57,9 +61,9 @@ fn named(names: &[&str]) -> String {
 
 /// Bodies of the same mass and inertia in one sentence.
 fn masses(bodies: &[Body]) -> Vec<String> {
-    let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
+    let mut groups: Vec<([String; 2], Vec<&str>)> = Vec::new();
     for body in bodies {
-        let what = mass(body);
+        let what = [format!("{} kg", plain(body.mass)), shape(body)];
         match groups.iter_mut().find(|(known, _)| *known == what) {
             Some((_, names)) => names.push(&body.name),
             None => groups.push((what, vec![&body.name])),
@@ -67,22 +71,19 @@ fn masses(bodies: &[Body]) -> Vec<String> {
     }
     groups
         .into_iter()
-        .map(|(what, names)| {
+        .map(|([mass, shape], names)| {
             let each = if names.len() > 1 { " each" } else { "" };
-            format!("{}: {what}{each}.", capital(&named(&names)))
+            format!("{}: {mass}{each}{shape}.", capital(&named(&names)))
         })
         .collect()
 }
 
-fn mass(body: &Body) -> String {
-    let mut text = format!("{} kg", plain(body.mass));
+/// What a body has beside its mass.
+fn shape(body: &Body) -> String {
+    let mut text = String::new();
     match &body.inertia {
         Some(Inertia::Principal(moments)) => {
-            let _ = write!(
-                text,
-                ", moments of inertia $({})$ kg m² about its $\\mathbf u,\\mathbf v,\\mathbf w$ through the centre of mass",
-                list(*moments)
-            );
+            let _ = write!(text, ", moments of inertia $({})$ kg m²", list(*moments));
         }
         Some(Inertia::Tensor(rows)) => {
             let _ = write!(
@@ -112,8 +113,11 @@ fn sides(joints: &[Joint]) -> Vec<String> {
     if groups.is_empty() {
         return Vec::new();
     }
-    let each = groups.iter().map(|([i, j], names)| format!("{} {}, {}", named(names), name(i), name(j)));
-    vec![format!("Bodies $i$ and $j$ of the joints: {}.", each.collect::<Vec<_>>().join("; "))]
+    let each = groups.iter().map(|([i, j], names)| {
+        let lead = if names.len() > 1 { "lead" } else { "leads" };
+        format!("{} {lead} from {} to {}", named(names), name(i), name(j))
+    });
+    vec![format!("From body $i$ to body $j$: {}.", each.collect::<Vec<_>>().join("; "))]
 }
 
 /// The sense in which a motor counts.
@@ -155,6 +159,11 @@ mod tests {
         {
             assert!(line.contains(&part), "{part}: {line}");
         }
+        let links = course.lesson("jacobian").unwrap().public_view().exercise.conventions_html;
+        for part in ["1 kg each, moments", "A</code> leads from the ground to <code>left</code>;"] {
+            assert!(links.contains(part), "{part}: {links}");
+        }
+        assert_eq!(links.matches("centre of mass").count(), 1, "{links}");
         let free = course.lesson("generic-rigid-body").unwrap().public_view().exercise.conventions_html;
         assert!(free.contains("No gravity") && free.contains("(1, 2, 3)"), "{free}");
     }

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::content::Lesson;
 use super::numbering::Places;
 use super::reader::LessonError;
-use crate::files::{CourseFile, Files, PartFile};
+use crate::files::{CourseFile, Files, OpensFile, PartFile};
 
 include!(concat!(env!("OUT_DIR"), "/embedded.rs"));
 
@@ -24,6 +24,8 @@ pub struct Course {
     pub title: String,
     /// Notions that students bring along.
     pub assumes: Vec<String>,
+    /// When the right answer to a question is shown.
+    pub opens: OpensFile,
     lessons: Vec<Lesson>,
     others: Vec<Lesson>,
     stray: Vec<String>,
@@ -125,7 +127,7 @@ impl Course {
         lessons.sort_by_key(|l| l.number);
         let others = order.map_or_else(Vec::new, |order| lessons.split_off(order.len()));
         divide(&mut lessons, &head.parts)?;
-        Ok(Self { title: head.title, assumes: head.assumes, lessons, others, stray })
+        Ok(Self { title: head.title, assumes: head.assumes, opens: head.opens, lessons, others, stray })
     }
 
     /// The lessons that are taken, in order.

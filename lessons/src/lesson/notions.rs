@@ -5,14 +5,21 @@ use serde::Serialize;
 
 use super::content::Lesson;
 use super::course::Course;
+use crate::files::OpensFile;
 
 /// What each lesson of a course introduces and needs, in the course's order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct NotionGraph {
+    /// Title of the course.
+    pub title: String,
+    /// When the right answer to a question is shown.
+    pub opens: OpensFile,
     /// Notions that students bring along.
     pub assumes: Vec<String>,
     /// The lessons in order.
     pub lessons: Vec<NotionNode>,
+    /// Lessons that are at hand and not taken.
+    pub others: Vec<NotionNode>,
 }
 
 /// A lesson in the graph.
@@ -24,6 +31,11 @@ pub struct NotionNode {
     pub number: u32,
     /// Its title.
     pub title: String,
+    /// Title of the part of the course that it stands in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
+    /// How long a student needs, in minutes.
+    pub minutes: u32,
     /// Notions that it introduces.
     pub introduces: Vec<String>,
     /// Notions that it builds on.
@@ -49,10 +61,18 @@ impl NotionGraph {
             slug: lesson.slug.clone(),
             number: lesson.number,
             title: lesson.about.title.clone(),
+            part: lesson.part.clone(),
+            minutes: lesson.about.minutes,
             introduces: lesson.about.introduces.keys().cloned().collect(),
             needs: lesson.about.needs.iter().map(|notion| need(course, lesson, notion)).collect(),
         };
-        Self { assumes: course.assumes.clone(), lessons: course.lessons().iter().map(node).collect() }
+        Self {
+            title: course.title.clone(),
+            opens: course.opens,
+            assumes: course.assumes.clone(),
+            lessons: course.lessons().iter().map(node).collect(),
+            others: course.others().iter().map(node).collect(),
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Predictions as students see them: the question before the run, what came of it afterwards.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -32,6 +34,9 @@ pub struct PredictionView {
     pub asks_why: bool,
     /// Points for having predicted, right or wrong.
     pub points: f64,
+    /// Parameters of the scene to set before the run, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub with: BTreeMap<String, f64>,
     /// When the run has shown what happens, s.
     pub seen_at: f64,
 }
@@ -64,10 +69,10 @@ impl Lesson {
         self.about.predictions.iter().find(|one| one.id == id)
     }
 
-    /// Points that can be earned: by answers, and by having predicted.
+    /// Points that can be earned: by answers, whoever judges them, and by having predicted.
     pub fn points(&self) -> f64 {
         let predicted: f64 = self.about.predictions.iter().map(|one| one.points).sum();
-        predicted + self.exercise.possible()
+        predicted + self.exercise.possible() + self.exercise.by_people()
     }
 }
 
@@ -84,6 +89,7 @@ impl PredictionView {
                 .collect(),
             asks_why: file.asks_why,
             points: file.points,
+            with: file.with.clone(),
             seen_at: file.seen_at,
         }
     }

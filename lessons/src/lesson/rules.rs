@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::exercise::{Question, QuestionBody, Trajectory, Tuning};
+use crate::exercise::{Explanation, Question, QuestionBody, Trajectory, Tuning};
 use crate::files::{MeasuredFile, MotionKind, OpensFile};
 use crate::text::plain;
 
@@ -46,6 +46,7 @@ pub(super) fn rule(question: &Question) -> String {
             )
         }
         QuestionBody::Tuning(t) => tuning_rule(t),
+        QuestionBody::Explanation(e) => explanation_rule(e),
     }
 }
 
@@ -60,6 +61,15 @@ fn trajectory_rule(t: &Trajectory) -> String {
         plain(t.end),
         t.columns.keys().cloned().collect::<Vec<_>>().join(", "),
         bands.collect::<Vec<_>>().join(", ")
+    )
+}
+
+fn explanation_rule(e: &Explanation) -> String {
+    format!(
+        "{} In words, at least {} of them. No program judges it: in a class who teaches reads it and gives the points, \
+         beside those that pass the lesson.",
+        e.purpose.trim(),
+        e.min_words
     )
 }
 

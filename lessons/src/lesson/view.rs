@@ -172,6 +172,9 @@ pub struct QuestionView {
     /// What is cut free (diagram).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diagram: Option<DiagramView>,
+    /// Words from which an explanation is taken (explanation).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_words: Option<usize>,
     /// Earlier questions whose answer is carried through, right or wrong.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub follows: Vec<String>,
@@ -235,6 +238,7 @@ impl QuestionView {
             columns: Vec::new(),
             tuning: None,
             diagram: None,
+            min_words: None,
             follows: Vec::new(),
             hints_available: question.hints.len(),
         };
@@ -266,6 +270,7 @@ impl QuestionView {
                 view.columns = t.columns.iter().map(column).collect();
             }
             QuestionBody::Model(_) => {}
+            QuestionBody::Explanation(e) => view.min_words = Some(e.min_words),
             QuestionBody::Tuning(t) => {
                 let (integrators, baumgarte, budget, error) =
                     (t.integrators.clone(), t.baumgarte, t.budget, t.error);

@@ -1,9 +1,11 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
 mod claims;
+mod explanations;
 mod fairness;
 mod golden_variants;
 mod kinds;
+mod minutes;
 mod order;
 mod pools;
 mod predictions;
@@ -141,6 +143,7 @@ fn the_public_view_holds_no_answer() {
                 QuestionBody::Formula(f) => {
                     secrets.extend(f.misconceptions.iter().map(|(.., text)| text.clone()));
                 }
+                QuestionBody::Explanation(e) => secrets.push(e.example.clone()),
                 QuestionBody::Model(m) => secrets.extend(m.watches().iter().map(|w| w.feedback.clone())),
                 QuestionBody::Diagram(_)
                 | QuestionBody::Implement(_)

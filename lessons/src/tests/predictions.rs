@@ -33,6 +33,8 @@ fn what_cannot_be_given_is_found() {
         (|one| one.happens = "four".to_owned(), "no option is called four"),
         (|one| one.options[0].range = None, "measured and ranges"),
         (|one| one.shows = " ".to_owned(), "a text is empty"),
+        (|one| one.with.extend([("gravity".to_owned(), 1.0)]), "the run shows"),
+        (|one| one.with.extend([("gravitation".to_owned(), 1.0)]), "gravitation"),
         (|one| one.seen_at = 99.0, "ends before seen_at"),
         (|one| one.points = -1.0, "points are negative"),
         (|one| one.id = "Pull".to_owned(), "its id is"),

@@ -108,6 +108,10 @@ pub(crate) enum Feedback {
         finding: MotionFinding,
     },
     Tuning(TuningFeedback),
+    /// An explanation that is kept, of so many words.
+    Explanation {
+        words: usize,
+    },
     /// A run with the chosen settings that ends early.
     TuningStopped {
         problem: MeasureError,

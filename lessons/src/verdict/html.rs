@@ -48,6 +48,9 @@ pub(crate) fn message(feedback: &Feedback) -> String {
             format!("<p>Not close enough.</p>{}<p>{what}</p>", motion_error(*error))
         }
         Feedback::Tuning(run) => tuning(run),
+        Feedback::Explanation { words } => {
+            paragraph(&format!("Your explanation of {words} words is kept. No program judges it."))
+        }
         Feedback::TuningStopped { problem } => {
             let problem = escape(&problem.to_string());
             format!("<p>Not yet.</p><p>With these settings the run stops: {problem}.</p>")

@@ -30,6 +30,8 @@ pub(crate) enum InvalidAnswer {
     Model(#[from] InvalidModel),
     #[error(transparent)]
     Settings(#[from] InvalidSettings),
+    #[error(transparent)]
+    Explanation(#[from] InvalidExplanation),
 }
 
 /// Numbers, vectors and matrices.
@@ -189,4 +191,15 @@ pub(crate) enum InvalidSettings {
     Negative { what: &'static str },
     #[error("The reference could not be run: {0}.")]
     Reference(MeasureError),
+}
+
+/// Explanations.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum InvalidExplanation {
+    #[error("This question asks for an explanation in words.")]
+    NoText,
+    #[error("Your explanation has {found} of the {wanted} words that it takes; say why, step by step.")]
+    Short { found: usize, wanted: usize },
+    #[error("Your explanation has more than {most} characters; say it shorter.")]
+    Long { most: usize },
 }

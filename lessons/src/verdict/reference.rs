@@ -20,6 +20,7 @@ pub(crate) fn reference(question: &Question) -> Option<String> {
             let line = |arrow: &Arrow| format!("<li>{}</li>", escape(&in_words(arrow, None)));
             format!("<ul>{}</ul>", d.reference.iter().map(line).collect::<String>())
         }
+        QuestionBody::Explanation(e) => render_short(&e.example),
         QuestionBody::Implement(_)
         | QuestionBody::Trajectory(_)
         | QuestionBody::Model(_)

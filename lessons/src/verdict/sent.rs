@@ -44,9 +44,9 @@ pub struct QuestionVerdict {
     pub id: String,
     /// Points earned.
     pub earned: f64,
-    /// Points that can be earned.
+    /// Points that can be earned here: none where people give them.
     pub possible: f64,
-    /// Right, wrong, blank, invalid, or waiting for an answer that is invalid.
+    /// Right, wrong, blank, invalid, kept for people to judge, or waiting for an answer that is invalid.
     pub verdict: Mark,
     /// Feedback for the student, as safe HTML.
     pub message_html: String,
@@ -91,6 +91,8 @@ pub enum Mark {
     Blank,
     /// Could not be judged (unreadable, wrong form, too few digits); no attempt is used.
     Invalid,
+    /// Words that are kept for people to judge.
+    Kept,
     /// Not judged, since another answer of the submission could not be: a verdict is given on the whole or not at all.
     Waiting,
 }

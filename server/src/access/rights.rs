@@ -44,6 +44,7 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/assignments/{slug}/questions.csv", GRADER),
     ("GET", "/api/v1/assignments/{slug}/questions/{id}", GRADER),
     ("GET", "/api/v1/assignments/{slug}/questions/{id}/answers.csv", GRADER),
+    ("GET", "/api/v1/assignments/{slug}/words", GRADER),
     ("POST", "/api/v1/assignments/{slug}/regrades", INSTRUCTOR),
     ("GET", "/api/v1/assignments/{slug}/regrades", INSTRUCTOR),
     ("GET", "/api/v1/regrades", GRADER),
@@ -78,6 +79,7 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/submissions/{id}/files/{question}", STUDENT),
     // Lessons are read by all; the numbers are those of who asks.
     ("GET", "/api/v1/lessons", Anyone),
+    ("GET", "/api/v1/notions", Anyone),
     ("GET", "/api/v1/lessons/{slug}", Anyone),
     ("GET", "/api/v1/lessons/{slug}/questions/{id}/hints/{k}", Anyone),
     ("POST", "/api/v1/lessons/{slug}/questions/{id}/reading", Anyone),

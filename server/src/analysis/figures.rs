@@ -46,7 +46,7 @@ pub struct QuestionFigures {
     pub points: f64,
     /// Students who handed in and were asked it.
     pub asked: usize,
-    /// Of these, those who gave an answer that could be judged.
+    /// Of these, those who gave an answer that could be judged, or an explanation.
     pub answered: usize,
     /// Those who earned all points by now.
     pub right: usize,
@@ -137,7 +137,7 @@ impl QuestionFigures {
             kind: question.kind,
             points: question.points,
             asked: works.len(),
-            answered: firsts.len(),
+            answered: works.iter().filter(|work| work.has_answered()).count(),
             right: until_right.iter().sum(),
             facility: mean(&firsts),
             facility_best: mean(&bests),

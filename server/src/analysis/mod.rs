@@ -1,16 +1,20 @@
 //! What the answers of a class say about the questions: which are hard, which tell the strong from the weak, which mistakes
 //! are made, and by whom.
 //!
-//! In reading order: the statistics as pure functions of numbers, one student's work at a question as it is kept, and what
-//! both say about a question.
+//! In reading order: the statistics as pure functions of numbers, one student's work at a question as it is kept, what both
+//! say about a question, and what was said in words for people to read.
 
 mod figures;
 mod question;
 mod sheets;
 pub mod statistics;
+mod words;
 mod work;
 
 pub use figures::{Flag, LessonFigures, MistakeCount, QuestionFigures};
 pub use question::{ChoiceCount, DrawnNumber, GivenAnswer, MistakeAnswers, QuestionAnalysis};
 pub use sheets::{answers_csv, figures_csv};
+pub use words::{
+    AskedExplanation, AskedPrediction, ClassWords, StudentExplanation, StudentPrediction, StudentWords,
+};
 pub use work::{Class, Try, Work};

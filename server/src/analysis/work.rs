@@ -31,7 +31,7 @@ pub struct Try {
 }
 
 impl Try {
-    /// Whether it counts as an answer.
+    /// Whether it counts as an answer that a program judged.
     pub fn is_judged(&self) -> bool {
         matches!(self.mark, Mark::Right | Mark::Wrong)
     }
@@ -53,7 +53,7 @@ pub struct Work {
     pub seed: String,
     /// The numbers.
     pub numbers: BTreeMap<String, f64>,
-    /// Points of the question.
+    /// Points of the question; none where people give them.
     pub possible: f64,
     /// The answers, the oldest first.
     pub tries: Vec<Try>,
@@ -65,6 +65,11 @@ impl Work {
     /// The answers that were judged.
     pub fn judged(&self) -> impl DoubleEndedIterator<Item = &Try> {
         self.tries.iter().filter(|one| one.is_judged())
+    }
+
+    /// Whether there is an answer that was judged or kept.
+    pub fn has_answered(&self) -> bool {
+        self.tries.iter().any(|one| one.mark != Mark::Invalid)
     }
 
     /// What the first answer earned, if there is one.

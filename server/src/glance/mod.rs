@@ -222,7 +222,7 @@ fn stuck(students: &HashMap<&str, &str>, recent: &[&(Recorded, Verdict)], course
                     tries.sent_back += 1;
                     tries.at = Some(one.at);
                 }
-                Mark::Blank | Mark::Waiting => {}
+                Mark::Blank | Mark::Kept | Mark::Waiting => {}
             }
         }
     }

@@ -2,11 +2,30 @@
 
 use std::collections::HashMap;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use triad_lessons::Lesson;
+use triad_lessons::exercise::Question;
 
 use crate::policy::{Case, Decided, Extension, Handed, Moment, Policy, Standing, When, standing};
 use crate::problem::Problem;
 use crate::store::{Assignment, Decision, DecisionKind, Store};
+
+/// What somebody who teaches gave an explanation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Marked {
+    /// The question.
+    pub question: String,
+    /// The points; none where an earlier mark was taken back.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<f64>,
+    /// What was remarked; may be empty.
+    pub remark: String,
+    /// By whom.
+    pub by: String,
+    /// When.
+    pub at: Moment,
+}
 
 /// What is kept about a person's work in a lesson.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +34,8 @@ pub struct Entry {
     pub handed: Vec<Handed>,
     /// What was decided about the points, the first at the beginning.
     pub decided: Vec<Decided>,
+    /// What explanations were given, the first at the beginning.
+    pub marked: Vec<Marked>,
     /// What was said besides.
     pub said: Vec<Decision>,
     /// What was predicted, by id; what was skipped is left out.
@@ -41,6 +62,25 @@ pub fn pass_points(lesson: &Lesson) -> f64 {
     lesson.exercise.pass_mark * lesson.exercise.possible() * (1.0 - 1e-12)
 }
 
+impl Entry {
+    /// Takes what was decided or said, in the order in which it was.
+    fn take(&mut self, one: Decision) {
+        let Decision { kind, question, points, reason, by, at, .. } = one;
+        match (kind, question) {
+            (DecisionKind::Points, _) => self.decided.push(Decided { points, reason, by, at }),
+            (DecisionKind::Mark, Some(question)) => {
+                self.marked.push(Marked { question, points, remark: reason, by, at });
+            }
+            (_, question) => self.said.push(Decision { kind, question, points, reason, by, at, ..one }),
+        }
+    }
+
+    /// The mark of an explanation that holds.
+    pub fn mark(&self, question: &str) -> Option<&Marked> {
+        self.marked.iter().rfind(|one| one.question == question).filter(|one| one.points.is_some())
+    }
+}
+
 impl Book {
     /// Opens the book of a course, or of one person in it.
     ///
@@ -60,13 +100,7 @@ impl Book {
         }
         let is_wanted = |other: &str| person.is_none_or(|person| person == other);
         for one in store.decisions(course).await?.into_iter().filter(|one| is_wanted(&one.person)) {
-            let entry = book.entry(one.person.clone(), one.lesson.clone());
-            if one.kind == DecisionKind::Points {
-                let Decision { points, reason, by, at, .. } = one;
-                entry.decided.push(Decided { points, reason, by, at });
-            } else {
-                entry.said.push(one);
-            }
+            book.entry(one.person.clone(), one.lesson.clone()).take(one);
         }
         for (who, lesson, extension) in store.extensions(course).await? {
             if is_wanted(&who) {
@@ -101,6 +135,18 @@ impl Book {
         made.iter().filter_map(|id| lesson.prediction(id)).map(|one| one.points).sum()
     }
 
+    /// Points that people gave for explanations. They count besides what the exercise earns, and pass nothing.
+    pub fn explained(&self, person: &str, lesson: &Lesson) -> f64 {
+        let Some(entry) = self.of(person, &lesson.slug) else { return 0.0 };
+        let asked = lesson.exercise.questions.iter().filter(|question| question.is_judged_by_people());
+        let given = |question: &Question| {
+            let points = entry.mark(&question.id).and_then(|mark| mark.points).unwrap_or(0.0);
+            // A course that was changed since gives no more than it has.
+            points.min(question.points)
+        };
+        asked.map(given).sum()
+    }
+
     /// Where a person stands in a lesson at a moment.
     pub fn standing(&self, person: &str, lesson: &Lesson, now: Moment) -> Standing {
         let (none, open) = (Entry::default(), Assignment::of(&lesson.slug));
@@ -108,7 +154,7 @@ impl Book {
         let assignment = self.assignment(&lesson.slug).unwrap_or(&open);
         let mut stands = standing(&case(assignment, entry, lesson), now);
         if stands.score.decided.is_none() {
-            stands.score.points += self.predicted(person, lesson);
+            stands.score.points += self.predicted(person, lesson) + self.explained(person, lesson);
         }
         stands
     }

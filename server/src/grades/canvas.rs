@@ -141,6 +141,7 @@ mod tests {
             points,
             earned: points,
             predicted: 0.0,
+            explained: 0.0,
             attempts: 1,
             passed: false,
             late: false,

@@ -124,6 +124,7 @@ mod tests {
             points: 0.0,
             earned: 0.0,
             predicted: 0.0,
+            explained: 0.0,
             attempts: 1,
             passed: false,
             late: false,

@@ -15,7 +15,7 @@ use crate::policy::{Decided, Moment};
 use crate::problem::Problem;
 use crate::store::{DecisionKind, Member, Role, Store};
 
-pub use book::{Book, Entry, assigned, case, pass_points, possible};
+pub use book::{Book, Entry, Marked, assigned, case, pass_points, possible};
 pub use canvas::{Filled, fill};
 pub use exports::{Format, csv, lines, sheet};
 pub use record::{LessonRecord, Record, record, told};
@@ -63,6 +63,8 @@ pub struct Reached {
     pub earned: f64,
     /// Points for having predicted what a run would show.
     pub predicted: f64,
+    /// Points that people gave for explanations.
+    pub explained: f64,
     /// Attempts; 0 where nothing could be judged yet.
     pub attempts: u32,
     /// Whether it is enough to pass.
@@ -118,6 +120,7 @@ fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(S
         points: stands.score.points,
         earned: stands.score.earned,
         predicted,
+        explained: book.explained(person, lesson),
         attempts: stands.turn.attempts,
         passed: stands.score.passed,
         late: stands.score.late,
@@ -131,7 +134,8 @@ fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(S
 
 /// Whether a student's request for a look again waits for an answer.
 pub fn asks(entry: &Entry) -> bool {
-    let last_decided = entry.decided.last().map(|one| one.at);
+    let marked = entry.marked.last().map(|one| one.at);
+    let last_decided = entry.decided.last().map(|one| one.at).max(marked);
     let last_said = entry.said.last();
     last_said
         .is_some_and(|said| said.kind == DecisionKind::Request && last_decided.is_none_or(|at| at < said.at))

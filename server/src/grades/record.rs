@@ -65,8 +65,11 @@ pub struct ToldStanding {
 /// Something that was decided or said.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Remark {
-    /// `points`, `comment`, or `request` by the student.
+    /// `points`, `mark` of an explanation, `comment`, or `request` by the student.
     pub kind: &'static str,
+    /// The explanation that a mark is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub question: Option<String>,
     /// The points that count from then on, if it is about points and does not take a decision back.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<f64>,
@@ -166,19 +169,29 @@ fn of_lesson(
 fn remarks(entry: &Entry, sees_points: bool) -> Vec<Remark> {
     let decided = entry.decided.iter().filter(|_| sees_points).map(|one| Remark {
         kind: DecisionKind::Points.name(),
+        question: None,
         points: one.points,
         text: one.reason.clone(),
         by: one.by.clone(),
         at: one.at,
     });
+    let marked = entry.marked.iter().filter(|_| sees_points).map(|one| Remark {
+        kind: DecisionKind::Mark.name(),
+        question: Some(one.question.clone()),
+        points: one.points,
+        text: one.remark.clone(),
+        by: one.by.clone(),
+        at: one.at,
+    });
     let said = entry.said.iter().map(|one: &Decision| Remark {
         kind: one.kind.name(),
+        question: None,
         points: None,
         text: one.reason.clone(),
         by: one.by.clone(),
         at: one.at,
     });
-    let mut all: Vec<Remark> = decided.chain(said).collect();
+    let mut all: Vec<Remark> = decided.chain(marked).chain(said).collect();
     all.sort_by_key(|one| one.at);
     all
 }

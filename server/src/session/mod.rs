@@ -8,7 +8,7 @@ mod worker;
 pub use registry::{Registry, bounded};
 
 use std::sync::mpsc;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
@@ -66,6 +66,16 @@ pub struct Session {
     touched: Mutex<Instant>,
     /// Among whose sessions it counts, if it is somebody's.
     whose: Option<String>,
+    asked_first: OnceLock<AskedFirst>,
+}
+
+/// Who has to predict something before a run goes on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AskedFirst {
+    /// The person's id.
+    pub person: String,
+    /// Slug of the lesson that asks.
+    pub lesson: String,
 }
 
 impl Session {
@@ -122,13 +132,32 @@ impl Session {
                 worker.run(&received);
             })
             .map_err(Problem::internal)?;
-        Ok(Self { commands, signals, state, hub, track, touched: Mutex::new(Instant::now()), whose: None })
+        Ok(Self {
+            commands,
+            signals,
+            state,
+            hub,
+            track,
+            touched: Mutex::new(Instant::now()),
+            whose: None,
+            asked_first: OnceLock::new(),
+        })
     }
 
     /// The state now.
     pub fn state(&self) -> Arc<SessionState> {
         self.touch();
         Arc::clone(&self.state.borrow())
+    }
+
+    /// From now on the run waits for the predictions of who opened it.
+    pub fn ask_first(&self, asked: AskedFirst) {
+        self.asked_first.get_or_init(|| asked);
+    }
+
+    /// For whose predictions the run waits.
+    pub fn asked_first(&self) -> Option<&AskedFirst> {
+        self.asked_first.get()
     }
 
     /// Follows the state as it changes.

@@ -44,7 +44,7 @@ use tokio::sync::Notify;
 use bell::Verdicts;
 pub use bell::{Awaited, Bell};
 pub use class::{
-    Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded,
+    Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded, Said,
     VerdictHistory,
 };
 pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};

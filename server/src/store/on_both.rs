@@ -88,7 +88,7 @@ async fn a_course_moves_between_databases_and_back() {
         file.hand_in(&with_work(student, 0)).await.expect("keeps");
     }
     let person = file.person_named(HOME, "aaron").await.expect("looks").expect("aaron");
-    let points = (DecisionKind::Points, Some(0.1 + 0.2), "right in another frame");
+    let points = Said::points(Some(0.1 + 0.2), "right in another frame");
     file.decide(HOME, &person, &person, "pendulum", points).await.expect("decides");
     exported(&file, &first).await;
 

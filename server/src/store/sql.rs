@@ -98,6 +98,9 @@ pub(super) const ADDED_8: &[&str] = &[
     "CREATE TABLE node (name TEXT PRIMARY KEY NOT NULL, address TEXT NOT NULL, seen_at BIGINT NOT NULL)",
 ];
 
+/// What format 9 adds: the question that a decision is about, where it is not about a whole lesson.
+pub(super) const ADDED_9: &[&str] = &["ALTER TABLE decision ADD COLUMN question TEXT"];
+
 /// What is a record is added to and never changed. In SQLite's words: `database.rs` says them in PostgreSQL's.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
@@ -281,8 +284,8 @@ statements! {
         FROM submission s JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
         WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
         AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3)";
-    ADD_DECISION = "INSERT INTO decision (id, course, n, kind, person, assignment, amount, reason, decided_by, decided_at) \
-        VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)";
+    ADD_DECISION = "INSERT INTO decision (id, course, n, kind, person, assignment, question, amount, reason, decided_by, decided_at) \
+        VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
     ADD_PREDICTION = "INSERT INTO prediction (course, person, slug, prediction, choice, why, n, given_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7, $8)";
     PREDICTED = "SELECT COUNT(*) FROM prediction WHERE course = $1 AND person = $2 AND slug = $3 AND prediction = $4";
@@ -291,7 +294,7 @@ statements! {
         AND (CAST($3 AS TEXT) IS NULL OR q.slug = $3) ORDER BY q.n";
     EMPTY_PREDICTIONS = "UPDATE prediction SET why = '' WHERE person = $1";
     PREDICTION_ROWS = "SELECT * FROM prediction WHERE course = $1 ORDER BY n";
-    DECISIONS = "SELECT d.person, a.slug, d.kind, d.amount, d.reason, p.name, d.decided_at FROM decision d \
+    DECISIONS = "SELECT d.person, a.slug, d.kind, d.question, d.amount, d.reason, p.name, d.decided_at FROM decision d \
         JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 ORDER BY d.n";
 
     VERDICT_COUNT = "SELECT COUNT(*) FROM verdict v JOIN submission s ON s.id = v.submission WHERE s.assignment = $1";

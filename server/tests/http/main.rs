@@ -10,6 +10,7 @@ mod changes;
 mod class;
 mod described;
 mod document;
+mod explanations;
 mod generated;
 mod glance;
 mod lessons;

@@ -82,3 +82,37 @@ async fn a_class_is_counted_and_predicting_earns_what_the_author_says() {
     assert_eq!((&of("Student")["predicted"], &of("Student")["points"]), (&json!(1.0), &json!(1.0)));
     assert_eq!(of("Zoë"), Value::Null);
 }
+
+#[tokio::test]
+async fn a_student_of_a_class_predicts_or_skips_before_the_run_goes_on() {
+    let class = class().await;
+    let everybody = class.everybody().await;
+    let [student, grader] = [1, 2].map(|k| everybody[k].1.as_str());
+    let lesson = json!({"lesson": "simple-pendulum"});
+    let opened = async |cookie: &str, body: &Value| {
+        let reply = class.ask("POST", "/api/v1/sessions", cookie, Some(body.clone())).await;
+        assert_eq!(reply.status, 201);
+        format!("/api/v1/sessions/{}", reply.json()["id"].as_str().expect("an id"))
+    };
+    let run = async |session: &str, what: &str, cookie: &str| {
+        let body = if what == "step" { json!({"seconds": 0.1}) } else { json!({}) };
+        class.ask("POST", &format!("{session}/{what}"), cookie, Some(body)).await
+    };
+    let own = opened(student, &lesson).await;
+    for what in ["step", "play"] {
+        let problem = run(&own, what, student).await.problem(409, "predict-first");
+        assert!(problem["detail"].to_string().contains("pull-at-bottom"), "{problem}");
+        // Whoever has the key of the run is told the same.
+        run(&own, what, grader).await.problem(409, "predict-first");
+    }
+    assert_eq!(class.ask("GET", &own, student, None).await.json()["time"], 0.0);
+    // Who teaches shows it to others, and what no lesson asks about goes on.
+    assert_eq!(run(&opened(grader, &lesson).await, "step", grader).await.status, 200);
+    let scene = opened(student, &json!({"builtin": "simple-pendulum"})).await;
+    assert_eq!(run(&scene, "step", student).await.status, 200);
+    let skipped = json!({"prediction": "pull-at-bottom", "choice": null});
+    assert_eq!(class.ask("POST", PULL, student, Some(skipped)).await.status, 201);
+    for what in ["step", "play"] {
+        assert_eq!(run(&own, what, student).await.status, 200);
+    }
+}

@@ -66,6 +66,7 @@ fn secrets(lesson: &Lesson) -> Secrets {
             Question::Quantity(q) => q.misconceptions.iter().for_each(|m| text(&m.feedback)),
             Question::Choice { options, .. } => options.iter().for_each(|o| text(&o.reason)),
             Question::Formula(f) => f.misconceptions.iter().for_each(|(.., feedback)| text(feedback)),
+            Question::Explanation(e) => text(&e.example),
             Question::Model(m) => m.watches().iter().for_each(|w| text(&w.feedback)),
             Question::Diagram(_) | Question::Implement(_) | Question::Trajectory(_) | Question::Tuning(_) => {
             }
@@ -149,7 +150,8 @@ fn wrong(lesson: &Lesson) -> Value {
                 };
                 Answer { value: Some(value), ..Answer::default() }
             }
-            Question::Choice { .. } => Answer::default(),
+            // No words of one's own, to which a good explanation would be told.
+            Question::Choice { .. } | Question::Explanation(_) => Answer::default(),
             Question::Formula(f) => {
                 Answer { value: text(&format!("12345*{}", f.symbols[0])), ..Answer::default() }
             }

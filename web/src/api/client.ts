@@ -16,6 +16,7 @@ import type {
   Camera,
   CheckReport,
   ClassView,
+  ClassWords,
   Drag,
   Drawing,
   Filled,
@@ -36,6 +37,7 @@ import type {
   Me,
   ModesAbout,
   Motion,
+  NotionGraph,
   OpenedLecture,
   PersonRecord,
   Pictures,
@@ -264,9 +266,13 @@ export const api = {
   invite: (role: string) => call<{ token: string }>("POST", "/invitations", { role }),
   newWords: (person: string) => call<{ words: string; link: string }>("POST", `/people/${id(person)}/words`),
   submissionsOf: (person: string) => call<KeptSubmission[]>("GET", `/people/${id(person)}/submissions`),
-  decide: (person: string, decision: { lesson: string; points: number | null; reason: string }) =>
-    call<void>("POST", `/people/${id(person)}/decisions`, decision),
+  decide: (
+    person: string,
+    decision: { lesson: string; question?: string; points: number | null; reason: string },
+  ) => call<void>("POST", `/people/${id(person)}/decisions`, decision),
   assignments: () => call<AssignedLesson[]>("GET", "/assignments"),
+  /** What a class predicted and explained in a lesson. */
+  classWords: (slug: string) => call<ClassWords>("GET", `/assignments/${id(slug)}/words`),
   setPolicy: (slug: string, policy: Policy) => call<void>("PUT", `/assignments/${id(slug)}`, policy),
   releaseResults: (slug: string, released: boolean) =>
     call<void>("PUT", `/assignments/${id(slug)}/release`, { released }),
@@ -302,6 +308,7 @@ export const api = {
     `${BASE}/submissions/${id(submission)}/files/${id(question)}`,
   verdicts: (submission: string) => call<GivenVerdict[]>("GET", `/submissions/${id(submission)}/verdicts`),
 
+  notions: () => call<NotionGraph>("GET", "/notions"),
   lessons: (signal?: AbortSignal) => call<LessonSummary[]>("GET", "/lessons", undefined, signal),
   lesson: (slug: string, seed: string, signal?: AbortSignal) =>
     call<Lesson>("GET", `/lessons/${id(slug)}${whose(seed)}`, undefined, signal),

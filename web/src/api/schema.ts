@@ -137,6 +137,57 @@ export interface components {
              */
             on?: components["schemas"]["Side"];
         };
+        /** @description Something to be explained. */
+        AskedExplanation: {
+            /** @description A good explanation, as safe HTML. */
+            good_html: string;
+            /** @description Id of the question. */
+            id: string;
+            /**
+             * Format: uint
+             * @description Its place in the exercise.
+             */
+            place: number;
+            /**
+             * Format: double
+             * @description Points that people can give.
+             */
+            points: number;
+            /** @description What is asked, as safe HTML. */
+            prompt_html: string;
+            /**
+             * Format: uint
+             * @description How many explanations wait for their points.
+             */
+            waiting: number;
+        };
+        /** @description Something to be predicted. */
+        AskedPrediction: {
+            /** @description Whether a sentence why is asked for, too. */
+            asks_why: boolean;
+            /** @description Id of the option that comes true. */
+            happens: string;
+            /** @description What is asked, as safe HTML. */
+            html: string;
+            /** @description Id under which the prediction is sent. */
+            id: string;
+            /** @description What may happen. */
+            options: components["schemas"]["ChoiceOption"][];
+            /**
+             * Format: double
+             * @description Points for having predicted, right or wrong.
+             */
+            points: number;
+            /**
+             * Format: double
+             * @description When the run has shown what happens, s.
+             */
+            seen_at: number;
+            /** @description Parameters of the scene to set before the run, by name. */
+            with?: {
+                [key: string]: number;
+            };
+        };
         /** @description What assembly did. */
         Assembly: {
             /** @description The bodies, in the scene's order. */
@@ -474,6 +525,17 @@ export interface components {
             join_open: boolean;
             /** @description Its title. */
             title: string;
+        };
+        /** @description What a class predicted and explained in a lesson. */
+        ClassWords: {
+            /** @description What was to be explained. */
+            explanations: components["schemas"]["AskedExplanation"][];
+            /** @description What was to be predicted. */
+            predictions: components["schemas"]["AskedPrediction"][];
+            /** @description Slug of the lesson. */
+            slug: string;
+            /** @description Students who predicted or explained something, by name. */
+            students: components["schemas"]["StudentWords"][];
         };
         /** @description The column of a lesson. */
         ColumnView: {
@@ -2023,7 +2085,23 @@ export interface components {
         /** @description The frame in which a force or a moment is given. */
         LoadFrame: "world" | "body";
         /** @description How one answer was judged. */
-        Mark: "right" | "wrong" | "blank" | "invalid" | "waiting";
+        Mark: "right" | "wrong" | "blank" | "invalid" | "kept" | "waiting";
+        /** @description What somebody who teaches gave an explanation. */
+        Marked: {
+            /** @description When. */
+            at: string;
+            /** @description By whom. */
+            by: string;
+            /**
+             * Format: double
+             * @description The points; none where an earlier mark was taken back.
+             */
+            points?: number | null;
+            /** @description The question. */
+            question: string;
+            /** @description What was remarked; may be empty. */
+            remark: string;
+        };
         /** @description A point of a body that has a name: tables, pictures and events know where it is. It has no influence on the motion. */
         Marker: {
             /** @description The body, or `ground`. */
@@ -2276,6 +2354,15 @@ export interface components {
         };
         /** @description The multipliers of all joints. */
         MultipliersList: components["schemas"]["JointMultipliers"][];
+        /** @description A notion that a lesson builds on. */
+        Need: {
+            /** @description Slug of the lesson that introduces it, taken or not; none if students bring it along, or nothing does. */
+            from?: string | null;
+            /** @description Whether it is known by then: brought along, or introduced by an earlier lesson of the course. */
+            met: boolean;
+            /** @description The notion. */
+            notion: string;
+        };
         /** @description Where the camera is to stand. */
         NewCamera: {
             /** @description From where the mechanism is looked at. */
@@ -2287,10 +2374,15 @@ export interface components {
             lesson: string;
             /**
              * Format: double
-             * @description The points that count from now on; null: those that were earned.
+             * @description The points that count from now on; null: those that were earned, and an explanation waits again.
              */
             points?: number | null;
-            /** @description Why: the student sees it, and so does whoever looks later. */
+            /**
+             * @description The explanation that gets the points; left out: the whole lesson.
+             * @default null
+             */
+            question?: string | null;
+            /** @description Why: the student sees it, and so does whoever looks later. May be empty for an explanation. */
             reason: string;
         };
         /** @description How forces are to be drawn; what is not given stays. */
@@ -2377,6 +2469,42 @@ export interface components {
             /** @description Four words. */
             words: string;
         };
+        /** @description What each lesson of a course introduces and needs, in the course's order. */
+        NotionGraph: {
+            /** @description Notions that students bring along. */
+            assumes: string[];
+            /** @description The lessons in order. */
+            lessons: components["schemas"]["NotionNode"][];
+            /** @description When the right answer to a question is shown. */
+            opens: components["schemas"]["OpensFile"];
+            /** @description Lessons that are at hand and not taken. */
+            others: components["schemas"]["NotionNode"][];
+            /** @description Title of the course. */
+            title: string;
+        };
+        /** @description A lesson in the graph. */
+        NotionNode: {
+            /** @description Notions that it introduces. */
+            introduces: string[];
+            /**
+             * Format: uint32
+             * @description How long a student needs, in minutes.
+             */
+            minutes: number;
+            /** @description Notions that it builds on. */
+            needs: components["schemas"]["Need"][];
+            /**
+             * Format: uint32
+             * @description Its place.
+             */
+            number: number;
+            /** @description Title of the part of the course that it stands in. */
+            part?: string | null;
+            /** @description Slug of the lesson. */
+            slug: string;
+            /** @description Its title. */
+            title: string;
+        };
         /** @description What stands at a place of a scene that may be changed. */
         NumberOrWord: number | string;
         /** @description What happens to a run when a parameter changes. */
@@ -2389,6 +2517,29 @@ export interface components {
             key: string;
             /** @description Where followers go, below the server's address. */
             page: string;
+        };
+        /**
+         * @description When the right answer to a question and its source are shown to a student, whichever comes first. From then on the points
+         *     of the question are what they were before.
+         */
+        OpensFile: {
+            /**
+             * Format: uint
+             * @description After so many different answers to it, right or wrong.
+             * @default null
+             */
+            attempts: number | null;
+            /**
+             * Format: uint
+             * @description The same for a choice; it opens at the latest when one option is left.
+             * @default null
+             */
+            choices: number | null;
+            /**
+             * @description When it has been answered right.
+             * @default false
+             */
+            right: boolean;
         };
         /** @description Orientation of a body's frame in the world. */
         Orientation: {
@@ -2495,6 +2646,8 @@ export interface components {
              * @description The points that count; null: those that were earned.
              */
             points: number | null;
+            /** @description The explanation that it is about; null: the whole lesson. */
+            question: string | null;
             /** @description Why. */
             reason: string;
         };
@@ -2782,6 +2935,10 @@ export interface components {
              * @description When the run has shown what happens, s.
              */
             seen_at: number;
+            /** @description Parameters of the scene to set before the run, by name. */
+            with?: {
+                [key: string]: number;
+            };
         };
         /** @description How often what was predicted. */
         PredictionCounts: {
@@ -2819,6 +2976,10 @@ export interface components {
              * @description How many skipped it.
              */
             skipped: number;
+            /** @description Parameters of the scene to set before the run, by name. */
+            with?: {
+                [key: string]: number;
+            };
         };
         /** @description What was predicted in a lesson. */
         PredictionTable: components["schemas"]["PredictionCounts"][];
@@ -3041,6 +3202,11 @@ export interface components {
             id: string;
             /** @description Kind. */
             kind: components["schemas"]["QuestionKind"];
+            /**
+             * Format: uint
+             * @description Words from which an explanation is taken (explanation).
+             */
+            min_words?: number | null;
             /** @description Options of a choice. */
             options?: components["schemas"]["ChoiceOption"][] | null;
             /**
@@ -3107,7 +3273,7 @@ export interface components {
         QuestionFigures: {
             /**
              * Format: uint
-             * @description Of these, those who gave an answer that could be judged.
+             * @description Of these, those who gave an answer that could be judged, or an explanation.
              */
             answered: number;
             /**
@@ -3163,7 +3329,7 @@ export interface components {
             upper_less_lower?: number | null;
         };
         /** @description Kind of a question. */
-        QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "diagram" | "implement" | "trajectory" | "model" | "tuning";
+        QuestionKind: "number" | "vector" | "matrix" | "choice" | "formula" | "diagram" | "implement" | "trajectory" | "model" | "tuning" | "explanation";
         /** @description Where a student stands with one question after all submissions so far. */
         QuestionStanding: {
             /**
@@ -3200,6 +3366,11 @@ export interface components {
              * @description Most points of an attempt.
              */
             earned: number;
+            /**
+             * Format: double
+             * @description Points that people gave for explanations.
+             */
+            explained: number;
             /** @description Whether there is an extension. */
             extended: boolean;
             /** @description When the last submission came; left out where nothing was handed in. */
@@ -3458,13 +3629,15 @@ export interface components {
             at: string;
             /** @description By whom. */
             by: string;
-            /** @description `points`, `comment`, or `request` by the student. */
+            /** @description `points`, `mark` of an explanation, `comment`, or `request` by the student. */
             kind: string;
             /**
              * Format: double
              * @description The points that count from then on, if it is about points and does not take a decision back.
              */
             points?: number | null;
+            /** @description The explanation that a mark is about. */
+            question?: string | null;
             /** @description Why, or what was said. */
             text: string;
         };
@@ -4131,6 +4304,30 @@ export interface components {
              */
             tries: number;
         };
+        /** @description What one student explained. */
+        StudentExplanation: {
+            /** @description When it came. */
+            at: string;
+            /** @description What it was given; absent where it waits. */
+            mark?: components["schemas"]["Marked"] | null;
+            /** @description Id of the question. */
+            question: string;
+            /** @description Whether the words were written after they were given points: they wait once more. */
+            renewed: boolean;
+            /** @description The submission. */
+            submission: string;
+            /** @description The words. */
+            text: string;
+        };
+        /** @description What one student predicted. */
+        StudentPrediction: {
+            /** @description Id of the option; absent if it was skipped. */
+            choice?: string | null;
+            /** @description Id of the prediction. */
+            prediction: string;
+            /** @description Why, in the student's words; may be empty. */
+            why: string;
+        };
         /** @description A student's row. */
         StudentRow: {
             /** @description The person's id. */
@@ -4141,6 +4338,17 @@ export interface components {
             };
             /** @description The name. */
             name: string;
+        };
+        /** @description What one student said. */
+        StudentWords: {
+            /** @description What they explained: of each question the last. */
+            explained: components["schemas"]["StudentExplanation"][];
+            /** @description The name. */
+            name: string;
+            /** @description The person's id. */
+            person: string;
+            /** @description What they predicted, in the order in which they did. */
+            predicted: components["schemas"]["StudentPrediction"][];
         };
         /** @description A student's answers to the questions of one lesson. */
         Submission: {
@@ -4287,11 +4495,13 @@ export interface components {
             figure_svg?: string | null;
             /** @description The question's id. */
             id: string;
+            /** @description What somebody who teaches gave an explanation; left out where it waits. */
+            mark?: components["schemas"]["Marked"] | null;
             /** @description Feedback for the student, as safe HTML. */
             message_html?: string | null;
             /**
              * Format: double
-             * @description Points that can be earned.
+             * @description Points that can be earned here: none where people give them.
              */
             possible: number;
             /** @description The right answer and its source, as safe HTML, where it is open. */
@@ -4300,7 +4510,7 @@ export interface components {
             slip?: string | null;
             /** @description What earlier submissions decide, where they are known. */
             standing?: components["schemas"]["QuestionStanding"] | null;
-            /** @description Right, wrong, blank, invalid, or waiting for an answer that is invalid; left out while it is held back. */
+            /** @description Right, wrong, blank, invalid, kept for people to judge, or waiting for an answer that is invalid; left out while it is held back. */
             verdict?: components["schemas"]["Mark"] | null;
         };
         /** @description Where a person stands, without what is held back from them. */

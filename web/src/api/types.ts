@@ -11,6 +11,7 @@ export type Answer = Schemas["Answer"];
 export type Body = Schemas["Body"];
 export type BodyState = Schemas["BodyState"];
 export type Camera = Schemas["Camera"];
+export type ClassWords = Schemas["ClassWords"];
 export type CheckReport = Schemas["CheckReport"];
 export type Drag = Schemas["Drag"];
 export type Drawing = Schemas["Drawing"];
@@ -52,6 +53,7 @@ export type Output = Schemas["Output"];
 /** A run that was recorded; `Motion` of the schema is what drives something in a scene. */
 export type Motion = Schemas["RecordedMotion"];
 export type Pictures = Schemas["Pictures"];
+export type NotionGraph = Schemas["NotionGraph"];
 export type OpenedLecture = Schemas["OpenedLecture"];
 export type PresenterState = Schemas["PresenterState"];
 export type ImportedRobot = Schemas["ImportedRobot"];

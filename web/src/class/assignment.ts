@@ -9,6 +9,7 @@ import type { Page } from "../core/router";
 import { t } from "../core/texts";
 import { pointsOf } from "../exercise/verdict";
 import { problemNotice, skeleton } from "../ui/notice";
+import { saidSection } from "./explanations";
 import { figuresSection } from "./figures";
 import { regradeSection } from "./regrade";
 
@@ -26,6 +27,7 @@ export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
         h("p", null, h("a", { href: "/class" }, t("← Class"))),
         h("header", { class: "page-head" }, h("h1", null, `${lesson.number} ${lesson.title}`)),
         figuresSection(lesson),
+        saidSection(slug),
         policySection(lesson, students, () => void load()),
         extensionSection(lesson, students, () => void load()),
         regradeSection(lesson),

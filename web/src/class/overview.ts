@@ -95,7 +95,13 @@ function paintLessons(root: HTMLElement, grades: GradeTable): void {
   root.hidden = false;
   root.replaceChildren(
     h("h2", null, t("Lessons")),
-    h("p", { class: "help" }, t("Dates, what is told when, questions in figures, regrades:")),
+    h(
+      "p",
+      { class: "help" },
+      t("Dates, what is told when, what the class said, questions in figures, regrades."),
+      " ",
+      h("a", { href: "/course" }, t("Other lessons, or another order")),
+    ),
     h(
       "ol",
       { class: "lesson-links" },

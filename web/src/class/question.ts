@@ -57,9 +57,9 @@ function painted(found: QuestionAnalysis): (HTMLElement | string)[] {
   return [
     ...head,
     numbers(found),
-    mistakes(found),
-    ...choices(found),
-    untilRight(found),
+    ...(figures.kind === "explanation"
+      ? [toRead(found)]
+      : [mistakes(found), ...choices(found), untilRight(found)]),
     ...drawn(found),
     files(found),
   ];
@@ -175,6 +175,20 @@ function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number)
     ),
   );
 }
+
+/** Where explanations are read: no program judges them. */
+const toRead = (found: QuestionAnalysis): HTMLElement =>
+  h(
+    "p",
+    { class: "student-lesson" },
+    t("No program judges explanations."),
+    " ",
+    h(
+      "a",
+      { href: `/class/lessons/${encodeURIComponent(found.lesson)}#said` },
+      t("Read them and give their points"),
+    ),
+  );
 
 function choices(found: QuestionAnalysis): HTMLElement[] {
   if (found.choices.length === 0) return [];

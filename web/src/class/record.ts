@@ -126,7 +126,12 @@ export function remarksList(lesson: LessonRecord): HTMLElement {
         extension.attempts ? t("{n} more attempt | {n} more attempts", { n: extension.attempts }) : "",
       ]
     : [];
-  const kinds = { points: t("decided"), comment: t("wrote"), request: t("asked") } as Record<string, string>;
+  const kinds = {
+    points: t("decided"),
+    mark: t("read"),
+    comment: t("wrote"),
+    request: t("asked"),
+  } as Record<string, string>;
   const items = [
     extension
       ? line(
@@ -139,11 +144,7 @@ export function remarksList(lesson: LessonRecord): HTMLElement {
         )
       : null,
     ...lesson.remarks.map((one) =>
-      line(
-        one.at,
-        `${one.by} ${kinds[one.kind] ?? ""}`,
-        `${one.points == null ? "" : `${t("{points} points count.", { points: points(one.points) })} `}${one.text}`,
-      ),
+      line(one.at, `${one.by} ${kinds[one.kind] ?? ""}`, `${counts(one)}${one.text}`),
     ),
     ...lesson.regrades.map((one) =>
       line(
@@ -154,6 +155,15 @@ export function remarksList(lesson: LessonRecord): HTMLElement {
     ),
   ].filter((item) => item !== null);
   return h("ul", { class: "remarks", hidden: items.length === 0 }, ...items);
+}
+
+/** What a remark decides, before its words. */
+function counts({ question, points: given }: LessonRecord["remarks"][number]): string {
+  if (question == null)
+    return given == null ? "" : `${t("{points} points count.", { points: points(given) })} `;
+  return given == null
+    ? `${t("The explanation {question} waits again.", { question })} `
+    : `${t("{points} points for the explanation {question}.", { points: points(given), question })} `;
 }
 
 function attempt(one: GradedSubmission, lesson: LessonRecord): HTMLElement {

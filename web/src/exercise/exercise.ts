@@ -15,6 +15,8 @@ import { type HistoryList, historyList } from "./history";
 import { type QuestionField, questionField } from "./question";
 import { verdictSummary } from "./verdict";
 
+/** Marks of what needs no more work. */
+const DONE = new Set<string | undefined | null>(["right", "kept"]);
 /** Label of the button that hands the answers in. */
 const check = (): string => t("Check my answers");
 /** The file that courses on other systems take: see `triad export`. */
@@ -90,8 +92,13 @@ class ExerciseSection {
 
   parts(): HTMLElement[] {
     const { questions, pass_mark: passMark } = this.lesson.exercise;
-    const total = questions.reduce((sum, question) => sum + question.points, 0);
-    const toPass = passMark ? `; ${t("{points} to pass", { points: points(passMark * total) })}` : "";
+    const sum = (byPeople: boolean): number =>
+      questions
+        .filter((question) => (question.kind === "explanation") === byPeople)
+        .reduce((sum, question) => sum + question.points, 0);
+    const toPass = passMark ? `; ${t("{points} to pass", { points: points(passMark * sum(false)) })}` : "";
+    const read =
+      sum(true) > 0 ? `; ${t("{points} more that a teacher gives", { points: points(sum(true)) })}` : "";
     return [
       h(
         "div",
@@ -100,7 +107,7 @@ class ExerciseSection {
         h(
           "p",
           null,
-          `${t("{n} question | {n} questions", { n: questions.length })}, ${t("{n} point | {n} points", { n: total })}${toPass}`,
+          `${t("{n} question | {n} questions", { n: questions.length })}, ${t("{n} point | {n} points", { n: sum(false) })}${toPass}${read}`,
         ),
       ),
       whose(this.lesson),
@@ -216,7 +223,7 @@ class ExerciseSection {
     this.outcome.replaceChildren(verdictSummary(verdict));
     await setMaths(this.form);
     this.outcome.focus({ preventScroll: true });
-    const wrong = this.fields.find((field) => byId.get(field.id)?.verdict !== "right");
+    const wrong = this.fields.find((field) => !DONE.has(byId.get(field.id)?.verdict));
     (wrong?.root ?? this.outcome).scrollIntoView({ block: "nearest" });
   }
 }

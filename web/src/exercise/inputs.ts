@@ -5,6 +5,7 @@ import type { Answer, Question } from "../api/types";
 import { authored, h } from "../core/dom";
 import { t } from "../core/texts";
 import { diagramInput } from "./diagram";
+import { explanationInput } from "./explanation";
 import { type Inputs, type QuestionContext, textInput } from "./field";
 import { fileInput } from "./file";
 import { tuningInput } from "./tuning";
@@ -25,6 +26,8 @@ export function inputsOf(question: Question, place: QuestionContext, draft: stri
       return fileInput(question, place, draft);
     case "tuning":
       return tuningInput(question, place, draft);
+    case "explanation":
+      return explanationInput(question, place, draft);
     default:
       return single(question, place, draft);
   }

@@ -70,7 +70,7 @@ export function questionField(
     draft: inputs.draft,
     hints: opened.shown,
     show: (result) => {
-      root.classList.remove("is-right", "is-wrong", "is-blank", "is-invalid", "is-waiting");
+      root.classList.remove("is-right", "is-wrong", "is-blank", "is-invalid", "is-waiting", "is-kept");
       for (const input of root.querySelectorAll("input, textarea, select"))
         input.removeAttribute("aria-invalid");
       if (!result) {

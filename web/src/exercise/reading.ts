@@ -13,7 +13,7 @@ const READ = new Set(["number", "vector", "matrix", "formula"]);
 /** The line below a typed answer: "Read as 29.4 N", or what to change. */
 export function readingLine(slug: string, question: Question, inputs: Inputs): HTMLElement | null {
   if (!READ.has(question.kind)) return null;
-  const line = h("p", { class: "reading", "aria-live": "polite" });
+  const line = h("p", { class: "read-as", "aria-live": "polite" });
   let asked: AbortController | undefined;
   let timer = 0;
   const show = (text: string, unread: boolean): void => {

@@ -1,5 +1,6 @@
 // A verdict in words and a mark: never by colour alone.
 
+import { inClass } from "../api/identity";
 import type { GradedSubmission, Mark, QuestionVerdict } from "../api/types";
 import { authored, h } from "../core/dom";
 import { points } from "../core/format";
@@ -11,6 +12,7 @@ const WORDS: Record<Mark, { word: () => string; mark: IconName }> = {
   wrong: { word: () => t("Not yet"), mark: "cross" },
   blank: { word: () => t("No answer"), mark: "dash" },
   invalid: { word: () => t("Sent back"), mark: "warn" },
+  kept: { word: () => t("Kept"), mark: "check" },
   waiting: { word: () => t("Waiting"), mark: "dash" },
 };
 
@@ -38,24 +40,22 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
       { class: "verdict-head" },
       icon(mark),
       h("strong", null, word()),
-      result.earned == null
-        ? null
-        : h(
-            "span",
-            { class: "verdict-points" },
-            t("{earned} of {possible} points", {
-              earned: points(result.earned),
-              possible: points(result.possible),
-            }),
-          ),
+      result.earned == null ? null : h("span", { class: "verdict-points" }, earned(result)),
     ),
     text.textContent ? text : null,
+    result.mark?.remark
+      ? h("p", { class: "verdict-text" }, `${result.mark.by}: ${result.mark.remark}`)
+      : null,
     standingLine(result),
     result.reference_html
       ? h(
           "details",
           { class: "reference" },
-          h("summary", null, t("The reference answer")),
+          h(
+            "summary",
+            null,
+            result.verdict === "kept" ? t("A good explanation, to compare") : t("The reference answer"),
+          ),
           authored(h("div", { class: "verdict-text" }), result.reference_html),
         )
       : null,
@@ -63,9 +63,20 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
   );
 }
 
+/** The points of a question in words; those of an explanation are given by people. */
+function earned({ verdict, earned, possible, mark }: QuestionVerdict): string {
+  if (verdict === "kept") {
+    if (mark?.points != null)
+      return t("{points} points by {name}", { points: points(mark.points), name: mark.by });
+    return inClass() ? t("waits for your teacher") : "";
+  }
+  if (possible === 0) return "";
+  return t("{earned} of {possible} points", { earned: points(earned ?? 0), possible: points(possible) });
+}
+
 /** Where the student stands with the question: tries that are left, or that its points stay as they are. */
 function standingLine({ standing, possible }: QuestionVerdict): HTMLElement | null {
-  if (!standing) return null;
+  if (!standing || possible === 0) return null;
   const { attempts, best, open, left } = standing;
   if (open && best >= possible) return null;
   const text = open

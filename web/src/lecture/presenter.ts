@@ -1,8 +1,9 @@
 // A presenter's panel: opens a lecture for the run of this page, sends what is looked at, asks and reveals.
 
 import { ApiError, api } from "../api/client";
+import { inClass, teaches } from "../api/identity";
 import type { Tally } from "../api/types";
-import { addressOf } from "../core/address";
+import { addressOf, pathOf } from "../core/address";
 import { announce, h, setText } from "../core/dom";
 import { parts, t } from "../core/texts";
 import type { Session } from "../session/session";
@@ -11,6 +12,7 @@ import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { type NewQuestion, questionDialog } from "./question-dialog";
+import { showSaid } from "./said";
 import { Slides } from "./slides";
 import { histogram } from "./voter";
 
@@ -107,6 +109,7 @@ export class PresenterPanel {
   }
 
   private layout(): HTMLElement {
+    const lesson = /^\/lessons\/([^/]+)$/.exec(pathOf(location))?.[1];
     return h(
       "section",
       { class: "presenter", "aria-label": t("Lecture"), hidden: true },
@@ -119,6 +122,9 @@ export class PresenterPanel {
           { class: "row wrap tight" },
           action(t("How to join"), "button", () => this.lecture && void invite(this.lecture)),
           action(t("Ask a question"), "button", () => this.ask()),
+          lesson && inClass() && teaches()
+            ? action(t("What the class said"), "button", () => showSaid(lesson))
+            : null,
           this.revealButton,
           this.withdrawButton,
           action(t("End the lecture"), "button quiet", () => void this.end()),

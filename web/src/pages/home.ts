@@ -46,7 +46,12 @@ class HomePage {
       h(
         "section",
         { "aria-labelledby": "lessons-title" },
-        h("div", { class: "section-head" }, h("h2", { id: "lessons-title" }, t("Lessons")), this.progress),
+        h(
+          "div",
+          { class: "section-head" },
+          h("h2", { id: "lessons-title" }, t("Lessons")),
+          h("div", { class: "row wrap" }, this.progress, h("a", { href: "/course" }, t("What needs what"))),
+        ),
         this.list,
       ),
       this.gallery,

@@ -68,6 +68,9 @@ export class PredictionPanel implements Asked {
       const found = name ? await api.predictions(this.lesson.slug, name) : [];
       this.kept.clear();
       for (const one of found) this.kept.set(one.prediction, one);
+      // Another run than the one that shows it: that one was seen in an earlier visit.
+      for (const one of this.lesson.predictions)
+        if (one.with && this.kept.has(one.id)) this.revealed.add(one.id);
       this.paint();
     } catch (error) {
       this.root.replaceChildren(
@@ -108,6 +111,11 @@ export class PredictionPanel implements Asked {
         ? t("Your prediction is kept. Now run it.")
         : t("Skipped, and kept as skipped. Now run it."),
     );
+    const { session } = this;
+    if (asked.with && session) {
+      const { values, places } = session.numbers;
+      await session.change({ values: { ...values, ...asked.with }, places });
+    }
     this.paint();
     this.root.querySelector<HTMLElement>(".prediction-result")?.focus();
     setStudent(name);

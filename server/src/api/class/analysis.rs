@@ -3,6 +3,8 @@
 // The documentation macro writes out paths of its own.
 #![allow(unused_qualifications)]
 
+use std::collections::HashSet;
+
 use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::header;
@@ -10,24 +12,27 @@ use axum::response::IntoResponse;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use crate::analysis::{Class, LessonFigures, QuestionAnalysis, answers_csv, figures_csv};
+use crate::analysis::{Class, ClassWords, LessonFigures, QuestionAnalysis, answers_csv, figures_csv};
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::PathParameters;
 use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::app::App;
 use crate::blocking;
+use crate::grades::Book;
 use crate::problem::Problem;
-use crate::store::CLASS;
+use crate::store::{CLASS, Role};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonFigures>();
     schemas.answer::<QuestionAnalysis>();
+    schemas.answer::<ClassWords>();
     OpenApiRouter::new()
         .routes(routes!(figures))
         .routes(routes!(figures_sheet))
         .routes(routes!(question))
         .routes(routes!(answers_sheet))
+        .routes(routes!(words))
 }
 
 async fn of_lesson(app: &App, slug: &str) -> Result<LessonFigures, Problem> {
@@ -95,6 +100,25 @@ async fn answers_sheet(
     let text = answers_csv(&class, &id)?;
     app.store.note(CLASS, &caller.member()?.id, "exported", &format!("{}/{id}", lesson.slug)).await?;
     Ok(sheet("answers.csv", text))
+}
+
+/// What the class predicted and explained in a lesson, by student, with what the explanations were given.
+#[utoipa::path(get, path = "/assignments/{slug}/words", operation_id = "read_words", tag = "class", params(("slug" = String, Path)), responses(
+    (status = 200, description = "Predictions and explanations, with names", body = ref(of::<ClassWords>())),
+    (status = 404, description = "No such lesson", body = ref(PROBLEM))))]
+async fn words(
+    State(app): State<App>,
+    PathParameters(slug): PathParameters<String>,
+) -> Result<Answer<ClassWords>, Problem> {
+    let lesson = lessons::find(&app, &slug)?;
+    let class = Class::open(&app.store, CLASS, &lesson.slug).await?;
+    let book = Book::open(&app.store, CLASS, None).await?;
+    let people = app.store.people(CLASS).await?.into_iter();
+    let students: HashSet<String> =
+        people.filter(|one| one.role == Role::Student).map(|one| one.id).collect();
+    let mut predicted = app.store.predictions(CLASS, None, Some(&lesson.slug)).await?;
+    predicted.retain(|one| students.contains(&one.person));
+    Ok(Answer(ClassWords::of(lesson, &class, &predicted, &book)))
 }
 
 fn sheet(name: &str, text: String) -> impl IntoResponse {

@@ -8,6 +8,7 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use triad_lessons::Lesson;
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -22,7 +23,7 @@ use crate::app::App;
 use crate::grades::{GradeTable, possible, table};
 use crate::policy::Moment;
 use crate::problem::Problem;
-use crate::store::{CLASS, DecisionKind, Query};
+use crate::store::{CLASS, DecisionKind, Query, Said};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<GradeTable>();
@@ -66,9 +67,12 @@ async fn of_person(
 struct NewDecision {
     /// Slug of the lesson.
     lesson: String,
-    /// The points that count from now on; null: those that were earned.
+    /// The explanation that gets the points; left out: the whole lesson.
+    #[serde(default)]
+    question: Option<String>,
+    /// The points that count from now on; null: those that were earned, and an explanation waits again.
     points: Option<f64>,
-    /// Why: the student sees it, and so does whoever looks later.
+    /// Why: the student sees it, and so does whoever looks later. May be empty for an explanation.
     reason: String,
 }
 
@@ -76,8 +80,8 @@ struct NewDecision {
 #[utoipa::path(post, path = "/people/{person}/decisions", operation_id = "decide", tag = "class", params(("person" = String, Path)),
     request_body(content = ref(of::<NewDecision>()), example = json!({"lesson": "screw", "points": 10, "reason": "right, in another frame"})), responses(
     (status = 201, description = "It counts"),
-    (status = 404, description = "No such person or lesson", body = ref(PROBLEM)),
-    (status = 422, description = "No reason, or points that cannot be", body = ref(PROBLEM))))]
+    (status = 404, description = "No such person, lesson or question", body = ref(PROBLEM)),
+    (status = 422, description = "No reason, points that cannot be, or a question that a program judges", body = ref(PROBLEM))))]
 async fn decide(
     State(app): State<App>,
     PathParameters(person): PathParameters<String>,
@@ -85,15 +89,35 @@ async fn decide(
     Json(new): Json<NewDecision>,
 ) -> Result<StatusCode, Problem> {
     let lesson = lessons::find(&app, &new.lesson)?;
-    let reason = text_of(&new.reason, "/reason")?;
-    let possible = possible(lesson);
+    let (reason, possible) = match &new.question {
+        None => (text_of(&new.reason, "/reason")?, possible(lesson)),
+        Some(_) if new.reason.trim().is_empty() => (String::new(), of_explanation(lesson, &new)?),
+        Some(_) => (text_of(&new.reason, "/reason")?, of_explanation(lesson, &new)?),
+    };
     if new.points.is_some_and(|points| !(0.0..=possible).contains(&points)) {
         let wrong = format!("points go from 0 to {possible} here");
-        let hint = "give points within that range";
-        let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-decision", wrong.clone(), hint);
-        return Err(problem.at("/points", wrong));
+        return Err(refused("/points", wrong, "give points within that range"));
     }
-    let what = (DecisionKind::Points, new.points, reason.as_str());
-    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, what).await?;
+    let said = match new.question.as_deref() {
+        None => Said::points(new.points, &reason),
+        question => Said { kind: DecisionKind::Mark, question, points: new.points, text: &reason },
+    };
+    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, said).await?;
     Ok(StatusCode::CREATED)
+}
+
+/// The points of the explanation that a decision is about.
+fn of_explanation(lesson: &Lesson, new: &NewDecision) -> Result<f64, Problem> {
+    let id = new.question.as_deref().unwrap_or_default();
+    let question = lesson.question(id).ok_or_else(|| lessons::unknown_question(lesson, id))?;
+    if question.is_judged_by_people() {
+        return Ok(question.points);
+    }
+    let wrong = format!("the answers to {id} are judged by a program");
+    Err(refused("/question", wrong, "decide about the whole lesson: leave out `question`"))
+}
+
+fn refused(pointer: &str, wrong: String, hint: &str) -> Problem {
+    let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-decision", wrong.clone(), hint);
+    problem.at(pointer, wrong)
 }

@@ -131,6 +131,8 @@ struct OwnPrediction {
 struct OwnDecision {
     /// Slug of the lesson.
     lesson: String,
+    /// The explanation that it is about; null: the whole lesson.
+    question: Option<String>,
     /// The points that count; null: those that were earned.
     points: Option<f64>,
     /// Why.
@@ -158,9 +160,16 @@ async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse
     }
     let submissions = found.into_iter().map(|one| json!({"answers": one.answers, "verdict": one.verdict}));
     let decisions = app.store.decisions(CLASS).await?.into_iter().filter(|decision| {
-        decision.person == id && (decision.kind != DecisionKind::Points || told(&decision.lesson).points)
+        let is_of_points = matches!(decision.kind, DecisionKind::Points | DecisionKind::Mark);
+        decision.person == id && (!is_of_points || told(&decision.lesson).points)
     });
-    let decision = |Decision { lesson, points, reason, at, .. }| OwnDecision { lesson, points, reason, at };
+    let decision = |Decision { lesson, question, points, reason, at, .. }| OwnDecision {
+        lesson,
+        question,
+        points,
+        reason,
+        at,
+    };
     let predicted = app.store.predictions(CLASS, Some(id), None).await?;
     let prediction = |KeptPrediction { lesson, prediction, choice, why, given_at: at, .. }| OwnPrediction {
         lesson,

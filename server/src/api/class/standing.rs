@@ -23,7 +23,7 @@ use crate::app::App;
 use crate::grades::{Book, Record, record};
 use crate::policy::{Moment, Revealed};
 use crate::problem::Problem;
-use crate::store::{CLASS, DecisionKind, Member, Query, Role, StoreError, VerdictHistory};
+use crate::store::{CLASS, DecisionKind, Member, Query, Role, Said, StoreError, VerdictHistory};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<Record>();
@@ -109,8 +109,8 @@ async fn ask(
         }
         Some(_) => {}
     }
-    let what = (DecisionKind::Request, None, text.as_str());
-    app.store.decide(CLASS, &member.id, &member.id, &lesson.slug, what).await?;
+    let said = Said::words(DecisionKind::Request, &text);
+    app.store.decide(CLASS, &member.id, &member.id, &lesson.slug, said).await?;
     Ok(StatusCode::CREATED)
 }
 
@@ -128,8 +128,8 @@ async fn comment(
 ) -> Result<StatusCode, Problem> {
     let lesson = lessons::find(&app, &words.lesson)?;
     let text = text_of(&words.text, "/text")?;
-    let what = (DecisionKind::Comment, None, text.as_str());
-    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, what).await?;
+    let said = Said::words(DecisionKind::Comment, &text);
+    app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, said).await?;
     Ok(StatusCode::CREATED)
 }
 

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use triad_lessons::CourseError;
 use triad_lessons::lesson::{Lesson, LessonSummary, LessonView};
 use triad_lessons::tasks::starter::{Language, UnknownLanguage};
-use triad_lessons::{InstancesView, Understood};
+use triad_lessons::{InstancesView, NotionGraph, Understood};
 use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -34,6 +34,7 @@ use crate::store::Role;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonList>();
+    schemas.answer::<NotionGraph>();
     schemas.answer::<LessonView>();
     schemas.answer::<Hint>();
     schemas.answer::<InstancesView>();
@@ -41,6 +42,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<Understood>();
     OpenApiRouter::new()
         .routes(routes!(list))
+        .routes(routes!(notions))
         .routes(routes!(show))
         .routes(routes!(hint))
         .routes(routes!(reading))
@@ -83,6 +85,13 @@ struct LessonList(Vec<LessonSummary>);
     (status = 200, description = "Slug, number, title, summary, minutes and objectives of each", body = ref(of::<LessonList>()))))]
 async fn list(State(app): State<App>) -> Answer<LessonList> {
     Answer(LessonList(app.course.lessons().iter().map(Lesson::summary).collect()))
+}
+
+/// What each lesson introduces, and what it needs from which other: the lessons that are taken, and those at hand beside them.
+#[utoipa::path(get, path = "/notions", operation_id = "get_notions", tag = "lessons", responses(
+    (status = 200, description = "The graph", body = ref(of::<NotionGraph>()))))]
+async fn notions(State(app): State<App>) -> Answer<NotionGraph> {
+    Answer(NotionGraph::of(&app.course))
 }
 
 /// Whose numbers.

@@ -6,7 +6,8 @@ use serde_json::{Map, Value};
 use triad_lessons::{Lesson, Mark, Verdict};
 
 use crate::app::App;
-use crate::policy::{Policy, Revealed, When};
+use crate::grades::{Entry, Marked};
+use crate::policy::{Moment, Policy, Revealed, When};
 use crate::problem::Problem;
 
 /// The verdict of a submission, without what is held back.
@@ -48,9 +49,9 @@ struct ToldQuestion {
     /// Points earned; left out while they are held back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     earned: Option<f64>,
-    /// Points that can be earned.
+    /// Points that can be earned here: none where people give them.
     possible: f64,
-    /// Right, wrong, blank, invalid, or waiting for an answer that is invalid; left out while it is held back.
+    /// Right, wrong, blank, invalid, kept for people to judge, or waiting for an answer that is invalid; left out while it is held back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     verdict: Option<Mark>,
     /// Feedback for the student, as safe HTML.
@@ -68,6 +69,9 @@ struct ToldQuestion {
     /// The right answer and its source, as safe HTML, where it is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     reference_html: Option<String>,
+    /// What somebody who teaches gave an explanation; left out where it waits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    mark: Option<Marked>,
 }
 
 /// Takes out of a verdict what is not told.
@@ -140,6 +144,29 @@ pub(in crate::api) fn tell(
     Ok(())
 }
 
+/// Adds to the explanations of a verdict what they were given.
+pub(in crate::api) fn mark(verdict: &mut Value, entry: &Entry) {
+    let came = verdict["submitted_at"].as_str().and_then(|at| Moment::try_from(at.to_owned()).ok());
+    let all = verdict.as_object_mut().into_iter().flat_map(questions);
+    for question in all.filter(|one| one["verdict"] == "kept") {
+        let mark = question["id"].as_str().and_then(|id| entry.mark(id));
+        // What was written after it was not read by whoever gave it.
+        let mark = mark.filter(|mark| came.is_some_and(|came| came <= mark.at));
+        let mark = mark.and_then(|mark| serde_json::to_value(mark).ok());
+        question.extend(mark.map(|mark| ("mark".to_owned(), mark)));
+    }
+}
+
+/// Adds a good explanation to each that is kept, where the course opens right answers: for who works alone, and has nobody
+/// else to judge it.
+pub(in crate::api) fn compare(lesson: &Lesson, verdict: &mut Value) {
+    let all = verdict.as_object_mut().filter(|_| lesson.opens.right);
+    for question in all.into_iter().flat_map(questions).filter(|one| one["verdict"] == "kept") {
+        let good = question["id"].as_str().and_then(|id| triad_lessons::right_answer(lesson, id));
+        question.extend(good.map(|good| ("reference_html".to_owned(), good.into())));
+    }
+}
+
 /// What a student is told in a lesson now: at home everything.
 ///
 /// Errors if the gradebook cannot be read.
@@ -150,5 +177,5 @@ pub(in crate::api) async fn revealed(
 ) -> Result<Revealed, Problem> {
     let Some(person) = person.filter(|_| app.access.is_class()) else { return Ok(Revealed::ALL) };
     let book = crate::grades::Book::open(&app.store, crate::store::CLASS, Some(person)).await?;
-    Ok(book.standing(person, lesson, crate::policy::Moment::now()).turn.revealed)
+    Ok(book.standing(person, lesson, Moment::now()).turn.revealed)
 }

@@ -21,7 +21,8 @@ use crate::api::extract::{Json, PathParameters};
 use crate::api::guard::Caller;
 use crate::app::App;
 use crate::problem::Problem;
-use crate::store::Role;
+use crate::session::{AskedFirst, Session};
+use crate::store::{CLASS, Role};
 use crate::{blocking, scenes};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -49,6 +50,7 @@ async fn create(
     caller: Caller,
     Json(wanted): Json<NewSession>,
 ) -> Result<impl IntoResponse, Problem> {
+    let asked = asked_first(&app, &caller, wanted.lesson.as_deref());
     let session = blocking(move || {
         let (mut scene, source) =
             choose(&app, &caller, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
@@ -60,12 +62,38 @@ async fn create(
         started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })
     })
     .await?;
+    if let Some(asked) = asked {
+        session.ask_first(asked);
+    }
     let state = session.state();
     let mut headers = HeaderMap::new();
     if let Ok(address) = state.links.this.parse() {
         headers.insert(header::LOCATION, address);
     }
     Ok((StatusCode::CREATED, headers, axum::Json(state)))
+}
+
+/// A student of a class predicts before the run of a lesson that asks for it. Who teaches shows it to others.
+fn asked_first(app: &App, caller: &Caller, lesson: Option<&str>) -> Option<AskedFirst> {
+    let student = caller.0.as_ref().filter(|member| app.access.is_class() && member.role == Role::Student)?;
+    let asking = app.course.lesson(lesson?).filter(|lesson| !lesson.about.predictions.is_empty())?;
+    Some(AskedFirst { person: student.id.clone(), lesson: asking.slug.clone() })
+}
+
+/// The session, if its run may go on: everything that its lesson asks for before was predicted or skipped.
+async fn to_run(app: &App, id: &str) -> Result<Arc<Session>, Problem> {
+    let session = app.sessions.get(id)?;
+    let Some(AskedFirst { person, lesson }) = session.asked_first() else { return Ok(session) };
+    let Some(lesson) = app.course.lesson(lesson) else { return Ok(session) };
+    let made = app.store.predictions(CLASS, Some(person), Some(&lesson.slug)).await?;
+    let is_missing = |id: &str| !made.iter().any(|one| one.prediction == id);
+    let Some(missing) = lesson.about.predictions.iter().find(|one| is_missing(&one.id)) else {
+        return Ok(session);
+    };
+    let detail = format!("the lesson asks what you expect before it runs: {}", missing.id);
+    let hint =
+        format!("say it or skip it on the page, or by POST /api/v1/lessons/{}/predictions", lesson.slug);
+    Err(Problem::new(StatusCode::CONFLICT, "predict-first", detail, hint))
 }
 
 fn choose(
@@ -127,14 +155,14 @@ async fn delete(
 #[utoipa::path(post, path = "/sessions/{id}/step", operation_id = "step_session", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<StepRequest>())), responses(
     (status = 200, description = "The state after it", body = ref(of::<SessionState>())),
-    (status = 409, description = "The simulation has stopped", body = ref(PROBLEM)),
+    (status = 409, description = "The simulation has stopped, or waits for a prediction", body = ref(PROBLEM)),
     (status = 422, description = "The engine could not go on; the last good state is kept", body = ref(PROBLEM))))]
 async fn step(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,
     Json(step): Json<StepRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
-    let session = app.sessions.get(&id)?;
+    let session = to_run(&app, &id).await?;
     let state = match step.asked()? {
         Stretch::Steps(count) => session.steps(count).await?,
         Stretch::Seconds(seconds) => session.seconds(seconds).await?,
@@ -146,13 +174,13 @@ async fn step(
 #[utoipa::path(post, path = "/sessions/{id}/play", operation_id = "play_session", tag = "sessions", params(("id" = String, Path)),
     request_body(content = ref(of::<PlayRequest>())), responses(
     (status = 200, description = "The state at that moment", body = ref(of::<SessionState>())),
-    (status = 409, description = "The simulation has stopped", body = ref(PROBLEM))))]
+    (status = 409, description = "The simulation has stopped, or waits for a prediction", body = ref(PROBLEM))))]
 async fn play(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,
     Json(play): Json<PlayRequest>,
 ) -> Result<axum::Json<Arc<SessionState>>, Problem> {
-    let session = app.sessions.get(&id)?;
+    let session = to_run(&app, &id).await?;
     Ok(axum::Json(session.play(play.asked()?).await?))
 }
 

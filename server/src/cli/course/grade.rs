@@ -39,9 +39,15 @@ fn print(verdict: &Verdict) {
             Mark::Wrong => "wrong",
             Mark::Blank => "blank",
             Mark::Invalid => "invalid",
+            Mark::Kept => "kept",
             Mark::Waiting => "waiting",
         };
-        print_line(&format!("{mark:<8}{} of {}  {}", question.earned, question.possible, question.id));
+        let points = if question.verdict == Mark::Kept {
+            "for people to judge".to_owned()
+        } else {
+            format!("{} of {}", question.earned, question.possible)
+        };
+        print_line(&format!("{mark:<8}{points}  {}", question.id));
         print_line(&format!("        {}", words(&question.message_html)));
     }
     let end = if !verdict.gradable {

@@ -24,6 +24,8 @@ pub struct HandedRow {
 pub enum DecisionKind {
     /// Which points count.
     Points,
+    /// Which points an explanation gets, with a remark on it.
+    Mark,
     /// A remark of somebody who teaches.
     Comment,
     /// The student asks to look again; whatever somebody who teaches says later answers it.
@@ -35,13 +37,17 @@ impl DecisionKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Points => "points",
+            Self::Mark => "mark",
             Self::Comment => "comment",
             Self::Request => "request",
         }
     }
 
     fn named(name: &str) -> Self {
-        [Self::Comment, Self::Request].into_iter().find(|kind| kind.name() == name).unwrap_or(Self::Points)
+        [Self::Mark, Self::Comment, Self::Request]
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .unwrap_or(Self::Points)
     }
 }
 
@@ -54,7 +60,9 @@ pub struct Decision {
     pub lesson: String,
     /// Of which kind.
     pub kind: DecisionKind,
-    /// The points that count instead; `None`: those that were earned.
+    /// The question that it is about; `None`: the whole lesson.
+    pub question: Option<String>,
+    /// The points that count instead; `None`: those that were earned, and of an explanation that it waits again.
     pub points: Option<f64>,
     /// Why, or what is said.
     pub reason: String,
@@ -62,6 +70,31 @@ pub struct Decision {
     pub by: String,
     /// When.
     pub at: Moment,
+}
+
+/// What is decided or said.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Said<'a> {
+    /// Of which kind.
+    pub kind: DecisionKind,
+    /// The question that it is about; `None`: the whole lesson.
+    pub question: Option<&'a str>,
+    /// The points that count instead; `None` takes an earlier decision back.
+    pub points: Option<f64>,
+    /// Why, or what is said.
+    pub text: &'a str,
+}
+
+impl<'a> Said<'a> {
+    /// Something said about the whole lesson, which decides nothing.
+    pub fn words(kind: DecisionKind, text: &'a str) -> Self {
+        Self { kind, question: None, points: None, text }
+    }
+
+    /// Which points count in the whole lesson.
+    pub fn points(points: Option<f64>, reason: &'a str) -> Self {
+        Self { kind: DecisionKind::Points, question: None, points, text: reason }
+    }
 }
 
 impl Store {
@@ -88,13 +121,14 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn decisions(&self, course: &str) -> Result<Vec<Decision>, StoreError> {
-        type Row = (String, String, String, Option<f64>, String, String, i64);
+        type Row = (String, String, String, Option<String>, Option<f64>, String, String, i64);
         let rows: Vec<Row> =
             sqlx::query_as(sql::DECISIONS).bind(course).fetch_all(&self.pools.readers).await?;
-        let read = |(person, lesson, kind, points, reason, by, at): Row| Decision {
+        let read = |(person, lesson, kind, question, points, reason, by, at): Row| Decision {
             person,
             lesson,
             kind: DecisionKind::named(&kind),
+            question,
             points,
             reason,
             by,
@@ -103,8 +137,7 @@ impl Store {
         Ok(rows.into_iter().map(read).collect())
     }
 
-    /// Writes down what somebody decided or said. For points: those that count instead of those that were earned, or `None` to
-    /// take such a decision back.
+    /// Writes down what somebody decided or said.
     ///
     /// Errors if there is no such person or it cannot be written.
     pub async fn decide(
@@ -113,18 +146,23 @@ impl Store {
         actor: &str,
         person: &str,
         lesson: &str,
-        what: (DecisionKind, Option<f64>, &str),
+        said: Said<'_>,
     ) -> Result<(), StoreError> {
-        let (kind, points, reason) = what;
+        let Said { kind, question, points, text } = said;
         let at = now();
         let mut transaction = self.write().await?;
-        let detail = serde_json::json!([lesson, kind.name(), points, reason]).to_string();
+        let detail = match question {
+            None => serde_json::json!([lesson, kind.name(), points, text]),
+            Some(question) => serde_json::json!([lesson, kind.name(), points, text, question]),
+        };
+        let detail = detail.to_string();
         let event = Event { actor, what: "decided about", subject: person, detail: &detail };
         let n = log::append(&mut transaction, course, at, &event).await?;
         known(&mut transaction, course, person).await?;
         let assignment = ensured(&mut transaction, course, lesson).await?.id;
         let add = sqlx::query(sql::ADD_DECISION).bind(identifier()).bind(course).bind(n).bind(kind.name());
-        let add = add.bind(person).bind(assignment).bind(points).bind(reason).bind(actor).bind(at);
+        let add =
+            add.bind(person).bind(assignment).bind(question).bind(points).bind(text).bind(actor).bind(at);
         add.execute(&mut *transaction).await?;
         transaction.commit().await
     }

@@ -6,5 +6,5 @@ pub(super) mod members;
 mod regrades;
 
 pub use assignments::Assignment;
-pub use decisions::{Decision, DecisionKind, HandedRow};
+pub use decisions::{Decision, DecisionKind, HandedRow, Said};
 pub use regrades::{NewRegrade, NewVerdict, RegradeRow, Regraded, VerdictHistory};

@@ -43,12 +43,12 @@ async fn place() -> Place {
     }
     let ada = store.person_named(HOME, "zebedee").await.expect("looks").expect("Zebedee");
     store
-        .decide(HOME, "triad", &ada, "pendulum", (DecisionKind::Points, Some(0.7), "right in another frame"))
+        .decide(HOME, "triad", &ada, "pendulum", Said::points(Some(0.7), "right in another frame"))
         .await
         .expect_err("triad is nobody");
     let emmy = store.person_named(HOME, "emmy").await.expect("looks").expect("Emmy");
     store
-        .decide(HOME, &emmy, &ada, "pendulum", (DecisionKind::Points, Some(0.7), "right in another frame"))
+        .decide(HOME, &emmy, &ada, "pendulum", Said::points(Some(0.7), "right in another frame"))
         .await
         .expect("decides");
     Place { folder, store }

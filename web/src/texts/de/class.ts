@@ -123,8 +123,8 @@ export const classroom = {
   "Close joining": "Beitritt schließen",
   "Open joining": "Beitritt öffnen",
   "Another code": "Ein anderer Code",
-  "Dates, what is told when, questions in figures, regrades:":
-    "Termine, was wann mitgeteilt wird, Fragen in Zahlen, Neubewertungen:",
+  "Dates, what is told when, what the class said, questions in figures, regrades.":
+    "Termine, was wann mitgeteilt wird, was der Kurs gesagt hat, Fragen in Zahlen, Neubewertungen.",
   "CSV for Canvas": "CSV für Canvas",
   "CSV for Moodle": "CSV für Moodle",
   "Nobody has joined yet": "Noch ist niemand beigetreten",
@@ -339,4 +339,45 @@ export const classroom = {
   "The words and the link of before are worth nothing then, and their browsers are signed out.":
     "Die bisherigen Wörter und der bisherige Link gelten dann nicht mehr, und die Browser der Person werden abgemeldet.",
   "JSON lines": "JSON-Zeilen",
+  // What a class predicted and explained.
+  "What the class said": "Was der Kurs gesagt hat",
+  "Nobody has predicted or explained anything yet.": "Noch hat niemand etwas vorhergesagt oder erklärt.",
+  "Read it, with names ({n} student) | Read it, with names ({n} students)":
+    "Lesen, mit Namen ({n} Person) | Lesen, mit Namen ({n} Personen)",
+  "Give all that wait full points": "Allen, die warten, volle Punkte geben",
+  "No explanation waits for points.": "Keine Erklärung wartet auf Punkte.",
+  "{n} explanation waits for its points. | {n} explanations wait for their points.":
+    "{n} Erklärung wartet auf ihre Punkte. | {n} Erklärungen warten auf ihre Punkte.",
+  "A good explanation": "Eine gute Erklärung",
+  "Predicted:": "Vorhergesagt:",
+  "came true": "eingetroffen",
+  "went otherwise": "kam anders",
+  "Points, of {most}": "Punkte, von {most}",
+  Remark: "Anmerkung",
+  Give: "Geben",
+  "{given} of {most} points given.": "{given} von {most} Punkten gegeben.",
+  "Explained:": "Erklärt:",
+  "Waits for its points.": "Wartet auf Punkte.",
+  "{given} of {most} points by {name}, {at}.": "{given} von {most} Punkten durch {name}, {at}.",
+  "The words are other ones since: it waits once more.":
+    "Die Worte sind seither andere: Sie wartet noch einmal.",
+  "Give them": "Geben",
+  "{n} explanation got full points. | {n} explanations got full points.":
+    "{n} Erklärung hat volle Punkte. | {n} Erklärungen haben volle Punkte.",
+  "Full points for all that wait": "Volle Punkte für alle, die warten",
+  "{n} student gets {points} points, read or not. Each can be changed later. | {n} students get {points} points, read or not. Each can be changed later.":
+    "{n} Person bekommt {points} Punkte, gelesen oder nicht. Später lässt sich das ändern. | {n} Personen bekommen {points} Punkte, gelesen oder nicht. Später lässt sich jedes davon ändern.",
+  "This lesson asks for no prediction and no explanation.":
+    "Diese Lektion fragt nach keiner Vorhersage und keiner Erklärung.",
+  "What came true": "Was eingetroffen ist",
+  "{skipped} skipped it.": "{skipped} haben sie übersprungen.",
+  "{place} of {all}": "{place} von {all}",
+  "Nobody has explained it yet.": "Noch hat es niemand erklärt.",
+  "The shortest first, without names.": "Die kürzeste zuerst, ohne Namen.",
+  "No program judges explanations.": "Erklärungen beurteilt kein Programm.",
+  "Read them and give their points": "Lesen und Punkte geben",
+  read: "hat gelesen",
+  "The explanation {question} waits again.": "Die Erklärung {question} wartet wieder.",
+  "{points} points for the explanation {question}.": "{points} Punkte für die Erklärung {question}.",
+  "Other lessons, or another order": "Andere Lektionen, oder eine andere Reihenfolge",
 };

@@ -1,0 +1,8 @@
+import { expect, it } from "vitest";
+import { words } from "./explanation";
+
+it("counts words as the grader does", () => {
+  expect(words("")).toBe(0);
+  expect(words("  The bar\ndoes no work: 1 + 1 = 2 … ")).toBe(5);
+  expect(words("λ größer z. B.")).toBe(4);
+});
