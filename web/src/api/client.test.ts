@@ -48,7 +48,7 @@ test("what waits is asked for until it is graded, and its place is told", async 
   );
   expect(await submitted(waits)).toEqual({ id: "s", earned: 1 });
   expect(waits).toEqual([2, 0]);
-  expect(asked.slice(1)).toEqual(["GET /api/v1/submissions/s", "GET /api/v1/submissions/s"]);
+  expect(asked.slice(1)).toEqual(["GET /api/v1/submissions/s?wait=8", "GET /api/v1/submissions/s?wait=8"]);
 });
 
 test("what could not be graded is the server's fault", async () => {
