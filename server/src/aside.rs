@@ -44,7 +44,7 @@ mod tests {
         let own = || rustix::process::getpriority_process(Some(rustix::thread::gettid())).ok();
         let before = own().expect("a priority");
         let aside = run(move || Ok(own())).await.expect("runs").expect("a priority");
-        assert_eq!((aside, own()), ((before + LESS).min(19).max(LESS), Some(before)));
+        assert_eq!((aside, own()), ((before + LESS).clamp(LESS, 19), Some(before)));
         let broken = run(|| -> Result<(), Problem> { std::panic::panic_any(()) }).await;
         assert_eq!(broken.expect_err("says so").code(), "internal");
     }

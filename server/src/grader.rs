@@ -140,7 +140,7 @@ impl Grader {
     async fn judge_batch(self: &Arc<Self>, batch: Vec<Judging>, all_the_same: bool) -> Result<(), Problem> {
         let mut judged = Vec::with_capacity(batch.len());
         let mut left = batch.into_iter();
-        while let Some(one) = left.next() {
+        for one in left.by_ref() {
             let lesson = self.lesson(&one.lesson_sha256).await?;
             let grader = Arc::clone(self);
             let outcome = blocking(move || {

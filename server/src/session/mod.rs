@@ -83,15 +83,15 @@ impl Session {
     ///
     /// Errors if the scene or the change of it is refused, or the thread cannot be started.
     pub fn start(
-        id: String,
+        id: &str,
         original: Scene,
         change: &SceneChange,
         source: SceneSource,
         whose: Option<String>,
         limits: &Limits,
     ) -> Result<Self, Problem> {
-        let run = Run::start(id.clone(), original, change, source, samples_bytes(limits))?;
-        Ok(Self { whose, ..Self::begin(run, &id, Clock::start(), limits)? })
+        let run = Run::start(id.to_owned(), original, change, source, samples_bytes(limits))?;
+        Ok(Self { whose, ..Self::begin(run, id, Clock::start(), limits)? })
     }
 
     /// Goes on with a session that was kept, at the time and in the state of its run. Its recording begins anew.

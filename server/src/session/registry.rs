@@ -89,7 +89,7 @@ impl Registry {
         }
         let place = Place(self, whose.clone());
         let id = self.node.identifier();
-        let session = Arc::new(Session::start(id, scene, change, source, whose, limits)?);
+        let session = Arc::new(Session::start(&id, scene, change, source, whose, limits)?);
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)
