@@ -79,7 +79,10 @@ fn processor() -> f64 {
 
 fn kind(body: &QuestionBody) -> &'static str {
     match body {
-        QuestionBody::Quantity(_) | QuestionBody::Choice { .. } | QuestionBody::Formula(_) => MIX[0].0,
+        QuestionBody::Quantity(_)
+        | QuestionBody::Choice { .. }
+        | QuestionBody::Formula(_)
+        | QuestionBody::Explanation(_) => MIX[0].0,
         QuestionBody::Diagram(_) => MIX[1].0,
         QuestionBody::Implement(_) => MIX[2].0,
         QuestionBody::Model(_) => MIX[3].0,
