@@ -181,12 +181,11 @@ impl Park {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // below seven
             let which = which as usize;
             let [servers, graders] = &*self.machines;
-            match self.servers.get(which) {
-                Some(server) => *server.lock().unwrap() = Process::server(&servers[which], &self.folder),
-                None => {
-                    let at = which - SERVERS;
-                    *self.graders[at].lock().unwrap() = Process::grader(&graders[at], &self.folder);
-                }
+            if let Some(server) = self.servers.get(which) {
+                *server.lock().unwrap() = Process::server(&servers[which], &self.folder);
+            } else {
+                let at = which - SERVERS;
+                *self.graders[at].lock().unwrap() = Process::grader(&graders[at], &self.folder);
             }
             kills += 1;
         }
