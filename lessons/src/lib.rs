@@ -50,7 +50,10 @@ pub mod check;
 mod tests;
 
 pub use answers::{Answer, Submission, SubmissionError};
-pub use check::{Fault, check_course, check_course_files, check_lesson, check_lessons, reference_submission};
+pub use check::{
+    Fault, check_course, check_course_files, check_lesson, check_lessons, reference_submission,
+    wrong_submission,
+};
 pub use exercise::Parameters;
 pub use grading::closed::chosen;
 pub use grading::{GradeError, Understood, grade, near, understand};

@@ -208,6 +208,8 @@ async function later() {
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   await picture("phone");
   assert(width <= 390, `the page is ${width} px wide on a screen of 390 px`);
+  // Tall enough for the mechanism, which stands below the text and loads when it is near.
+  await page.setViewportSize({ width: 390, height: 2400 });
   await page.goto(`${address}/scenes/heavy-top`);
   // The browser remembers that the viewer was opened.
   await page.locator(".has-viewer").waitFor({ state: "attached" });

@@ -92,11 +92,13 @@ async function paper() {
       formulas: visible(".prose .math"),
       questions: visible("fieldset.question"),
       spaces: visible(".handout-space"),
-      buttons: visible("button, nav, .transport, .inspector"),
+      buttons: visible("button:not(.do), nav, .transport, .inspector"),
+      // Steps of the lesson that are buttons on the screen are words on paper.
+      framed: [...document.querySelectorAll("button.do")].filter((one) => getComputedStyle(one).borderTopWidth !== "0px").length,
     };
   });
   assert(seen.formulas > 5 && seen.questions >= 5 && seen.spaces === seen.questions, JSON.stringify(seen));
-  assert.deepEqual([seen.theme, seen.figure, seen.code, seen.buttons], ["light", 1, 1, 0], JSON.stringify(seen));
+  assert.deepEqual([seen.theme, seen.figure, seen.code, seen.buttons, seen.framed], ["light", 1, 1, 0, 0], JSON.stringify(seen));
   await page.evaluate(() => dispatchEvent(new Event("afterprint")));
   await page.emulateMedia({ media: "screen" });
   assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark", "the screen is as it was");

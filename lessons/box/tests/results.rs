@@ -9,7 +9,9 @@ use std::process::{Command, Output};
 use tempfile::TempDir;
 
 use serde_json::{Value, json};
-use triad_lessons::{Course, Lesson, Mark, Submission, Verdict, grade, reference_submission};
+use triad_lessons::{
+    Course, Lesson, Mark, Submission, Verdict, grade, reference_submission, wrong_submission,
+};
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_triad-grade")).args(arguments).output().unwrap()
@@ -121,14 +123,10 @@ fn verdict<'a>(result: &'a Value, system: &str) -> &'a Value {
 
 /// As many submissions as there are kinds of mistakes: the reference, and every wrong answer that an author foresaw.
 fn submissions(lesson: &Lesson) -> Vec<Submission> {
-    let right = reference_submission(lesson);
-    let wrong = lesson.wrong.values().map(|wrong| {
-        let mut submission = right.clone();
-        let asked = wrong.answers.clone().into_iter().filter(|(id, _)| lesson.question(id).is_some());
-        submission.answers.extend(asked);
-        submission
-    });
-    std::iter::once(right.clone()).chain(wrong).collect()
+    let asked =
+        lesson.wrong.values().filter(|wrong| wrong.answers.keys().all(|id| lesson.question(id).is_some()));
+    let wrong = asked.map(|wrong| wrong_submission(lesson, wrong));
+    std::iter::once(reference_submission(lesson)).chain(wrong).collect()
 }
 
 #[test]

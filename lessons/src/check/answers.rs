@@ -88,13 +88,7 @@ fn wrong_answer_fails(name: &str, wrong: &WrongFile, shown: &mut Shown, found: &
         found.add(name, 0, "answers and expect do not name the same questions", "add one line for each");
         return;
     }
-    let mut submission = reference_submission(lesson);
-    for (id, answer) in &wrong.answers {
-        let is_number = lesson.question(id).is_some_and(|q| matches!(q.body, QuestionBody::Quantity(_)));
-        let answer = if is_number { calculated(lesson, answer) } else { answer.clone() };
-        submission.answers.insert(id.clone(), answer);
-    }
-    let judgements = match judge(lesson, &submission) {
+    let judgements = match judge(lesson, &wrong_submission(lesson, wrong)) {
         Ok(judgements) => judgements,
         Err(error) => return found.add(name, 0, error.to_string(), "correct the id"),
     };
@@ -111,6 +105,17 @@ fn wrong_answer_fails(name: &str, wrong: &WrongFile, shown: &mut Shown, found: &
             }
         }
     }
+}
+
+/// The submission that a file of wrong answers stands for: all other questions are answered by the reference.
+pub fn wrong_submission(lesson: &Lesson, wrong: &WrongFile) -> Submission {
+    let mut submission = reference_submission(lesson);
+    for (id, answer) in &wrong.answers {
+        let is_number = lesson.question(id).is_some_and(|q| matches!(q.body, QuestionBody::Quantity(_)));
+        let answer = if is_number { calculated(lesson, answer) } else { answer.clone() };
+        submission.answers.insert(id.clone(), answer);
+    }
+    submission
 }
 
 /// The answer with its expressions in the lesson's parameters evaluated, so that it need not be calculated by hand.

@@ -23,6 +23,7 @@ use std::time::{Duration, Instant};
 use crate::lesson::{Course, Lesson};
 use findings::Findings;
 
+pub use answers::wrong_submission;
 pub use findings::Fault;
 pub use references::reference_submission;
 

@@ -17,7 +17,8 @@ use asset::{ASSETS, Asset, Encoding, find};
 pub use player::playing;
 
 /// First words of the addresses that the page has a view for: those of `web/src/main.ts`.
-const VIEWS: [&str; 9] = ["lessons", "room", "join", "setup", "return", "class", "record", "scenes", "embed"];
+const VIEWS: [&str; 10] =
+    ["lessons", "course", "room", "join", "setup", "return", "class", "record", "scenes", "embed"];
 /// The view that pages of other sites may show in a frame: it plays a recorded run, and has no cookie and no session.
 const FRAMED: &str = "embed";
 

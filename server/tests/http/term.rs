@@ -14,6 +14,7 @@ use triad::grader::{Grader, LEASE};
 use triad::limits::Limits;
 use triad::policy::Moment;
 use triad::store::{CLASS, Store};
+use triad_lessons::exercise::QuestionBody;
 use triad_lessons::{Course, Lesson, reference_submission};
 use triad_tests::postgres;
 
@@ -117,7 +118,10 @@ impl Term {
         let right = right.await.expect("computed");
         // The values alone, and none of them right.
         let mut wrong = right.as_object().expect("answers").clone();
-        wrong.retain(|_, answer| answer["value"].is_string());
+        let judged = |id: &String| {
+            lesson.question(id).is_some_and(|question| !matches!(question.body, QuestionBody::Explanation(_)))
+        };
+        wrong.retain(|id, answer| answer["value"].is_string() && judged(id));
         for answer in wrong.values_mut() {
             answer["value"] = json!("0.123");
         }

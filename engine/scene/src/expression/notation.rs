@@ -161,7 +161,7 @@ mod tests {
             (r"30^\circ", "30°"),
             (r"\SI{29.4}{\newton}", "29.4(newton)"),
             (r"\tfrac{1}{2}3", "((1)/(2))*3"),
-            (r"\langle 1, 2\rangle", "<1, 2>"),
+            (r"\langle 1, 2\rangle", "< 1, 2>"),
         ] {
             let got = plain(typed).split_whitespace().collect::<Vec<_>>().join(" ");
             let got = got.replace("( ", "(").replace("[ ", "[").replace(" ]", "]").replace(" )", ")");
