@@ -160,7 +160,10 @@ impl Store {
         let n = log::append(&mut transaction, course, at, &event).await?;
         known(&mut transaction, course, person).await?;
         let assignment = ensured(&mut transaction, course, lesson).await?.id;
-        let add = sqlx::query(sql::ADD_DECISION).bind(identifier()).bind(course).bind(n).bind(kind.name());
+        // Not kept prepared: without points the driver declares a number of four bytes to PostgreSQL, and the next
+        // decision's eight would be refused.
+        let add = sqlx::query(sql::ADD_DECISION).persistent(false);
+        let add = add.bind(identifier()).bind(course).bind(n).bind(kind.name());
         let add =
             add.bind(person).bind(assignment).bind(question).bind(points).bind(text).bind(actor).bind(at);
         add.execute(&mut *transaction).await?;
