@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use axum::http::StatusCode;
 use tokio::sync::{Semaphore, SemaphorePermit};
 use tokio::time::sleep;
 use tracing::Instrument;
@@ -39,6 +40,9 @@ pub struct Grader {
     lease: Duration,
     name: String,
 }
+
+/// A lesson that this program cannot read. During a deployment it is one that a newer server took: it is left to newer graders.
+const UNREADABLE: &str = "lesson-unreadable";
 
 /// Something to do.
 enum Task {
@@ -179,7 +183,11 @@ impl Grader {
             let (id, code) = (job.claim.id.as_str(), problem.code());
             tracing::error!(target: "triad", submission = id, start = job.start, code, "could not be graded");
             // Where this fails too, the lease ends by itself.
-            drop(self.store.give_back(&job, &problem.to_string()).await);
+            drop(if code == UNREADABLE {
+                self.store.leave(&job, &problem.to_string()).await
+            } else {
+                self.store.give_back(&job, &problem.to_string()).await
+            });
         }
     }
 
@@ -230,7 +238,10 @@ impl Grader {
             return Ok(lesson.clone());
         }
         let bundle = self.store.lesson_version(sha256).await?;
-        let lesson = Lesson::from_bundle(&bundle).map_err(Problem::internal)?;
+        let lesson = Lesson::from_bundle(&bundle).map_err(|error| {
+            let hint = "a grader of the version that took the submission reads it: is one running?";
+            Problem::new(StatusCode::INTERNAL_SERVER_ERROR, UNREADABLE, error.to_string(), hint)
+        })?;
         let mut kept = self.lessons();
         if kept.len() >= LESSONS {
             kept.clear();
@@ -241,5 +252,38 @@ impl Grader {
 
     fn lessons(&self) -> std::sync::MutexGuard<'_, HashMap<String, Lesson>> {
         self.lessons.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::expect_used)] // a test that cannot go on says so
+
+    use super::*;
+    use crate::store::{Accept, HOME, STARTS, Whose};
+
+    /// A grader of the version before meets a lesson of the next one: as often as it comes, it is not put aside.
+    #[tokio::test]
+    async fn a_lesson_of_another_version_is_left_to_graders_of_that_version() {
+        let store = Arc::new(Store::in_memory());
+        let grader = Grader::new(Arc::clone(&store), Arc::default(), Arc::default(), 1, LEASE);
+        let accept = Accept {
+            course: HOME.into(),
+            lesson: "pendulum".into(),
+            whose: Whose::Named,
+            student: "Ada".into(),
+            body: "{}".into(),
+            seed: None,
+            key: None,
+            bundle: r#"{"written by": "a later version"}"#.into(),
+            request: "a request".into(),
+        };
+        store.enqueue(&accept).await.expect("takes it");
+        let job = store.claim("grader", LEASE).await.expect("claims").expect("one");
+        // Had it been begun, and ended its grader, as often as may be.
+        let job = Job { start: STARTS, ..job };
+        grader.grade(job.clone()).await;
+        assert_eq!(store.gradings().await.expect("counts"), (1, 0), "it waits");
+        assert!(store.claim("grader", LEASE).await.expect("claims").is_none(), "others come first");
     }
 }

@@ -10,6 +10,8 @@ pub mod cable;
 #[cfg(unix)]
 pub mod postgres;
 pub mod probe;
+pub mod vitals;
+
 pub mod program;
 pub mod random;
 pub mod reference;
@@ -20,6 +22,7 @@ pub mod refusals;
 
 pub mod lecture;
 pub mod load;
+pub mod person;
 
 use std::path::PathBuf;
 

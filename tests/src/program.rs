@@ -1,6 +1,7 @@
 //! The `triad` program from outside: its command line, and a running server.
 
 use crate::root;
+use crate::vitals::Vitals;
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -93,25 +94,29 @@ impl Server {
 
     /// The same, on a given port.
     pub fn start_at(folder: &Path, port: &str) -> Self {
-        Self::launch(folder, &["--port", port]).0
+        Self::start_by(folder, &["--port", port])
     }
 
     /// Starts a server on a free port with more options.
     pub fn start_with(folder: &Path, options: &[&str]) -> Self {
-        Self::launch(folder, &[&["--port", "0"], options].concat()).0
+        Self::start_by(folder, &[&["--port", "0"], options].concat())
     }
 
     /// Starts a server for a class; with the link with which its teacher comes in.
     pub fn start_class(folder: &Path) -> (Self, String) {
-        let (server, mut lines) = Self::launch(folder, &["--port", "0", "--class"]);
+        Self::of_class(Self::command(folder, &["--port", "0", "--class"]).stderr(Stdio::inherit()))
+    }
+
+    /// A server for a class that a command starts; with the link with which its teacher comes in.
+    pub fn of_class(command: &mut Command) -> (Self, String) {
+        let (server, mut lines) = Self::saying(command);
         let line = lines.find(|line| line.contains("/setup#")).expect("a link for the teacher");
         let link = line.split_whitespace().find(|word| word.contains("/setup#"));
         (server, link.unwrap_or_default().to_owned())
     }
 
-    /// Starts a server; with the lines that it says after the first.
-    fn launch(folder: &Path, options: &[&str]) -> (Self, impl Iterator<Item = String> + use<>) {
-        Self::saying(Self::command(folder, options).stderr(Stdio::inherit()))
+    fn start_by(folder: &Path, options: &[&str]) -> Self {
+        Self::of(Self::command(folder, options).stderr(Stdio::inherit()))
     }
 
     /// Starts a server on a free port with more options, its log in a file.
@@ -169,33 +174,27 @@ impl Server {
 
     /// Processor time that the server has used, on Linux.
     pub fn processor_time(&self) -> Duration {
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).unwrap_or_default();
-        // After the name in brackets; times in hundredths of a second are the 12th and 13th from there.
-        let after = stat.rsplit(')').next().unwrap_or_default();
-        let ticks: u64 =
-            after.split_whitespace().skip(11).take(2).filter_map(|text| text.parse::<u64>().ok()).sum();
-        Duration::from_millis(10 * ticks)
+        self.vitals().processor
     }
 
     /// Memory that the server holds, MB, on Linux.
     pub fn memory(&self) -> f64 {
-        self.status("VmRSS:") / 1024.0
+        self.vitals().memory
     }
 
     /// Open files of the server, connections among them, on Linux.
     pub fn files(&self) -> usize {
-        std::fs::read_dir(format!("/proc/{}/fd", self.child.id())).map_or(0, Iterator::count)
+        self.vitals().files
     }
 
     /// Threads of the server, on Linux.
     pub fn threads(&self) -> f64 {
-        self.status("Threads:")
+        self.vitals().threads
     }
 
-    fn status(&self, name: &str) -> f64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap_or_default();
-        let line = status.lines().find(|line| line.starts_with(name)).unwrap_or_default();
-        line.split_whitespace().nth(1).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)
+    /// What the server holds, on Linux.
+    pub fn vitals(&self) -> Vitals {
+        Vitals::of(self.child.id())
     }
 
     /// Gets a path.

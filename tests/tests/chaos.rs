@@ -11,13 +11,17 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 use triad_tests::cable::Cable;
 use triad_tests::postgres::Postgres;
 use triad_tests::program::{HANG, run_json, triad};
 
-/// Submissions in all, unless `TRIAD_CHAOS` says otherwise: 10000 take about a quarter of an hour.
+/// Submissions in all, unless `TRIAD_CHAOS` says otherwise.
 const SUBMISSIONS: u32 = 60;
+/// Submissions of one student in a large run: each is settled with those before.
+const EACH: u32 = 25;
+/// Students at least.
+const STUDENTS: u32 = 40;
 const SERVERS: usize = 3;
 const GRADERS: usize = 4;
 /// Those who hand in at once.
@@ -102,8 +106,8 @@ impl Drop for Process {
 }
 
 /// One submission, sent again under its key until a server has taken it.
-fn hand_in(servers: &[Mutex<Process>], number: u32) -> Value {
-    let student = format!("student {}", number % 40);
+fn hand_in(servers: &[Mutex<Process>], number: u32, students: u32) -> Value {
+    let student = format!("student {}", number % students);
     let answers = json!({"tension-bottom": {"value": format!("{}.5", number % 97), "unit": "N"}});
     let body = json!({"student": student, "answers": answers}).to_string();
     let began = Instant::now();
@@ -135,11 +139,56 @@ fn ask(address: &str, number: u32, body: &str) -> Option<(u16, Value)> {
     Some((status, serde_json::from_str(body).ok()?))
 }
 
+/// The time, in milliseconds since 1970.
+fn now() -> i64 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap();
+    i64::try_from(since.as_millis()).unwrap()
+}
+
 /// Rows of a table in an export.
 fn rows(export: &Path, table: &str) -> Vec<Value> {
     let text = std::fs::read_to_string(export).unwrap();
     let lines = text.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     lines.filter(|line| line[0] == table).map(|mut line| line[1].take()).collect()
+}
+
+/// Has PostgreSQL write down each submission that is begun anew because whoever had it is gone: when, and who had it.
+const WATCH: [&str; 3] = [
+    "CREATE TABLE taken_over (at BIGINT NOT NULL, worker TEXT NOT NULL)",
+    "CREATE FUNCTION watch() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN INSERT INTO taken_over VALUES \
+     (CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000 AS BIGINT), OLD.worker); RETURN NEW; END $$",
+    "CREATE TRIGGER watch AFTER UPDATE ON grading FOR EACH ROW \
+     WHEN (OLD.state = 'running' AND NEW.fence > OLD.fence) EXECUTE FUNCTION watch()",
+];
+
+/// A program that was killed: its number, when, in milliseconds since 1970, and whether it was a grader.
+type Killed = (u32, i64, bool);
+
+/// How long it took from the end of each program until another one had begun again what it had: of graders, and of servers, whose
+/// claims hold longer. Of several submissions that one had, the first counts.
+fn times_to_take_over(url: &str, killed: &[Killed]) -> [Vec<f64>; 2] {
+    let rows = psql(url, "SELECT split_part(worker, ' ', 1), MIN(at) FROM taken_over GROUP BY worker");
+    let mut times = [Vec::new(), Vec::new()];
+    for row in rows.lines() {
+        let (id, at) = row.split_once('|').unwrap();
+        let (id, at): (u32, i64) = (id.parse().unwrap(), at.parse().unwrap());
+        // Numbers of processes come again.
+        let end = killed.iter().rev().find(|(of, when, _)| *of == id && *when <= at);
+        if let Some((_, when, is_grader)) = end {
+            times[usize::from(!is_grader)].push((at - when) as f64 / 1000.0);
+        }
+    }
+    for times in &mut times {
+        times.sort_by(f64::total_cmp);
+    }
+    times
+}
+
+fn psql(url: &str, statement: &str) -> String {
+    let told =
+        Command::new("psql").args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement, url]).output().unwrap();
+    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+    String::from_utf8_lossy(&told.stdout).trim().to_owned()
 }
 
 /// What is killed, and where each was.
@@ -173,23 +222,29 @@ impl Park {
     }
 
     /// Kills one after the other, in an order without a rhythm, and starts another in its place.
-    fn kill(&self) -> u32 {
-        let mut kills = 0;
+    fn kill(&self) -> Vec<Killed> {
+        let mut killed = Vec::new();
         while !self.is_over() {
             std::thread::sleep(LIFE);
-            let which = (f64::from(kills) * 0.618_034).fract() * (SERVERS + GRADERS) as f64;
+            let which = (killed.len() as f64 * 0.618_034).fract() * (SERVERS + GRADERS) as f64;
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // below seven
             let which = which as usize;
             let [servers, graders] = &*self.machines;
-            if let Some(server) = self.servers.get(which) {
-                *server.lock().unwrap() = Process::server(&servers[which], &self.folder);
+            let is_grader = which >= SERVERS;
+            let place = if is_grader { &self.graders[which - SERVERS] } else { &self.servers[which] };
+            let mut place = place.lock().unwrap();
+            let id = place.child.id();
+            // The next one takes a moment to start: this one ends now.
+            let _ = place.child.kill();
+            let _ = place.child.wait();
+            killed.push((id, now(), is_grader));
+            *place = if is_grader {
+                Process::grader(&graders[which - SERVERS], &self.folder)
             } else {
-                let at = which - SERVERS;
-                *self.graders[at].lock().unwrap() = Process::grader(&graders[at], &self.folder);
-            }
-            kills += 1;
+                Process::server(&servers[which], &self.folder)
+            };
         }
-        kills
+        killed
     }
 
     /// Holds the cable up for longer than leases last, and cuts it, in turns.
@@ -215,7 +270,7 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let folder = tempfile::tempdir().unwrap();
     let url = postgres.database();
     let (cable, by_cable) = postgres.by_cable(&url);
-    let cable = Arc::new(cable);
+    let students = STUDENTS.max(submissions / EACH);
     if !Path::new(FAKETIME).exists() {
         println!(
             "left out: clocks that are off: faketime is not installed (Debian: apt-get install libfaketime)"
@@ -230,6 +285,9 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
             .parse::<i64>()
             .unwrap()
     };
+    for statement in WATCH {
+        psql(&url, statement);
+    }
     let first = clock();
     let began = Instant::now();
     let clients: Vec<_> = (0..CLIENTS)
@@ -244,15 +302,19 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
                     }
                     told.insert(
                         number.to_string(),
-                        hand_in(&servers, number)["id"].as_str().unwrap().to_owned(),
+                        hand_in(&servers, number, students)["id"].as_str().unwrap().to_owned(),
                     );
                 }
             })
         })
         .collect();
-    let [killer, disturber] = [true, false].map(|kills| {
-        let (park, cable) = (park.clone(), Arc::clone(&cable));
-        std::thread::spawn(move || if kills { park.kill() } else { park.disturb(&cable) })
+    let killer = std::thread::spawn({
+        let park = park.clone();
+        move || park.kill()
+    });
+    let disturber = std::thread::spawn({
+        let park = park.clone();
+        move || park.disturb(&cable)
     });
     for part in 1..3 {
         while next.load(Ordering::Relaxed) < submissions * part / 3 {
@@ -265,7 +327,7 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let accepted = began.elapsed();
     let last = clock();
     park.stop.store(true, Ordering::Relaxed);
-    let (kills, cuts) = (killer.join().unwrap(), disturber.join().unwrap());
+    let (killed, cuts) = (killer.join().unwrap(), disturber.join().unwrap());
     let waiting = || run_json(&["grader", "--look", "--database", &url]).1;
     let mut state = waiting();
     while state["waiting"] != 0 {
@@ -304,10 +366,24 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     assert_eq!(run_json(&["class", "import", export.to_str().unwrap(), "--database", file]).0, 0);
     let (code, rebuilt) = run_json(&["regrade", "--check", "--database", file]);
     assert_eq!((code, &rebuilt["same"]), (0, &json!(submissions)), "{rebuilt}");
+    let kills = killed.len();
     println!(
-        "{submissions} submissions, {kills} kills, 2 crashes of PostgreSQL, {cuts} cuts of a cable: 0 lost, 0 doubled, {aside} put aside on the way; \
-         accepted in {:.0} s, graded in {:.0} s",
+        "{submissions} submissions of {students} students, {kills} kills, 2 crashes of PostgreSQL, {cuts} cuts of a cable: 0 lost, \
+         0 doubled, {aside} put aside on the way; accepted in {:.0} s, graded in {:.0} s, {:.1} a second",
         accepted.as_secs_f64(),
-        all.as_secs_f64()
+        all.as_secs_f64(),
+        f64::from(submissions) / all.as_secs_f64()
     );
+    for (times, what) in
+        times_to_take_over(&url, &killed).iter().zip(["grader (lease 2 s)", "server (lease 15 s)"])
+    {
+        match (times.get(times.len() / 2), times.last()) {
+            (Some(median), Some(longest)) => println!(
+                "what a {what} had as it was killed was begun again by another after {median:.1} s in the median, {longest:.1} s at \
+                 most, {} times",
+                times.len()
+            ),
+            _ => println!("no {what} had anything as it was killed"),
+        }
+    }
 }

@@ -47,6 +47,47 @@ async fn several_programs_make_and_share_one_database() {
     assert!(matches!(refused, Err(StoreError::Newer { found: 99, known: schema::FORMAT })), "{refused:?}");
 }
 
+/// Programs that start at once on tables of an earlier version: one brings them up to date, the others wait for it.
+#[tokio::test(flavor = "multi_thread")]
+async fn of_programs_that_start_at_once_one_brings_the_tables_up_to_date() {
+    // Tells every change of a table.
+    const WATCH: [&str; 3] = [
+        "CREATE TABLE changed (tag TEXT NOT NULL, name TEXT NOT NULL)",
+        "CREATE FUNCTION watch() RETURNS event_trigger LANGUAGE plpgsql AS $$ BEGIN INSERT INTO changed SELECT command_tag, \
+         object_identity FROM pg_event_trigger_ddl_commands() WHERE object_type IN ('table', 'index', 'trigger'); END $$",
+        "CREATE EVENT TRIGGER watch ON ddl_command_end EXECUTE FUNCTION watch()",
+    ];
+    const CHANGES: &str = "SELECT tag || ' ' || name FROM changed ORDER BY 1";
+    let Some(server) = postgres::given() else { return };
+    let mut seen = Vec::new();
+    for programs in [1, 6] {
+        let address = server.database();
+        let store = Store::of_server(&address).expect("an address");
+        let mut transaction = store.write().await.expect("begins");
+        if schema::make_of_format_2(&mut transaction).await.expect("makes") {
+            transaction.commit().await.expect("is kept");
+        }
+        for statement in WATCH {
+            store.pools.writer.execute(statement).await.expect("watches");
+        }
+        let opening: Vec<_> = (0..programs)
+            .map(|_| {
+                let address = address.clone();
+                tokio::spawn(async move { at(&address).await })
+            })
+            .collect();
+        for one in opening {
+            let opened = one.await.expect("ends");
+            hand_in(&opened, &new("ada")).await.expect("keeps");
+        }
+        let found: Vec<(String,)> =
+            sqlx::query_as(CHANGES).fetch_all(&store.pools.readers).await.expect("reads");
+        assert!(found.len() > 20, "{found:?}");
+        seen.push(found);
+    }
+    assert_eq!(seen[0], seen[1], "six at once change what one does");
+}
+
 /// What keeps a server's database from being opened is told with its remedy, and without the password.
 #[tokio::test]
 async fn a_server_that_refuses_is_told_with_what_to_do() {

@@ -148,6 +148,24 @@ async fn what_could_not_be_graded_waits_before_it_is_tried_again() {
     assert_eq!(store.gradings().await.expect("counts"), (1, 0), "who has no claim gives nothing back");
 }
 
+#[tokio::test]
+async fn what_a_program_cannot_read_is_left_to_others_and_was_not_begun() {
+    let store = fresh().await;
+    let id = enqueue(&store, "Ada", "pendulum").await;
+    for _ in 0..=STARTS {
+        let job = loop {
+            if let Some(job) = claim(&store, LONG).await {
+                break job;
+            }
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        };
+        assert_eq!((job.start, &job.claim.id), (1, &id));
+        store.leave(&job, "of a later version").await.expect("leaves it");
+        assert!(claim(&store, LONG).await.is_none(), "not at once");
+    }
+    assert_eq!(store.gradings().await.expect("counts"), (1, 0));
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn attempts_that_wait_are_counted() {
     let store = Arc::new(fresh().await);

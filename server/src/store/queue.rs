@@ -20,6 +20,8 @@ use crate::policy::{Moment, admit};
 
 /// A grading that was begun so often and never ended is put aside: it ends its graders.
 pub const STARTS: i64 = 3;
+/// What a program cannot read is not claimed again so soon, in milliseconds: others look for work as often.
+const OTHERS_FIRST: i64 = 1000;
 /// Gradings of one person that may wait at a time.
 const MOST_OPEN: i64 = 100;
 
@@ -186,7 +188,18 @@ impl Store {
         let later = database::clock(&mut transaction).await? + (1000 << job.start.clamp(0, 10));
         let state = if job.start < STARTS { "queued" } else { "dead" };
         let back = sqlx::query(sql::GIVE_BACK).bind(&job.claim.id).bind(job.claim.fence).bind(state);
-        back.bind(later).bind(why).execute(&mut *transaction).await?;
+        back.bind(later).bind(why).bind(job.start).execute(&mut *transaction).await?;
+        transaction.commit().await
+    }
+
+    /// Leaves a submission to a program that can read it: it was not begun, and waits a moment so that another comes first.
+    ///
+    /// Errors if it cannot be written: then it is claimed again as the lease ends.
+    pub async fn leave(&self, job: &Job, why: &str) -> Result<(), StoreError> {
+        let mut transaction = self.write().await?;
+        let later = database::clock(&mut transaction).await? + OTHERS_FIRST;
+        let back = sqlx::query(sql::GIVE_BACK).bind(&job.claim.id).bind(job.claim.fence).bind("queued");
+        back.bind(later).bind(why).bind(job.start - 1).execute(&mut *transaction).await?;
         transaction.commit().await
     }
 

@@ -56,6 +56,20 @@ pub(super) async fn migrate(transaction: &mut AnyConnection) -> Result<(), Store
     database::set_format(transaction, FORMAT).await
 }
 
+/// Makes the tables of format 2, where there are none; whether it did.
+#[cfg(test)]
+pub(super) async fn make_of_format_2(connection: &mut AnyConnection) -> Result<bool, StoreError> {
+    if database::format(connection).await? > 0 {
+        return Ok(false);
+    }
+    database::prepare(connection).await?;
+    make(connection, sql::TABLES).await?;
+    make(connection, sql::RECORDS).await?;
+    add_course(connection, HOME, "At home").await?;
+    database::set_format(connection, 2).await?;
+    Ok(true)
+}
+
 /// Makes tables and triggers, in the words of the database.
 async fn make(connection: &mut AnyConnection, statements: &[&str]) -> Result<(), StoreError> {
     let kind = Kind::of(connection);

@@ -330,7 +330,8 @@ statements! {
     CLAIM = claim!("");
     RENEW = "UPDATE grading SET lease_until = $3 WHERE id = $1 AND fence = $2 AND state = 'running'";
     CLOSE = "DELETE FROM grading WHERE id = $1 AND fence = $2 AND state = 'running'";
-    GIVE_BACK = "UPDATE grading SET state = $3, not_before = $4, error = $5 WHERE id = $1 AND fence = $2 AND state = 'running'";
+    GIVE_BACK = "UPDATE grading SET state = $3, not_before = $4, error = $5, starts = $6 \
+        WHERE id = $1 AND fence = $2 AND state = 'running'";
     PUT_ASIDE = "UPDATE grading SET state = 'dead', error = 'its graders ended' \
         WHERE state = 'running' AND lease_until < $1 AND starts >= $2";
     GRADE_AGAIN = "UPDATE grading SET state = 'queued', not_before = 0, starts = 0 WHERE state = 'dead'";
