@@ -24,10 +24,10 @@ async function visitor(name) {
 }
 
 /** Pictures in light and in dark, and no serious fault in either. */
-async function look(page, view) {
+async function look(page, view, { fullPage = true } = {}) {
   for (const theme of ["light", "dark"]) {
     await page.evaluate((wanted) => { document.documentElement.dataset.theme = wanted; }, theme);
-    await page.screenshot({ path: join(pictures, `class-${view}-${theme}.png`), fullPage: true });
+    await page.screenshot({ path: join(pictures, `class-${view}-${theme}.png`), fullPage });
     assert.deepEqual(await faults(page, { impacts: SERIOUS }), [], `axe on ${view}, ${theme}`);
   }
   await page.evaluate(() => { document.documentElement.dataset.theme = "light"; });
@@ -152,6 +152,70 @@ async function question(page) {
   await look(page, "student");
 }
 
+const SAID = "virtual-work";
+/** What the class predicted and explained: read with names, marked, and shown in the lecture room without names. */
+async function said(page, students) {
+  const asked = (await ask("GET", `/lessons/${SAID}`, students[0].cookie)).json;
+  const [{ id, options }] = asked.predictions;
+  // Each has the forty words that are asked for.
+  const texts = [
+    "The bar can only push or pull along itself, because its ends turn freely. A virtual displacement goes along the circle, so this force does no work in it, and one number says how large it is and which way it goes.",
+    "There is one rule for the mass, so there is one unknown number. The force of the bar points along the gradient of this rule, and the two components of the force are both given by it and by the multiplier alone.",
+    "Because of Newton. The bar holds the mass and the mass holds the bar, so the force of the bar is what is left when weight and acceleration are known; I would say it is one number because it is one bar.",
+  ];
+  for (const [k, { cookie }] of students.entries()) {
+    await ask("POST", `/lessons/${SAID}/predictions`, cookie, { prediction: id, choice: k === 5 ? null : options[k % 3].id, why: k % 4 === 0 ? "it has to turn" : "" });
+    if (k < texts.length) await ask("POST", `/lessons/${SAID}/submissions`, cookie, { answers: { "in-words": { value: texts[k] } } });
+  }
+  await page.goto(`${address}/class/lessons/${SAID}#said`);
+  await page.getByText("3 explanations wait for their points.").waitFor();
+  const first = page.locator(".said", { hasText: "Ada Lovelace" });
+  await first.getByText("it has to turn").waitFor();
+  assert.match(await first.locator("blockquote").innerText(), /does no work/);
+  await look(page, "said");
+  await page.setViewportSize({ width: 390, height: 844 });
+  await look(page, "said-phone");
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  assert(wide <= 0, `the class's words are ${wide} px wider than a phone`);
+  await page.setViewportSize({ width: 1280, height: 900 });
+
+  await first.getByLabel(/^Points, of/).fill("1.5");
+  await first.getByLabel("Remark").fill("where does its size come from?");
+  await page.keyboard.press("Enter");
+  await first.getByText("1.5 of 2 points given.").waitFor();
+  await page.getByText("2 explanations wait for their points.").waitFor();
+  await page.getByRole("button", { name: "Give all that wait full points" }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Give them" }).click();
+  await page.getByText("No explanation waits for points.").waitFor();
+  await first.getByText(/1\.5 of 2 points by Prof\. Newton/).waitFor();
+  say("explanations were read and marked");
+  await hall(page);
+}
+
+/** The same from the lesson's page, in the lecture room: nobody's name, and what came true only at a press. */
+async function hall(page) {
+  await page.goto(`${address}/lessons/${SAID}`);
+  await page.getByRole("button", { name: "Lecture: let others follow this run" }).click();
+  await page.getByRole("dialog").getByText("Join this lecture").waitFor();
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "What the class said" }).click();
+  const box = page.getByRole("dialog");
+  await box.getByText("1 skipped it.").waitFor();
+  await box.getByText("The shortest first, without names.").waitFor();
+  assert.match(await box.locator(".said-text").innerText(), /gradient|Newton|virtual/);
+  await box.getByText("1 of 3").waitFor();
+  await box.getByRole("button", { name: "Next →" }).click();
+  await box.getByText("2 of 3").waitFor();
+  assert.doesNotMatch(await box.innerText(), /Lovelace|Châtelet|Kovalevskaya/);
+  await look(page, "hall", { fullPage: false });
+  assert.equal(await box.getByText("right answer", { exact: false }).count(), 0, "what came true is not told yet");
+  await box.getByRole("button", { name: "What came true" }).first().click();
+  await look(page, "hall-told", { fullPage: false });
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "End the lecture" }).click();
+  say("shown in the lecture room without names");
+}
+
 async function exchange(page) {
   await page.goto(`${address}/class`);
   await page.getByRole("heading", { name: "12 students" }).waitFor();
@@ -184,6 +248,7 @@ try {
   await people(page);
   const students = await glance(page, code);
   await question(page);
+  await said(page, students);
   await exchange(page);
   await own(students[1]);
   assert.deepEqual(complaints, [], "errors of the page");

@@ -55,7 +55,7 @@ const announced = (page, words) => page.locator("[aria-live]").filter({ hasText:
 
 /** The point of a body in the picture: bodies stand in the order of the list, points in that of theirs. */
 async function spot(page, body, words) {
-  const places = page.locator("#q-cut .cut-layer > g:has(.cut-name)").filter({ hasText: words });
+  const places = page.locator("#q-cut .cut-layer g:has(> .cut-name)").filter({ hasText: words });
   const at = places.nth(body === "lower" && (await places.count()) > 1 ? 1 : 0).locator(".cut-point");
   await at.scrollIntoViewIfNeeded();
   const box = await at.boundingBox();
@@ -179,6 +179,11 @@ async function byKeyboard(scheme, width) {
   assert(focus, "whoever removes an arrow by keyboard stays in the question");
   assert.deepEqual(await drawn(page), RIGHT.map(inWords));
   await clean(page, `the drawn diagram in ${what}`);
+  const heights = await question.locator(".cut-picture text").evaluateAll((names) => names.map((name) => {
+    const scale = name.ownerSVGElement.getBoundingClientRect().width / name.ownerSVGElement.viewBox.baseVal.width;
+    return Number.parseFloat(getComputedStyle(name).fontSize) * scale;
+  }));
+  assert(heights.length > 4 && Math.min(...heights) > 11.5, `names of points are read in ${what}: ${heights} px`);
   const verdict = await handIn(page, async () => {
     await tabTo(page, check(page));
     await page.keyboard.press("Enter");

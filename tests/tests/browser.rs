@@ -1,7 +1,8 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
 //! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
 //! without a graphics card and with busy cores; then the first page, frames in other sites, and what is taken along; then
-//! the documentation; then a free-body diagram by mouse and by keyboard; then a class as its teacher runs it. What it saw is kept in `tests/output/`.
+//! the documentation; then a free-body diagram by mouse and by keyboard; then what lessons need from each other; then a class as its
+//! teacher runs it. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
@@ -122,6 +123,11 @@ fn the_documentation_is_searched_and_read_in_light_and_dark_on_a_phone_and_from_
 #[test]
 fn a_free_body_diagram_is_drawn_with_the_mouse_and_with_the_keyboard_alone() {
     run("diagram.mjs", &[]);
+}
+
+#[test]
+fn what_the_lessons_need_from_each_other_and_a_course_of_ones_own_by_keyboard() {
+    run("course.mjs", &[]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 // What a class predicted and explained in a lesson: read here, with the points of the explanations, which people give.
 import { api } from "../api/client";
 import type { ClassWords } from "../api/types";
-import { announce, authored, h, uid } from "../core/dom";
+import { announce, authored, h, setText, uid } from "../core/dom";
 import { dateTime, points } from "../core/format";
 import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
@@ -40,10 +40,14 @@ export function saidSection(slug: string): HTMLElement {
 
 function painted(words: ClassWords, again: () => Promise<void>): HTMLElement[] {
   const asked = words.explanations.map((one) => question(words, one, again));
+  const roots = asked.map((one) => one.root);
+  const count = (): void => {
+    for (const one of asked) one.count();
+  };
   if (words.students.length === 0)
-    return [...asked, h("p", { class: "help" }, t("Nobody has predicted or explained anything yet."))];
+    return [...roots, h("p", { class: "help" }, t("Nobody has predicted or explained anything yet."))];
   return [
-    ...asked,
+    ...roots,
     h(
       "details",
       { class: "said-by", open: location.hash === "#said" },
@@ -54,31 +58,39 @@ function painted(words: ClassWords, again: () => Promise<void>): HTMLElement[] {
           n: words.students.length,
         }),
       ),
-      h("ul", { class: "said-list" }, ...words.students.map((one) => student(words, one))),
+      h("ul", { class: "said-list" }, ...words.students.map((one) => student(words, one, count))),
     ),
   ];
 }
 
-/** What was to be explained, a good explanation, and how many wait. */
-function question(words: ClassWords, asked: Asked, again: () => Promise<void>): HTMLElement {
+/** Who waits for the points of a question. */
+const waitingFor = (words: ClassWords, asked: Asked): Student[] =>
+  words.students.filter((who) => who.explained.some((one) => one.question === asked.id && waits(one)));
+
+/** What was to be explained, a good explanation, and how many wait, counted again when one was given points. */
+function question(
+  words: ClassWords,
+  asked: Asked,
+  again: () => Promise<void>,
+): { root: HTMLElement; count: () => void } {
   const give = h("button", { type: "button", class: "button small" }, t("Give all that wait full points"));
-  give.hidden = asked.waiting === 0;
   give.addEventListener("click", () => giveAll(words, asked, again));
-  return h(
+  const waiting = h("span", { role: "status" });
+  const count = (): void => {
+    const { length } = waitingFor(words, asked);
+    give.hidden = length === 0;
+    const all =
+      length === 0
+        ? t("No explanation waits for points.")
+        : t("{n} explanation waits for its points. | {n} explanations wait for their points.", { n: length });
+    setText(waiting, all);
+  };
+  count();
+  const root = h(
     "div",
     { class: "stack" },
     authored(h("div", { class: "prose" }), asked.prompt_html),
-    h(
-      "p",
-      { class: "row wrap" },
-      asked.waiting === 0
-        ? t("No explanation waits for points.")
-        : t("{n} explanation waits for its points. | {n} explanations wait for their points.", {
-            n: asked.waiting,
-          }),
-      " ",
-      give,
-    ),
+    h("p", { class: "row wrap" }, waiting, " ", give),
     h(
       "details",
       null,
@@ -86,15 +98,16 @@ function question(words: ClassWords, asked: Asked, again: () => Promise<void>): 
       authored(h("div", { class: "prose" }), asked.good_html),
     ),
   );
+  return { root, count };
 }
 
-function student(words: ClassWords, one: Student): HTMLElement {
+function student(words: ClassWords, one: Student, count: () => void): HTMLElement {
   return h(
     "li",
     { class: "said" },
     h("h3", null, h("a", { href: `/class/${encodeURIComponent(one.person)}` }, one.name)),
     ...one.predicted.map((made) => prediction(words, made)),
-    ...one.explained.map((explained) => explanation(words, one, explained)),
+    ...one.explained.map((explained) => explanation(words, one, explained, count)),
   );
 }
 
@@ -113,7 +126,7 @@ function prediction(words: ClassWords, made: Student["predicted"][number]): HTML
   );
 }
 
-function explanation(words: ClassWords, who: Student, one: Explained): HTMLElement {
+function explanation(words: ClassWords, who: Student, one: Explained, count: () => void): HTMLElement {
   const most = words.explanations.find((asked) => asked.id === one.question)?.points ?? 0;
   const state = h("p", { class: "help", role: "status" }, stateOf(one, most));
   const [pointsId, remarkId] = [uid("points"), uid("remark")];
@@ -157,10 +170,16 @@ function explanation(words: ClassWords, who: Student, one: Explained): HTMLEleme
           given: points(decided.points),
           most: points(most),
         });
+        // Who gives all that wait full points does not mean this one any more.
+        const at = new Date().toISOString();
+        one.mark = { question: one.question, points: decided.points, remark: decided.reason, by: "", at };
+        one.renewed = false;
+        place.classList.remove("is-waiting");
+        count();
       })
       .catch((error: unknown) => state.replaceChildren(problemNotice(error)));
   });
-  return h(
+  const place = h(
     "div",
     { class: `explained ${waits(one) ? "is-waiting" : ""}` },
     h(
@@ -173,6 +192,7 @@ function explanation(words: ClassWords, who: Student, one: Explained): HTMLEleme
     state,
     form,
   );
+  return place;
 }
 
 function stateOf(one: Explained, most: number): string {
@@ -188,9 +208,7 @@ function stateOf(one: Explained, most: number): string {
 
 /** Full points for everybody who waits, after one more question. */
 function giveAll(words: ClassWords, asked: Asked, again: () => Promise<void>): void {
-  const waiting = words.students.filter((who) =>
-    who.explained.some((one) => one.question === asked.id && waits(one)),
-  );
+  const waiting = waitingFor(words, asked);
   const trouble = h("div", { "aria-live": "polite" });
   const give = h("button", { type: "button", class: "button primary" }, t("Give them"));
   give.addEventListener("click", async () => {

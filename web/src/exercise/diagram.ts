@@ -17,24 +17,32 @@ import {
 } from "./arrows";
 import type { Inputs, QuestionContext } from "./field";
 
-/** Width of a letter of a point's name at most, px of the picture. */
-const LETTER = 6.6;
+/** Height of a point's name on the screen, px: where the picture is drawn smaller, names grow in it. */
+const NAME = 12;
+/** Width of a letter of a name at most, and the distance of its lines, in heights. */
+const [LETTER, LINE] = [0.55, 1.33];
 
 /** Lines of names below a body: each name stands on the first where there is room for it. */
 class LabelRows {
   private readonly taken: [number, number][][] = [];
 
-  take(x: number, words: string): number {
-    const end = x + LETTER * words.length;
+  /** Height of the names, px of the picture. */
+  constructor(private readonly height: number) {}
+
+  /** Where a name begins that is wanted at `x`, within a picture of this width, and its line. */
+  take(wanted: number, width: number, words: string): [number, number] {
+    const long = LETTER * this.height * words.length;
+    const x = Math.max(2, Math.min(wanted, width - long - 2));
+    const end = x + long;
     const free = (spans: [number, number][]): boolean => spans.every(([from, to]) => end < from || x > to);
     const found = this.taken.findIndex(free);
     const row = found < 0 ? this.taken.push([]) - 1 : found;
     this.taken[row]?.push([x, end]);
-    return row;
+    return [x, row];
   }
 }
 
-/** Radius within which a point is taken, px of the picture. */
+/** Radius within which a point is taken, px of the screen. */
 const REACH = 18;
 
 export function diagramInput(
@@ -52,6 +60,7 @@ class DiagramField {
   arrows: Arrow[];
   readonly root: HTMLElement;
   private readonly layer: SVGGElement;
+  private readonly spots = svg("g", {});
   private readonly trail = svg("path", { class: "drawn-trail", d: "" });
   private readonly overlay: SVGSVGElement;
   private readonly list = h("ul", { class: "arrow-list" });
@@ -73,8 +82,10 @@ class DiagramField {
       { viewBox: `0 0 ${width} ${height}`, class: "cut-layer", "aria-hidden": "true" },
       this.layer,
       this.trail,
-      ...this.points(),
+      this.spots,
     );
+    // A page that is left lets go of its elements, and of this with them.
+    new ResizeObserver(() => this.placeSpots()).observe(this.overlay);
     const body = labelledSelect(`${base}-body`, t("Body"), described);
     const place = labelledSelect(`${base}-place`, t("Point"), described);
     const what = labelledSelect(`${base}-what`, t("Force or moment"), described);
@@ -109,25 +120,33 @@ class DiagramField {
     return this.arrows.map((arrow) => JSON.stringify(arrow));
   }
 
+  /** Points and their names, as large as the screen needs them. */
+  private placeSpots(): void {
+    const shown = this.overlay.getBoundingClientRect().width;
+    const scale = Math.max(1, (this.diagram.size[0] ?? 1) / Math.max(shown, 1));
+    this.root.style.setProperty("--cut-name", `${(NAME * scale).toFixed(1)}px`);
+    this.spots.replaceChildren(...this.diagram.bodies.flatMap((body) => this.points(body, scale)));
+  }
+
   /** A hinge and its motor stand at one point: there a force is the hinge's, a moment the motor's. */
-  private points(): SVGElement[] {
-    return this.diagram.bodies.flatMap((body) => {
-      const spots = new Map<string, typeof body.places>();
-      for (const place of body.places) spots.set(`${place.at}`, [...(spots.get(`${place.at}`) ?? []), place]);
-      const rows = new LabelRows();
-      return [...spots.values()].map((places) => {
-        const [x, y] = (places[0]?.at ?? [0, 0]) as [number, number];
-        const point = svg("circle", { cx: x, cy: y, r: REACH, class: "cut-point" });
-        const words = places.map((place) => place.label).join(", ");
-        const name = svg(
-          "text",
-          { x: x + 8, y: y + 28 + 16 * rows.take(x, words), class: "cut-name" },
-          words,
-        );
-        const ids = { force: places[0]?.id ?? "", moment: places.at(-1)?.id ?? "" };
-        point.addEventListener("pointerdown", (event) => this.drag(event, body.name, ids, [x, y]));
-        return svg("g", {}, point, name);
-      });
+  private points(body: Diagram["bodies"][number], scale: number): SVGElement[] {
+    const spots = new Map<string, typeof body.places>();
+    for (const place of body.places) spots.set(`${place.at}`, [...(spots.get(`${place.at}`) ?? []), place]);
+    const rows = new LabelRows(NAME * scale);
+    const all = [...spots.values()].map((places) => (places[0]?.at ?? [0, 0]) as [number, number]);
+    return [...spots.values()].map((places, index) => {
+      const [x, y] = all[index] ?? [0, 0];
+      // For a finger on a small screen as much as the next point leaves.
+      const others = all.filter((_, at) => at !== index).map(([a, b]) => Math.hypot(a - x, b - y) / 2);
+      const reach = Math.max(REACH, Math.min(REACH * scale, ...others));
+      const point = svg("circle", { cx: x, cy: y, r: reach, class: "cut-point" });
+      const words = places.map((place) => place.label).join(", ");
+      const [left, row] = rows.take(x + 8, this.diagram.size[0] ?? 0, words);
+      const below = 12 + NAME * scale * LINE * (1 + row);
+      const name = svg("text", { x: left, y: y + below, class: "cut-name" }, words);
+      const ids = { force: places[0]?.id ?? "", moment: places.at(-1)?.id ?? "" };
+      point.addEventListener("pointerdown", (event) => this.drag(event, body.name, ids, [x, y]));
+      return svg("g", {}, point, name);
     });
   }
 

@@ -59,7 +59,17 @@ export function verdictLine(result: QuestionVerdict): HTMLElement {
           authored(h("div", { class: "verdict-text" }), result.reference_html),
         )
       : null,
-    result.figure_svg ? authored(h("div", { class: "verdict-figure" }), result.figure_svg) : null,
+    result.figure_svg
+      ? authored(
+          h("div", {
+            class: "verdict-figure",
+            tabindex: "0",
+            role: "region",
+            "aria-label": t("The picture to this answer"),
+          }),
+          result.figure_svg,
+        )
+      : null,
   );
 }
 
@@ -75,10 +85,16 @@ function earned({ verdict, earned, possible, mark }: QuestionVerdict): string {
 }
 
 /** Where the student stands with the question: tries that are left, or that its points stay as they are. */
-function standingLine({ standing, possible }: QuestionVerdict): HTMLElement | null {
+function standingLine({ verdict, standing, possible }: QuestionVerdict): HTMLElement | null {
   if (!standing || possible === 0) return null;
   const { attempts, best, open, left } = standing;
-  if (open && best >= possible) return null;
+  if (open && best >= possible) {
+    // Full points beside a wrong answer want a word.
+    const once = t("You have had it right: your points for this question stay at {possible}.", {
+      possible: points(possible),
+    });
+    return verdict === "right" ? null : h("p", { class: "standing-line is-open" }, once);
+  }
   const text = open
     ? t("The right answer is open. Your points for this question stay at {best} of {possible}.", {
         best: points(best),

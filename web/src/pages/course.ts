@@ -142,7 +142,7 @@ class CoursePlan {
       );
       button.addEventListener("click", () => {
         this.change(moved(this.rows, at, by), at + by);
-        announce(t("{title} is lesson {place} now.", { title: lesson.title, place: at + by + 1 }));
+        announce(t("{title} is lesson {place} now.", { title: lesson.title, place: this.placeOf(at + by) }));
         this.focus(`#${id}`);
       });
       return button;
@@ -157,6 +157,7 @@ class CoursePlan {
       h(
         "label",
         { for: `take-${lesson.slug}` },
+        h("span", { class: "course-place" }, taken ? String(this.placeOf(at)) : ""),
         lesson.title,
         isWanting ? h("span", { class: "flag" }, t("too early")) : null,
       ),
@@ -172,6 +173,11 @@ class CoursePlan {
     item.addEventListener("focusin", choose);
     item.addEventListener("pointerenter", choose);
     return item;
+  }
+
+  /** The number of a lesson in the course: those that are left out have none. */
+  private placeOf(at: number): number {
+    return this.rows.slice(0, at + 1).filter((row) => row.taken).length;
   }
 
   /** Keeps the place of who works by keyboard: the rows were made anew. */
@@ -225,7 +231,9 @@ class CoursePlan {
       const other = place === undefined ? undefined : this.rows[place];
       if (!other) return t("no lesson");
       const { title } = other.lesson;
-      return other.taken ? `${(place ?? 0) + 1} ${title}` : t("{title}, which is not taken", { title });
+      return other.taken
+        ? `${this.placeOf(place ?? 0)} ${title}`
+        : t("{title}, which is not taken", { title });
     };
     const needs = uses(this.rows, this.graph.assumes, this.chosen).map((use) => {
       const brought = use.met && this.graph.assumes.includes(use.notion);
@@ -240,7 +248,7 @@ class CoursePlan {
     });
     const users = this.rows.flatMap((other, at) =>
       other.taken && uses(this.rows, this.graph.assumes, at).some((use) => use.from === this.chosen)
-        ? [h("li", null, `${at + 1} ${other.lesson.title}`)]
+        ? [h("li", null, `${this.placeOf(at)} ${other.lesson.title}`)]
         : [],
     );
     this.details.replaceChildren(

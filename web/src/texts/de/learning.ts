@@ -122,6 +122,9 @@ export const learning = {
   "This mistake is not one that we know. Go through your steps once more, or open a hint.":
     "Diesen Fehler kennen wir nicht. Geh deine Schritte noch einmal durch oder öffne einen Hinweis.",
   "{earned} of {possible} points": "{earned} von {possible} Punkten",
+  "You have had it right: your points for this question stay at {possible}.":
+    "Du hattest es schon richtig: Deine Punkte für diese Frage bleiben bei {possible}.",
+  "The picture to this answer": "Das Bild zu dieser Antwort",
   "The reference answer": "Die Musterantwort",
   "The right answer is open. Your points for this question stay at {best} of {possible}.":
     "Die richtige Antwort ist offen. Deine Punkte für diese Frage bleiben bei {best} von {possible}.",
