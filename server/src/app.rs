@@ -8,6 +8,7 @@ use tokio::sync::Semaphore;
 use triad_lessons::Course;
 
 use crate::access::Access;
+use crate::aside::Streams;
 use crate::glance::Presence;
 use crate::lecture::Lectures;
 use crate::limits::Limits;
@@ -39,11 +40,13 @@ pub struct App {
     pub sessions: Arc<Registry>,
     /// The lectures.
     pub lectures: Arc<Lectures>,
+    /// Threads for those who watch.
+    pub streams: Arc<Streams>,
     /// Places for what is computed on request.
     pub work: Arc<Work>,
     /// Recorded runs that were asked for.
     pub motions: Arc<Shelf>,
-    /// Places for grading what is answered at once, where graders share the gradebook.
+    /// Places for grading what is answered at once.
     pub at_once: Arc<Semaphore>,
     /// Regrades that were looked at and not applied yet.
     pub regrades: Arc<Previews>,
@@ -77,6 +80,7 @@ impl App {
             node: Arc::default(),
             sessions: Arc::default(),
             lectures: Arc::default(),
+            streams: Arc::default(),
             work: Arc::default(),
             motions: Arc::default(),
             at_once: Arc::new(Semaphore::new(std::thread::available_parallelism().map_or(1, usize::from))),

@@ -1,6 +1,9 @@
-//! Computing that lets others go first: runs that play, analyses and regrades, beside verdicts and answers.
+//! What lets others go first: runs that play, what is sent of them, analyses and regrades, beside verdicts and answers.
 
-use tokio::runtime::Handle;
+use std::future::Future;
+use std::sync::OnceLock;
+
+use tokio::runtime::{Builder, Handle, Runtime};
 use tokio::sync::oneshot;
 
 use crate::problem::Problem;
@@ -35,6 +38,36 @@ pub async fn run<T: Send + 'static>(
     told.await.map_err(Problem::internal)?
 }
 
+/// Threads that step back, for what is sent to those who watch; none before somebody does.
+#[derive(Debug, Default)]
+pub struct Streams(OnceLock<Option<Runtime>>);
+
+impl Streams {
+    /// Serves a watcher there. Where there are no threads for it, among the answers.
+    pub fn serve(&self, watcher: impl Future<Output = ()> + Send + 'static) {
+        let make = || {
+            Builder::new_multi_thread()
+                .thread_name("triad-stream")
+                .on_thread_start(step_back)
+                .enable_all()
+                .build()
+        };
+        match self.0.get_or_init(|| make().ok()) {
+            Some(runtime) => drop(runtime.spawn(watcher)),
+            None => drop(tokio::spawn(watcher)),
+        }
+    }
+}
+
+impl Drop for Streams {
+    fn drop(&mut self) {
+        // Who still watches is not waited for: it may be the server itself that ends.
+        if let Some(runtime) = self.0.take().flatten() {
+            runtime.shutdown_background();
+        }
+    }
+}
+
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
@@ -45,6 +78,9 @@ mod tests {
         let before = own().expect("a priority");
         let aside = run(move || Ok(own())).await.expect("runs").expect("a priority");
         assert_eq!((aside, own()), ((before + LESS).clamp(LESS, 19), Some(before)));
+        let (streams, (tell, told)) = (Streams::default(), oneshot::channel());
+        streams.serve(async move { tell.send(own()).expect("somebody listens") });
+        assert_eq!(told.await.expect("serves"), Some(aside));
         let broken = run(|| -> Result<(), Problem> { std::panic::panic_any(()) }).await;
         assert_eq!(broken.expect_err("says so").code(), "internal");
     }

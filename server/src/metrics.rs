@@ -47,6 +47,8 @@ type Durations<L> = Family<L, Histogram, fn() -> Histogram>;
 pub struct Living {
     /// Live simulations.
     pub sessions: usize,
+    /// Those of them that wait for their turn to go on.
+    pub sessions_waiting: usize,
     /// Lectures.
     pub lectures: usize,
     /// Callers that wait for something to be computed.
@@ -64,6 +66,7 @@ pub struct Metrics {
     seconds: Durations<Route>,
     gradings: Durations<Graded>,
     sessions: Gauge,
+    sessions_waiting: Gauge,
     lectures: Gauge,
     waiting: Gauge,
     queue: [Gauge; 2],
@@ -92,6 +95,8 @@ impl Default for Metrics {
             gauge
         };
         let sessions = gauge("sessions", "Live simulations");
+        let sessions_waiting =
+            gauge("sessions_waiting", "Live simulations that wait for their turn to go on");
         let lectures = gauge("lectures", "Lectures");
         let waiting = gauge("waiting", "Callers that wait for something to be computed");
         let queue = [
@@ -103,7 +108,18 @@ impl Default for Metrics {
         started.set(jiff::Timestamp::now().as_millisecond() as f64 / 1e3);
         let about = "When the server was started, in seconds since 1970";
         registry.register_with_unit("start_time", about, Unit::Seconds, started);
-        Self { registry, requests, seconds, gradings, sessions, lectures, waiting, queue, ready }
+        Self {
+            registry,
+            requests,
+            seconds,
+            gradings,
+            sessions,
+            sessions_waiting,
+            lectures,
+            waiting,
+            queue,
+            ready,
+        }
     }
 }
 
@@ -131,6 +147,7 @@ impl Metrics {
     pub fn text(&self, living: Living) -> Result<String, fmt::Error> {
         let count = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
         self.sessions.set(count(living.sessions));
+        self.sessions_waiting.set(count(living.sessions_waiting));
         self.lectures.set(count(living.lectures));
         self.waiting.set(count(living.waiting));
         self.queue[0].set(living.queue.0);

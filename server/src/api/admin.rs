@@ -26,6 +26,7 @@ pub fn admin(app: App) -> Router {
 async fn metrics(State(app): State<App>) -> Result<impl IntoResponse, Problem> {
     let living = Living {
         sessions: app.sessions.len(),
+        sessions_waiting: app.sessions.waiting(),
         lectures: app.lectures.len(),
         waiting: app.work.waiting(),
         queue: app.store.gradings().await.unwrap_or_default(),

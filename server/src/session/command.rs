@@ -3,12 +3,13 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use tokio::sync::oneshot;
+use tokio::sync::{Notify, oneshot};
 use triad_engine::run::StateView;
 use triad_session::change::{Drag, SceneChange, SessionScene};
 use triad_session::drawing::{Arrows, Camera};
 use triad_session::{KeptSession, SessionState};
 
+use super::turns::Turn;
 use crate::problem::Problem;
 
 /// What a caller may ask for; the answer comes back through the sender.
@@ -39,6 +40,8 @@ pub(super) enum Command {
     LookFrom(Camera, ReplySender<Arc<SessionState>>),
     /// Somebody has come to watch.
     Watched,
+    /// It is the run's turn to go on.
+    Turn(Turn),
 }
 
 /// Where an answer goes; the caller may have left.
@@ -59,12 +62,15 @@ pub(super) struct Signals {
     closed: AtomicBool,
     /// A word that somebody has come to watch waits already.
     announced: AtomicBool,
+    /// Wakes a worker that waits for its turn.
+    changed: Notify,
 }
 
 impl Signals {
     /// An urgent command is on its way.
     pub(super) fn hurry(&self) {
         self.urgent.fetch_add(1, Ordering::Relaxed);
+        self.changed.notify_one();
     }
 
     /// An urgent command is begun, or could not be sent.
@@ -75,6 +81,12 @@ impl Signals {
     /// Ends the session.
     pub(super) fn close(&self) {
         self.closed.store(true, Ordering::Relaxed);
+        self.changed.notify_one();
+    }
+
+    /// Waits until somebody hurries or closes it: for its one worker.
+    pub(super) async fn changed(&self) {
+        self.changed.notified().await;
     }
 
     /// Whether the session has ended.

@@ -1,8 +1,10 @@
-//! Live simulations: each in a thread of its own, all of them in one bounded registry.
+//! Live simulations: each in a thread of its own, as many computing at a time as there are processors, all of them in one
+//! bounded registry.
 
 mod command;
 mod recording;
 mod registry;
+mod turns;
 mod worker;
 
 pub use registry::{Registry, bounded};
@@ -13,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use serde::Deserialize;
+use tokio::runtime::Handle;
 use tokio::sync::{oneshot, watch};
 use triad_engine::run::StateView;
 use triad_engine::scene::Scene;
@@ -26,6 +29,7 @@ use crate::problem::Problem;
 use crate::stream::{Hub, Watcher};
 use command::{Command, Reply, ReplySender, Signals};
 use recording::Recording;
+pub(crate) use turns::Turns;
 use worker::{Clock, Worker};
 
 /// Commands that may wait for one session; more are refused.
@@ -58,7 +62,7 @@ impl StreamWish {
 /// A handle on a live simulation; dropping the last one ends its thread.
 #[derive(Debug)]
 pub struct Session {
-    commands: mpsc::SyncSender<Command>,
+    commands: Arc<mpsc::SyncSender<Command>>,
     signals: Arc<Signals>,
     state: watch::Receiver<Arc<SessionState>>,
     hub: Arc<Hub>,
@@ -79,36 +83,44 @@ pub struct AskedFirst {
 }
 
 impl Session {
-    /// Assembles a scene and starts its thread, under a name that was never used. Blocks until the scene is assembled.
+    /// Assembles a scene and starts its thread, under a name that was never used. Blocks until the scene is assembled; needs the
+    /// async runtime.
     ///
     /// Errors if the scene or the change of it is refused, or the thread cannot be started.
-    pub fn start(
+    pub(crate) fn start(
         id: &str,
         original: Scene,
         change: &SceneChange,
         source: SceneSource,
         whose: Option<String>,
+        turns: &Turns,
         limits: &Limits,
     ) -> Result<Self, Problem> {
         let run = Run::start(id.to_owned(), original, change, source, samples_bytes(limits))?;
-        Ok(Self { whose, ..Self::begin(run, id, Clock::start(), limits)? })
+        Ok(Self { whose, ..Self::begin(run, id, Clock::start(), turns, limits)? })
     }
 
     /// Goes on with a session that was kept, at the time and in the state of its run. Its recording begins anew.
     ///
     /// Errors if its scene is refused by this program, or the state is of another.
-    pub fn resume(kept: KeptSession, limits: &Limits) -> Result<Self, Problem> {
+    pub(crate) fn resume(kept: KeptSession, turns: &Turns, limits: &Limits) -> Result<Self, Problem> {
         let clock = Clock::start();
         let Some(run) = Run::resume(kept, samples_bytes(limits), clock.now())? else {
             return Err(Problem::internal("a session was kept that is none of this program"));
         };
         // Viewers would join a recording of the same name to the one before.
         let recording = uuid::Uuid::new_v4().simple().to_string();
-        Self::begin(run, &recording, clock, limits)
+        Self::begin(run, &recording, clock, turns, limits)
     }
 
     /// Starts the thread of a session.
-    fn begin(run: Run, recording: &str, clock: Clock, limits: &Limits) -> Result<Self, Problem> {
+    fn begin(
+        run: Run,
+        recording: &str,
+        clock: Clock,
+        turns: &Turns,
+        limits: &Limits,
+    ) -> Result<Self, Problem> {
         let [hub, track] = [(); 2].map(|()| Arc::new(Hub::new(limits.recording_bytes / 8)));
         let [hub_of_recording, hub_of_track] = [&hub, &track].map(Arc::clone);
         let recording =
@@ -116,6 +128,8 @@ impl Session {
         let signals = Arc::new(Signals::default());
         let (sender, state) =
             watch::channel(Arc::new(run.state(recording.streamed(), crate::problem::trace_id)));
+        let (commands, received) = mpsc::sync_channel(QUEUE);
+        let commands = Arc::new(commands);
         let worker = Worker {
             run,
             recording,
@@ -123,8 +137,12 @@ impl Session {
             signals: Arc::clone(&signals),
             state: sender,
             command_time: limits.command_time,
+            commands: Arc::downgrade(&commands),
+            turns: turns.clone(),
+            runtime: Handle::try_current().map_err(Problem::internal)?,
+            in_line: false,
+            next_tick: Instant::now(),
         };
-        let (commands, received) = mpsc::sync_channel(QUEUE);
         std::thread::Builder::new()
             .name("triad-session".into())
             .spawn(move || {
@@ -147,7 +165,14 @@ impl Session {
     /// The state now.
     pub fn state(&self) -> Arc<SessionState> {
         self.touch();
-        Arc::clone(&self.state.borrow())
+        let state = Arc::clone(&self.state.borrow());
+        // A run that stands still tells nothing new when somebody leaves.
+        let watchers = self.watchers();
+        if state.watchers == watchers {
+            state
+        } else {
+            Arc::new(SessionState { watchers, ..(*state).clone() })
+        }
     }
 
     /// From now on the run waits for the predictions of who opened it.
@@ -310,7 +335,12 @@ impl Session {
 
     /// Whether somebody watches it now.
     fn is_watched(&self) -> bool {
-        self.hub.watchers() + self.track.watchers() > 0
+        self.watchers() > 0
+    }
+
+    /// How many watch it now.
+    fn watchers(&self) -> usize {
+        self.hub.watchers() + self.track.watchers()
     }
 
     /// How long nobody has asked for it.

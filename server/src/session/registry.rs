@@ -9,7 +9,7 @@ use triad_session::bounds::SceneBounds;
 use triad_session::change::SceneChange;
 use triad_session::{KeptSession, SceneSource};
 
-use super::Session;
+use super::{Session, Turns};
 use crate::limits::Limits;
 use crate::nodes::Node;
 use crate::problem::Problem;
@@ -20,6 +20,7 @@ pub struct Registry {
     /// The server, whose name is in the ids.
     node: Node,
     sessions: Mutex<Sessions>,
+    turns: Turns,
 }
 
 #[derive(Debug, Default)]
@@ -89,7 +90,7 @@ impl Registry {
         }
         let place = Place(self, whose.clone());
         let id = self.node.identifier();
-        let session = Arc::new(Session::start(&id, scene, change, source, whose, limits)?);
+        let session = Arc::new(Session::start(&id, scene, change, source, whose, &self.turns, limits)?);
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)
@@ -100,7 +101,7 @@ impl Registry {
     /// Errors if its scene is refused.
     pub fn resume(&self, kept: KeptSession, limits: &Limits) -> Result<Arc<Session>, Problem> {
         let id = kept.id().to_owned();
-        let session = Arc::new(Session::resume(kept, limits)?);
+        let session = Arc::new(Session::resume(kept, &self.turns, limits)?);
         self.lock().live.insert(id, Arc::clone(&session));
         Ok(session)
     }
@@ -155,6 +156,11 @@ impl Registry {
         self.lock().live.len()
     }
 
+    /// How many of them wait for their turn to go on.
+    pub fn waiting(&self) -> usize {
+        self.turns.waiting()
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -203,4 +209,48 @@ fn unknown(id: &str) -> Problem {
         format!("there is no session {id}"),
         "it may have been deleted, or closed because nobody used it; start another with POST /api/v1/sessions",
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use triad_engine::scene::catalogue;
+
+    use super::*;
+
+    #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+    async fn a_run_that_waits_for_its_turn_stands_still_and_answers_and_goes_on_in_its_turn() {
+        let registry = Registry { turns: Turns::of(1), ..Registry::default() };
+        let busy = registry.turns.now().expect("free");
+        let scene = catalogue::scene("simple-pendulum").expect("built in");
+        let source = SceneSource::Builtin("simple-pendulum".into());
+        let start = registry.start(scene, &SceneChange::default(), source, None, &Limits::default());
+        let session = start.expect("a pendulum");
+        session.play(1.0).await.expect("plays");
+        while registry.waiting() == 0 {
+            tokio::task::yield_now().await;
+        }
+        let asked = session.query(None, |run| Ok(run.time())).await.expect("answers");
+        assert_eq!((asked, session.state().time, session.state().playing), (0.0, 0.0, true));
+        let step = session.seconds(0.1);
+        tokio::pin!(step);
+        while registry.waiting() < 2 {
+            tokio::select! {
+                biased;
+                _ = &mut step => panic!("two compute at a time"),
+                () = tokio::task::yield_now() => {}
+            }
+        }
+        let (stepped, paused) = tokio::join!(step, session.pause());
+        assert!(!paused.expect("at once").playing);
+        assert_eq!(stepped.expect("ended by the pause").time, 0.0);
+        session.play(1.0).await.expect("plays");
+        drop(busy);
+        let mut states = session.states();
+        states.wait_for(|state| state.time > 0.0).await.expect("goes on");
+        session.pause().await.expect("pauses");
+        while registry.waiting() > 0 {
+            tokio::task::yield_now().await;
+        }
+        assert!(registry.turns.now().is_some(), "given back");
+    }
 }

@@ -1,15 +1,17 @@
 //! The thread that owns a session's run: it serves commands, and advances time while the session plays.
 
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender};
+use std::sync::{Arc, Weak};
 use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
+use tokio::runtime::Handle;
 use tokio::sync::watch;
 use triad_session::{Run, SessionState};
 
 use super::command::{Command, Signals};
 use super::recording::{Recording, TICK};
+use super::turns::{Turn, Turns};
 use crate::problem::{Problem, trace_id};
 
 /// Seconds since a session's thread was made, as its run counts them.
@@ -36,25 +38,35 @@ pub(super) struct Worker {
     pub signals: Arc<Signals>,
     pub state: watch::Sender<Arc<SessionState>>,
     pub command_time: Duration,
+    /// Where it is told of its turn, as long as anybody holds the session.
+    pub commands: Weak<SyncSender<Command>>,
+    pub turns: Turns,
+    pub runtime: Handle,
+    /// Whether it stands in line for a turn to play on.
+    pub in_line: bool,
+    /// When a playing run goes on.
+    pub next_tick: Instant,
 }
 
 impl Worker {
     /// Serves commands until the session is closed.
     pub(super) fn run(mut self, commands: &Receiver<Command>) {
         self.publish();
-        let mut next_tick = Instant::now();
         while !self.signals.closed() {
-            let received = if self.run.playing() {
-                commands.recv_timeout(next_tick.saturating_duration_since(Instant::now()))
+            let received = if self.run.playing() && !self.in_line {
+                commands.recv_timeout(self.next_tick.saturating_duration_since(Instant::now()))
             } else {
                 commands.recv().map_err(|_| RecvTimeoutError::Disconnected)
             };
             match received {
                 Ok(command) => self.handle(command),
-                Err(RecvTimeoutError::Timeout) => {
-                    next_tick = Instant::now() + TICK;
-                    self.tick();
-                }
+                Err(RecvTimeoutError::Timeout) => match self.turns.now() {
+                    Some(turn) => self.tick(turn),
+                    None => {
+                        self.in_line = true;
+                        self.turns.stand_in_line(&self.runtime, Weak::clone(&self.commands));
+                    }
+                },
                 Err(RecvTimeoutError::Disconnected) => return,
             }
         }
@@ -64,11 +76,11 @@ impl Worker {
         // A caller that has gone away no longer wants the answer: nothing is lost if it cannot be delivered.
         match command {
             Command::Steps(count, reply) => {
-                let result = self.ready().and_then(|()| self.steps(count));
+                let result = self.ready().and_then(|()| self.steps(count, &|| reply.is_closed()));
                 drop(reply.send(self.answer(result)));
             }
             Command::Seconds(seconds, reply) => {
-                let result = self.ready().and_then(|()| self.seconds(seconds));
+                let result = self.ready().and_then(|()| self.seconds(seconds, &|| reply.is_closed()));
                 drop(reply.send(self.answer(result)));
             }
             Command::Play(speed, reply) => {
@@ -104,6 +116,10 @@ impl Worker {
                 self.run.look_from(camera);
                 drop(reply.send(self.answer(Ok(()))));
             }
+            Command::Turn(turn) => {
+                self.in_line = false;
+                self.tick(turn);
+            }
             Command::Watched => {
                 self.signals.looked();
                 let encoded = self.recording.encode(self.run.samples());
@@ -127,28 +143,41 @@ impl Worker {
         Ok(self.run.ready()?)
     }
 
-    fn steps(&mut self, count: u32) -> Result<(), Problem> {
+    /// Takes steps, unless it is interrupted or who asked for them has `left`.
+    fn steps(&mut self, count: u32, left: &dyn Fn() -> bool) -> Result<(), Problem> {
         let deadline = Instant::now() + self.command_time;
+        let mut slice = self.slice();
         for _ in 0..count {
-            if self.signals.interrupted() || !self.run.step()? {
+            if self.signals.interrupted() || left() || !self.run.step()? {
                 break;
             }
             self.in_time(deadline)?;
+            slice = self.go_on(slice);
         }
         Ok(())
     }
 
-    fn seconds(&mut self, seconds: f64) -> Result<(), Problem> {
-        let target = self.run.time() + seconds;
-        self.advance(target, Instant::now() + self.command_time)
-    }
-
-    /// Goes to simulated time `target`, or to the end of the run, unless it is interrupted.
-    fn advance(&mut self, target: f64, deadline: Instant) -> Result<(), Problem> {
-        while !self.signals.interrupted() && self.run.advance(target)? {
+    /// Lets simulated seconds pass, up to the end of the run, unless it is interrupted or who asked for them has `left`.
+    fn seconds(&mut self, seconds: f64, left: &dyn Fn() -> bool) -> Result<(), Problem> {
+        let (target, deadline) = (self.run.time() + seconds, Instant::now() + self.command_time);
+        let mut slice = self.slice();
+        while !self.signals.interrupted() && !left() && self.run.advance(target)? {
             self.in_time(deadline)?;
+            slice = self.go_on(slice);
         }
         Ok(())
+    }
+
+    /// A turn for what a caller waits for, and until when it holds; none where that is interrupted meanwhile.
+    fn slice(&self) -> Option<(Turn, Instant)> {
+        let turn = self.turns.wait(&self.runtime, &self.signals)?;
+        Some((turn, Instant::now() + TICK))
+    }
+
+    /// The same turn, or after a while another: whoever waits comes between.
+    fn go_on(&self, slice: Option<(Turn, Instant)>) -> Option<(Turn, Instant)> {
+        let slice = slice.filter(|(_, until)| Instant::now() < *until);
+        slice.or_else(|| self.slice())
     }
 
     fn in_time(&self, deadline: Instant) -> Result<(), Problem> {
@@ -167,8 +196,9 @@ impl Worker {
         ))
     }
 
-    /// One tick of a playing session.
-    fn tick(&mut self) {
+    /// One tick of a playing session, in its turn.
+    fn tick(&mut self, _turn: Turn) {
+        self.next_tick = Instant::now() + TICK;
         let Some(target) = self.run.due(self.clock.now()) else { return };
         let deadline = Instant::now() + TICK;
         let mut reached = Ok(true);

@@ -158,6 +158,20 @@ async fn the_address_of_a_stream_tells_plain_requests_what_it_is() {
     get(&server, "/api/v1/sessions/nothing/stream").await.problem(404, "unknown-session");
 }
 
+#[tokio::test]
+async fn who_leaves_a_run_that_stands_still_is_not_counted_any_more() {
+    let app = state(Limits::default());
+    let server = triad::app(app.clone());
+    let created = post(&server, "/api/v1/sessions", json!({"builtin": "free-body"})).await.json();
+    let path = created["links"]["self"].as_str().expect("a path").to_owned();
+    let session = app.sessions.get(created["id"].as_str().expect("an id")).expect("a session");
+    let both =
+        [triad::session::Watched::Track, triad::session::Watched::Recording].map(|what| session.watch(what));
+    assert_eq!(get(&server, &path).await.json()["watchers"], 2);
+    drop(both);
+    assert_eq!(get(&server, &path).await.json()["watchers"], 0);
+}
+
 /// Threads of the viewer's library in this process.
 #[cfg(target_os = "linux")]
 fn encoding_threads() -> usize {

@@ -46,8 +46,9 @@ async fn follow(
     drop(lecture);
     let patience = app.limits.stalled_viewer;
     Ok(upgrade.on_upgrade(move |socket| async move {
+        let viewer = ViewerSocket { socket, patience };
         // However it ends, the follower is given back.
-        drop(follow_on(ViewerSocket { socket, patience }, follower, wish.watched()).await);
+        app.streams.serve(async move { drop(follow_on(viewer, follower, wish.watched()).await) });
     }))
 }
 

@@ -56,7 +56,7 @@ async fn stream(
         let states = session.states();
         // The session may be deleted while it is watched.
         drop(session);
-        ViewerSocket { socket, patience }.serve(watcher, states).await;
+        app.streams.serve(ViewerSocket { socket, patience }.serve(watcher, states));
     }))
 }
 
