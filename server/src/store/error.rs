@@ -10,7 +10,7 @@ use crate::policy::Refusal;
 use crate::problem::Problem;
 
 /// Why the gradebook could not be opened, read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, thiserror::Error)]
 pub enum StoreError {
     /// The file is not there, not writable, or not a database.
     #[error("cannot open the database {}: {cause}", path.display())]

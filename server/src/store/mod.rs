@@ -1,8 +1,8 @@
 //! The gradebook: people, what they handed in, what it earned and who decided what, in one SQLite file or in a database of a
 //! PostgreSQL server.
 //!
-//! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: each
-//! submission is one transaction, written through before it returns.
+//! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: a submission is
+//! written whole or not at all, and through, alone or together with others, before it returns.
 
 mod bell;
 mod class;
@@ -33,9 +33,11 @@ mod sql;
 mod submissions;
 #[cfg(test)]
 mod tests;
+mod together;
 mod transaction;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use sqlx::Any;
 use sqlx::pool::PoolConnection;
@@ -63,6 +65,7 @@ pub use predictions::{KeptPrediction, NewPrediction};
 pub use queue::{Accept, Accepted, Claim, Job, STARTS, Waiting};
 pub use quotas::Quotas;
 pub use submissions::{HandIn, Kept, Query, Recorded, StoredSubmission, Whose};
+use together::Together;
 use transaction::Transaction;
 
 /// The course of those who use the workbench without accounts.
@@ -75,6 +78,8 @@ pub struct Store {
     /// Where it is a file of its own.
     place: Option<Place>,
     quotas: Quotas,
+    /// Submissions that wait to be written.
+    together: Arc<Together>,
     /// The address of the server that keeps it.
     server: Option<String>,
     /// Wakes graders in this program.
@@ -124,6 +129,7 @@ impl Store {
             pools,
             place: None,
             quotas: Quotas::default(),
+            together: Arc::default(),
             server: None,
             work: Notify::new(),
             verdicts: Verdicts::default(),

@@ -129,13 +129,7 @@ impl Store {
     pub async fn hand_in(&self, new: &HandIn) -> Result<Kept, StoreError> {
         self.place_is_right()?;
         self.quotas.check_file(self.place.as_ref())?;
-        let mut transaction = self.write().await?;
-        let (kept, is_new) = keep(&mut transaction, new, &self.quotas).await?;
-        if is_new {
-            transaction.commit().await?;
-        } else {
-            transaction.rollback().await?;
-        }
+        let kept = self.together.keep(&self.pools.writer, self.quotas, new.clone()).await?;
         // A file that was moved away meanwhile has taken the submission with it.
         self.place_is_right()?;
         Ok(kept)
@@ -242,8 +236,8 @@ impl Store {
     }
 }
 
-/// Keeps it, unless an earlier request of the same key did: then nothing of this transaction is wanted.
-async fn keep(
+/// Keeps it, unless an earlier request of the same key did: then nothing that was done for it is wanted.
+pub(super) async fn keep(
     connection: &mut AnyConnection,
     new: &HandIn,
     quotas: &Quotas,

@@ -105,6 +105,51 @@ async fn what_was_handed_in_survives_a_restart_unchanged() {
     assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
 }
 
+/// Transactions in a log of SQLite: each ends with a frame that tells the size of the database (sqlite.org/fileformat2.html#walformat).
+fn transactions(path: &Path) -> usize {
+    let log = fs::read(path.with_extension("db-wal")).expect("a log");
+    let number = |at: usize| u32::from_be_bytes(log[at..at + 4].try_into().expect("four"));
+    let (page, salt) = (number(8) as usize, number(16));
+    let frames = (32..log.len()).step_by(24 + page).filter(|at| number(at + 8) == salt);
+    frames.filter(|at| number(at + 4) != 0).count()
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn what_comes_while_another_is_written_is_written_together_and_each_is_told_its_own() {
+    let (_folder, path) = place();
+    let store = Arc::new(open(&path).await);
+    hand_in(&store, &new("ada")).await.expect("keeps");
+    let before = transactions(&path);
+    // Whoever writes now holds up all that come.
+    let writing = store.write().await.expect("writes");
+    let twice = HandIn { key: Some("twice".into()), ..new("twin") };
+    let mut all: Vec<HandIn> = (0..20).map(|k| new(&format!("student {k}"))).collect();
+    // One does not know of her first, two are one.
+    all.extend([new("ada"), twice.clone(), HandIn { id: identifier(), ..twice.clone() }]);
+    let asked: Vec<_> = all
+        .into_iter()
+        .map(|new| {
+            let store = Arc::clone(&store);
+            tokio::spawn(async move { store.hand_in(&new).await })
+        })
+        .collect();
+    while store.together.waiting() < 23 {
+        tokio::task::yield_now().await;
+    }
+    writing.rollback().await.expect("ends");
+    let mut told = Vec::new();
+    for one in asked {
+        told.push(one.await.expect("ends"));
+    }
+    assert!(told[..20].iter().all(Result::is_ok), "{told:?}");
+    assert!(matches!(told[20], Err(StoreError::Overtaken)), "{:?}", told[20]);
+    let [Ok(first), Ok(second)] = &told[21..] else { panic!("{told:?}") };
+    assert_eq!((&first.verdict["id"], &second.verdict["id"]), (&json!(twice.id), &json!(twice.id)));
+    assert_eq!(transactions(&path) - before, 1, "one flush for all");
+    assert_eq!(ids(&store).await.len(), 22);
+    assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn several_programs_make_and_share_one_file() {
     let (_folder, path) = place();

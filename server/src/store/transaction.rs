@@ -18,7 +18,11 @@ pub(super) struct Transaction(PoolConnection<Any>);
 impl Transaction {
     /// Begins one, and waits for others here and not at the first change.
     pub(super) async fn begin(writer: &AnyPool) -> Result<Self, StoreError> {
-        let mut connection = writer.acquire().await?;
+        Self::on(writer.acquire().await?).await
+    }
+
+    /// Begins one on a connection that writes.
+    pub(super) async fn on(mut connection: PoolConnection<Any>) -> Result<Self, StoreError> {
         let begin = Kind::of(&connection).begin();
         sqlx::query(begin).execute(&mut *connection).await?;
         Ok(Self(connection))

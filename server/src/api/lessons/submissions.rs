@@ -136,9 +136,8 @@ async fn at_once(
         return Ok(None);
     }
     let judging = async move {
-        // Where nobody else grades, everybody waits here.
-        let place =
-            if is_shared { Some(places.acquire_owned().await.map_err(Problem::internal)?) } else { None };
+        // Where nobody else grades, everybody waits here: as many are graded at a time as there are processors.
+        let place = places.acquire_owned().await.map_err(Problem::internal)?;
         blocking(move || {
             let _place = place;
             Judged::new(&variants, lesson, &body, who, key).map(Arc::new)
