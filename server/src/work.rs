@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use axum::http::StatusCode;
 use tokio::sync::Semaphore;
+use triad_engine::analysis::{AnalysisError, Wanted};
 
 use crate::aside;
 use crate::problem::Problem;
@@ -35,24 +36,41 @@ impl Work {
         self.waiting.load(Ordering::Relaxed)
     }
 
-    /// Runs `work` on a thread that may block and lets verdicts go first, when its turn comes. A caller that leaves before has not asked; what one that
-    /// leaves later began keeps its place to its end, so that no more is computed at a time however many come and go.
+    /// Runs `work` on a thread that may block and lets verdicts go first, when its turn comes. A caller that leaves before has not
+    /// asked; what one that leaves later began learns that it is no longer wanted, and keeps its place until it ends, so that no more
+    /// is computed at a time however many come and go.
     ///
     /// Errors if too many wait already, and as `work` does.
     pub async fn run<T: Send + 'static>(
         &self,
-        work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+        work: impl FnOnce(&Wanted) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
         let place = {
             let _waiting = Waiting::among(&self.waiting)?;
             Arc::clone(&self.places).acquire_owned().await.map_err(Problem::internal)?
         };
+        let wanted = Wanted::default();
+        let _asker = Asker(wanted.clone());
         aside::run(move || {
             let _place = place;
-            work()
+            work(&wanted)
         })
         .await
     }
+}
+
+/// Who waits for something that is computed: it is wanted until they have it, or leave.
+struct Asker(Wanted);
+
+impl Drop for Asker {
+    fn drop(&mut self) {
+        self.0.no_longer();
+    }
+}
+
+/// What ends because nobody waits for it: nobody reads this.
+pub fn no_longer_wanted() -> Problem {
+    AnalysisError::NoLongerWanted.into()
 }
 
 /// One of those who wait.
@@ -94,7 +112,7 @@ mod tests {
             .map(|_| {
                 let (work, busy, gate) = (Arc::clone(&work), Arc::clone(&busy), Arc::clone(&gate));
                 tokio::spawn(async move {
-                    let job = move || {
+                    let job = move |_: &Wanted| {
                         assert_eq!(busy.fetch_add(1, Ordering::SeqCst), 0, "one at a time");
                         gate.lock().expect("whole").recv().expect("a word");
                         busy.fetch_sub(1, Ordering::SeqCst);
@@ -126,19 +144,21 @@ mod tests {
         let (tell, begun) = tokio::sync::oneshot::channel();
         let busy = Arc::clone(&work);
         let first = tokio::spawn(async move {
-            let job = move || {
-                tell.send(()).expect("somebody listens");
+            let job = move |wanted: &Wanted| {
+                tell.send(wanted.clone()).expect("somebody listens");
                 gate.recv().expect("a word");
                 Ok(())
             };
             busy.run(job).await
         });
-        begun.await.expect("begins");
+        let wanted = begun.await.expect("begins");
+        assert!(wanted.is_still());
         first.abort();
         drop(first.await);
+        assert!(!wanted.is_still(), "it is told");
         assert_eq!(work.places.available_permits(), 0, "it still computes");
         finish.send(()).expect("it waits");
-        work.run(|| Ok(())).await.expect("then it is the next one's turn");
+        work.run(|_| Ok(())).await.expect("then it is the next one's turn");
         assert_eq!(work.places.available_permits(), 1);
     }
 }

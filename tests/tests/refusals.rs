@@ -5,7 +5,9 @@
 
 use serde_json::{Value, json};
 use triad_engine::EngineError;
-use triad_engine::analysis::{AnalysisError, ModesAbout, assemble, check, equilibrium, kinematics, modes};
+use triad_engine::analysis::{
+    AnalysisError, ModesAbout, Wanted, assemble, check, equilibrium, equilibrium_if, kinematics, modes,
+};
 use triad_engine::catalogue::{self, CatalogueError};
 use triad_engine::constraints::ConstraintError;
 use triad_engine::model::{CustomLoadError, ModelError};
@@ -312,7 +314,7 @@ fn runs_that_cannot_go_on() {
 fn analyses_without_a_result() {
     let mut met = Refusals::new(variants!(
         AnalysisError: Engine, TooLarge, NoEquilibrium, NoSteadyMotion, NoModes, Free, Spins, SingularStart, Unreachable, BranchLost,
-        TooManyPositions, Pinned
+        TooManyPositions, Pinned, NoLongerWanted
     ));
     let mut meet =
         |tried: &str, error: &AnalysisError| met.meet(tried, error, error.code(), None, &error.hint());
@@ -359,6 +361,12 @@ fn analyses_without_a_result() {
     meet(
         "assembly about a body that is not there",
         &assemble(&scene(&good()), &["bab".to_owned()]).unwrap_err(),
+    );
+    let left = Wanted::default();
+    left.no_longer();
+    meet(
+        "equilibrium for somebody who left",
+        &equilibrium_if(&builtin("simple-pendulum"), &left).unwrap_err(),
     );
     all_reviewed("refusals-analysis", [met.text()]);
 }

@@ -6,6 +6,8 @@
 
 pub mod check;
 
+mod wanted;
+
 mod assembly;
 mod equilibrium;
 mod flow;
@@ -14,11 +16,12 @@ mod modes;
 mod stage;
 
 pub use assembly::{Assembly, Placement, assemble};
-pub use equilibrium::{Equilibrium, equilibrium};
-pub use kinematics::{KinematicState, Kinematics, kinematics};
-pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, TurnsWithoutInertia, modes};
+pub use equilibrium::{Equilibrium, equilibrium, equilibrium_if};
+pub use kinematics::{KinematicState, Kinematics, kinematics, kinematics_if};
+pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, TurnsWithoutInertia, modes, modes_if};
 #[doc(hidden)]
 pub use stage::Stage;
+pub use wanted::Wanted;
 
 use crate::error::EngineError;
 use triad_dynamics::constraints::{ConstraintError, quoted};
@@ -140,6 +143,9 @@ pub enum AnalysisError {
         /// Why.
         reason: String,
     },
+    /// Whoever asked for it left.
+    #[error("nobody waits for the analysis any more")]
+    NoLongerWanted,
 }
 
 impl From<ConstraintError> for AnalysisError {
@@ -164,6 +170,7 @@ impl AnalysisError {
             Self::BranchLost { .. } => "branch-lost",
             Self::TooManyPositions { .. } => "too-many-positions",
             Self::Pinned { .. } => "cannot-pin",
+            Self::NoLongerWanted => "no-longer-wanted",
         }
     }
 
@@ -195,6 +202,7 @@ impl AnalysisError {
             Self::BranchLost { .. } => "Look whether the mechanism is next to a singular position there, and change a length.",
             Self::TooManyPositions { .. } => "Raise \"every\", the interval of outputs, or shorten the duration.",
             Self::Pinned { .. } => "Check the name, and keep fewer bodies in place.",
+            Self::NoLongerWanted => "Ask again, and wait.",
         }
         .to_owned()
     }

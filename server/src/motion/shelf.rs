@@ -41,7 +41,8 @@ impl Shelf {
         if let Some(found) = self.find(name) {
             return Ok(found);
         }
-        let made = work.run(move || packed(&make()?)).await?;
+        // Whoever asks next finds it: it is made to its end.
+        let made = work.run(move |_| packed(&make()?)).await?;
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.len() >= KEPT {
             kept.clear();

@@ -13,6 +13,7 @@ mod document;
 mod explanations;
 mod generated;
 mod glance;
+mod leaving;
 mod lessons;
 mod lti;
 mod motion;

@@ -1,6 +1,6 @@
 //! Static equilibrium: where nothing accelerates.
 
-use super::{AnalysisError, Stage};
+use super::{AnalysisError, Stage, Wanted};
 use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::scene::Scene;
@@ -59,7 +59,17 @@ pub struct Equilibrium {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium, AnalysisError> {
+    equilibrium_if(scene, &Wanted::default())
+}
+
+/// As [`equilibrium`], as long as it is wanted.
+///
+/// # Errors
+///
+/// As [`equilibrium`], and [`AnalysisError::NoLongerWanted`].
+pub fn equilibrium_if(scene: &Scene, wanted: &Wanted) -> Result<Equilibrium, AnalysisError> {
     let mut stage = Stage::new(scene)?;
+    stage.wanted = wanted.clone();
     find(&mut stage)
 }
 
@@ -79,6 +89,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     // What is left over where a further step leads to no numbers.
     let mut last = (0.0, String::new());
     for iterations in 0..STEPS {
+        stage.wanted.check()?;
         let basis = stage.tangent()?;
         stage.rest();
         let force = stage.forces();

@@ -14,7 +14,7 @@ mod dead_point;
 
 mod path;
 
-use super::{AnalysisError, Stage};
+use super::{AnalysisError, Stage, Wanted};
 use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::run::{EventOccurrence, SingularConfiguration};
@@ -84,8 +84,22 @@ pub struct Kinematics {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, AnalysisError> {
+    kinematics_if(scene, convention, &Wanted::default())
+}
+
+/// As [`kinematics`], as long as they are wanted.
+///
+/// # Errors
+///
+/// As [`kinematics`], and [`AnalysisError::NoLongerWanted`].
+pub fn kinematics_if(
+    scene: &Scene,
+    convention: Convention,
+    wanted: &Wanted,
+) -> Result<Kinematics, AnalysisError> {
     let settings = &scene.simulation;
     let mut path = Path::new(scene)?;
+    path.stage.wanted = wanted.clone();
     let positions = settings.duration / settings.every;
     if positions > MAX_POSITIONS {
         return Err(AnalysisError::TooManyPositions { positions });

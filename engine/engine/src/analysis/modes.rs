@@ -7,7 +7,7 @@ mod steady;
 pub use inertia::TurnsWithoutInertia;
 pub use steady::SteadyMotion;
 
-use super::{AnalysisError, Stage, equilibrium};
+use super::{AnalysisError, Stage, Wanted, equilibrium};
 use crate::scene::Scene;
 use inertia::Inertia;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector};
@@ -113,7 +113,17 @@ pub struct Modes {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
+    modes_if(scene, about, &Wanted::default())
+}
+
+/// As [`modes`], as long as they are wanted.
+///
+/// # Errors
+///
+/// As [`modes`], and [`AnalysisError::NoLongerWanted`].
+pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Modes, AnalysisError> {
     let mut stage = Stage::new(scene)?;
+    stage.wanted = wanted.clone();
     let mut notes = Vec::new();
     if about != ModesAbout::Steady && stage.q_dot.iter().any(|v| *v != 0.0) {
         notes.push(

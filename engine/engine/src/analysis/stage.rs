@@ -1,7 +1,7 @@
 //! A mechanism held at one position, with its small motions.
 
 use super::flow::Flow;
-use super::{AnalysisError, MAX_FREEDOMS};
+use super::{AnalysisError, MAX_FREEDOMS, Wanted};
 use crate::error::EngineError;
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, Rotation3, RowDVector, Vector3};
@@ -36,6 +36,8 @@ pub struct Stage {
     pub flow: Flow,
     /// What was corrected on the way to a consistent start.
     pub notes: Vec<String>,
+    /// Whether what is computed of it is still wanted.
+    pub wanted: Wanted,
 }
 
 impl Stage {
@@ -61,7 +63,8 @@ impl Stage {
         mechanism.elimination.set_redundant(true);
         let q_dot = start.split_off(mechanism.system.coordinates);
         let geometry = Geometry::new(&mechanism.system);
-        Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow: Flow::default(), notes })
+        let (flow, wanted) = (Flow::default(), Wanted::default());
+        Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow, notes, wanted })
     }
 
     /// Takes over the held position at rest, or in the steady motion.

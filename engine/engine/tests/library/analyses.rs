@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use nalgebra::{Matrix2, Vector3};
-use triad_engine::analysis::{AnalysisError, ModesAbout, assemble, equilibrium, kinematics, modes};
+use triad_engine::analysis::{
+    AnalysisError, ModesAbout, Wanted, assemble, equilibrium, equilibrium_if, kinematics, kinematics_if,
+    modes, modes_if,
+};
 use triad_engine::catalogue;
 use triad_engine::reactions::report::{Convention, ExpressedIn};
 use triad_engine::scene::{Coordinates, Driver, Motion, Scene};
@@ -29,6 +32,22 @@ fn a_pendulum_comes_to_rest_below_its_pin() {
         assert_eq!(found.modes[0].kind, "oscillates");
         assert!((found.modes[0].shape[0].translation[0].abs() - 1.0).abs() < 1e-9);
     }
+}
+
+#[test]
+fn what_nobody_waits_for_any_more_ends_before_its_next_step() {
+    let (pendulum, driven) =
+        ["simple-pendulum", "crank-rocker"].map(|name| catalogue::scene(name).unwrap()).into();
+    let wanted = Wanted::default();
+    assert!(equilibrium_if(&pendulum, &wanted).is_ok());
+    wanted.no_longer();
+    let ended = [
+        equilibrium_if(&pendulum, &wanted).unwrap_err(),
+        modes_if(&pendulum, ModesAbout::Equilibrium, &wanted).unwrap_err(),
+        modes_if(&pendulum, ModesAbout::Steady, &wanted).unwrap_err(),
+        kinematics_if(&driven, Convention::default(), &wanted).unwrap_err(),
+    ];
+    assert!(ended.iter().all(|error| *error == AnalysisError::NoLongerWanted), "{ended:?}");
 }
 
 /// A free body has no equilibrium, and is refused with the reason.

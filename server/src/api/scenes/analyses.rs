@@ -8,7 +8,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::Serialize;
 use serde_json::Value;
-use triad_engine::analysis::{self, AnalysisError, Assembly, Equilibrium, Kinematics, Modes, ModesAbout};
+use triad_engine::analysis::{
+    self, AnalysisError, Assembly, Equilibrium, Kinematics, Modes, ModesAbout, Wanted,
+};
 use triad_engine::reactions::report::Convention;
 use triad_engine::scene::Scene;
 use utoipa_axum::router::OpenApiRouter;
@@ -60,7 +62,7 @@ async fn assembly(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, asked| analysis::assemble(scene, &asked.pinned)).await
+    analyse(app, asked, |scene, asked, _| analysis::assemble(scene, &asked.pinned)).await
 }
 
 /// Positions, velocities, accelerations and driving forces of a scene whose drivers leave it no freedom.
@@ -72,7 +74,8 @@ async fn kinematics(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, _| analysis::kinematics(scene, Convention::default())).await
+    analyse(app, asked, |scene, _, wanted| analysis::kinematics_if(scene, Convention::default(), wanted))
+        .await
 }
 
 /// A position of rest near the start, whether it is stable, and the reactions there.
@@ -83,7 +86,7 @@ async fn equilibrium(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, _| analysis::equilibrium(scene)).await
+    analyse(app, asked, |scene, _, wanted| analysis::equilibrium_if(scene, wanted)).await
 }
 
 /// Small motions about a position: frequencies, damping and shapes.
@@ -94,16 +97,16 @@ async fn modes(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, asked| analysis::modes(scene, asked.about)).await
+    analyse(app, asked, |scene, asked, wanted| analysis::modes_if(scene, asked.about, wanted)).await
 }
 
 async fn analyse<T: Serialize>(
     app: App,
     asked: AnalysisRequest,
-    run: impl FnOnce(&Scene, &AnalysisRequest) -> Result<T, AnalysisError> + Send + 'static,
+    run: impl FnOnce(&Scene, &AnalysisRequest, &Wanted) -> Result<T, AnalysisError> + Send + 'static,
 ) -> Result<axum::Json<Value>, Problem> {
     let work = Arc::clone(&app.work);
-    let job = move || {
+    let job = move |wanted: &Wanted| {
         let scene = Scene::from_json(&asked.scene.to_string())?;
         session::bounded(&scene, &Limits { bodies: app.limits.analysed_bodies, ..(*app.limits).clone() })?;
         let times = scene.simulation.duration / scene.simulation.every;
@@ -117,7 +120,7 @@ async fn analyse<T: Serialize>(
             )
             .at("/simulation/every", detail));
         }
-        let found = run(&scene, &asked)?;
+        let found = run(&scene, &asked, wanted)?;
         serde_json::to_value(found).map(axum::Json).map_err(Problem::internal)
     };
     work.run(job).await

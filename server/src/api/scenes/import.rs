@@ -6,6 +6,7 @@ use axum::extract::State;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use triad_engine::analysis::Wanted;
 use triad_engine::scene::Scene;
 use triad_urdf::{OmittedItem, SideCar};
 use utoipa_axum::router::OpenApiRouter;
@@ -54,7 +55,7 @@ async fn import(
     Json(robot): Json<UrdfImport>,
 ) -> Result<axum::Json<ImportedRobot>, Problem> {
     let work = Arc::clone(&app.work);
-    let job = move || {
+    let job = move |_: &Wanted| {
         let imported = triad_urdf::import(&robot.urdf, &robot.with)?;
         session::bounded(&imported.scene, &app.limits)?;
         let scene = serde_json::to_value(&imported.scene).map_err(Problem::internal)?;

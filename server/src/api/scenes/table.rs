@@ -9,6 +9,7 @@ use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
+use triad_engine::analysis::Wanted;
 use triad_engine::run::{Outputs, Simulation};
 use triad_engine::scene::{Output, Scene};
 use utoipa_axum::router::OpenApiRouter;
@@ -20,6 +21,7 @@ use crate::app::App;
 use crate::problem::Problem;
 use crate::session;
 use crate::table::TextTable;
+use crate::work::no_longer_wanted;
 
 /// Numbers that a table over HTTP may have: some 60 MB of text.
 const MAX_NUMBERS: f64 = 3e6;
@@ -56,7 +58,7 @@ async fn table(
     Json(asked): Json<TableRequest>,
 ) -> Result<impl IntoResponse, Problem> {
     let work = Arc::clone(&app.work);
-    let job = move || {
+    let job = move |wanted: &Wanted| {
         let mut scene = Scene::from_json(&asked.scene.to_string())?;
         session::bounded(&scene, &app.limits)?;
         let settings = &mut scene.simulation;
@@ -65,14 +67,14 @@ async fn table(
         if !asked.outputs.is_empty() {
             settings.outputs = asked.outputs;
         }
-        written(&scene, app.limits.command_time)
+        written(&scene, app.limits.command_time, wanted)
     };
     let text = work.run(job).await?;
     Ok(([(header::CONTENT_TYPE, "text/csv; charset=utf-8")], text))
 }
 
-/// Runs a scene to its end, and writes its table.
-fn written(scene: &Scene, time: Duration) -> Result<Vec<u8>, Problem> {
+/// Runs a scene to its end, and writes its table, as long as it is wanted.
+fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Problem> {
     let began = Instant::now();
     let mut run = Simulation::new(scene)?;
     let outputs = Outputs::new(&run);
@@ -92,9 +94,7 @@ fn written(scene: &Scene, time: Duration) -> Result<Vec<u8>, Problem> {
     loop {
         let next = (index as f64 * every).min(run.duration());
         while !run.advance_towards(next, PIECE)? {
-            if began.elapsed() > time {
-                return Err(too_slow(run.reached()));
-            }
+            in_time(began, time, run.reached(), wanted)?;
         }
         row.clear();
         row.push(run.time());
@@ -103,11 +103,16 @@ fn written(scene: &Scene, time: Duration) -> Result<Vec<u8>, Problem> {
         if run.finished() {
             return table.finish().map_err(Problem::internal);
         }
-        if began.elapsed() > time {
-            return Err(too_slow(run.time()));
-        }
+        in_time(began, time, run.time(), wanted)?;
         index += 1;
     }
+}
+
+fn in_time(began: Instant, most: Duration, reached: f64, wanted: &Wanted) -> Result<(), Problem> {
+    if !wanted.is_still() {
+        return Err(no_longer_wanted());
+    }
+    if began.elapsed() > most { Err(too_slow(reached)) } else { Ok(()) }
 }
 
 fn too_slow(time: f64) -> Problem {

@@ -139,6 +139,7 @@ impl Path {
     /// Follows the motion to a time, and holds the mechanism there.
     pub(super) fn go_to(&mut self, time: f64) -> Result<(), AnalysisError> {
         loop {
+            self.stage.wanted.check()?;
             let there = match self.run.advance_towards(time, 1) {
                 Ok(there) => there,
                 Err(error) => return Err(self.stopped(error)),

@@ -1,0 +1,69 @@
+//! What was begun for somebody who left ends, over real sockets: here nothing else would end it.
+
+use std::io::Write;
+use std::net::{SocketAddr, TcpStream};
+use std::time::Duration;
+
+use axum::Router;
+use serde_json::{Value, json};
+use tokio::time::timeout;
+use triad::limits::Limits;
+
+use crate::{get, post, state};
+
+/// Longer than any machine takes here, and less than what is computed for those who stay.
+const PATIENCE: Duration = Duration::from_mins(5);
+
+/// A time that no run reaches while somebody waits for it, s.
+const END: f64 = 1e5;
+
+/// A server whose requests may compute for as long as they like.
+async fn patient() -> (Router, SocketAddr) {
+    let server = triad::app(state(Limits { command_time: Duration::from_hours(24), ..Limits::default() }));
+    let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.expect("a port");
+    let address = listener.local_addr().expect("an address");
+    let serving = server.clone();
+    tokio::spawn(async move { axum::serve(listener, serving).await });
+    (server, address)
+}
+
+/// Asks for something, and says no more.
+fn ask(address: SocketAddr, path: &str, body: &Value) -> TcpStream {
+    let mut socket = TcpStream::connect(address).expect("connects");
+    let body = body.to_string();
+    let head = "Host: localhost\r\nContent-Type: application/json";
+    write!(socket, "POST {path} HTTP/1.1\r\n{head}\r\nContent-Length: {}\r\n\r\n{body}", body.len())
+        .expect("asks");
+    socket
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_step_ends_as_its_caller_leaves() {
+    let (server, address) = patient().await;
+    let endless = json!({"builtin": "spatial-slider-crank", "overrides": {"duration": END}});
+    let created = post(&server, "/api/v1/sessions", endless).await.json();
+    let path = created["links"]["self"].as_str().expect("a path").to_owned();
+    let caller = ask(address, &format!("{path}/step"), &json!({"seconds": END}));
+    // One that waits for its turn behind it, and leaves too, is not begun.
+    let other = ask(address, &format!("{path}/step"), &json!({"seconds": END}));
+    drop((caller, other));
+    let path = format!("{path}/step");
+    let step = post(&server, &path, json!({"steps": 1}));
+    let state = timeout(PATIENCE, step).await.expect("it is its turn").json();
+    assert!(state["time"].as_f64().is_some_and(|time| time < END), "{state}");
+    assert_eq!(state["error"], Value::Null, "{state}");
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_table_ends_as_its_caller_leaves_and_gives_its_place_to_others() {
+    let (server, address) = patient().await;
+    let scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    let table = |until: f64, every: f64| json!({"scene": scene, "until": until, "every": every});
+    let places = std::thread::available_parallelism().map_or(1, usize::from);
+    let callers: Vec<_> =
+        (0..places).map(|_| ask(address, "/api/v1/analyses/table", &table(1e9, 1e5))).collect();
+    drop(callers);
+    let others = post(&server, "/api/v1/analyses/table", table(0.1, 0.1));
+    let reply = timeout(PATIENCE, others).await.expect("it is its turn");
+    assert_eq!(reply.status, 200);
+}
