@@ -293,7 +293,8 @@ async fn listen(options: &Serve, app: App, listener: TcpListener) -> Result<(), 
         lectures.leave();
         sessions.clear();
     };
-    let store = app.store.clone();
+    // What is sent to watchers goes on to the end.
+    let (store, _streams) = (app.store.clone(), app.streams.clone());
     let (going, patience) = (Arc::clone(&app.draining), Duration::from_secs(options.drain));
     let draining = move || async move {
         going.store(true, Ordering::Relaxed);
@@ -357,6 +358,9 @@ async fn tell_use(options: &Serve, app: &App, address: SocketAddr) -> Result<(),
     }
     let class = app.store.course(CLASS).await?;
     print_line(&format!("Students: {reached}/join with the code {}", class.join_code));
+    if address.ip().is_loopback() && options.url.is_none() && options.proxy.is_empty() {
+        print_line("Only this machine reaches it: for others stop it and add --host 0.0.0.0");
+    }
     if !reached.starts_with("https://") && !address.ip().is_loopback() {
         print_line(
             "Not encrypted: on a network you do not trust put a proxy with TLS before it, and name it with --url.",

@@ -60,7 +60,8 @@ pub async fn serve(State(app): State<App>, request: Request) -> Response {
     let first = path.split('/').next().unwrap_or(path);
     // Addresses without a file name belong to the page, which says of most that there is nothing.
     let last = path.rsplit('/').next().unwrap_or(path);
-    let is_page = !["api", "assets"].contains(&first) && !last.contains('.');
+    let climbs = path.split('/').any(|part| part == "..");
+    let is_page = !["api", "assets"].contains(&first) && !last.contains('.') && !climbs;
     match find("index.html").filter(|_| is_page) {
         Some(page) => {
             let mut response = respond(page, request.headers(), first == FRAMED, &app.base).await;

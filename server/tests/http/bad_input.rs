@@ -159,6 +159,7 @@ async fn addresses_and_methods_that_do_not_exist() {
         assert_eq!((reply.status.as_u16(), reply.media()), (404, "text/html; charset=utf-8"), "{path}");
     }
     get(&server, "/robots.txt").await.problem(404, "not-found");
+    get(&server, "/lessons/../../etc/passwd").await.problem(404, "not-found");
     let put = |path: &str| Request::put(path).body(Body::empty()).expect("a request");
     send(&server, put("/api/v1/health")).await.problem(405, "method-not-allowed");
     send(&server, put("/")).await.problem(405, "method-not-allowed");

@@ -12,6 +12,9 @@ import { qr } from "../lecture/qr";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { showPlatforms } from "./platform";
 
+/** Names of the machine for itself. */
+const LOOPBACK = /^(localhost|127\.[\d.]+|\[::1\])$/;
+
 export function classPage(outlet: HTMLElement): Page {
   const door = h("section", { class: "class-way-in" });
   const table = h("section", { "aria-label": t("What everybody has reached") }, skeleton(6));
@@ -78,6 +81,13 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
         }),
       ),
       h("p", { class: "class-code" }, view.join_code),
+      LOOPBACK.test(location.hostname)
+        ? h(
+            "p",
+            { class: "help" },
+            t("Only this machine reaches that address. For others start the server with --host 0.0.0.0."),
+          )
+        : null,
       h(
         "div",
         { class: "row wrap" },
@@ -224,7 +234,12 @@ function sheet(grades: GradeTable): HTMLElement {
   );
   return h(
     "div",
-    { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Students by lessons") },
+    {
+      class: "table-scroll grade-sheet",
+      tabindex: "0",
+      role: "region",
+      "aria-label": t("Students by lessons"),
+    },
     h(
       "table",
       { class: "data grade-table" },

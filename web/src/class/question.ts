@@ -254,29 +254,38 @@ function drawn(found: QuestionAnalysis): HTMLElement[] {
       { class: "student-lesson" },
       h("h2", null, t("Whether all numbers are equally hard")),
       h(
-        "table",
-        { class: "data" },
+        "div",
+        {
+          class: "table-scroll",
+          tabindex: "0",
+          role: "region",
+          "aria-label": t("Whether all numbers are equally hard"),
+        },
         h(
-          "caption",
-          null,
-          t(
-            "Each student has numbers of their own. First answers of those who drew a small one, and of those who drew a large one; more than three standard errors between them are more than chance.",
-          ),
-        ),
-        h(
-          "thead",
-          null,
+          "table",
+          { class: "data" },
           h(
-            "tr",
+            "caption",
             null,
-            h("th", { scope: "col" }, t("Number")),
-            ...[t("Below (students)"), t("Border"), t("From there (students)"), t("Standard errors")].map(
-              (text) => h("th", { scope: "col", class: "number" }, text),
+            t(
+              "Each student has numbers of their own. First answers of those who drew a small one, and of those who drew a large one; more than three standard errors between them are more than chance.",
             ),
-            h("td", null, h("span", { class: "visually-hidden" }, t("To look at"))),
           ),
+          h(
+            "thead",
+            null,
+            h(
+              "tr",
+              null,
+              h("th", { scope: "col" }, t("Number")),
+              ...[t("Below (students)"), t("Border"), t("From there (students)"), t("Standard errors")].map(
+                (text) => h("th", { scope: "col", class: "number" }, text),
+              ),
+              h("td", null, h("span", { class: "visually-hidden" }, t("To look at"))),
+            ),
+          ),
+          h("tbody", null, ...rows),
         ),
-        h("tbody", null, ...rows),
       ),
     ),
   ];

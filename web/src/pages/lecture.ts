@@ -1,9 +1,10 @@
 // A lecture as a follower sees it: the presenter's run, the question, and the way to look around and come back.
 
 import { ApiError, api } from "../api/client";
+import { inClass, me } from "../api/identity";
 import { h, setText } from "../core/dom";
 import { navigate, type Page, setTitle } from "../core/router";
-import { t } from "../core/texts";
+import { parts, t } from "../core/texts";
 import { Follower } from "../lecture/follower";
 import { ballot } from "../lecture/voter";
 import { linkTo } from "../session/shared-view";
@@ -45,6 +46,16 @@ export function joinPage(outlet: HTMLElement): Page {
       h("h1", null, t("Join a lecture")),
       h("p", { class: "lead" }, t("Type the code that your instructor shows. No account is needed.")),
       form,
+      // Who is told to join a class comes here first: the word stands in the header.
+      inClass() && !me().person
+        ? h(
+            "p",
+            { class: "help" },
+            ...parts("A code of a class, not of a lecture? {link}", {
+              link: h("a", { href: "/join" }, t("Join the class")),
+            }),
+          )
+        : null,
     ),
   );
   code.focus();

@@ -120,6 +120,8 @@ export const classroom = {
   "The class": "Der Kurs",
   "Joining is closed": "Der Beitritt ist geschlossen",
   "Students open {address} and type": "Studierende öffnen {address} und tippen",
+  "Only this machine reaches that address. For others start the server with --host 0.0.0.0.":
+    "Nur dieser Rechner erreicht diese Adresse. Für andere starte den Server mit --host 0.0.0.0.",
   "Close joining": "Beitritt schließen",
   "Open joining": "Beitritt öffnen",
   "Another code": "Ein anderer Code",

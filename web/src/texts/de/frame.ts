@@ -85,6 +85,7 @@ export const frame = {
   Lecture: "Vorlesung",
   Scene: "Szene",
   "Join a lecture": "An einer Vorlesung teilnehmen",
+  "A code of a class, not of a lecture? {link}": "Ein Code eines Kurses, keiner Vorlesung? {link}",
   Scenes: "Szenen",
   Mechanism: "Mechanismus",
   "loads together": "alle Lasten zusammen",
