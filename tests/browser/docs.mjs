@@ -59,6 +59,32 @@ try {
   }
   say(`${pages.length} pages are clean, in light and dark, wide and narrow`);
 
+  const gallery = await reader();
+  await gallery.goto(`${address}/docs/gallery.html`);
+  const widths = await gallery.evaluate(async () => {
+    const all = [...document.querySelectorAll("main img")];
+    for (const image of all) image.loading = "eager";
+    await Promise.all(all.map((image) => image.decode()));
+    return all.map((image) => image.naturalWidth);
+  });
+  assert.deepEqual(widths, Array(10).fill(640));
+  await gallery.screenshot({ path: join(pictures, "docs-gallery.png") });
+  const leads = await gallery.getByRole("link", { name: "Play it in the workbench" }).first().evaluate((link) => link.href);
+  await gallery.context().close();
+  // What the workbench says while it is left is no matter of the documentation.
+  const workbench = await browser.newContext();
+  const opened = await workbench.newPage();
+  await opened.goto(leads);
+  await opened.locator("canvas.drawing").first().waitFor();
+  assert.match(opened.url(), /\/scenes\/rssr$/);
+  await workbench.close();
+  const calm = await reader({ reducedMotion: "reduce" });
+  await calm.goto(`${address}/docs/gallery.html`);
+  const shown = await calm.locator("main img").first().evaluate((image) => image.decode().then(() => image.currentSrc));
+  assert(shown.endsWith("-still.svg"), shown);
+  await calm.context().close();
+  say("ten mechanisms move, stand still where that is asked for, and open in the workbench");
+
   // With the policy as it is sent.
   const page = await reader({ reducedMotion: "reduce" });
   await page.goto(`${address}/docs`);

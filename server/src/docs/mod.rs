@@ -2,6 +2,7 @@
 //! writes it as files. Addresses within it are relative, so that it can lie anywhere, also on a disk.
 
 mod article;
+mod gallery;
 mod interface;
 mod layout;
 
@@ -78,6 +79,8 @@ documents! {
 
 /// The page that is made of the interface's description: file, label and group.
 const INTERFACE: (&str, &str, &str) = ("http.html", "HTTP interface", "Build");
+/// The page of mechanisms, behind the first.
+const GALLERY: (&str, &str, &str) = ("gallery.html", "Ten mechanisms", "Begin");
 
 /// Pictures that documents show: path in the repository, and content.
 const PICTURES: [(&str, &str); 3] = [
@@ -103,6 +106,9 @@ impl Site {
                 (document.file, document.label, document.group, article)
             })
             .collect();
+        let (gallery, pictures) = gallery::article(home);
+        let (file, label, group) = GALLERY;
+        articles.insert(1, (file, label, group, gallery));
         let (file, label, group) = INTERFACE;
         articles.push((file, label, group, interface::article(interface)));
         let mut files: BTreeMap<String, String> = articles
@@ -116,6 +122,7 @@ impl Site {
         for (path, picture) in PICTURES {
             files.insert(picture_file(path), picture.to_owned());
         }
+        files.extend(pictures);
         Self { files }
     }
 
@@ -273,7 +280,7 @@ mod tests {
         };
         assert!(finds("Power series", "tolerance") && finds("/api/v1/lessons", "lesson"));
         let pages: BTreeSet<&str> = sections.iter().map(|[at, ..]| at.split('#').next().unwrap()).collect();
-        assert_eq!(pages.len(), DOCUMENTS.len() + 1);
+        assert_eq!(pages.len(), DOCUMENTS.len() + 2);
     }
 
     #[test]
