@@ -284,6 +284,12 @@ class Run:
         """The mechanism as an SVG that plays by itself, or as it is at the end."""
         return self._motion.svg(moving)
 
+    def viewer(self, *, width: int = 800, height: int = 500) -> Any:
+        """The motion in a notebook's viewer, to be turned by hand. Needs rerun: ``pip install triad[rerun]``."""
+        from ._viewer import viewer
+
+        return viewer(self, width, height)
+
     def __getitem__(self, column: str) -> Floats:
         return self.table[:, place("column", column, self.columns)]
 
