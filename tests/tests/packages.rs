@@ -51,6 +51,38 @@ fn recordings_and_viewer_are_of_one_version() {
     assert!(seen > 20, "{seen} crates of the viewer's SDK");
 }
 
+/// What follows `before` in the lines of a file that begin with it, up to the next quotation mark.
+fn told(file: &str, before: &str) -> Vec<String> {
+    let text = fs::read_to_string(root().join(file)).unwrap();
+    let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix(before));
+    lines.map(|rest| rest.split('"').next().unwrap().to_owned()).collect()
+}
+
+/// One version in all that tells one, and the changes of the newest release on the day that is cited.
+#[test]
+fn a_release_has_one_version_and_one_day() {
+    let version = env!("CARGO_PKG_VERSION");
+    let places = [
+        ("Cargo.toml", "version = \""),
+        ("engine/python/Cargo.toml", "version = \""),
+        ("engine/python/pyproject.toml", "version = \""),
+        ("web/package.json", "\"version\": \""),
+        ("web/package-lock.json", "\"version\": \""),
+        ("CITATION.cff", "version: "),
+    ];
+    for (file, before) in places {
+        assert_eq!(told(file, before).first().map(String::as_str), Some(version), "{file}");
+    }
+    let headings = told("CHANGELOG.md", "## ");
+    let released =
+        headings.iter().find(|heading| heading.starts_with(|first: char| first.is_ascii_digit())).unwrap();
+    let days = told("CITATION.cff", "date-released: ");
+    assert_eq!(*released, format!("{version} ({})", days.first().unwrap()), "CHANGELOG.md");
+    assert_eq!(headings.first().unwrap(), "Unreleased", "what comes next has its place in CHANGELOG.md");
+    // What the release wrote is read for ever.
+    assert!(root().join("tests/data/kept").join(version).join("grades.db").exists(), "{version}");
+}
+
 /// The parts of a licence expression between words that stand outside brackets.
 fn parts<'a>(expression: &'a str, word: &str) -> Vec<&'a str> {
     let (mut depth, mut from, mut parts) = (0, 0, Vec::new());
