@@ -8,6 +8,10 @@ use std::{env, fs};
 
 /// What it is built for.
 const TARGET: &str = "wasm32-unknown-unknown";
+/// How it is compiled: with vectors, and what is larger than 64 bytes copied and cleared by them. Left to itself the compiler writes
+/// `memory.copy` and `memory.fill` for that, each of which leaves the compiled code for a function of the browser.
+const FLAGS: &str =
+    "-Ctarget-feature=+simd128 -Cllvm-args=-max-store-memcpy=64 -Cllvm-args=-max-store-memset=64";
 /// What it is made from, relative to the repository.
 const SOURCES: [&str; 7] = [
     "engine/scene",
@@ -68,8 +72,7 @@ pub fn build(root: &Path) -> Result<Option<PathBuf>, Box<dyn Error>> {
             cargo.env_remove(name);
         }
     }
-    let output =
-        cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-Ctarget-feature=+simd128").output()?;
+    let output = cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", FLAGS).output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         return Err(format!("the engine for the page could not be built:\n{said}").into());

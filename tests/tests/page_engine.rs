@@ -202,6 +202,23 @@ fn same_shape(one: &Value, other: &Value, place: &str) {
     }
 }
 
+/// How often an instruction is in the engine: its bytes, which hardly anything else has.
+fn count(engine: &[u8], instruction: &[u8]) -> usize {
+    engine.windows(instruction.len()).filter(|bytes| *bytes == instruction).count()
+}
+
+/// What made it fast: numbers are compared by vectors (`f64x2.pmax`), and what is small is not copied or cleared by functions
+/// of the browser (`memory.copy`, `memory.fill`). Left to itself the compiler writes 0 of the first and 3548 and 1038 of these.
+#[test]
+fn its_loops_stay_within_compiled_code() {
+    let Some(engine) = engine() else { return };
+    let engine = std::fs::read(engine).unwrap();
+    let [compared, copied, cleared] =
+        [&[0xfd, 0xf7, 0x01][..], &[0xfc, 0x0a, 0, 0], &[0xfc, 0x0b, 0]].map(|bytes| count(&engine, bytes));
+    println!("{compared} comparisons by vectors, {copied} copies and {cleared} clearings by the browser");
+    assert!(compared > 100 && copied < 2500 && cleared < 500);
+}
+
 #[test]
 fn it_is_small() {
     let Some(engine) = engine() else { return };

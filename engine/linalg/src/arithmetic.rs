@@ -14,3 +14,42 @@
 pub const fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(target_family = "wasm") { a * b + c } else { a.mul_add(b, c) }
 }
+
+/// The larger of two numbers; a itself where b is none.
+///
+/// One comparison, also of vectors, on every machine. `f64::max` asks both for being numbers, and in WebAssembly it is a call.
+#[inline(always)]
+pub const fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// Raises each of L numbers to the size of the one beside it, where that is larger; those that are none raise nothing.
+///
+/// No compiler takes the vectors of WebAssembly for it by itself, because it may not leave out what comparisons say of numbers
+/// that are none.
+#[inline(always)]
+pub fn raise<const L: usize>(largest: &mut [f64; L], x: &[f64; L]) {
+    let ((pairs, last), (beside, single)) = (largest.as_chunks_mut::<2>(), x.as_chunks::<2>());
+    for (pair, x) in pairs.iter_mut().zip(beside) {
+        *pair = larger_size(*pair, *x);
+    }
+    for (last, x) in last.iter_mut().zip(single) {
+        *last = larger(*last, x.abs());
+    }
+}
+
+/// The larger of a and |x|, twice.
+#[cfg(all(target_family = "wasm", target_feature = "simd128"))]
+#[inline(always)]
+fn larger_size(a: [f64; 2], x: [f64; 2]) -> [f64; 2] {
+    use core::arch::wasm32::{f64x2, f64x2_abs, f64x2_extract_lane, f64x2_pmax};
+    let most = f64x2_pmax(f64x2(a[0], a[1]), f64x2_abs(f64x2(x[0], x[1])));
+    [f64x2_extract_lane::<0>(most), f64x2_extract_lane::<1>(most)]
+}
+
+/// The larger of a and |x|, twice.
+#[cfg(not(all(target_family = "wasm", target_feature = "simd128")))]
+#[inline(always)]
+fn larger_size(a: [f64; 2], x: [f64; 2]) -> [f64; 2] {
+    [larger(a[0], x[0].abs()), larger(a[1], x[1].abs())]
+}

@@ -11,7 +11,7 @@ mod basis;
 
 pub mod random;
 
-pub use arithmetic::fma;
+pub use arithmetic::{fma, larger, raise};
 pub use basis::orthonormal_basis;
 pub use block_cholesky::BlockCholesky;
 pub use null_space::{independent_rows, left_null_space};

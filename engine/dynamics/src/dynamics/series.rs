@@ -46,6 +46,7 @@ use lanes::{LaneVector, largest};
 use layout::bundles;
 use loads::Loads;
 use pulp::Simd;
+use triad_linalg::larger;
 
 /// The smallest tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const MIN_TOLERANCE_REDUNDANT: f64 = 1e-11;
@@ -257,7 +258,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Largest |Q_k| over all bodies.
     #[inline(always)]
     pub fn size_of(&self, k: usize) -> f64 {
-        (0..self.bundles.len()).map(|b| largest(B::lanes(&self.q[b * self.stride + k]))).fold(0.0, f64::max)
+        (0..self.bundles.len()).map(|b| largest(B::lanes(&self.q[b * self.stride + k]))).fold(0.0, larger)
     }
 
     /// Whether the state is made of finite numbers.

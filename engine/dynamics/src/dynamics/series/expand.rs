@@ -3,7 +3,7 @@
 use super::lanes::times;
 use super::{Bodies, Series};
 use pulp::{Simd, WithSimd};
-use triad_linalg::fma;
+use triad_linalg::{fma, larger};
 
 /// Iterative refinements of a solution with the factor of a regularized S, which take its effect out again.
 const REFINEMENTS: usize = 2;
@@ -144,7 +144,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
             if self.regularizes_inertia && !self.regularized {
                 // Corrections shrink by the same factor each time: the next one would be size²/last.
-                let size = self.correction.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                let size = self.correction.iter().fold(0.0f64, |most, x| larger(most, x.abs()));
                 if pass == 0 {
                     first = size;
                 } else if size * size <= ROUNDING * first * last {

@@ -4,7 +4,7 @@
 //! [`fma`], so that every processor gives the same bits.
 
 use pulp::Simd;
-use triad_linalg::fma;
+use triad_linalg::{fma, larger, raise};
 
 /// One number for each lane.
 pub type Lane<const L: usize> = [f64; L];
@@ -167,9 +167,7 @@ pub fn rows_of_lanes<S: Simd, const L: usize>(simd: S, lanes: [Lane<L>; 4]) -> [
 pub fn largest<const L: usize>(x: &[Lane<L>]) -> f64 {
     let mut largest = [0.0f64; L];
     for component in x {
-        for l in 0..L {
-            largest[l] = largest[l].max(component[l].abs());
-        }
+        raise(&mut largest, component);
     }
-    largest.into_iter().fold(0.0, f64::max)
+    largest.into_iter().fold(0.0, larger)
 }

@@ -7,6 +7,7 @@ use crate::newton::{Movable, Projectable, project_positions, project_velocities,
 use crate::state;
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
+use triad_linalg::larger;
 
 /// A factorization of which only the pivots are wanted, to be compiled for each set of vector instructions.
 struct PivotProducts<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
@@ -102,7 +103,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.place_values();
         self.set_violation();
         let rows = self.rows.extra.iter().zip(&self.row_sizes);
-        let mut most = rows.fold(0.0f64, |most, (extra, size)| most.max(extra.abs() / size));
+        let mut most = rows.fold(0.0f64, |most, (extra, size)| larger(most, extra.abs() / size));
         for (bundle, [q, _]) in self.bundles.iter().zip(&self.state) {
             for lane in 0..bundle.bodies().len() {
                 most = most.max(bundle.write(lane, q, false).stretch());

@@ -5,6 +5,7 @@ use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::{Movable, Projectable, find_dependent_rows};
 use crate::system::index::SolverRow;
+use triad_linalg::larger;
 
 impl<const L: usize, B: Bodies<L>> Projectable for Series<L, B> {
     fn linearize(&mut self) {
@@ -76,7 +77,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let mut moved: f64 = 0.0;
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             let step = B::lanes(bundle.solution());
-            moved = moved.max(largest(step));
+            moved = larger(moved, largest(step));
             for (x, dx) in B::lanes_mut(&mut state[which]).iter_mut().zip(step) {
                 *x = sum(x, dx);
             }

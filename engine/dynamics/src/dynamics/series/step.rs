@@ -4,6 +4,7 @@ use super::lanes::largest;
 use super::{Bodies, Series};
 use crate::newton::{Ending, Projectable, Projected, project_positions, project_velocities, rules};
 use pulp::{Arch, Simd, WithSimd};
+use triad_linalg::larger;
 
 /// Correction of the positions, in tolerances, above which S is factored again.
 const NEGLIGIBLE: f64 = 0.01;
@@ -249,7 +250,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     fn allowance(&self, tolerance: f64) -> [f64; 2] {
         let size = |which: usize| {
             let sizes = self.state.iter().map(|state| largest(B::lanes(&state[which])));
-            sizes.fold(0.0, f64::max)
+            sizes.fold(0.0, larger)
         };
         [0, 1].map(|which| tolerance * (1.0 + size(which)))
     }

@@ -10,6 +10,7 @@ use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
+use triad_linalg::larger;
 
 /// A term of the series that is smaller than this part of the largest one, divided by its order, no longer matters to the error.
 /// Estimates hardly change with a tenth of it.
@@ -133,9 +134,9 @@ fn size<const L: usize, B: Bodies<L>>(error: &[[B::Natural; 2]], h: f64, length:
     }
     let one = |x: &B::Natural| {
         let (position, directors) = B::lanes(x).split_at(B::DIRECTIONS);
-        largest(position).max(length * largest(directors))
+        larger(largest(position), length * largest(directors))
     };
-    error.iter().map(|[x, v]| one(x) + h * one(v)).fold(0.0, f64::max)
+    error.iter().map(|[x, v]| one(x) + h * one(v)).fold(0.0, larger)
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
@@ -298,7 +299,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let power = |k: usize| (0..k).fold(1.0, |power, _| power * self.step.1);
         let term = |k: usize| {
             let all = self.carried.iter().skip(k).step_by(self.twin.stride);
-            power(k) * all.map(|c| largest(B::lanes(c))).fold(0.0, f64::max)
+            power(k) * all.map(|c| largest(B::lanes(c))).fold(0.0, larger)
         };
         term(self.order).max(term(self.order - 1))
     }
