@@ -24,7 +24,7 @@ def points(run: Run) -> tuple[dict[str, Floats], Floats]:
     ground: list[Floats] = []
     for joint in run.joints:
         for side in ("i", "j"):
-            reaction = run.reactions(joint, side=side)  # type: ignore[arg-type]
+            reaction = run.reactions(joint, side=side)
             at = reaction.point_at[0]
             if reaction.on in found:
                 body = run.body(reaction.on)
