@@ -3,13 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use tokio::sync::{Notify, oneshot};
+use tokio::sync::{Notify, OwnedSemaphorePermit, oneshot};
 use triad_engine::run::StateView;
 use triad_session::change::{Drag, SceneChange, SessionScene};
 use triad_session::drawing::{Arrows, Camera};
 use triad_session::{KeptSession, SessionState};
 
-use super::turns::Turn;
 use crate::problem::Problem;
 
 /// What a caller may ask for; the answer comes back through the sender.
@@ -43,6 +42,12 @@ pub(super) enum Command {
     /// It is the run's turn to go on.
     Turn(Turn),
 }
+
+/// The right to compute a run, until it is dropped.
+#[derive(Debug)]
+pub(super) struct Turn(
+    #[allow(dead_code, reason = "held, and given back as it is dropped")] pub(super) OwnedSemaphorePermit,
+);
 
 /// Where an answer goes; the caller may have left.
 pub(super) type ReplySender<T> = oneshot::Sender<Result<T, Problem>>;

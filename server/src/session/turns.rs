@@ -9,19 +9,13 @@ use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use tokio::runtime::Handle;
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::sync::Semaphore;
 use tokio::time::sleep;
 
-use super::command::{Command, Signals};
+use super::command::{Command, Signals, Turn};
 
 /// How long a run waits for another turn that was too busy to hear of its own.
 const BUSY: Duration = Duration::from_millis(20);
-
-/// The right to compute a run, until it is dropped.
-#[derive(Debug)]
-pub(super) struct Turn(
-    #[allow(dead_code, reason = "held, and given back as it is dropped")] OwnedSemaphorePermit,
-);
 
 /// Who may compute, and who waits for it, in the order in which they came.
 #[derive(Debug, Clone)]

@@ -9,9 +9,9 @@ use tokio::runtime::Handle;
 use tokio::sync::watch;
 use triad_session::{Run, SessionState};
 
-use super::command::{Command, Signals};
+use super::command::{Command, Signals, Turn};
 use super::recording::{Recording, TICK};
-use super::turns::{Turn, Turns};
+use super::turns::Turns;
 use crate::problem::{Problem, trace_id};
 
 /// Seconds since a session's thread was made, as its run counts them.
