@@ -73,3 +73,26 @@ test("what the server has no place for is computed in the page", async () => {
   await api.createSession({ lesson: "screw" });
   expect(here.askHere).toHaveBeenCalledTimes(2);
 });
+
+test("what is still asked of a run ends when the page leaves it", async () => {
+  const asked: [string, AbortSignal | null][] = [];
+  vi.stubGlobal("fetch", (path: string, request: { method: string; signal?: AbortSignal | null }) => {
+    asked.push([`${request.method} ${path}`, request.signal ?? null]);
+    return new Promise((_, refuse) =>
+      request.signal?.addEventListener("abort", () => refuse(new DOMException("left", "AbortError"))),
+    );
+  });
+  const of = (run: string) => `/api/v1/sessions/${run}`;
+  const left = api.multipliers(of("a")).catch((error: unknown) => error);
+  void api.jacobian(of("b"));
+  vi.stubGlobal("fetch", async (path: string, request: { method: string }) =>
+    asked.push([`${request.method} ${path}`, null]),
+  );
+  api.dropSession(of("a"));
+  expect(await left).toBeInstanceOf(DOMException);
+  expect(asked.map(([what, signal]) => [what, signal?.aborted])).toEqual([
+    ["GET /api/v1/sessions/a/multipliers", true],
+    ["GET /api/v1/sessions/b/jacobian", false],
+    ["DELETE /api/v1/sessions/a", undefined],
+  ]);
+});

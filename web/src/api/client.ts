@@ -69,6 +69,8 @@ const BASE = "/api/v1";
 const WAIT = 8;
 /** Pause after which a server is asked again that is away, ms. */
 const AGAIN_MS = 2000;
+/** Ends what is still asked of a run when the page leaves it: its end may overtake the question. By the run's address. */
+const leaving = new Map<string, AbortController>();
 
 export class ApiError extends Error {
   constructor(readonly problem: Problem) {
@@ -143,6 +145,7 @@ async function ask(
   if (isAnsweredHere(method, below)) return hereAnswer(method, below, body);
   if (site) return method === "GET" ? fileAnswer(below).then(whole) : whole(needsServer());
   let response: Response;
+  const until = signal ?? untilLeft(below);
   try {
     const headers: Record<string, string> = { accept: "application/json, application/problem+json", ...more };
     if (body !== undefined) headers["content-type"] = "application/json";
@@ -150,11 +153,11 @@ async function ask(
     response = await fetch(base + (path.startsWith("/api/") ? path : BASE + path), {
       method,
       headers,
-      signal: signal ?? null,
+      signal: until ?? null,
       body: body === undefined ? null : typeof body === "string" ? body : JSON.stringify(body),
     });
   } catch (error) {
-    if (signal?.aborted) throw error;
+    if (until?.aborted) throw error;
     throw new ApiError({
       title: t("The server does not answer"),
       code: "server-unreachable",
@@ -163,6 +166,15 @@ async function ask(
     });
   }
   return whole(response);
+}
+
+/** Until when something asked of a run matters; none for what is asked of something else. */
+function untilLeft(path: string): AbortSignal | undefined {
+  const run = /^\/sessions\/[^/?]+/.exec(path)?.[0];
+  if (run === undefined) return undefined;
+  const left = leaving.get(run) ?? new AbortController();
+  leaving.set(run, left);
+  return left.signal;
 }
 
 /** The answer, unless it is a refusal. */
@@ -424,7 +436,10 @@ export const api = {
   reset: (run: string) => call<SessionState>("POST", `${run}/reset`),
   /** Sent while the page goes away, so nobody waits for the answer. */
   dropSession: (run: string): void => {
-    if (isHere(run)) void askHere("DELETE", run.slice(BASE.length), undefined);
+    const below = run.slice(BASE.length);
+    leaving.get(below)?.abort();
+    leaving.delete(below);
+    if (isHere(run)) void askHere("DELETE", below, undefined);
     else void fetch(base + run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
