@@ -11,7 +11,7 @@ use triad_tests::postgres::{self, Postgres};
 use super::copies::tests::{all as listed, exported, new as with_work, whole};
 use super::tests::{hand_in, ids, new, six_share};
 use super::*;
-use crate::policy::{Policy, Refusal};
+use crate::policy::{Extension, Moment, Policy, Refusal};
 
 /// An empty gradebook: in memory, or where PostgreSQL is given in a database of its own.
 pub(super) async fn fresh() -> Store {
@@ -165,6 +165,28 @@ async fn who_is_erased_leaves_a_log_that_is_whole_and_records_that_are_kept() {
     assert_eq!((left.student.as_str(), left.answers), ("", serde_json::json!({})));
     let change = sqlx::query("UPDATE submission SET answers = '7'").execute(&store.pools.writer).await;
     assert!(change.is_err(), "records are kept as before");
+}
+
+/// What is missing once and there the next time is kept by the same statement, whichever comes first.
+#[tokio::test]
+async fn what_may_be_missing_is_kept_in_any_order() {
+    let store = fresh().await;
+    store.hand_in(&with_work("Zebedee", 0)).await.expect("keeps");
+    let person = store.person_named(HOME, "Zebedee").await.expect("looks").expect("Zebedee");
+    let points = [None, Some(2.5), None, Some(0.1 + 0.2)];
+    // One connection writes; it is taken again each time, with what it has prepared.
+    for given in points {
+        let said = Said::points(given, "looked at once more");
+        store.decide(HOME, &person, &person, "pendulum", said).await.expect("decides");
+    }
+    let kept = store.decisions(HOME).await.expect("reads");
+    assert_eq!(kept.iter().map(|one| one.points).collect::<Vec<_>>(), points);
+    for until in [None, Some(Moment(5)), None] {
+        let more = Extension { until, attempts: 1, reason: "ill".into(), by: String::new(), at: Moment(0) };
+        store.extend(HOME, &person, &person, "pendulum", Some(&more)).await.expect("extends");
+        let kept = store.extensions(HOME).await.expect("reads");
+        assert_eq!(kept.iter().map(|(_, _, one)| one.until).collect::<Vec<_>>(), [until]);
+    }
 }
 
 /// Of two who follow an invitation at once one comes in.
