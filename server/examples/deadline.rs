@@ -10,6 +10,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // a measurement, not a product
 #![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 
+mod kinds;
+
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::time::Instant;
@@ -17,8 +19,7 @@ use std::time::Instant;
 use triad::grading;
 use triad::store::{HandIn, Store, Whose, identifier};
 use triad::variants::Variants;
-use triad_lessons::exercise::QuestionBody;
-use triad_lessons::{Course, Lesson, Submission, reference_submission};
+use triad_lessons::{Course, Lesson, Submission};
 use triad_tests::postgres::Postgres;
 
 /// Students of one course: their submissions are entries of one log, one after the other.
@@ -38,16 +39,13 @@ const DATABASE: usize = 8;
 /// A live session of a small mechanism on the server: processors and memory, MB (`docs/OPERATING.md`); the page's engine takes it.
 const SESSION: (f64, f64) = (0.004, 5.0);
 
-/// How many of a hundred submissions are of a kind; those with tables are wrong in three of five.
-const MIX: [(&str, f64); 7] = [
-    ("number, vector, choice, formula", 62.0),
-    ("diagram", 3.0),
-    ("program's file", 12.0),
-    ("scene", 5.0),
-    ("settings of a run", 5.0),
-    ("table, right", 5.0),
-    ("table, wrong", 8.0),
-];
+/// How many of a hundred submissions are of each kind; those with tables are wrong in three of five.
+const SHARES: [f64; 7] = [62.0, 3.0, 12.0, 5.0, 5.0, 5.0, 8.0];
+
+/// The kinds with their shares.
+fn mix() -> impl Iterator<Item = (&'static str, f64)> {
+    kinds::KINDS.into_iter().zip(SHARES)
+}
 
 /// Numbers that look random (SplitMix64), the same each time.
 struct Random(u64);
@@ -77,20 +75,6 @@ fn processor() -> f64 {
     text.split_whitespace().next().unwrap().parse::<f64>().unwrap() / 1e9
 }
 
-fn kind(body: &QuestionBody) -> &'static str {
-    match body {
-        QuestionBody::Quantity(_)
-        | QuestionBody::Choice { .. }
-        | QuestionBody::Formula(_)
-        | QuestionBody::Explanation(_) => MIX[0].0,
-        QuestionBody::Diagram(_) => MIX[1].0,
-        QuestionBody::Implement(_) => MIX[2].0,
-        QuestionBody::Model(_) => MIX[3].0,
-        QuestionBody::Tuning(_) => MIX[4].0,
-        QuestionBody::Trajectory(_) => MIX[5].0,
-    }
-}
-
 /// Processor times of verdicts by kind of question, s: each question of the course, answered rightly, and tables wrongly besides.
 fn measure() -> BTreeMap<&'static str, Vec<f64>> {
     let course = Course::embedded().expect("a course");
@@ -98,26 +82,15 @@ fn measure() -> BTreeMap<&'static str, Vec<f64>> {
     let mut times: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     for lesson in course.lessons() {
         let own = variants.of(lesson, "somebody").expect("numbers");
-        let right = reference_submission(&own);
-        for question in &own.exercise.questions {
-            let Some(answer) = right.answers.get(&question.id) else { continue };
-            let mut add = |kind, answer| {
-                let answers = [(question.id.clone(), answer)].into();
-                times.entry(kind).or_default().push(verdict(&variants, lesson, answers));
-            };
-            add(kind(&question.body), answer.clone());
-            if let (QuestionBody::Trajectory(_), Some(file)) = (&question.body, &answer.file) {
-                add(MIX[6].0, triad_lessons::answers::Answer { file: Some(shifted(file)), ..answer.clone() });
-            }
+        for (kind, answers) in kinds::answered(&own) {
+            times.entry(kind).or_default().push(verdict(&variants, lesson, answers));
         }
     }
     times
 }
 
-type Answers = BTreeMap<String, triad_lessons::answers::Answer>;
-
 /// One verdict, s, after a first that makes the lesson's numbers: of as many as the system's measure, some milliseconds, asks for.
-fn verdict(variants: &Variants, lesson: &Lesson, answers: Answers) -> f64 {
+fn verdict(variants: &Variants, lesson: &Lesson, answers: kinds::Answers) -> f64 {
     let submission = Submission { answers, ..Submission::default() };
     let mut body = serde_json::to_value(&submission).expect("JSON");
     body["student"] = "somebody".into();
@@ -130,18 +103,6 @@ fn verdict(variants: &Variants, lesson: &Lesson, answers: Answers) -> f64 {
         count += 1;
     }
     (processor() - began) / f64::from(count)
-}
-
-/// A table whose values, but for the times, are a few parts in a hundred too large.
-fn shifted(table: &str) -> String {
-    let row = |line: &str| {
-        let cell = |(k, cell): (usize, &str)| match cell.trim().parse::<f64>() {
-            Ok(value) if k > 0 => (value * 1.03).to_string(),
-            _ => cell.to_owned(),
-        };
-        line.split(',').enumerate().map(cell).collect::<Vec<_>>().join(",")
-    };
-    table.lines().map(row).collect::<Vec<_>>().join("\n")
 }
 
 /// Submissions that one course of this PostgreSQL keeps a second, and eight courses: `None` where it is not installed.
@@ -230,7 +191,7 @@ fn arrivals(students: usize, times: &BTreeMap<&str, Vec<f64>>) -> Vec<Arrival> {
         // As many as before a coin falls on its other side.
         while random.unit() < EACH / (EACH + 1.0) {
             let (mut u, mut takes) = (random.unit() * 100.0, 0.001);
-            for (kind, share) in MIX {
+            for (kind, share) in mix() {
                 if u < share {
                     let known = times.get(kind).filter(|known| !known.is_empty());
                     takes = known.map_or(0.001, |known| known[(random.unit() * known.len() as f64) as usize]);
@@ -287,7 +248,7 @@ fn report_times(times: &BTreeMap<&str, Vec<f64>>) -> f64 {
         "| a verdict on | processor time, middle (longest) | a core judges in a second |\n|---|---|---|"
     );
     let mut mean = 0.0;
-    for (kind, share) in MIX {
+    for (kind, share) in mix() {
         let Some(known) = times.get(kind) else { continue };
         let mut known = known.clone();
         known.sort_by(f64::total_cmp);

@@ -16,6 +16,7 @@ use crate::lti::Lti;
 use crate::metrics::Metrics;
 use crate::motion::Shelf;
 use crate::nodes::Node;
+use crate::oidc::Oidc;
 use crate::regrade::Previews;
 use crate::session::Registry;
 use crate::store::Store;
@@ -60,6 +61,8 @@ pub struct App {
     pub access: Arc<Access>,
     /// What learning platforms reach; nothing where they reach nothing.
     pub lti: Option<Arc<Lti>>,
+    /// Sign-in with the account of an institution; nothing where no provider is known.
+    pub oidc: Option<Arc<Oidc>>,
     /// What this server allows.
     pub limits: Arc<Limits>,
     /// The path below which everything stands, as `/triad`; empty at the root of a name.
@@ -90,6 +93,7 @@ impl App {
             draining: Arc::default(),
             access: Arc::new(Access::home(false, [])),
             lti: None,
+            oidc: None,
             limits: Arc::new(limits),
             base: "".into(),
             reports: Path::new(REPORTS).into(),
@@ -114,6 +118,12 @@ impl App {
     #[must_use]
     pub fn with_lti(self, lti: Lti) -> Self {
         Self { lti: Some(Arc::new(lti)), ..self }
+    }
+
+    /// The same server, at which people of the class sign in with the account of their institution.
+    #[must_use]
+    pub fn with_oidc(self, oidc: Oidc) -> Self {
+        Self { oidc: Some(Arc::new(oidc)), ..self }
     }
 
     /// The same server, whose sessions and rooms outlive it in a file.

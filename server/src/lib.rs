@@ -49,6 +49,7 @@ pub mod glance;
 pub mod regrade;
 
 pub mod lti;
+pub mod oidc;
 
 pub mod app;
 

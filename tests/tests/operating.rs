@@ -467,6 +467,23 @@ fn at_an_address_of_ipv6_and_below_a_path_pages_and_streams_pass() {
         (&["--host", "::"][..], "open-to-all"),
         (&["--host", "2001:db8::7"], "open-to-all"),
         (&["--class", "--url", "https://school.example/triad"], "settings-contradict"),
+        (&["--class", "--oidc-client-id", "triad"], "settings-contradict"),
+        (
+            &["--class", "--oidc-issuer", "https://login.example", "--oidc-client-id", "triad"],
+            "settings-contradict",
+        ),
+        (
+            &[
+                "--class",
+                "--url",
+                "https://triad.example",
+                "--oidc-issuer",
+                "http://login.example",
+                "--oidc-client-id",
+                "triad",
+            ],
+            "settings-contradict",
+        ),
     ] {
         let all = [&["serve", "--port", "0", "--database", book], words].concat();
         assert_problem(&run_json(&all).1, code, "");

@@ -31,6 +31,9 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("POST", "/api/v1/join", Anyone),
     ("POST", "/api/v1/return", Anyone),
     ("POST", "/api/v1/sign-out", Anyone),
+    // The account of an institution: for those who teach.
+    ("POST", "/api/v1/me/account", GRADER),
+    ("DELETE", "/api/v1/me/account", GRADER),
     // The class.
     ("GET", "/api/v1/course", GRADER),
     ("PUT", "/api/v1/course", INSTRUCTOR),

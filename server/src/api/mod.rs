@@ -13,6 +13,7 @@ mod lectures;
 mod lessons;
 mod lti;
 mod observed;
+mod oidc;
 mod scenes;
 mod sessions;
 
@@ -99,6 +100,7 @@ fn described() -> (Router<App>, Value) {
                 .merge(lectures::routes(&mut schemas))
                 .merge(lectures::follow::routes(&mut schemas))
                 .merge(lti::state::routes(&mut schemas))
+                .merge(oidc::routes(&mut schemas))
                 .merge(health::routes(&mut schemas)),
         )
         .split_for_parts();
@@ -126,6 +128,7 @@ pub fn router(app: App) -> Router {
         )
         .route("/api/{*rest}", axum::routing::any(unknown_address))
         .merge(lti::pages())
+        .merge(oidc::pages())
         .route("/livez", get(health::alive))
         .route("/readyz", get(health::ready))
         .route("/bench", get(reports::bench))

@@ -9,6 +9,7 @@ mod grader;
 mod interrupt;
 mod logging;
 mod measure;
+mod oidc;
 mod output;
 mod scene;
 mod serve;

@@ -17,6 +17,7 @@ use triad_lessons::Course;
 use url::Url;
 
 use super::logging::Log;
+use super::oidc::Institution;
 use super::stops::Stops;
 use super::terminal::{Outcome, print_line};
 use crate::access::Access;
@@ -26,6 +27,7 @@ use crate::limits::Limits;
 use crate::live::{self, Which};
 use crate::lti::Lti;
 use crate::nodes::Node;
+use crate::oidc::Oidc;
 use crate::problem::Problem;
 use crate::store::{CLASS, Location, Quotas, Role, Store};
 
@@ -84,6 +86,8 @@ pub(in crate::cli) struct Serve {
     /// Where the class finds the server, as https://triad.example.org behind a proxy that encrypts.
     #[arg(long, value_name = "URL", env = "TRIAD_URL")]
     pub(in crate::cli) url: Option<String>,
+    #[command(flatten)]
+    pub(in crate::cli) institution: Institution,
     /// The path below which everything stands, where a proxy hands on a part of another site, as /triad.
     #[arg(long, default_value = "", value_name = "PATH", value_parser = base_path, env = "TRIAD_BASE_PATH")]
     pub(in crate::cli) base_path: String,
@@ -226,8 +230,12 @@ async fn prepare(
     if let Some(file) = live {
         app = app.with_live(&file);
     }
+    let provider = options.institution.provider(lti.is_some())?;
     if let Some(lti) = lti {
         app = app.with_lti(lti);
+    }
+    if let Some((provider, lti)) = provider.zip(app.lti.clone()) {
+        app = app.with_oidc(Oidc::new(provider, lti));
     }
     let coming = app.clone();
     crate::blocking(move || {

@@ -113,6 +113,11 @@ impl Lti {
         Ok(if path.is_empty() { "/".to_owned() } else { path.to_owned() })
     }
 
+    /// Asks others.
+    pub fn http(&self) -> &Http {
+        &self.http
+    }
+
     /// The keys of a platform, fetched where they are not known, old, or lack the one of that name.
     ///
     /// Errors if they are not known and cannot be fetched.
@@ -122,7 +127,15 @@ impl Lti {
         kid: Option<&str>,
         now: Moment,
     ) -> Result<JwkSet, Refusal> {
-        let known = self.keys.lock().unwrap_or_else(PoisonError::into_inner).get(&platform.keys_url).cloned();
+        let keys = self.keys_at(&platform.keys_url, kid, now).await;
+        keys.map_err(|why| Refusal::NoKeys { at: platform.keys_url.clone(), why })
+    }
+
+    /// The keys at an address, as [`Self::keys_of`].
+    ///
+    /// Errors with the reason if they are not known and cannot be fetched.
+    pub async fn keys_at(&self, url: &str, kid: Option<&str>, now: Moment) -> Result<JwkSet, String> {
+        let known = self.keys.lock().unwrap_or_else(PoisonError::into_inner).get(url).cloned();
         if let Some(known) = &known {
             let age = now.0 - known.at.0;
             let has = kid.is_some_and(|kid| known.set.find(kid).is_some());
@@ -131,7 +144,7 @@ impl Lti {
             }
         }
         let fetched = async {
-            let answer = self.http.get(&platform.keys_url, &[]).await.map_err(|error| error.to_string())?;
+            let answer = self.http.get(url, &[]).await.map_err(|error| error.to_string())?;
             if !answer.status.is_success() {
                 return Err(format!("it answers {}", answer.status.as_u16()));
             }
@@ -141,12 +154,12 @@ impl Lti {
             (Ok(set), _) => {
                 let known = KnownKeys { set: set.clone(), at: now };
                 let mut all = self.keys.lock().unwrap_or_else(PoisonError::into_inner);
-                all.insert(platform.keys_url.clone(), known);
+                all.insert(url.to_owned(), known);
                 Ok(set)
             }
             // What was good an hour ago serves while the platform is silent.
             (Err(_), Some(known)) => Ok(known.set),
-            (Err(why), None) => Err(Refusal::NoKeys { at: platform.keys_url.clone(), why }),
+            (Err(why), None) => Err(why),
         }
     }
 }

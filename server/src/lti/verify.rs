@@ -2,6 +2,7 @@
 
 use jsonwebtoken::jwk::{JwkSet, KeyAlgorithm, PublicKeyUse};
 use jsonwebtoken::{Algorithm, DecodingKey, Validation};
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::claims::Claims;
@@ -35,7 +36,7 @@ pub fn key_name(token: &str) -> Result<String, Refusal> {
 /// What the word says, if it is signed by the key `name` of `keys`.
 ///
 /// Errors if it is not, or says what cannot be read.
-pub fn signed(token: &str, name: &str, keys: &JwkSet) -> Result<Claims, Refusal> {
+pub fn signed<T: DeserializeOwned>(token: &str, name: &str, keys: &JwkSet) -> Result<T, Refusal> {
     let key = keys.find(name).ok_or(Refusal::Key)?;
     let is_for_it = key.common.key_algorithm.is_none_or(|algorithm| algorithm == KeyAlgorithm::RS256)
         && key.common.public_key_use.as_ref().is_none_or(|used| *used == PublicKeyUse::Signature);
@@ -52,20 +53,41 @@ pub fn signed(token: &str, name: &str, keys: &JwkSet) -> Result<Claims, Refusal>
         .map_err(|error| Refusal::Unreadable(shortened(&format!("at {}: {}", error.path(), error.inner()))))
 }
 
+fn required(value: Option<&str>, what: &'static str) -> Result<String, Refusal> {
+    value.filter(|text| !text.is_empty()).ok_or(Refusal::Missing(what)).map(str::to_owned)
+}
+
 /// Whether signed claims are the platform's, for us, of now, and answer `nonce`; what they are not is refused.
 pub fn meant(claims: &Claims, platform: &Platform, nonce: &str, now: Moment) -> Result<(), Refusal> {
-    let required = |value: &Option<String>, what| {
-        value.as_deref().filter(|text| !text.is_empty()).ok_or(Refusal::Missing(what)).map(str::to_owned)
-    };
-    if required(&claims.iss, "who it is (iss)")? != platform.issuer {
+    of_now(claims, &platform.issuer, &platform.client_id, nonce, now)?;
+    let version = required(claims.version.as_deref(), "its version of LTI")?;
+    if version != "1.3.0" {
+        return Err(Refusal::Version(shortened(&version)));
+    }
+    let deployment = required(claims.deployment.as_deref(), "which of its deployments it is")?;
+    if !platform.deployments.contains(&deployment) {
+        return Err(Refusal::Deployment(shortened(&deployment)));
+    }
+    Ok(())
+}
+
+/// Whether signed claims are of an issuer, for a client, of now, and answer `nonce`, as OpenID Connect asks of all words.
+pub fn of_now(
+    claims: &Claims,
+    issuer: &str,
+    client_id: &str,
+    nonce: &str,
+    now: Moment,
+) -> Result<(), Refusal> {
+    if required(claims.iss.as_deref(), "who it is (iss)")? != issuer {
         return Err(Refusal::Issuer);
     }
     let audience = claims.aud.as_ref().ok_or(Refusal::Missing("for whom its word is (aud)"))?.all();
-    if !audience.contains(&platform.client_id) {
+    if !audience.iter().any(|one| one == client_id) {
         return Err(Refusal::Audience);
     }
     match &claims.azp {
-        Some(party) if *party != platform.client_id => return Err(Refusal::AuthorizedParty),
+        Some(party) if party != client_id => return Err(Refusal::AuthorizedParty),
         None if audience.len() > 1 => return Err(Refusal::AuthorizedParty),
         _ => {}
     }
@@ -78,16 +100,8 @@ pub fn meant(claims: &Claims, platform: &Platform, nonce: &str, now: Moment) -> 
     if made.max(claims.nbf.unwrap_or(made)) > seconds + CLOCKS {
         return Err(Refusal::Early);
     }
-    if required(&claims.nonce, "which launch it answers (nonce)")? != nonce {
+    if required(claims.nonce.as_deref(), "which launch it answers (nonce)")? != nonce {
         return Err(Refusal::Nonce);
     }
-    let version = required(&claims.version, "its version of LTI")?;
-    if version != "1.3.0" {
-        return Err(Refusal::Version(shortened(&version)));
-    }
-    let deployment = required(&claims.deployment, "which of its deployments it is")?;
-    if !platform.deployments.contains(&deployment) {
-        return Err(Refusal::Deployment(shortened(&deployment)));
-    }
-    required(&claims.sub, "who comes (sub)").map(drop)
+    required(claims.sub.as_deref(), "who comes (sub)").map(drop)
 }

@@ -11,6 +11,7 @@ mod database;
 mod error;
 mod file;
 pub mod hash;
+mod identities;
 mod judging;
 mod kind;
 mod location;

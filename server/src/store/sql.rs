@@ -254,6 +254,11 @@ statements! {
     USE_INVITATION = "DELETE FROM invitation WHERE token_sha256 = $1 AND ends_at > $2 RETURNING course, role";
     ADD_IDENTITY = "INSERT INTO identity (kind, subject, person, secret) VALUES ($1, $2, $3, $4)";
     REMOVE_IDENTITIES = "DELETE FROM identity WHERE person = $1";
+    // The account that somebody has at their institution; see `identities.rs`.
+    ACCOUNT = "SELECT i.person FROM identity i JOIN membership m ON m.person = i.person \
+        WHERE m.course = $1 AND i.kind = 'account' AND i.subject = $2";
+    ACCOUNTS_OF = "SELECT COUNT(*) FROM identity WHERE kind = 'account' AND person = $1";
+    REMOVE_ACCOUNT = "DELETE FROM identity WHERE kind = 'account' AND person = $1";
     PHRASE = "SELECT i.person, i.secret FROM identity i JOIN membership m ON m.person = i.person \
         WHERE i.kind = 'phrase' AND m.course = $1 AND m.name_key = $2";
     LINK = "SELECT person FROM identity WHERE kind = 'link' AND subject = $1";

@@ -17,6 +17,7 @@ mod leaving;
 mod lessons;
 mod lti;
 mod motion;
+mod oidc;
 mod policy;
 mod predictions;
 mod queue;

@@ -6,8 +6,8 @@
 
 mod bits;
 mod deny;
-mod http;
 mod lti;
+mod others;
 mod python;
 mod setup;
 
@@ -36,7 +36,7 @@ impl Step {
 }
 
 /// The steps in their order.
-const STEPS: [Step; 13] = [
+const STEPS: [Step; 14] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, packages of npm and PyPI", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
     Step::new("test", "all tests of all crates", |root| {
@@ -60,9 +60,16 @@ const STEPS: [Step; 13] = [
         )
     })
     .if_named(),
-    Step::new("http", "the interface, asked by Schemathesis as it is described", http::run).if_named(),
+    Step::new("http", "the interface, asked by Schemathesis as it is described", |root| {
+        others::play(root, "schemathesis", "the interface by Schemathesis")
+    })
+    .if_named(),
     Step::new("lti", "a session with Open edX's learning platform, judged by PyLTI1p3 too", lti::run)
         .if_named(),
+    Step::new("oidc", "a session with an institution's sign-in, Django's", |root| {
+        others::play(root, "oidc", "the session with an institution's sign-in")
+    })
+    .if_named(),
 ];
 
 /// The largest program, MB: what somebody downloads and keeps. Without accounts, grades and backups it had 37; PostgreSQL,

@@ -61,6 +61,7 @@ import type {
   TableRequest,
   Taken,
   Understood,
+  WayOut,
   Welcome,
 } from "./types";
 
@@ -260,6 +261,8 @@ export const api = {
   join: (body: { code: string; name: string }) => call<Welcome>("POST", "/join", body),
   comeBack: (body: { name: string; words: string } | { link: string }) => call<Me>("POST", "/return", body),
   signOut: () => call<void>("POST", "/sign-out"),
+  connectAccount: () => call<WayOut>("POST", "/me/account"),
+  disconnectAccount: () => call<void>("DELETE", "/me/account"),
   class: () => call<ClassView>("GET", "/course"),
   changeClass: (change: { title?: string; join_open?: boolean; new_code?: boolean }) =>
     call<ClassView>("PUT", "/course", change),

@@ -1377,6 +1377,13 @@ export interface components {
             /** @description The states. */
             states: components["schemas"]["InstanceState"][];
         };
+        /** @description The institution with whose accounts people sign in. */
+        Institution: {
+            /** @description Whether who is signed in has connected an account. */
+            connected: boolean;
+            /** @description What people call it. */
+            name?: string | null;
+        };
         /** @description Integrators by name. */
         IntegratorKind: "auto" | "taylor" | "dop853" | "dopri5" | "ode45" | "radau" | "rattle" | "trapezoidal";
         /** @description An invitation. */
@@ -2121,6 +2128,8 @@ export interface components {
         Me: {
             /** @description Title of the class. */
             course?: string | null;
+            /** @description Signing in with the account of an institution, where the server knows its provider. */
+            institution?: components["schemas"]["Institution"] | null;
             /** @description Whether students may join now. */
             join_open: boolean;
             /** @description `home`: no accounts, grades are for oneself; `class`: with accounts. */
@@ -4714,6 +4723,11 @@ export interface components {
             question: number;
             /** @description A name that the follower's browser made up: the same voter votes anew, not twice. */
             voter: string;
+        };
+        /** @description Where the browser goes next. */
+        WayOut: {
+            /** @description An address of the institution's provider, where its page is shown. */
+            to: string;
         };
         /** @description What somebody needs to come back on another device; it is told once. */
         Welcome: {

@@ -67,6 +67,7 @@ export type Me = Schemas["Me"];
 export type Reached = Schemas["Reached"];
 export type Somebody = Schemas["Somebody"];
 export type StudentRow = Schemas["StudentRow"];
+export type WayOut = Schemas["WayOut"];
 export type Welcome = Schemas["Welcome"];
 export type Hint = Schemas["Hint"];
 export type Understood = Schemas["Understood"];

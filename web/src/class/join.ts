@@ -116,8 +116,34 @@ function join(root: HTMLElement): void {
         navigate("/");
       }),
     ),
+    ...withInstitution(),
   );
   (code.input.value ? name : code).input.focus();
+}
+
+/** The way in for those who teach and have connected the account of their institution. */
+function withInstitution(): HTMLElement[] {
+  const { institution } = me();
+  if (!institution) return [];
+  const { name } = institution;
+  const label = name ? t("Sign in with {name}", { name }) : t("Sign in with the account of your institution");
+  const button = h("button", { type: "button", class: "button" }, label);
+  button.addEventListener("click", () => location.assign(addressOf("/oidc/login")));
+  return [
+    h(
+      "section",
+      null,
+      h("h2", null, t("You teach here?")),
+      h(
+        "p",
+        { class: "help" },
+        t(
+          "This works once you have connected that account: press your name at the top when you are signed in.",
+        ),
+      ),
+      h("div", { class: "row" }, button),
+    ),
+  ];
 }
 
 /** What is told once: how to come back. */

@@ -11,6 +11,7 @@ import { onTheme, projector, theme, toggleProjector, toggleTheme } from "../core
 import mark from "../mark.svg?raw";
 import { dialog } from "./dialog";
 import { icon } from "./icons";
+import { problemNotice } from "./notice";
 
 export function header(root: HTMLElement): void {
   const brandMark = h("span", { class: "brand-mark", "aria-hidden": "true" });
@@ -167,8 +168,39 @@ function account(): void {
       { class: "help" },
       t("To come back you need your four words, or the link that you kept with them."),
     ),
+    ...ownAccount(),
     h("div", { class: "row" }, h("a", { class: "button", href: "/record" }, t("Your work")), leave),
   );
+}
+
+/** Connecting the account of an institution, for those who teach where the server knows one. */
+function ownAccount(): HTMLElement[] {
+  const { institution } = me();
+  if (!institution || !teaches()) return [];
+  const { name, connected } = institution;
+  const wrong = h("div", { "aria-live": "polite" });
+  const label = connected
+    ? t("Disconnect this account")
+    : name
+      ? t("Connect {name}", { name })
+      : t("Connect the account of your institution");
+  const button = h("button", { type: "button", class: "button" }, label);
+  const act = async (): Promise<void> => {
+    if (!connected) return location.assign((await api.connectAccount()).to);
+    await api.disconnectAccount();
+    location.reload();
+  };
+  button.addEventListener("click", () => {
+    button.disabled = true;
+    act().catch((error: unknown) => {
+      button.disabled = false;
+      wrong.replaceChildren(problemNotice(error));
+    });
+  });
+  const help = connected
+    ? t("You also come back with the account of your institution.")
+    : t("Then you also come back with that account. What you may do here stays as it is.");
+  return [h("p", { class: "help" }, help), wrong, h("div", { class: "row" }, button)];
 }
 
 export function setStudent(name: string): void {

@@ -48,6 +48,36 @@ struct Me {
     /// Who is signed in.
     #[serde(skip_serializing_if = "Option::is_none")]
     person: Option<Somebody>,
+    /// Signing in with the account of an institution, where the server knows its provider.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    institution: Option<Institution>,
+}
+
+/// The institution with whose accounts people sign in.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Institution {
+    /// What people call it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    /// Whether who is signed in has connected an account.
+    connected: bool,
+}
+
+/// How a class looks to whom it looks at.
+async fn class_of(app: &App, member: Option<&Member>) -> Result<Me, Problem> {
+    let course = app.store.course(CLASS).await?;
+    let institution = match (&app.oidc, member) {
+        (None, _) => None,
+        (Some(oidc), member) => {
+            let connected = match member {
+                Some(member) => app.store.has_account(&member.id).await?,
+                None => false,
+            };
+            Some(Institution { name: oidc.name().map(str::to_owned), connected })
+        }
+    };
+    let person = member.map(Somebody::of);
+    Ok(Me { mode: "class", course: Some(course.title), join_open: course.join_open, person, institution })
 }
 
 /// Somebody of the class.
@@ -72,15 +102,10 @@ impl Somebody {
     (status = 200, description = "The mode, the class and the person", body = ref(of::<Me>()))))]
 async fn me(State(app): State<App>, Caller(member): Caller) -> Result<Answer<Me>, Problem> {
     if !app.access.is_class() {
-        return Ok(Answer(Me { mode: "home", course: None, join_open: false, person: None }));
+        let me = Me { mode: "home", course: None, join_open: false, person: None, institution: None };
+        return Ok(Answer(me));
     }
-    let course = app.store.course(CLASS).await?;
-    Ok(Answer(Me {
-        mode: "class",
-        course: Some(course.title),
-        join_open: course.join_open,
-        person: member.as_ref().map(Somebody::of),
-    }))
+    Ok(Answer(class_of(&app, member.as_ref()).await?))
 }
 
 /// What somebody needs to come back on another device; it is told once.
@@ -217,9 +242,7 @@ async fn come_back(
     })?;
     let token = app.store.begin_session(&person).await?;
     let member = app.store.member_of_session(CLASS, &token).await?;
-    let course = app.store.course(CLASS).await?;
-    let person = member.as_ref().map(Somebody::of);
-    let me = Me { mode: "class", course: Some(course.title), join_open: course.join_open, person };
+    let me = class_of(&app, member.as_ref()).await?;
     Ok((StatusCode::OK, [(header::SET_COOKIE, cookie(&app, &token, LIFE / 1000)?)], Answer(me))
         .into_response())
 }

@@ -2,7 +2,7 @@
 
 mod launch;
 mod login;
-mod page;
+pub(super) mod page;
 pub(super) mod state;
 
 use std::time::{Duration, Instant};

@@ -71,7 +71,7 @@ fn respond(status: StatusCode, title: &str, body: &str, more: &str) -> Response 
 }
 
 /// A refusal for whoever asks: a page for people, a document for programs.
-pub(super) fn refused(problem: Problem, headers: &HeaderMap) -> Response {
+pub(in crate::api) fn refused(problem: Problem, headers: &HeaderMap) -> Response {
     let accepts = headers.get(header::ACCEPT).and_then(|value| value.to_str().ok()).unwrap_or_default();
     if problem.status().is_server_error() || !accepts.contains("text/html") {
         return problem.into_response();

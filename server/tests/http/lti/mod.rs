@@ -2,7 +2,7 @@
 
 mod arrivals;
 mod choices;
-mod platform;
+pub(crate) mod platform;
 mod refusals;
 mod scores;
 

@@ -24,26 +24,26 @@ pub(super) const DEPLOYMENT: &str = "7";
 pub(super) const CONTEXT: &str = "mechanics-2";
 
 /// A key with its name.
-pub(super) struct Signing {
-    pub(super) name: String,
-    pub(super) key: EncodingKey,
+pub(crate) struct Signing {
+    pub(crate) name: String,
+    pub(crate) key: EncodingKey,
 }
 
 impl Signing {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let (name, digits) = keys::generate().expect("a key");
         let byte = |at| u8::from_str_radix(&digits[at..at + 2], 16).expect("digits");
         let der: Vec<u8> = (0..digits.len()).step_by(2).map(byte).collect();
         Self { name, key: EncodingKey::from_rsa_der(&der) }
     }
 
-    pub(super) fn public(&self) -> Jwk {
+    pub(crate) fn public(&self) -> Jwk {
         let mut key = Jwk::from_encoding_key(&self.key, Algorithm::RS256).expect("a public key");
         key.common.key_id = Some(self.name.clone());
         key
     }
 
-    pub(super) fn sign(&self, said: &Value) -> String {
+    pub(crate) fn sign(&self, said: &Value) -> String {
         let header = Header { kid: Some(self.name.clone()), ..Header::new(Algorithm::RS256) };
         jsonwebtoken::encode(&header, said, &self.key).expect("signed")
     }

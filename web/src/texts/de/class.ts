@@ -109,6 +109,11 @@ export const classroom = {
     "Der Beitritt ist im Augenblick geschlossen: Frage deine Lehrkraft.",
   "You have joined before?": "Schon einmal beigetreten?",
   "Come back": "Zurückkommen",
+  "Sign in with {name}": "Mit {name} anmelden",
+  "Sign in with the account of your institution": "Mit dem Konto deiner Einrichtung anmelden",
+  "You teach here?": "Du unterrichtest hier?",
+  "This works once you have connected that account: press your name at the top when you are signed in.":
+    "Das geht, sobald du dieses Konto verbunden hast: Drücke dazu oben auf deinen Namen, wenn du angemeldet bist.",
   "Welcome, {name}": "Willkommen, {name}",
   "This browser knows you from now on. On another device you come back with your name and these four words:":
     "Dieser Browser kennt dich von jetzt an. Auf einem anderen Gerät kommst du mit deinem Namen und diesen vier Wörtern zurück:",

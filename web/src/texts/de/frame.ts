@@ -223,6 +223,13 @@ export const frame = {
   "your account": "dein Konto",
   "change the name": "den Namen ändern",
   "Sign out of this browser": "In diesem Browser abmelden",
+  "Disconnect this account": "Dieses Konto trennen",
+  "Connect {name}": "{name} verbinden",
+  "Connect the account of your institution": "Das Konto deiner Einrichtung verbinden",
+  "You also come back with the account of your institution.":
+    "Du kommst auch mit dem Konto deiner Einrichtung zurück.",
+  "Then you also come back with that account. What you may do here stays as it is.":
+    "Dann kommst du auch mit diesem Konto zurück. Was du hier darfst, bleibt, wie es ist.",
   "You are signed in as {role} of “{course}”.": "Du bist in „{course}“ angemeldet. Rolle: {role}.",
   "To come back you need your four words, or the link that you kept with them.":
     "Um wiederzukommen, brauchst du deine vier Wörter oder den Link, den du mit ihnen aufbewahrt hast.",

@@ -1,0 +1,107 @@
+import { afterEach, expect, test, vi } from "vitest";
+import { Session } from "./session";
+
+vi.mock("../core/dom", () => ({ announce: vi.fn() }));
+vi.mock("../ui/notice", () => ({ banner: vi.fn() }));
+vi.mock("../engine/here", () => ({ canComputeHere: () => false, isHere: () => false, askHere: vi.fn() }));
+
+/** Streams that were opened; a test ends them as a server that goes would. */
+const streams: Stream[] = [];
+
+class Stream {
+  onopen: (() => void) | undefined;
+  onclose: (() => void) | undefined;
+  onmessage: ((event: { data: string }) => void) | undefined;
+  constructor(readonly url: string) {
+    streams.push(this);
+  }
+  close(): void {}
+}
+
+afterEach(() => {
+  vi.unstubAllGlobals();
+  vi.useRealTimers();
+  streams.length = 0;
+});
+
+function state(id: string, time: number): object {
+  const self = `/api/v1/sessions/${id}`;
+  return {
+    id,
+    title: "A pendulum",
+    time,
+    changes: 0,
+    links: { self, stream: `${self}/stream` },
+    finished: false,
+  };
+}
+
+/** A server of which another one answers what was asked; the requests that it met, without those about what is drawn. */
+function answering(answer: (request: string, body: unknown) => [number, unknown]): string[] {
+  const asked: string[] = [];
+  vi.stubGlobal("WebSocket", Stream);
+  vi.stubGlobal("window", globalThis);
+  vi.stubGlobal("addEventListener", vi.fn());
+  vi.stubGlobal("location", { origin: "http://triad.test", href: "http://triad.test/" });
+  vi.stubGlobal("fetch", (path: string, request: { method: string; body?: string }) => {
+    const name = `${request.method} ${path}`;
+    const body: unknown = request.body ? JSON.parse(request.body) : null;
+    if (!/scene|drawing/.test(path)) asked.push(body ? `${name} ${JSON.stringify(body)}` : name);
+    const [status, told] = answer(name, body);
+    const headers = { "content-type": status < 400 ? "application/json" : "application/problem+json" };
+    return Promise.resolve(new Response(JSON.stringify(told), { status, headers }));
+  });
+  return asked;
+}
+
+const GONE = {
+  code: "node-gone",
+  title: "Gone",
+  status: 410,
+  detail: "its server is gone",
+  hint: "begin anew",
+};
+
+async function played(
+  answer: (request: string, body: unknown) => [number, unknown],
+): Promise<[Session, string[]]> {
+  vi.useFakeTimers();
+  const asked = answering(answer);
+  const session = new Session({ builtin: "simple-pendulum" });
+  await session.start();
+  streams[0]?.onopen?.();
+  streams[0]?.onmessage?.({ data: JSON.stringify({ type: "state", ...state("AA-1", 3.5) }) });
+  expect(session.latest?.time).toBe(3.5);
+  // Its server ends, and whoever is asked then knows that it is gone.
+  streams[0]?.onclose?.();
+  await vi.runAllTimersAsync();
+  return [session, asked];
+}
+
+test("where the server of a run is gone the page begins it elsewhere, at the time that was reached", async () => {
+  let servers = 0;
+  const [session, asked] = await played((request, body) => {
+    if (request.endsWith("POST /api/v1/sessions")) return [201, state(servers++ ? "BB-2" : "AA-1", 0)];
+    if (request.includes("AA-1")) return [410, GONE];
+    return [200, state("BB-2", (body as { seconds?: number } | null)?.seconds ?? 0)];
+  });
+  expect(session.latest?.id).toBe("BB-2");
+  expect(session.latest?.time).toBe(3.5);
+  expect(asked.slice(1)).toEqual([
+    "GET /api/v1/sessions/AA-1",
+    'POST /api/v1/sessions {"builtin":"simple-pendulum"}',
+    'POST /api/v1/sessions/BB-2/step {"seconds":3.5}',
+  ]);
+  expect(streams.map(({ url }) => url.split("/sessions/")[1])).toEqual(["AA-1/stream", "BB-2/stream"]);
+});
+
+test("a run whose server only does not answer yet is waited for", async () => {
+  let silent = 2;
+  const [session, asked] = await played((request) => {
+    if (request.startsWith("POST")) return [201, state("AA-1", 0)];
+    return silent-- > 0 ? [503, { ...GONE, code: "node-away", status: 503 }] : [200, state("AA-1", 4)];
+  });
+  expect(session.latest?.id).toBe("AA-1");
+  expect(asked.filter((name) => name.startsWith("POST"))).toHaveLength(1);
+  expect(streams).toHaveLength(2);
+});
