@@ -19,6 +19,11 @@ const MOST_LOADED = 500e3;
 /** The clock may be ahead of the picture by this much of the run, s: states come every tenth of a second. */
 const BEHIND = 0.2;
 
+/** Processor time of a picture, ms: 25 a second fit into one core. */
+const MOST_PER_PICTURE = 40;
+/** Processor time of a task, ms: nobody's input waits longer for it. */
+const MOST_PER_TASK = 100;
+
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
 const page = await context.newPage();
 page.setDefaultTimeout(60_000);
@@ -71,7 +76,8 @@ async function busy() {
   try {
     await page.getByRole("button", { name: "Reset to the start" }).click();
     await until("reset", times, ([drawn, clock]) => drawn === 0 && clock === 0);
-    await page.keyboard.press(" ");
+    await page.getByRole("button", { name: "Play", exact: true }).click();
+    await until("it plays", times, ([, clock]) => clock > 0.2);
     for (let look = 0; look < 5; look += 1) {
       const [drawn, clock] = await times();
       assert(clock - drawn <= BEHIND, `with busy cores the drawing stands at ${drawn} s, the clock at ${clock} s`);
@@ -83,6 +89,51 @@ async function busy() {
     await Promise.all(loops.map((loop) => loop.terminate()));
   }
   say("with four busy loops beside it the drawing is at the moment of the clock");
+}
+
+/**
+ * What playing and input cost the processor, on whatever else the machine is busy with: the time that each thread ran, not the time
+ * that passed. Without a graphics card the picture, its way to the screen included, must leave room for 25 a second; no task may
+ * hold the page for longer than an input may wait.
+ */
+async function costs() {
+  const client = await context.newCDPSession(page);
+  const traced = [];
+  client.on("Tracing.dataCollected", ({ value }) => traced.push(...value));
+  await page.getByRole("button", { name: "Reset to the start" }).click();
+  await until("reset", times, ([drawn, clock]) => drawn === 0 && clock === 0);
+  await page.evaluate(() => {
+    window.pictures = 0;
+    window.waits = [];
+    new MutationObserver((all) => { window.pictures += all.length; })
+      .observe(document.querySelector("canvas.drawing"), { attributes: true, attributeFilter: ["data-time"] });
+    new PerformanceObserver((list) => { for (const one of list.getEntries()) window.waits.push(one.processingStart - one.startTime); })
+      .observe({ type: "event", durationThreshold: 16 });
+  });
+  await client.send("Tracing.start", { transferMode: "ReportEvents", traceConfig: { includedCategories: ["toplevel", "disabled-by-default-devtools.timeline"] } });
+  await page.getByRole("button", { name: "Play", exact: true }).click();
+  await until("it plays", times, ([, clock]) => clock > 0.2);
+  for (const tab of ["Reactions", "Jacobian", "Plots", "State"]) {
+    await page.getByRole("tab", { name: tab }).click();
+    await page.waitForTimeout(500);
+  }
+  await page.keyboard.press(" ");
+  const { pictures: drawn, waits } = await page.evaluate(() => ({ pictures: window.pictures, waits: window.waits }));
+  const complete = new Promise((done) => client.once("Tracing.tracingComplete", done));
+  await client.send("Tracing.end");
+  await complete;
+  const names = new Map(traced.filter(({ name }) => name === "thread_name").map(({ pid, tid, args }) => [`${pid} ${tid}`, args.name]));
+  const tasks = traced.filter(({ ph, name }) => ph === "X" && name.endsWith("RunTask"))
+    .map(({ pid, tid, tdur, dur }) => ({ thread: names.get(`${pid} ${tid}`), ran: (tdur ?? 0) / 1e3, took: dur / 1e3 }));
+  const own = tasks.filter(({ thread }) => thread === "CrRendererMain");
+  const drawing = tasks.filter(({ thread }) => /^(CrRendererMain|Compositor|VizCompositorThread|ThreadPoolForegroundWorker)$/.test(thread));
+  const most = (all, of) => all.reduce((max, one) => Math.max(max, of(one)), 0);
+  const each = drawing.reduce((sum, { ran }) => sum + ran, 0) / drawn;
+  const longest = most(own, ({ ran }) => ran);
+  assert(own.length > 100 && drawn > 10, `${own.length} tasks, ${drawn} pictures`);
+  say(`${drawn} pictures, ${each.toFixed(1)} ms of processor each; longest task ${longest.toFixed(0)} ms (${most(own, ({ took }) => took).toFixed(0)} passed), longest wait of an input ${most(waits, (wait) => wait).toFixed(0)} ms passed`);
+  assert(each < MOST_PER_PICTURE, `a picture takes ${each} ms of processor`);
+  assert(longest < MOST_PER_TASK, `a task takes ${longest} ms of processor`);
 }
 
 async function hands() {
@@ -135,7 +186,7 @@ async function hands() {
 }
 
 try {
-  for (const part of [plays, busy, hands]) await part();
+  for (const part of [plays, busy, costs, hands]) await part();
   assert.deepEqual(complaints, [], "errors in the page");
 } catch (error) {
   await page.screenshot({ path: join(pictures, "drawing-failed.png") }).catch(() => {});

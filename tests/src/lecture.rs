@@ -59,6 +59,13 @@ impl FollowerPage {
         self.reader.get_ref().try_clone().unwrap()
     }
 
+    /// Tells the server something short, as a page does: masked, by zeros.
+    pub fn tell(&mut self, text: &str) {
+        let length = u8::try_from(text.len()).ok().filter(|length| *length < 126).unwrap();
+        let head = [0x81, 0x80 | length, 0, 0, 0, 0];
+        self.reader.get_mut().write_all(&[&head, text.as_bytes()].concat()).unwrap();
+    }
+
     /// Waits for the next message.
     pub fn read(&mut self) -> Message {
         let (kind, payload) = self.frame().unwrap();

@@ -93,6 +93,11 @@ fn the_workbench_by_keyboard_alone_looking_back_in_a_lecture_in_the_editor_and_i
 }
 
 #[test]
+fn a_lecture_has_a_window_for_the_projector_two_votes_side_by_side_hands_and_questions() {
+    run("lecture.mjs", &[]);
+}
+
+#[test]
 fn the_first_page_moves_without_a_session_and_another_site_frames_what_is_recorded_alone() {
     run("first-page.mjs", &[]);
 }

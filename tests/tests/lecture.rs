@@ -5,7 +5,7 @@
 use serde_json::{Value, json};
 use std::time::Instant;
 use triad_tests::lecture::{FollowerPage, LectureRun, Message, Seen, follow};
-use triad_tests::program::Server;
+use triad_tests::program::{HANG, Server};
 
 fn time(state: &Value) -> f64 {
     state["time"].as_f64().unwrap()
@@ -75,7 +75,7 @@ fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal()
     let told = server.get(&room).json();
     for board in [&asked, &told] {
         let members: Vec<&String> = board["question"].as_object().unwrap().keys().collect();
-        assert_eq!(members, ["choices", "number", "text"], "neither counts nor the right choice");
+        assert_eq!(members, ["again", "choices", "number", "text"], "neither counts nor the right choice");
     }
     let desk = lecture.lead(&server, "GET", "desk", &Value::Null).json();
     assert_eq!((&desk["tally"]["counts"], &desk["followers"]), (&json!([1, 2]), &json!(1)));
@@ -88,6 +88,45 @@ fn only_the_presenter_leads_and_nothing_of_an_answer_is_told_before_the_reveal()
     );
     let late = json!({"question": 1, "voter": "d", "choice": 0});
     assert_eq!(server.post(&format!("{room}/answers"), &late).status, 409);
+    server.stop();
+}
+
+/// Asks for the presenter's desk until it says what is expected.
+fn desk_until(server: &Server, lecture: &LectureRun, good: impl Fn(&Value) -> bool) -> Value {
+    let start = Instant::now();
+    loop {
+        let desk = lecture.lead(server, "GET", "desk", &Value::Null).json();
+        if good(&desk) {
+            return desk;
+        }
+        assert!(start.elapsed() < HANG, "{desk}");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn hands_count_until_they_are_put_down_or_leave_and_the_projectors_window_is_no_follower() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    let lecture = LectureRun::open(&server, "simple-pendulum");
+    let join = || FollowerPage::join(&server.address, &lecture.code, false);
+    let (mut one, mut other, mut screen) = (join(), join(), join());
+    one.tell(r#"{"roaming":true,"hand":true}"#);
+    other.tell(r#"{"hand":true}"#);
+    other.tell("no JSON, and nothing that counts");
+    screen.tell(r#"{"screen":true}"#);
+    let counts = |desk: &Value| {
+        ["followers", "screens", "roaming", "hands"].map(|member| desk[member].as_u64().unwrap())
+    };
+    desk_until(&server, &lecture, |desk| counts(desk) == [2, 1, 1, 2]);
+    // Followers are told that hands were put down, and put theirs down.
+    assert_eq!(lecture.lead(&server, "DELETE", "hands", &json!({})).status, 204);
+    other.until("room", |room| room["lowered"] == 1);
+    other.tell(r#"{"hand":false}"#);
+    desk_until(&server, &lecture, |desk| counts(desk) == [2, 1, 1, 1]);
+    drop(one);
+    drop(screen);
+    desk_until(&server, &lecture, |desk| counts(desk) == [1, 0, 0, 0]);
     server.stop();
 }
 

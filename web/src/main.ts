@@ -21,7 +21,8 @@ const head = document.getElementById("header");
 const main = document.getElementById("main");
 if (head && main) {
   // In a frame of another site nobody is signed in, and there is nowhere to go.
-  if (pathOf(location).startsWith("/embed/")) void speaks.finally(() => routes(main));
+  // The window that a lecture hall sees has no use for a menu either.
+  if (/^\/(?:embed\/|room\/[^/]+\/screen)/.test(pathOf(location))) void speaks.finally(() => routes(main));
   else void Promise.allSettled([speaks, loadMe()]).then(() => start(head, main));
 }
 
@@ -49,6 +50,10 @@ function routes(main: HTMLElement): void {
       {
         pattern: /^\/room\/([^/]+)$/,
         open: lazily(t("Lecture"), () => import("./pages/lecture").then((page) => page.lecturePage)),
+      },
+      {
+        pattern: /^\/room\/([^/]+)\/screen$/,
+        open: lazily(t("Lecture"), () => import("./pages/screen").then((page) => page.screenPage)),
       },
       {
         pattern: /^\/(join|setup|return)$/,

@@ -9,12 +9,18 @@
 //! Followers never learn the session's own name, with which it could be steered, nor the answer to a question before
 //! it is revealed.
 
+mod audience;
+mod follower;
 mod question;
 mod registry;
 mod responses;
+mod told;
 
+pub use audience::{NewRemark, Presence, Remark};
+pub use follower::Follower;
 pub use question::{LectureQuestion, NewQuestion, Tally, Vote};
 pub use registry::Lectures;
+pub use told::{LectureMessage, PresenterState, PublicState};
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -23,16 +29,16 @@ use std::time::{Duration, Instant};
 use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use axum::http::StatusCode;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use tokio::sync::watch;
-use triad_session::{Links, SceneSource, SessionState};
 
 use crate::problem::Problem;
 use crate::session::Session;
+use audience::{Audience, Present};
 use question::PosedQuestion;
 use responses::Responses;
+use told::anonymous;
 
 /// Pause between two states that followers are sent: ten a second, as often as tables can be read.
 const STATE_INTERVAL: Duration = Duration::from_millis(100);
@@ -52,6 +58,7 @@ pub struct Lecture {
     state: watch::Sender<Utf8Bytes>,
     public: watch::Sender<Utf8Bytes>,
     followers: AtomicUsize,
+    audience: Audience,
     max_followers: usize,
     responses: Responses,
 }
@@ -77,28 +84,14 @@ struct Presentation {
     question: Option<PosedQuestion>,
     /// Questions asked so far.
     asked: u64,
+    /// How often all hands were put down.
+    lowered: u64,
     /// When the presenter was last heard of.
     touched: Instant,
 }
 
-/// What followers see beside the run.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-#[schemars(rename = "LectureState")]
-pub struct PublicState {
-    /// What followers type to join.
-    pub code: String,
-    /// Title of the scene; nothing while no session is shown.
-    pub title: Option<String>,
-    /// Where the scene came from.
-    pub source: Option<SceneSource>,
-    /// What the presenter looks at, in the page's own words.
-    pub view: Value,
-    /// The question that is asked.
-    pub question: Option<LectureQuestion>,
-}
-
-/// A lecture as it goes on later. The question of the moment is not kept, nor who answered it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+/// A lecture as it goes on later, with the question of the moment and what followers asked. Hands are raised anew.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct KeptLecture {
     code: String,
     key: String,
@@ -108,29 +101,24 @@ pub struct KeptLecture {
     asked: u64,
     /// Seconds since it was opened.
     age: u64,
-}
-
-/// What only the presenter sees.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct PresenterState {
-    /// How many follow now.
-    pub followers: usize,
-    /// How the answers stand.
-    pub tally: Option<Tally>,
+    #[serde(default)]
+    question: Option<PosedQuestion>,
+    #[serde(default)]
+    remarks: Vec<Remark>,
 }
 
 impl Lecture {
     /// Opens a lecture for a session and starts to send its states.
     fn open(code: String, session: Arc<Session>, max_followers: usize) -> Arc<Self> {
         let key = uuid::Uuid::new_v4().simple().to_string();
-        let kept = KeptLecture { code, key, session: String::new(), view: Value::Null, asked: 0, age: 0 };
+        let kept = KeptLecture { code, key, ..KeptLecture::default() };
         Self::resume(kept, session, max_followers)
     }
 
     /// Goes on with a lecture that was kept.
     fn resume(kept: KeptLecture, session: Arc<Session>, max_followers: usize) -> Arc<Self> {
-        let KeptLecture { code, key, view, asked, age, .. } = kept;
-        let presentation = Presentation { view, question: None, asked, touched: Instant::now() };
+        let KeptLecture { code, key, view, asked, age, question, remarks, .. } = kept;
+        let presentation = Presentation { view, question, asked, lowered: 0, touched: Instant::now() };
         let lecture = Arc::new(Self {
             code,
             key,
@@ -140,6 +128,7 @@ impl Lecture {
             state: watch::Sender::new(Utf8Bytes::default()),
             public: watch::Sender::new(Utf8Bytes::default()),
             followers: AtomicUsize::new(0),
+            audience: Audience::resume(remarks),
             max_followers,
             responses: Responses::default(),
         });
@@ -159,6 +148,8 @@ impl Lecture {
             view: presentation.view.clone(),
             asked: presentation.asked,
             age: self.opened.elapsed().as_secs(),
+            question: presentation.question.clone(),
+            remarks: self.audience.waiting(),
         })
     }
 
@@ -191,14 +182,24 @@ impl Lecture {
             source: state.map(|state| state.source.clone()),
             view: presentation.view.clone(),
             question: presentation.question.as_ref().map(PosedQuestion::view),
+            remark: self.audience.shown(),
+            lowered: presentation.lowered,
         }
     }
 
     /// What the presenter sees.
     pub fn presenter_state(&self) -> PresenterState {
+        let Present { roaming, hands, screens } = self.audience.present();
+        let presentation = self.presentation();
+        let question = presentation.question.as_ref();
         PresenterState {
-            followers: self.followers.load(Ordering::Relaxed),
-            tally: self.presentation().question.as_ref().map(PosedQuestion::tally),
+            followers: self.followers.load(Ordering::Relaxed).saturating_sub(screens),
+            screens,
+            roaming,
+            hands,
+            remarks: self.audience.waiting(),
+            question: question.map(PosedQuestion::view),
+            tally: question.map(PosedQuestion::tally),
         }
     }
 
@@ -247,6 +248,41 @@ impl Lecture {
         Ok(())
     }
 
+    /// Asks the same question again: the answers so far are kept beside those that come now. Errors if none is asked.
+    pub fn ask_again(&self) -> Result<(), Problem> {
+        let mut presentation = self.presentation();
+        let number = presentation.asked + 1;
+        presentation.question.as_mut().ok_or_else(question::none)?.again(number);
+        presentation.asked = number;
+        drop(presentation);
+        self.publish();
+        Ok(())
+    }
+
+    /// Takes a question of a follower. Errors if it is refused.
+    pub fn remark(&self, new: &NewRemark) -> Result<(), Problem> {
+        self.audience.ask(new, Instant::now())
+    }
+
+    /// Shows everybody a follower's question, or shows it no longer. Errors if there is none of that number.
+    pub fn show_remark(&self, number: u64, shown: bool) -> Result<(), Problem> {
+        self.audience.show(number, shown)?;
+        self.publish();
+        Ok(())
+    }
+
+    /// Takes a follower's question from the presenter's list.
+    pub fn settle(&self, number: u64) {
+        self.audience.done(number);
+        self.publish();
+    }
+
+    /// Puts down all hands.
+    pub fn lower_hands(&self) {
+        self.presentation().lowered += 1;
+        self.publish();
+    }
+
     /// Withdraws the question.
     pub fn withdraw_question(&self) {
         self.presentation().question = None;
@@ -259,26 +295,6 @@ impl Lecture {
             LiveView::Session(session) => Some(Arc::clone(session)),
             LiveView::Empty | LiveView::Closed | LiveView::Away => None,
         }
-    }
-
-    /// Joins as a follower. Errors if the lecture is full.
-    pub fn join(self: &Arc<Self>) -> Result<Follower, Problem> {
-        let before = self.followers.fetch_add(1, Ordering::Relaxed);
-        let follower = Follower {
-            live: self.live.subscribe(),
-            state: self.state.subscribe(),
-            public: self.public.subscribe(),
-            lecture: Arc::clone(self),
-        };
-        if before >= self.max_followers {
-            return Err(Problem::new(
-                StatusCode::SERVICE_UNAVAILABLE,
-                "room-full",
-                format!("{} already follow this lecture, as many as this server takes", self.max_followers),
-                "look on with a neighbour; the instructor can start the server with a larger --max-followers",
-            ));
-        }
-        Ok(follower)
     }
 
     /// A response about the run at its present state, as JSON: the session computes it once, however many followers ask.
@@ -318,45 +334,6 @@ impl Lecture {
     }
 }
 
-/// What a follower receives: the newest state, the newest public state, and the session whose recording is watched.
-#[derive(Debug)]
-pub struct Follower {
-    /// What is shown.
-    pub live: watch::Receiver<LiveView>,
-    /// The newest state as it is sent.
-    pub state: watch::Receiver<Utf8Bytes>,
-    /// The newest public state as it is sent.
-    pub public: watch::Receiver<Utf8Bytes>,
-    lecture: Arc<Lecture>,
-}
-
-impl Drop for Follower {
-    fn drop(&mut self) {
-        self.lecture.followers.fetch_sub(1, Ordering::Relaxed);
-    }
-}
-
-/// What followers are sent in text.
-#[derive(Serialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "kebab-case")]
-pub enum LectureMessage<'a> {
-    /// What is shown and asked beside the run.
-    Room(&'a PublicState),
-    /// The state of the session that is shown.
-    State(&'a SessionState),
-    /// A recording begins: the viewer must forget the one before.
-    Reset,
-    /// The lecture is over.
-    Closed,
-}
-
-impl LectureMessage<'_> {
-    /// The message as it is sent, written once for all followers.
-    fn text(&self) -> Utf8Bytes {
-        serde_json::to_string(self).unwrap_or_default().into()
-    }
-}
-
 /// Sends each state of the session that is shown, at most ten a second, until the lecture is over.
 async fn send_states(lecture: Weak<Lecture>, mut live: watch::Receiver<LiveView>) {
     loop {
@@ -391,12 +368,6 @@ async fn send_states(lecture: Weak<Lecture>, mut live: watch::Receiver<LiveView>
             tokio::time::sleep(STATE_INTERVAL).await;
         }
     }
-}
-
-/// The state without the name by which the session could be steered.
-fn anonymous(state: &SessionState, code: &str) -> SessionState {
-    let links = Links::below(format!("/api/v1/rooms/{code}"));
-    SessionState { id: format!("room-{code}"), links, ..state.clone() }
 }
 
 pub(crate) fn nothing_shown() -> Problem {

@@ -18,7 +18,7 @@ const MAX_VOTER: usize = 64;
 const CHOICES: std::ops::RangeInclusive<usize> = 2..=8;
 
 /// A question to be asked.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NewQuestion {
     /// What is asked.
@@ -52,6 +52,8 @@ pub struct LectureQuestion {
     pub text: String,
     /// What can be answered.
     pub choices: Vec<String>,
+    /// Whether it was asked before: those who have talked it over vote again.
+    pub again: bool,
     /// How the answers stand and which is right; nothing before the reveal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub result: Option<Tally>,
@@ -65,19 +67,25 @@ pub struct Tally {
     pub number: u64,
     /// Answers for each choice.
     pub counts: Vec<usize>,
+    /// Answers for each choice when it was asked before, if this is a second vote.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub before: Option<Vec<usize>>,
     /// The choice that is right.
     pub right: Option<usize>,
     /// Whether the answer is open to everybody.
     pub revealed: bool,
 }
 
-#[derive(Debug)]
+/// A question with its answers; kept over a restart as it is.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct PosedQuestion {
     number: u64,
     asked: NewQuestion,
     votes: HashMap<String, usize>,
     max_votes: usize,
     revealed: bool,
+    /// The counts of the vote before.
+    before: Option<Vec<usize>>,
 }
 
 impl PosedQuestion {
@@ -98,7 +106,7 @@ impl PosedQuestion {
         if asked.right.is_some_and(|right| right >= asked.choices.len()) {
             return wrong("/right", format!("right must be an index below {}", asked.choices.len()));
         }
-        Ok(Self { number, asked, votes: HashMap::new(), max_votes, revealed: false })
+        Ok(Self { number, asked, votes: HashMap::new(), max_votes, revealed: false, before: None })
     }
 
     pub(super) fn count(&mut self, vote: &Vote) -> Result<(), Problem> {
@@ -114,9 +122,7 @@ impl PosedQuestion {
             let detail = format!("choice must be an index below {}", self.asked.choices.len());
             return Err(refused("/choice", detail));
         }
-        if vote.voter.is_empty() || vote.voter.len() > MAX_VOTER {
-            return Err(refused("/voter", format!("voter must have 1 to {MAX_VOTER} characters")));
-        }
+        check_voter(&vote.voter)?;
         if self.votes.len() >= self.max_votes && !self.votes.contains_key(&vote.voter) {
             return Err(Problem::new(
                 StatusCode::SERVICE_UNAVAILABLE,
@@ -133,12 +139,33 @@ impl PosedQuestion {
         self.revealed = true;
     }
 
-    pub(super) fn tally(&self) -> Tally {
+    /// Another vote on the same question, under another number; the counts so far are kept.
+    pub(super) fn again(&mut self, number: u64) {
+        self.before = Some(self.counts());
+        self.votes.clear();
+        self.revealed = false;
+        self.number = number;
+    }
+
+    fn counts(&self) -> Vec<usize> {
         let mut counts = vec![0; self.asked.choices.len()];
         for &choice in self.votes.values() {
-            counts[choice] += 1;
+            // What was kept in a file may be damaged.
+            if let Some(count) = counts.get_mut(choice) {
+                *count += 1;
+            }
         }
-        Tally { number: self.number, counts, right: self.asked.right, revealed: self.revealed }
+        counts
+    }
+
+    pub(super) fn tally(&self) -> Tally {
+        Tally {
+            number: self.number,
+            counts: self.counts(),
+            before: self.before.clone(),
+            right: self.asked.right,
+            revealed: self.revealed,
+        }
     }
 
     pub(super) fn view(&self) -> LectureQuestion {
@@ -146,9 +173,18 @@ impl PosedQuestion {
             number: self.number,
             text: self.asked.text.clone(),
             choices: self.asked.choices.clone(),
+            again: self.before.is_some(),
             result: self.revealed.then(|| self.tally()),
         }
     }
+}
+
+/// Errors unless a name is one that a browser may make up.
+pub(super) fn check_voter(voter: &str) -> Result<(), Problem> {
+    if voter.is_empty() || voter.len() > MAX_VOTER {
+        return Err(refused("/voter", format!("voter must have 1 to {MAX_VOTER} characters")));
+    }
+    Ok(())
 }
 
 fn refused(pointer: &str, detail: String) -> Problem {
@@ -197,13 +233,26 @@ mod tests {
     }
 
     #[test]
+    fn a_second_vote_counts_anew_and_keeps_the_first_beside_it() {
+        let mut asked = question();
+        asked.count(&vote("a", 0)).expect("counts");
+        asked.reveal();
+        asked.again(8);
+        assert_eq!(asked.view().result, None, "hidden again");
+        assert_eq!(asked.count(&vote("a", 1)).map_err(|p| p.code()), Err("question-over"));
+        asked.count(&Vote { question: 8, ..vote("a", 1) }).expect("counts");
+        let tally = asked.tally();
+        assert_eq!((tally.counts, tally.before), (vec![0, 1, 0], Some(vec![1, 0, 0])));
+    }
+
+    #[test]
     fn the_result_is_hidden_before_the_reveal() {
         let mut asked = question();
         asked.count(&vote("a", 0)).expect("counts");
         let before = serde_json::to_value(asked.view()).expect("JSON");
         assert_eq!(
             before.as_object().map(|all| all.keys().cloned().collect::<Vec<_>>()),
-            Some(vec!["choices".into(), "number".into(), "text".into()])
+            Some(vec!["again".into(), "choices".into(), "number".into(), "text".into()])
         );
         asked.reveal();
         assert_eq!(

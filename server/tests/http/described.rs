@@ -200,6 +200,8 @@ async fn sessions_and_lectures_are_as_described() {
     let room = api.ask("POST", "/api/v1/rooms", "/api/v1/rooms", Some(new)).await;
     let room = format!("/api/v1/rooms/{}", room["code"].as_str().expect("a code"));
     api.get("/api/v1/rooms/{code}", &room).await;
+    let asked = json!({"text": "Why is the multiplier negative?", "voter": "a"});
+    api.ask("POST", "/api/v1/rooms/{code}/remarks", &format!("{room}/remarks"), Some(asked)).await;
     for what in ["scene", "jacobian", "augmented", "schur", "multipliers", "reactions"] {
         api.get(&format!("/api/v1/sessions/{{id}}/{what}"), &format!("{at}/{what}")).await;
         api.get(&format!("/api/v1/rooms/{{code}}/{what}"), &format!("{room}/{what}")).await;

@@ -459,6 +459,16 @@ export const api = {
     call<void>("PUT", `/rooms/${id(code)}/question`, question, undefined, key),
   reveal: (code: string, key: string) =>
     call<void>("POST", `/rooms/${id(code)}/reveal`, undefined, undefined, key),
+  askSecondTime: (code: string, key: string) =>
+    call<void>("POST", `/rooms/${id(code)}/second-vote`, undefined, undefined, key),
+  remark: (code: string, remark: { text: string; voter: string }) =>
+    call<void>("POST", `/rooms/${id(code)}/remarks`, remark),
+  showRemark: (code: string, key: string, number: number, shown: boolean) =>
+    call<void>("PUT", `/rooms/${id(code)}/remarks/${number}`, { shown }, undefined, key),
+  settleRemark: (code: string, key: string, number: number) =>
+    call<void>("DELETE", `/rooms/${id(code)}/remarks/${number}`, undefined, undefined, key),
+  lowerHands: (code: string, key: string) =>
+    call<void>("DELETE", `/rooms/${id(code)}/hands`, undefined, undefined, key),
   withdrawQuestion: (code: string, key: string) =>
     call<void>("DELETE", `/rooms/${id(code)}/question`, undefined, undefined, key),
   answer: (code: string, vote: { question: number; voter: string; choice: number }) =>

@@ -1769,6 +1769,8 @@ export interface components {
         };
         /** @description A question as everybody sees it. */
         LectureQuestion: {
+            /** @description Whether it was asked before: those who have talked it over vote again. */
+            again: boolean;
             /** @description What can be answered. */
             choices: string[];
             /**
@@ -1781,12 +1783,31 @@ export interface components {
             /** @description What is asked. */
             text: string;
         };
+        /** @description A question of a follower, without a name. */
+        LectureRemark: {
+            /**
+             * Format: uint64
+             * @description Its number.
+             */
+            number: number;
+            /** @description Whether the presenter shows it to everybody. */
+            shown: boolean;
+            /** @description What is asked. */
+            text: string;
+        };
         /** @description What followers see beside the run. */
         LectureState: {
             /** @description What followers type to join. */
             code: string;
+            /**
+             * Format: uint64
+             * @description How often the presenter has put down all hands: who raised one before puts it down when this grows.
+             */
+            lowered: number;
             /** @description The question that is asked. */
             question: components["schemas"]["LectureQuestion"] | null;
+            /** @description A follower's question that the presenter shows to everybody. */
+            remark: components["schemas"]["LectureRemark"] | null;
             /** @description Where the scene came from. */
             source: components["schemas"]["SceneSource"] | null;
             /** @description Title of the scene; nothing while no session is shown. */
@@ -2448,6 +2469,16 @@ export interface components {
              */
             text: string;
         };
+        /** @description A question of a follower, to be asked. */
+        NewRemark: {
+            /**
+             * @description What is asked; nobody is told by whom.
+             * @example Why is the multiplier negative here?
+             */
+            text: string;
+            /** @description A name that the follower's browser made up: it bounds how often one asks, and is told to nobody. */
+            voter: string;
+        };
         /** @description A role. */
         NewRole: {
             /** @description `student`, `grader`, `instructor` or `owner`. */
@@ -2992,6 +3023,24 @@ export interface components {
         };
         /** @description What was predicted in a lesson. */
         PredictionTable: components["schemas"]["PredictionCounts"][];
+        /** @description What a follower tells over its stream, as text: it counts for as long as the stream is open. */
+        Presence: {
+            /**
+             * @description Raises a hand.
+             * @default false
+             */
+            hand?: boolean;
+            /**
+             * @description Looks around alone, not at what the presenter shows.
+             * @default false
+             */
+            roaming?: boolean;
+            /**
+             * @description Is no follower but the projector's window.
+             * @default false
+             */
+            screen?: boolean;
+        };
         /** @description Somebody who is here. */
         Present: {
             /** @description When they last did something. */
@@ -3010,6 +3059,25 @@ export interface components {
              * @description How many follow now.
              */
             followers: number;
+            /**
+             * Format: uint
+             * @description How many raise a hand.
+             */
+            hands: number;
+            /** @description The question that is asked, as followers see it. */
+            question: components["schemas"]["LectureQuestion"] | null;
+            /** @description Questions of followers that wait, the oldest first; nobody is told by whom. */
+            remarks: components["schemas"]["LectureRemark"][];
+            /**
+             * Format: uint
+             * @description How many followers look around on their own.
+             */
+            roaming: number;
+            /**
+             * Format: uint
+             * @description How many windows show the lecture to the hall: the presenter's own page is then seen by the presenter alone.
+             */
+            screens: number;
             /** @description How the answers stand. */
             tally: components["schemas"]["Tally"] | null;
         };
@@ -4097,6 +4165,11 @@ export interface components {
                 number
             ];
         };
+        /** @description Whether a follower's question is shown. */
+        ShownRemark: {
+            /** @description To everybody, in place of the one before. */
+            shown: boolean;
+        };
         /** @description Which of the two bodies of a joint. */
         Side: "i" | "j";
         /** @description A singular configuration that a run passed. */
@@ -4478,6 +4551,8 @@ export interface components {
         };
         /** @description How the answers stand. */
         Tally: {
+            /** @description Answers for each choice when it was asked before, if this is a second vote. */
+            before?: number[] | null;
             /** @description Answers for each choice. */
             counts: number[];
             /**

@@ -7,7 +7,7 @@ import { dateTime, num } from "../core/format";
 import { setMaths } from "../core/maths";
 import type { Page } from "../core/router";
 import { t } from "../core/texts";
-import { histogram } from "../lecture/voter";
+import { histogram } from "../lecture/histogram";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { correlation, flags, mistakeName, percent, questionHref, shareBar } from "./figures";
 

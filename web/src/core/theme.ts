@@ -18,8 +18,21 @@ export function applyTheme(): void {
   for (const listener of themeListeners) listener(theme());
 }
 
+/** This window is for the back of a room, whatever the others are. */
+let hall = false;
+
 /** Big type and strong lines, for the back of a room. */
-export const projector = (): boolean => recall("projector") === "on";
+export const projector = (): boolean => hall || recall("projector") === "on";
+
+/** This window alone is for the back of a room, until the returned function is called. */
+export function forTheHall(): () => void {
+  hall = true;
+  applyTheme();
+  return () => {
+    hall = false;
+    applyTheme();
+  };
+}
 
 export function toggleProjector(): void {
   remember("projector", projector() ? null : "on");

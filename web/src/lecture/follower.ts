@@ -14,11 +14,34 @@ export class Follower extends Session {
   /** Looks around alone: time, selection and panels are one's own until one comes back. */
   roaming = false;
   over = false;
+  /** A hand is raised; the presenter learns how many, not whose. */
+  hand = false;
+  /** How often the presenter had put down all hands when ours was raised. */
+  private lowered = 0;
   /** What the presenter looks at changes the inspector's panel too. */
   panel: ((key: string) => void) | undefined;
 
-  constructor(readonly code: string) {
+  /** `screen` is the window that the hall sees: it follows, and is no follower. */
+  constructor(
+    readonly code: string,
+    private readonly screen = false,
+  ) {
     super({ builtin: "" });
+    // A stream that was opened anew has to be told again.
+    this.on("opened", () => this.tell());
+  }
+
+  raise(hand: boolean): void {
+    this.hand = hand;
+    this.lowered = this.lecture?.lowered ?? 0;
+    this.tell();
+    this.emit("lecture");
+    announce(hand ? t("Your hand is raised; the presenter sees how many are.") : t("Your hand is down."));
+  }
+
+  private tell(): void {
+    const { roaming, hand, screen } = this;
+    this.connection.tell(JSON.stringify({ roaming, hand, screen }));
   }
 
   override start(): Promise<void> {
@@ -34,6 +57,7 @@ export class Follower extends Session {
   roam(): void {
     if (this.roaming) return;
     this.roaming = true;
+    this.tell();
     announce(t("You look around on your own. The lecture goes on; come back whenever you like."));
     this.emit("lecture");
   }
@@ -41,6 +65,7 @@ export class Follower extends Session {
   /** Comes back to what the presenter shows. */
   comeBackToLecture(): void {
     this.roaming = false;
+    this.tell();
     this.toNewest();
     this.mirror();
     this.emit("lecture");
@@ -52,6 +77,7 @@ export class Follower extends Session {
     if (message.type === "room") {
       this.lecture = message as unknown as LectureState;
       if (!this.roaming) this.mirror();
+      if (this.hand && this.lecture.lowered > this.lowered) this.raise(false);
       this.emit("lecture");
     } else if (message.type === "closed") {
       this.over = true;

@@ -2,19 +2,23 @@
 
 import { ApiError, api } from "../api/client";
 import { inClass, teaches } from "../api/identity";
-import type { Tally } from "../api/types";
+import type { Motion, PresenterState, Tally } from "../api/types";
 import { addressOf, pathOf } from "../core/address";
 import { announce, h, setText } from "../core/dom";
-import { parts, t } from "../core/texts";
+import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import type { SharedView } from "../session/shared-view";
-import { dialog } from "../ui/dialog";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { type NewQuestion, questionDialog } from "./question-dialog";
+import { Desk } from "./desk";
+import { histogram } from "./histogram";
+import { invite } from "./invite";
+import { questionDialog } from "./question-dialog";
 import { showSaid } from "./said";
+import { screenKeys } from "./screen-keys";
 import { Slides } from "./slides";
-import { histogram } from "./voter";
+import type { Taped } from "./tape";
+import { Taping } from "./taping";
 
 /** Time between two messages to the followers, ms. */
 const SEND_MS = 150;
@@ -48,6 +52,16 @@ function stored(): OwnLecture | undefined {
   }
 }
 
+export interface PresenterHooks {
+  /** What the page shows now, as a link would carry it, and a small picture of it. */
+  seen: () => SharedView;
+  picture: () => string | undefined;
+  /** The motion so far, if it is known. */
+  motion: () => Motion | undefined;
+  /** Plays the lecture so far, and saves it. */
+  replay: (taped: Taped) => void;
+}
+
 export class PresenterPanel {
   /** Opens a lecture; it has its place among the controls. */
   readonly button = h(
@@ -72,25 +86,37 @@ export class PresenterPanel {
   private readonly prepared = h("div");
   private readonly trouble = h("div", { "aria-live": "polite" });
   private readonly revealButton = action(t("Reveal"), "button primary", () => void this.reveal());
+  private readonly againButton = action(t("Vote again"), "button", () => void this.again());
   private readonly withdrawButton = action(t("Take it away"), "button", () => void this.withdraw());
   private readonly undo: (() => void)[];
 
   private lecture = stored();
-  private question: NewQuestion | undefined;
   /** The view that was sent last, as JSON. */
   private sentView = "";
   /** The session that the followers see. */
   private shownSession = "";
   private sendTimer = 0;
   private slides: Slides | undefined;
+  private readonly curtain = h("div", { class: "curtain", hidden: true });
+  private readonly desk = new Desk({
+    show: (number, shown) => this.led((code, key) => api.showRemark(code, key, number, shown)),
+    settle: (number) => this.led((code, key) => api.settleRemark(code, key, number)),
+    lower: () => this.led((code, key) => api.lowerHands(code, key)),
+  });
+  /** Windows that show the lecture to the hall. */
+  private screens = 0;
+  /** Keys that were pressed in such a window. */
+  private pressed: BroadcastChannel | undefined;
 
-  /** `seen` is what the page shows now, as a link would carry it. */
+  private taping: Taping | undefined;
+
   constructor(
     private readonly session: Session,
-    private readonly seen: () => SharedView,
+    private readonly hooks: PresenterHooks,
   ) {
-    this.revealButton.hidden = true;
-    this.withdrawButton.hidden = true;
+    for (const button of [this.revealButton, this.againButton, this.withdrawButton]) button.hidden = true;
+    this.curtain.addEventListener("click", () => this.slides?.blank());
+    document.body.append(this.curtain);
     this.root = this.layout();
     const poll = window.setInterval(() => void this.poll(), POLL_MS);
     this.undo = [
@@ -105,6 +131,9 @@ export class PresenterPanel {
   dispose(): void {
     clearTimeout(this.sendTimer);
     this.slides?.dispose();
+    this.pressed?.close();
+    this.taping?.dispose();
+    this.curtain.remove();
     for (const step of this.undo) step();
   }
 
@@ -120,20 +149,30 @@ export class PresenterPanel {
         h(
           "span",
           { class: "row wrap tight" },
-          action(t("How to join"), "button", () => this.lecture && void invite(this.lecture)),
+          action(t("How to join"), "button", () => this.lecture && void invite(this.lecture.code)),
+          action(t("Window for the projector"), "button", () => this.openScreen()),
           action(t("Ask a question"), "button", () => this.ask()),
           lesson && inClass() && teaches()
             ? action(t("What the class said"), "button", () => showSaid(lesson))
             : null,
           this.revealButton,
+          this.againButton,
           this.withdrawButton,
+          action(t("As a recording"), "button", () => this.taping && this.hooks.replay(this.taping.taped())),
           action(t("End the lecture"), "button quiet", () => void this.end()),
         ),
       ),
       this.prepared,
       this.result,
+      this.desk.root,
       this.trouble,
     );
+  }
+
+  /** The window that the hall sees; without one it sees this page. */
+  private openScreen(): void {
+    if (this.lecture)
+      open(addressOf(`/room/${this.lecture.code}/screen`), "triad-screen", "popup,width=1280,height=720");
   }
 
   private paint(): void {
@@ -141,13 +180,37 @@ export class PresenterPanel {
     this.button.hidden = this.lecture !== undefined;
     setText(this.code, this.lecture?.code ?? "");
     if (this.lecture && !this.slides) {
-      this.slides = new Slides(this.session, this.seen);
-      this.prepared.replaceChildren(this.slides.root);
+      const slides = new Slides({
+        session: this.session,
+        seen: this.hooks.seen,
+        picture: this.hooks.picture,
+        blank: () => this.drawCurtain(),
+      });
+      this.slides = slides;
+      this.prepared.replaceChildren(slides.root);
+      this.desk.place(slides.notes);
+      this.taping = new Taping(this.session, this.lecture.code, this.hooks.motion);
+      this.pressed = screenKeys(this.lecture.code);
+      this.pressed.onmessage = ({ data }) => {
+        if (data === "blank") slides.blank();
+        else slides.step(data === "next" ? 1 : -1);
+      };
     } else if (!this.lecture) {
       this.slides?.dispose();
       this.slides = undefined;
+      this.pressed?.close();
+      this.taping?.dispose();
+      this.taping = undefined;
+      this.desk.place(undefined);
+      this.curtain.hidden = true;
       this.prepared.replaceChildren();
     }
+  }
+
+  /** Blanks what the hall sees: the projector's window, or this page where there is none. */
+  private drawCurtain(): void {
+    this.curtain.hidden = !(this.slides?.blanked && this.screens === 0);
+    this.send();
   }
 
   private async open(): Promise<void> {
@@ -162,7 +225,7 @@ export class PresenterPanel {
       this.paint();
       announce(t("The lecture room {code} is open.", { code: opened.code }));
       this.send();
-      await invite(this.lecture);
+      await invite(this.lecture.code);
     } catch (error) {
       this.root.hidden = false;
       this.trouble.replaceChildren(problemNotice(error));
@@ -172,8 +235,11 @@ export class PresenterPanel {
   private end(): Promise<void> {
     return this.attempt(async ({ code, key }) => {
       await api.closeLecture(code, key);
+      // It can be kept until the page is left.
+      const taped = this.taping?.taped();
       this.forget();
       announce(t("The lecture is over."));
+      if (taped && taped.parts.length > 0) this.hooks.replay(taped);
     });
   }
 
@@ -202,7 +268,8 @@ export class PresenterPanel {
     this.sendTimer = window.setTimeout(() => {
       this.sendTimer = 0;
       const id = this.session.latest?.id;
-      const view = { ...this.seen(), back: this.session.reviewing };
+      const blank = this.slides?.blanked ?? false;
+      const view = { ...this.hooks.seen(), back: this.session.reviewing, blank };
       // While time runs, followers have it from the run itself.
       if (!this.session.reviewing) delete view.time;
       const text = JSON.stringify(view);
@@ -221,9 +288,17 @@ export class PresenterPanel {
     questionDialog(this.session.joint, async (question, right) => {
       if (!this.lecture) return;
       await api.ask(this.lecture.code, this.lecture.key, { ...question, right });
-      this.question = question;
       void this.poll();
     });
+  }
+
+  /** Sends what the presenter decided, and looks at once what became of it. */
+  private led(run: (code: string, key: string) => Promise<void>): void {
+    void this.attempt(({ code, key }) => run(code, key)).then(() => this.poll());
+  }
+
+  private again(): Promise<void> {
+    return this.attempt(({ code, key }) => api.askSecondTime(code, key)).then(() => this.poll());
   }
 
   private reveal(): Promise<void> {
@@ -233,92 +308,58 @@ export class PresenterPanel {
   private withdraw(): Promise<void> {
     return this.attempt(async ({ code, key }) => {
       await api.withdrawQuestion(code, key);
-      this.question = undefined;
-      this.showTally(null);
+      await this.poll();
     });
   }
 
   private poll(): Promise<void> {
     return this.attempt(async ({ code, key }) => {
-      const { followers, tally } = await api.presenterState(code, key);
+      const state = await api.presenterState(code, key);
+      const { followers } = state;
       setText(
         this.followers,
         followers === 0 ? t("nobody follows yet") : t("{n} follows | {n} follow", { n: followers }),
       );
-      this.showTally(tally, followers);
+      if (state.screens !== this.screens) {
+        this.screens = state.screens;
+        this.drawCurtain();
+      }
+      this.taping?.hear(state, this.slides?.blanked ?? false);
+      this.showTally(state);
     });
   }
 
-  private showTally(tally: Tally | null, followers = 0): void {
+  private showTally(state: PresenterState): void {
+    const { tally, question, followers, screens } = state;
     this.revealButton.hidden = !tally || tally.revealed;
+    this.againButton.hidden = !tally;
     this.withdrawButton.hidden = !tally;
-    if (!tally) {
+    if (!tally || !question) {
+      this.desk.paint(state, undefined);
       this.result.replaceChildren();
       return;
     }
-    const choices =
-      this.question?.choices ?? tally.counts.map((_, k) => t("choice {number}", { number: k + 1 }));
+    // Where this page is what the projector shows, how the answers stand would sway those who have not answered.
+    this.desk.paint(state, tally.revealed ? undefined : histogram(question.choices, tally));
     this.result.replaceChildren(
-      h("p", { class: "presenter-question" }, this.question?.text ?? t("The question that is asked")),
-      // This page is what the projector shows: how the answers stand would sway those who have not answered.
-      tally.revealed ? histogram(choices, tally) : answered(tally, followers),
+      h("p", { class: "presenter-question" }, question.text),
+      tally.revealed ? histogram(question.choices, tally) : answered(tally, followers, screens > 0),
     );
   }
 }
 
-function answered({ counts }: Tally, followers: number): HTMLElement {
+function answered({ counts }: Tally, followers: number, apart: boolean): HTMLElement {
   const count = counts.reduce((sum, each) => sum + each, 0);
+  const values = { count, all: Math.max(count, followers) };
   return h(
     "p",
     { role: "status" },
-    t("{count} of {all} have answered. How they stand is seen when it is revealed.", {
-      count,
-      all: Math.max(count, followers),
-    }),
+    apart
+      ? t("{count} of {all} have answered.", values)
+      : t("{count} of {all} have answered. How they stand is seen when it is revealed.", values),
   );
 }
 
 function action(label: string, cls: string, run: () => void): HTMLButtonElement {
   return h("button", { type: "button", class: cls, onclick: run }, label);
-}
-
-/** Shows the code in type that is read from the back of a lecture hall, and the address as a picture for phones. */
-async function invite(lecture: OwnLecture): Promise<void> {
-  const { qr } = await import("./qr");
-  const address = new URL(addressOf(`/room/${lecture.code}`), location.href).href;
-  const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
-  const box = dialog(
-    t("Join this lecture"),
-    h(
-      "div",
-      { class: "invite" },
-      qr(address),
-      h(
-        "div",
-        { class: "stack" },
-        h(
-          "p",
-          null,
-          ...parts("Open {address} and type", {
-            address: h(
-              "b",
-              null,
-              new URL(addressOf("/room"), location.href).href.replace(/^https?:\/\//, ""),
-            ),
-          }),
-        ),
-        h("p", { class: "invite-code" }, lecture.code),
-        here
-          ? h(
-              "p",
-              { class: "notice is-note" },
-              t(
-                "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.",
-              ),
-            )
-          : null,
-      ),
-    ),
-  );
-  box.classList.add("is-wide");
 }

@@ -6,7 +6,7 @@ import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 import { problemNotice, skeleton } from "../ui/notice";
-import { histogram } from "./voter";
+import { histogram } from "./histogram";
 
 export function showSaid(slug: string): void {
   const place = h("div", { class: "stack" }, skeleton(4));

@@ -7,23 +7,37 @@ import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { restore } from "../session/share";
 import type { SharedView } from "../session/shared-view";
-import { MOST, parseSlides } from "./kept-slides";
+import { MOST, MOST_NOTES, parseSlides, type Slide } from "./kept-slides";
+
+export interface SlidesOptions {
+  session: Session;
+  /** What the page shows now, and a small picture of it. */
+  seen: () => SharedView;
+  picture: () => string | undefined;
+  /** The screen is to be blank, or no longer. */
+  blank: (on: boolean) => void;
+}
 
 export class Slides {
   readonly root: HTMLElement;
+  /** Notes to the slide and what comes next, for the presenter alone. */
+  readonly notes: HTMLElement;
+  blanked = false;
   private readonly place = h("span", { class: "presenter-count" });
+  private readonly text = h("textarea", {
+    class: "field",
+    rows: "4",
+    maxlength: String(MOST_NOTES),
+    "aria-label": t("Notes to this slide"),
+  });
+  private readonly next = h("div", { class: "desk-next" });
   private readonly undo: () => void;
-  private readonly curtain = h("div", { class: "curtain", hidden: true });
   private readonly key = `slides:${location.pathname}` as const;
-  private slides: SharedView[];
+  private slides: Slide[];
   /** The slide that was shown last; before the first one. */
   private at = -1;
 
-  /** `seen` is what the page shows now. */
-  constructor(
-    private readonly session: Session,
-    private readonly seen: () => SharedView,
-  ) {
+  constructor(private readonly options: SlidesOptions) {
     this.slides = parseSlides(recall(this.key));
     const press = (label: string, run: () => void): HTMLElement =>
       h("button", { type: "button", class: "button small", onclick: run }, label);
@@ -33,16 +47,28 @@ export class Slides {
       h("span", null, t("Slides")),
       this.place,
       press(t("Keep this state"), () => this.keep()),
-      press(t("Back"), () => void this.go(-1)),
-      press(t("Next"), () => void this.go(1)),
+      press(t("Back"), () => this.step(-1)),
+      press(t("Next"), () => this.step(1)),
       press(t("Forget this slide"), () => this.forget()),
       press(t("Blank"), () => this.blank()),
     );
-    this.curtain.addEventListener("click", () => this.blank());
-    document.body.append(this.curtain);
+    this.notes = h(
+      "section",
+      { class: "desk-part" },
+      h("h3", null, t("Notes to this slide")),
+      this.text,
+      h("h3", null, t("Next slide")),
+      this.next,
+    );
+    this.text.addEventListener("input", () => {
+      const slide = this.slides[this.at];
+      if (!slide) return;
+      slide.notes = this.text.value;
+      this.store();
+    });
     this.undo = bind([
-      { keys: ["PageDown"], shown: "PageDown", does: t("Lecture: next slide"), run: () => void this.go(1) },
-      { keys: ["PageUp"], shown: "PageUp", does: t("Lecture: slide before"), run: () => void this.go(-1) },
+      { keys: ["PageDown"], shown: "PageDown", does: t("Lecture: next slide"), run: () => this.step(1) },
+      { keys: ["PageUp"], shown: "PageUp", does: t("Lecture: slide before"), run: () => this.step(-1) },
       {
         keys: ["b", "B"],
         shown: "B",
@@ -55,13 +81,24 @@ export class Slides {
 
   dispose(): void {
     this.undo();
-    this.curtain.remove();
+  }
+
+  /** The next slide, or the one before. */
+  step(by: number): void {
+    void this.go(by);
+  }
+
+  blank(): void {
+    this.blanked = !this.blanked;
+    this.options.blank(this.blanked);
+    announce(this.blanked ? t("The screen is blank; B brings it back.") : t("The screen is back."));
   }
 
   private keep(): void {
     if (this.slides.length >= MOST) return;
     this.at += 1;
-    this.slides.splice(this.at, 0, this.seen());
+    const picture = this.options.picture();
+    this.slides.splice(this.at, 0, { view: this.options.seen(), ...(picture ? { picture } : {}) });
     this.save();
   }
 
@@ -79,22 +116,22 @@ export class Slides {
     this.at = at;
     this.paint();
     announce(t("Slide {at} of {slides}.", { at: at + 1, slides: this.slides.length }));
+    const { session } = this.options;
     try {
-      await this.session.change(slide.numbers ?? { values: {}, places: {} });
-      await restore(this.session, slide);
+      await session.change(slide.view.numbers ?? { values: {}, places: {} });
+      await restore(session, slide.view);
     } catch {
       announce(t("This slide belongs to another mechanism: its numbers do not fit."));
     }
   }
 
-  private blank(): void {
-    this.curtain.hidden = !this.curtain.hidden;
-    announce(this.curtain.hidden ? t("The screen is back.") : t("The screen is blank; B brings it back."));
+  private save(): void {
+    this.store();
+    this.paint();
   }
 
-  private save(): void {
+  private store(): void {
     remember(this.key, this.slides.length > 0 ? JSON.stringify(this.slides) : null);
-    this.paint();
   }
 
   private paint(): void {
@@ -104,6 +141,22 @@ export class Slides {
       slides.length === 0
         ? t("none yet")
         : t("{at} of {slides}", { at: at < 0 ? "–" : at + 1, slides: slides.length }),
+    );
+    this.text.disabled = at < 0;
+    this.text.value = slides[at]?.notes ?? "";
+    this.text.placeholder = at < 0 ? t("Keep this state as a slide; then it can have notes.") : "";
+    const next = slides[at + 1];
+    this.next.replaceChildren(
+      ...(next
+        ? [
+            next.picture ? h("img", { src: next.picture, alt: "" }) : "",
+            h(
+              "p",
+              null,
+              next.notes?.split("\n")[0] || t("at {time} s", { time: (next.view.time ?? 0).toFixed(2) }),
+            ),
+          ]
+        : [h("p", null, t("This is the last one."))]),
     );
   }
 }

@@ -1,14 +1,15 @@
 // A question to all followers: how one of them answers it, and how everybody sees the result.
 
 import { api } from "../api/client";
-import type { LectureQuestion, Tally } from "../api/types";
+import type { LectureQuestion } from "../api/types";
 import { h } from "../core/dom";
 import { recall, remember } from "../core/prefs";
 import { t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
+import { histogram } from "./histogram";
 
 /** A random name, kept in the browser: a second answer replaces the first and is not counted twice. */
-function voter(): string {
+export function voter(): string {
   const known = recall("voter");
   if (known) return known;
   const bytes = crypto.getRandomValues(new Uint8Array(12));
@@ -73,48 +74,14 @@ export function ballot(code: string): {
         choice,
       ),
     );
-    root.replaceChildren(h("h2", null, question.text), h("div", { class: "row wrap" }, ...buttons), said);
+    root.replaceChildren(
+      h("h2", null, question.text),
+      question.again
+        ? h("p", { class: "help" }, t("Asked again: talk it over with your neighbour, then vote anew."))
+        : "",
+      h("div", { class: "row wrap" }, ...buttons),
+      said,
+    );
   };
   return { root, show };
-}
-
-/** The counts of the answers as bars with numbers; the right one is marked by a word too. */
-export function histogram(
-  choices: string[],
-  tally: Pick<Tally, "counts" | "right" | "revealed">,
-  mine?: number,
-  counted = (n: number): string => t("{n} answer | {n} answers", { n }),
-): HTMLElement {
-  const all = tally.counts.reduce((sum, count) => sum + count, 0);
-  const most = Math.max(1, ...tally.counts);
-  return h(
-    "table",
-    { class: "histogram" },
-    h("caption", null, counted(all)),
-    h(
-      "tbody",
-      null,
-      ...choices.map((choice, k) => {
-        const count = tally.counts[k] ?? 0;
-        const right = tally.right === k && tally.revealed;
-        return h(
-          "tr",
-          { class: right ? "is-right" : "" },
-          h(
-            "th",
-            { scope: "row" },
-            choice,
-            right ? h("span", { class: "mark" }, " ", t("right")) : null,
-            mine === k ? h("span", { class: "mark" }, " ", t("yours")) : null,
-          ),
-          h(
-            "td",
-            { class: "bar-cell" },
-            h("span", { class: "bar", style: `inline-size:${(100 * count) / most}%` }),
-          ),
-          h("td", { class: "number" }, String(count)),
-        );
-      }),
-    ),
-  );
 }

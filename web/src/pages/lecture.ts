@@ -6,6 +6,7 @@ import { h, setText } from "../core/dom";
 import { navigate, type Page, setTitle } from "../core/router";
 import { parts, t } from "../core/texts";
 import { Follower } from "../lecture/follower";
+import { voice } from "../lecture/voice";
 import { ballot } from "../lecture/voter";
 import { linkTo } from "../session/shared-view";
 import { icon } from "../ui/icons";
@@ -111,9 +112,16 @@ class LecturePage {
     const made = mountWorkbench(this.bench, follower, {});
     this.endRun = made.dispose;
     follower.panel = made.selectPanel;
+    const own = voice(follower);
+    this.votes.root.after(own.root);
+    const paint = (): void => {
+      this.paint(follower);
+      own.paint();
+    };
+    own.paint();
     this.back.onclick = () => follower.comeBackToLecture();
-    follower.on("lecture", () => this.paint(follower));
-    follower.on("scene", () => this.paint(follower));
+    follower.on("lecture", paint);
+    follower.on("scene", paint);
     void follower.start();
   }
 

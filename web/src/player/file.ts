@@ -2,10 +2,13 @@
 
 import { h } from "../core/dom";
 import { t } from "../core/texts";
+import type { Taped } from "../lecture/tape";
+import histogram from "../styles/histogram.css?inline";
 import player from "../styles/player.css?inline";
 import timeline from "../styles/timeline.css?inline";
 import tokens from "../styles/tokens.css?inline";
-import type { Played } from "./played";
+import { LecturePlayer } from "./lecture-player";
+import type { Played, PlayedRun } from "./played";
 import { Player } from "./player";
 
 const OWN = `
@@ -23,29 +26,35 @@ const OWN = `
 document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches
   ? "dark"
   : "light";
-document.head.append(h("style", null, tokens, timeline, player, OWN));
+document.head.append(h("style", null, tokens, timeline, player, histogram, OWN));
 const text = document.getElementById("motion")?.textContent;
 if (text) {
-  const { motion, drawn, camera } = JSON.parse(text) as Played;
+  const played = JSON.parse(text) as Played;
+  document.body.append("lecture" in played ? lecture(played.lecture) : run(played));
+} else document.body.append(t("No motion stands in this file."));
+
+function run({ motion, drawn, camera }: PlayedRun): HTMLElement {
   document.title = motion.title;
   const shown = new Player(motion, {
     plays: true,
     drawn: drawn ?? { what: "none" },
     camera: camera ?? "corner",
   });
-  document.body.append(
-    h(
-      "main",
-      null,
-      h("h1", null, motion.title),
-      shown.root,
-      h(
-        "p",
-        null,
-        t(
-          "Recorded with Triad. Drag to look from elsewhere, Ctrl and the wheel to come closer; with the keys: Shift and the arrows, + and −.",
-        ),
-      ),
+  return h("main", null, h("h1", null, motion.title), shown.root, about());
+}
+
+function lecture(taped: Taped): HTMLElement {
+  document.title = taped.title;
+  const shown = new LecturePlayer(taped);
+  return h("main", null, h("h1", null, `${taped.title}, ${taped.began.slice(0, 10)}`), shown.root, about());
+}
+
+function about(): HTMLElement {
+  return h(
+    "p",
+    null,
+    t(
+      "Recorded with Triad. Drag to look from elsewhere, Ctrl and the wheel to come closer; with the keys: Shift and the arrows, + and −.",
     ),
   );
-} else document.body.append(t("No motion stands in this file."));
+}

@@ -6,7 +6,7 @@ import type { Lesson, PredictionCounts } from "../api/types";
 import { authored, h } from "../core/dom";
 import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
-import { histogram } from "../lecture/voter";
+import { histogram } from "../lecture/histogram";
 import { problemNotice } from "../ui/notice";
 
 export function predictionCounts(lesson: Lesson): HTMLElement | null {

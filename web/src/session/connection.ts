@@ -50,6 +50,11 @@ export class Connection {
     };
   }
 
+  /** Tells the other side something; where nobody listens it is lost. */
+  tell(text: string): void {
+    if (this.socket instanceof WebSocket && this.socket.readyState === WebSocket.OPEN) this.socket.send(text);
+  }
+
   /** Closes the stream; it may be opened again. */
   close(): void {
     const socket = this.socket;

@@ -19,6 +19,8 @@ type Events = {
   blocks: (bytes: Uint8Array) => void;
   /** Another joint was selected, in the viewer or in the page. */
   selected: () => void;
+  /** What is known of the motion is about to be forgotten. */
+  parting: () => void;
   /** A new connection, or a run from the start: the motion follows from its beginning. */
   opened: () => void;
   /** The scene's numbers are known, or were changed. */
@@ -35,6 +37,7 @@ export class Emitter {
   private listeners: { [K in keyof Events]: Set<Events[K]> } = {
     shown: new Set(),
     blocks: new Set(),
+    parting: new Set(),
     opened: new Set(),
     problem: new Set(),
     selected: new Set(),

@@ -1,13 +1,14 @@
 // A run that was recorded, watched as a live one is.
 import type { Camera, Motion, Scene, SessionState, Vec3 } from "../api/types";
 import type { Drawn, ReactionConvention } from "./events";
+import { fromBase64 } from "./packed";
 import { Track } from "./track";
 import type { Watched } from "./watched";
 
 const NOWHERE: Vec3 = [0, 0, 0];
 
 export class Recorded implements Watched {
-  readonly joint = null;
+  joint: string | null = null;
   readonly pose = undefined;
   readonly past: { all: SessionState[] };
   readonly scene: Scene;
@@ -18,12 +19,12 @@ export class Recorded implements Watched {
 
   constructor(
     readonly motion: Motion,
-    readonly drawn: Drawn = { what: "none" },
-    readonly camera: Camera = "corner",
+    public drawn: Drawn = { what: "none" },
+    public camera: Camera = "corner",
     readonly convention: ReactionConvention = { on: "j", about: "joint", in: "world" },
   ) {
     this.scene = motion.scene;
-    this.track.add(bytesOf(motion.track));
+    this.track.add(fromBase64(motion.track));
     this.frame = frameOf(motion, camera);
     this.past = { all: [this.moment(0)] };
   }
@@ -36,10 +37,6 @@ export class Recorded implements Watched {
     const within = Math.max(0, Math.min(this.motion.until, time));
     return this.track.at(within, this.frame) ?? this.frame;
   }
-}
-
-function bytesOf(base64: string): Uint8Array {
-  return Uint8Array.from(atob(base64), (sign) => sign.charCodeAt(0));
 }
 
 /** What a motion states once, as a state at its end whose bodies stand nowhere. */

@@ -94,6 +94,7 @@ export class Session extends Clock {
 
   /** The motion follows from its beginning. */
   private begun(): void {
+    this.emit("parting");
     this.track.clear();
     this.emit("opened");
   }

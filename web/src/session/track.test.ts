@@ -77,6 +77,23 @@ it("a run that goes on from an earlier time replaces what came after it, and a t
   expect(track.at(0.6, known)).toBeUndefined();
 });
 
+it("an hour of watching does not grow: what is oldest becomes sparse, and the end stays as it is", () => {
+  const most = 100_000;
+  const track = new Track(most);
+  for (let minute = 0; minute < 60; minute += 1)
+    track.add(block(Array.from({ length: 60 }, (_, k) => ({ time: minute * 60 + k, x: k, force: 1 }))));
+  const packed = track.pack(Number.POSITIVE_INFINITY) ?? new Uint8Array();
+  expect(packed.byteLength).toBeLessThanOrEqual(most);
+  const count = new DataView(packed.buffer).getUint32(8, true);
+  const times = Array.from({ length: count }, (_, k) =>
+    new DataView(packed.buffer).getFloat64(16 + 8 * k, true),
+  );
+  expect([times[0], times.at(-1)]).toEqual([0, 3599]);
+  const gap = (from: number): number => (times[from + 1] ?? 0) - (times[from] ?? 0);
+  expect(gap(count - 3)).toBeLessThan(gap(0));
+  expect(track.at(1800.5, known)?.time).toBe(1800.5);
+});
+
 it("packs what it has into one block that reads back, thinned where it would be too large", () => {
   const track = new Track();
   track.add(block([0, 1, 2, 3, 4].map((time) => ({ time, x: time, force: 1 }))));

@@ -7,7 +7,7 @@ import { unit } from "../mechanics/vec";
 const HEAD_BYTES = 16;
 const OF_BODY = 12;
 const OF_JOINT = 9;
-/** Bytes kept; beyond them every second frame goes. */
+/** Bytes that a page keeps of a run. */
 const MOST_BYTES = 48e6;
 
 interface Frame {
@@ -22,13 +22,21 @@ export class Track {
   private frames: Frame[] = [];
   private bytes = 0;
 
+  /** Beyond so many bytes every second frame goes. */
+  constructor(private readonly most = MOST_BYTES) {}
+
   clear(): void {
     this.frames = [];
     this.bytes = 0;
   }
 
+  /** The time of the last frame, s; nothing where there is none. */
+  get end(): number | undefined {
+    return this.frames.at(-1)?.time;
+  }
+
   copy(): Track {
-    const other = new Track();
+    const other = new Track(this.most);
     [other.frames, other.bytes] = [[...this.frames], this.bytes];
     return other;
   }
@@ -53,7 +61,7 @@ export class Track {
       this.frames.push({ time, bodies, joints, numbers });
     }
     this.bytes += block.byteLength;
-    if (this.bytes > MOST_BYTES) {
+    if (this.bytes > this.most) {
       this.frames = this.frames.filter((_, k, all) => k % 2 === 0 || k === all.length - 1);
       this.bytes /= 2;
     }

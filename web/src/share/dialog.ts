@@ -124,7 +124,7 @@ function pictures({ session, drawing }: Taken, said: HTMLElement): HTMLElement[]
 
 async function savePage({ session }: Taken, motion: Motion, said: HTMLElement): Promise<void> {
   try {
-    const blob = await pageFile(motion, { drawn: session.drawn, camera: session.camera });
+    const blob = await pageFile({ motion, drawn: session.drawn, camera: session.camera });
     saveFile(blob, `${fileName(motion.title)}.html`);
     setText(said, t("Saved, {size} kB.", { size: Math.ceil(blob.size / 1000) }));
   } catch {

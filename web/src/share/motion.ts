@@ -1,5 +1,6 @@
 // What this page has seen of a run, as one document that plays anywhere.
 import type { Motion, Scene } from "../api/types";
+import { toBase64 } from "../session/packed";
 import type { Session } from "../session/session";
 
 /** Bytes of numbers: with the player and its text a file stays below 300 kB. */
@@ -8,8 +9,6 @@ const MOST_BYTES = 150_000;
 const SHORTEST = 2;
 /** How long such a run is watched, s. */
 const SLOW = 4;
-/** Bytes that are turned into letters at once: more would not fit among the arguments of a call. */
-const PIECE = 8192;
 
 /** The motion so far; undefined while nothing of it is known, as where the 3-D viewer is open. */
 export function motionOf(session: Session, scene: Scene | undefined): Motion | undefined {
@@ -17,7 +16,8 @@ export function motionOf(session: Session, scene: Scene | undefined): Motion | u
   const block = track.pack(MOST_BYTES);
   const written = (view?.scene ?? scene) as Scene | undefined;
   if (!latest || !block || !written) return undefined;
-  const until = latest.time;
+  // A run that has just been taken back to its start is known as far as its frames.
+  const until = Math.max(latest.time, track.end ?? 0);
   const { bodies, joints, markers, gravity, name } = written;
   const { force_scale, moment_scale, longest } = latest.drawing;
   return {
@@ -32,11 +32,4 @@ export function motionOf(session: Session, scene: Scene | undefined): Motion | u
     longest,
     track: toBase64(block),
   };
-}
-
-function toBase64(bytes: Uint8Array): string {
-  let letters = "";
-  for (let from = 0; from < bytes.length; from += PIECE)
-    letters += String.fromCharCode(...bytes.subarray(from, from + PIECE));
-  return btoa(letters);
 }

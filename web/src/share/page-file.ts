@@ -1,6 +1,5 @@
 // One HTML file with a recorded run: it plays without a server and without a network.
 
-import type { Motion } from "../api/types";
 import { addressOf, fileOf, site } from "../core/address";
 import { t } from "../core/texts";
 import { PLACE, type Played } from "../player/played";
@@ -16,8 +15,8 @@ export function withMotion(player: string, played: Played): string {
   return player.replace(PLACE, () => PLACE.replace("></", () => `>${data}</`));
 }
 
-export async function pageFile(motion: Motion, more: Omit<Played, "motion">): Promise<Blob> {
+export async function pageFile(played: Played): Promise<Blob> {
   const response = await fetch(site ? fileOf(`.${PLAYER}`) : addressOf(PLAYER));
   if (!response.ok) throw new Error(t("the player cannot be loaded"));
-  return new Blob([withMotion(await response.text(), { motion, ...more })], { type: "text/html" });
+  return new Blob([withMotion(await response.text(), played)], { type: "text/html" });
 }

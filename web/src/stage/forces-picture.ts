@@ -6,6 +6,7 @@ import { type Arrow, arrows, roundDown } from "../mechanics/forces";
 import { add, cross, norm, scale, unit } from "../mechanics/vec";
 import type { Watched } from "../session/watched";
 import type { Eye } from "./eye";
+import { freeLabel, labelAt, type Place } from "./labels";
 import type { Palette } from "./palette";
 import type { Pen, Point } from "./pen";
 
@@ -32,12 +33,20 @@ const INNER_CIRCLE = 0.8;
 const MOST_LABELS = 6;
 /** Height of the letters of a label, CSS pixels; on a projector twice that. */
 const LETTERS = 17;
-/** About the width of a letter by its height. */
-const LETTER_WIDTH = 0.56;
+/** On a stage lower than this letters are smaller, but not smaller than these, CSS pixels. */
+const SMALL_STAGE = 330;
+const LEAST_LETTERS = 13;
+/** Where the name of the chosen joint stands if there is no room beside its arrow, CSS pixels from the left. */
+const GAP = 10;
 /** About the length of the legend's bar, CSS pixels. */
 const BAR = 110;
 /** A force whose arrow would be shorter than this is rounding and is called zero, CSS pixels. */
 const NOTHING = 1e-6;
+
+interface Drawn {
+  arrow: Arrow;
+  tip: Point;
+}
 
 /** Lengths in CSS pixels: of a newton's arrow, of the radius of a newton metre's circle, of the longest arrow. */
 interface Sizes {
@@ -65,13 +74,17 @@ export function drawForces(
     longest: drawing.longest * eye.perMetre,
     width: Math.max(THIN, WIDTH_PART * eye.height),
   };
-  const taken: Place[] = [];
-  for (const arrow of list) {
+  const drawn: Drawn[] = list.map((arrow) => {
     const tip = drawArrow(pen, arrow, eye, sizes, colours);
     if (arrow.moment) drawMoment(pen, arrow, eye, sizes, colours);
-    if (list.length <= MOST_LABELS || arrow.label === session.joint)
-      drawLabel(pen, arrow, eye, tip, sizes, colours, taken);
-  }
+    return { arrow, tip };
+  });
+  // Words come last, over all arrows; the joint that is looked at chooses its place first.
+  const taken: Place[] = [];
+  const marked = ({ arrow }: Drawn): boolean => arrow.label === session.joint;
+  for (const one of [...drawn.filter(marked), ...drawn.filter((other) => !marked(other))])
+    if (list.length <= MOST_LABELS || marked(one))
+      drawLabel(pen, one, eye, sizes, colours, marked(one), taken);
   drawScale(pen, eye, sizes, colours);
 }
 
@@ -143,43 +156,34 @@ function drawMoment(pen: Pen, arrow: Arrow, eye: Eye, sizes: Sizes, colours: Pal
   pen.path(corners, { fill: stroke }, true);
 }
 
-/** Where words stand: left, top, right, bottom. */
-type Place = [number, number, number, number];
-
-/** What the arrow is, beside its tip, where no other words stand. */
+/** What the arrow is, beside its tip, where no other words stand; without its value where there is little room. */
 function drawLabel(
   pen: Pen,
-  arrow: Arrow,
+  { arrow, tip }: Drawn,
   eye: Eye,
-  tip: Point,
   sizes: Sizes,
   colours: Palette,
+  marked: boolean,
   taken: Place[],
 ): void {
-  const start = eye.project(arrow.at);
   const zero = norm(arrow.force) * sizes.force < NOTHING;
   const moment = arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : "";
   const words = `${arrow.label} ${num(zero ? 0 : norm(arrow.force), 3)} N${moment}`;
-  const size = LETTERS * colours.size;
-  const width = LETTER_WIDTH * size * words.length;
-  const right = tip[0] >= start[0] ? tip[0] + width + 10 < eye.width : tip[0] - width < 10;
-  const x = tip[0] + (right ? 10 : -10);
-  const away = tip[1] > start[1] ? 1 : -1;
-  const [lowest, highest] = [eye.height - 2.6 * size, 1.2 * size];
-  let y = Math.min(lowest, Math.max(highest, tip[1] + (away > 0 ? size : -6)));
-  const place = (): Place => (right ? [x, y - size, x + width, y + 4] : [x - width, y - size, x, y + 4]);
-  for (let tries = 0; tries < 6 && taken.some((other) => overlap(place(), other)); tries += 1)
-    y = Math.min(lowest, Math.max(highest, y + away * 1.15 * size));
-  taken.push(place());
-  pen.text([x, y], words, {
+  const small = Math.max(LEAST_LETTERS / LETTERS, Math.min(1, eye.height / SMALL_STAGE));
+  const size = LETTERS * colours.size * small;
+  const named = { start: eye.project(arrow.at), tip, words: [words, arrow.label], size };
+  const found = freeLabel(named, eye, taken);
+  // The value of the joint that is looked at is seen whatever stands there.
+  const label = found ?? (marked ? labelAt(words, "start", [GAP, 1.2 * size], size) : undefined);
+  if (!label) return;
+  taken.push(label.place);
+  pen.text(label.at, label.words, {
     fill: colours.force[arrow.kind],
     size,
-    anchor: right ? "start" : "end",
+    anchor: label.anchor,
     halo: colours.paper,
   });
 }
-
-const overlap = (a: Place, b: Place): boolean => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 
 /** A bar as long as the arrow of the force that it names. */
 function drawScale(pen: Pen, eye: Eye, sizes: Sizes, colours: Palette): void {

@@ -9,11 +9,16 @@ import { Session } from "../session/session";
 import { restore, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
 import { takeAlongButton } from "../share/dialog";
+import { motionOf } from "../share/motion";
 import { Stage } from "../stage/stage";
 import { type Action, acting } from "./acting";
 import { placeMenu } from "./place-menu";
 import { trouble } from "./run-problems";
 import { Transport } from "./transport";
+
+/** A slide's picture: pixels for each of the stage's, and how well it is kept. */
+const THUMBNAIL = 0.25;
+const THUMBNAIL_QUALITY = 0.7;
 
 export interface WorkbenchOptions {
   source: SessionSource;
@@ -51,7 +56,14 @@ export function mountWorkbench(
   const details = inspector(session, options.seen?.panel);
   const shared = { session, panel: details.current, picture: () => picture.current(), own: options.own };
   const lecture =
-    session.controls && !session.here ? new PresenterPanel(session, () => viewOf(shared)) : undefined;
+    session.controls && !session.here
+      ? new PresenterPanel(session, {
+          seen: () => viewOf(shared),
+          picture: () => picture.drawing.canvas(THUMBNAIL).toDataURL("image/webp", THUMBNAIL_QUALITY),
+          motion: () => motionOf(session, options.scene),
+          replay: (taped) => void import("../share/lecture-dialog").then((made) => made.lectureDialog(taped)),
+        })
+      : undefined;
   const more = h(
     "span",
     { class: "row tight" },

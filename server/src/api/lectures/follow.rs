@@ -3,7 +3,8 @@
 //! Text messages are JSON: `{"type":"room",…}` when the presenter shows or asks something else, `{"type":"state",…}` at
 //! most ten times a second, `{"type":"reset"}` when a run begins (its motion so far must be forgotten),
 //! `{"type":"closed"}` at the end. Binary messages are those of a session's stream: numbers for a drawing, or
-//! RRD blocks with `?recording=true`. A follower that is slow misses states, never the newest one, and reads the recording on from
+//! RRD blocks with `?recording=true`. A follower may send `{"roaming":true,"hand":true}`, which counts until it says something
+//! else or leaves. A follower that is slow misses states, never the newest one, and reads the recording on from
 //! where it is.
 
 use axum::extract::ws::{CloseFrame, Message};
@@ -17,10 +18,13 @@ use crate::api::describe::{PROBLEM, Schemas};
 use crate::api::extract::{PathParameters, QueryParameters};
 use crate::api::sessions::stream::{Disconnected, PING_INTERVAL, ViewerSocket, upgrade};
 use crate::app::App;
-use crate::lecture::{Follower, LectureMessage, LiveView};
+use crate::lecture::{Follower, LectureMessage, LiveView, Presence};
 use crate::problem::Problem;
 use crate::session::{StreamWish, Watched};
 use crate::stream::{Delivery, Watcher};
+
+/// Longest text that a follower may send, bytes: two words that are true or false.
+const MAX_TOLD: usize = 100;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LectureMessage<'_>>();
@@ -66,7 +70,12 @@ async fn follow_on(
     loop {
         tokio::select! {
             received = viewer.socket.recv() => match received {
-                // Messages of followers are ignored.
+                // What else followers say is ignored.
+                Some(Ok(Message::Text(text))) => {
+                    if let Some(presence) = told(&text) {
+                        follower.tell(presence);
+                    }
+                }
                 Some(Ok(message)) if !matches!(message, Message::Close(_)) => {}
                 _ => return Ok(()),
             },
@@ -110,6 +119,14 @@ async fn follow_on(
             _ = ping.tick() => viewer.send(Message::Ping(axum::body::Bytes::new())).await?,
         }
     }
+}
+
+/// What a follower lets the presenter know.
+fn told(text: &str) -> Option<Presence> {
+    if text.len() > MAX_TOLD {
+        return None;
+    }
+    serde_json::from_str(text).ok()
 }
 
 /// What comes next in the recording; waits for ever where none is watched.

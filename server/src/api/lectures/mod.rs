@@ -1,5 +1,6 @@
 //! Lectures: open, join, show, ask, answer, reveal, close.
 
+mod audience;
 pub(in crate::api) mod follow;
 
 use std::sync::Arc;
@@ -37,12 +38,14 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.request::<NewQuestion>();
     schemas.request::<Vote>();
     OpenApiRouter::new()
+        .merge(audience::routes(schemas))
         .routes(routes!(open))
         .routes(routes!(public_state, close))
         .routes(routes!(show))
         .routes(routes!(presenter_state))
         .routes(routes!(ask, forget))
         .routes(routes!(reveal))
+        .routes(routes!(ask_again))
         .routes(routes!(answer))
         .routes(routes!(scene))
         .routes(routes!(jacobian))
@@ -193,6 +196,20 @@ async fn reveal(
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     as_presenter(&app, &code, &headers)?.reveal()?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Ask the same question again: the counts so far are kept beside the new ones. For the presenter.
+#[utoipa::path(post, path = "/rooms/{code}/second-vote", operation_id = "ask_question_again", tag = "rooms", params(("code" = String, Path)), responses(
+    (status = 204, description = "It takes answers again"),
+    (status = 403, description = "The key is missing or wrong", body = ref(PROBLEM)),
+    (status = 409, description = "No question is asked", body = ref(PROBLEM))))]
+async fn ask_again(
+    State(app): State<App>,
+    PathParameters(code): PathParameters<String>,
+    headers: HeaderMap,
+) -> Result<StatusCode, Problem> {
+    as_presenter(&app, &code, &headers)?.ask_again()?;
     Ok(StatusCode::NO_CONTENT)
 }
 

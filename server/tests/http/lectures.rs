@@ -1,0 +1,133 @@
+//! A lecture's votes, and what followers ask.
+
+use axum::Router;
+use axum::body::Body;
+use axum::http::Request;
+use serde_json::{Value, json};
+use triad::limits::Limits;
+use triad::live::{self, Which};
+
+use crate::{Reply, get, post, send, server, state};
+
+/// A room with its presenter's key.
+struct Room {
+    path: String,
+    key: String,
+}
+
+impl Room {
+    async fn open(server: &Router) -> Self {
+        let begun = post(server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
+        let room = post(server, "/api/v1/rooms", json!({"session": begun["id"]})).await.json();
+        let text = |member: &str| room[member].as_str().expect("text").to_owned();
+        Self { path: format!("/api/v1/rooms/{}", text("code")), key: text("key") }
+    }
+
+    async fn lead(&self, server: &Router, method: &str, what: &str, body: Value) -> Reply {
+        let request = Request::builder().method(method).uri(format!("{}{what}", self.path));
+        let request = request
+            .header("authorization", format!("Bearer {}", self.key))
+            .header("content-type", "application/json");
+        send(server, request.body(Body::from(body.to_string())).expect("a request")).await
+    }
+
+    /// Everybody answers the question that is asked.
+    async fn vote(&self, server: &Router, choices: &[usize]) {
+        let number = get(server, &self.path).await.json()["question"]["number"].clone();
+        for (k, choice) in choices.iter().enumerate() {
+            let vote = json!({"question": number, "voter": format!("v{k}"), "choice": choice});
+            assert_eq!(post(server, &format!("{}/answers", self.path), vote).await.status, 204);
+        }
+    }
+
+    async fn ask(&self, server: &Router, voter: &str, text: &str) -> Reply {
+        post(server, &format!("{}/remarks", self.path), json!({"text": text, "voter": voter})).await
+    }
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_second_vote_stands_beside_the_first_and_both_are_hidden_until_the_reveal() {
+    let server = server();
+    let room = Room::open(&server).await;
+    assert_eq!(room.lead(&server, "POST", "/second-vote", json!({})).await.status, 409, "nothing is asked");
+    let question = json!({"text": "Which way?", "choices": ["up", "down"], "right": 0});
+    assert_eq!(room.lead(&server, "PUT", "/question", question).await.status, 204);
+    room.vote(&server, &[0, 1, 1]).await;
+    assert_eq!(room.lead(&server, "POST", "/second-vote", json!({})).await.status, 204);
+    let asked = get(&server, &room.path).await.json()["question"].clone();
+    assert_eq!((&asked["number"], &asked["again"]), (&json!(2), &json!(true)));
+    assert_eq!(asked.get("result"), None, "neither vote is told");
+    assert_eq!(
+        post(&server, &format!("{}/answers", room.path), json!({"question": 1, "voter": "v0", "choice": 1}))
+            .await
+            .status,
+        409,
+        "the first vote is over"
+    );
+    room.vote(&server, &[0, 0, 1]).await;
+    let desk = room.lead(&server, "GET", "/desk", Value::Null).await.json();
+    assert_eq!((&desk["tally"]["counts"], &desk["tally"]["before"]), (&json!([2, 1]), &json!([1, 2])));
+    assert_eq!(desk["question"]["text"], "Which way?");
+    assert_eq!(room.lead(&server, "POST", "/reveal", json!({})).await.status, 204);
+    assert_eq!(
+        get(&server, &room.path).await.json()["question"]["result"],
+        json!({"number": 2, "counts": [2, 1], "before": [1, 2], "right": 0, "revealed": true})
+    );
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_question_from_the_hall_is_seen_by_the_presenter_first_and_bounded() {
+    let server = server();
+    let room = Room::open(&server).await;
+    assert_eq!(room.ask(&server, "a", "Why is the multiplier negative?").await.status, 204);
+    let soon = room.ask(&server, "a", "And here?").await;
+    assert_eq!((soon.status.as_u16(), &soon.json()["code"]), (429, &json!("remark-too-soon")));
+    let long = room.ask(&server, "b", &"x".repeat(301)).await;
+    assert_eq!((long.status.as_u16(), &long.json()["code"]), (422, &json!("invalid-remark")));
+    // Nobody but the presenter knows of it, and nobody learns who asked.
+    let public = get(&server, &room.path).await;
+    assert!(!public.json().to_string().contains("multiplier"));
+    let desk = room.lead(&server, "GET", "/desk", Value::Null).await.json();
+    let waits = json!([{"number": 1, "text": "Why is the multiplier negative?", "shown": false}]);
+    assert_eq!(desk["remarks"], waits);
+    for (method, what) in [("PUT", "/remarks/1"), ("DELETE", "/remarks/1"), ("DELETE", "/hands")] {
+        let request = Request::builder().method(method).uri(format!("{}{what}", room.path));
+        let request = request.header("content-type", "application/json");
+        let body = Body::from(json!({"shown": true}).to_string());
+        let reply = send(&server, request.body(body).expect("a request")).await;
+        assert_eq!(reply.status, 403, "{method} {what} without the key");
+    }
+    assert_eq!(room.lead(&server, "PUT", "/remarks/1", json!({"shown": true})).await.status, 204);
+    assert_eq!(get(&server, &room.path).await.json()["remark"]["text"], "Why is the multiplier negative?");
+    assert_eq!(room.lead(&server, "PUT", "/remarks/2", json!({"shown": true})).await.status, 404);
+    assert_eq!(room.lead(&server, "DELETE", "/remarks/1", json!({})).await.status, 204);
+    assert_eq!(get(&server, &room.path).await.json()["remark"], Value::Null);
+}
+
+/// The server is restarted between a vote and its reveal: nobody has to vote again, and no question is lost.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn votes_and_questions_outlive_a_restart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("grades.db.live");
+    let first = state(Limits::default());
+    let server = triad::app(first.clone());
+    let room = Room::open(&server).await;
+    let question = json!({"text": "Which way?", "choices": ["up", "down"], "right": 0});
+    assert_eq!(room.lead(&server, "PUT", "/question", question).await.status, 204);
+    room.vote(&server, &[1, 1]).await;
+    assert_eq!(room.lead(&server, "POST", "/second-vote", json!({})).await.status, 204);
+    room.vote(&server, &[0, 1]).await;
+    assert_eq!(room.ask(&server, "a", "Why?").await.status, 204);
+    let before = room.lead(&server, "GET", "/desk", Value::Null).await.json();
+    live::keep(&file, &first.sessions, &first.lectures, Which::All).await.expect("writes");
+
+    let second = state(Limits::default());
+    assert_eq!(live::bring_back(&file, &second.sessions, &second.lectures, &second.limits), 1);
+    let server = triad::app(second);
+    assert_eq!(room.lead(&server, "GET", "/desk", Value::Null).await.json(), before);
+    // Who has voted may still change their mind, and does not count twice.
+    room.vote(&server, &[0, 0]).await;
+    assert_eq!(room.lead(&server, "POST", "/reveal", json!({})).await.status, 204);
+    let result = get(&server, &room.path).await.json()["question"]["result"].clone();
+    assert_eq!((&result["counts"], &result["before"]), (&json!([2, 0]), &json!([0, 2])));
+}

@@ -1,0 +1,47 @@
+// How to join a lecture, over the whole screen.
+
+import { addressOf } from "../core/address";
+import { h } from "../core/dom";
+import { parts, t } from "../core/texts";
+import { dialog } from "../ui/dialog";
+
+/** Shows the code in type that is read from the back of a lecture hall, and the address as a picture for phones. */
+export async function invite(room: string): Promise<void> {
+  const { qr } = await import("./qr");
+  const address = new URL(addressOf(`/room/${room}`), location.href).href;
+  const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
+  const box = dialog(
+    t("Join this lecture"),
+    h(
+      "div",
+      { class: "invite" },
+      qr(address),
+      h(
+        "div",
+        { class: "stack" },
+        h(
+          "p",
+          null,
+          ...parts("Open {address} and type", {
+            address: h(
+              "b",
+              null,
+              new URL(addressOf("/room"), location.href).href.replace(/^https?:\/\//, ""),
+            ),
+          }),
+        ),
+        h("p", { class: "invite-code" }, room),
+        here
+          ? h(
+              "p",
+              { class: "notice is-note" },
+              t(
+                "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.",
+              ),
+            )
+          : null,
+      ),
+    ),
+  );
+  box.classList.add("is-wide");
+}
