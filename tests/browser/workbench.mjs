@@ -298,7 +298,12 @@ async function editing() {
   await page.getByRole("button", { name: "Write “mass” in place of “masss”" }).click();
   assert.match(await area.inputValue(), /"mass": 2/);
   await page.getByText("This scene can run.").waitFor();
-  say("a robot imported, completion, freedoms while typing, an error at its place, and what was meant");
+  // What stands in the editor is handed in without the detour by the disk.
+  const written = await area.inputValue();
+  await page.goto(`${address}/lessons/slider-crank`);
+  await page.getByRole("button", { name: "Hand in my own scene from the editor" }).click();
+  assert.equal(await page.locator(".answer.is-file textarea").last().inputValue(), written);
+  say("a robot imported, completion, freedoms while typing, an error at its place, what was meant, and the scene handed in");
   await page.context().close();
 }
 

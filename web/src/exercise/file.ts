@@ -3,8 +3,8 @@
 import { api } from "../api/client";
 import type { Answer, Question } from "../api/types";
 import { announce, h } from "../core/dom";
+import { recall } from "../core/prefs";
 import { t } from "../core/texts";
-
 import { icon } from "../ui/icons";
 import type { Inputs, QuestionContext } from "./field";
 
@@ -72,12 +72,32 @@ class FileInput {
       "div",
       { class: "answer is-file" },
       ...handouts(question, context),
-      h("div", { class: "file-pick" }, this.pick, this.clear),
+      h("div", { class: "file-pick" }, this.pick, ...this.editorScenes(question, context), this.clear),
       this.text,
       this.status,
     );
     this.listen();
     this.showStatus();
+  }
+
+  /** What stands in this browser's editors goes into the field without the detour by the disk. */
+  private editorScenes(question: Question, { slug }: QuestionContext): HTMLElement[] {
+    if (question.kind !== "model") return [];
+    const kept = [
+      [t("Hand in my own scene from the editor"), recall("scene-draft")],
+      [t("Hand in this lesson’s scene as I changed it"), recall(`scene-draft:${slug}`)],
+    ] as const;
+    return kept.flatMap(([label, text]) =>
+      text
+        ? [
+            h(
+              "button",
+              { type: "button", class: "button small", onclick: () => this.fill(text, t("a scene")) },
+              label,
+            ),
+          ]
+        : [],
+    );
   }
 
   answer(): Answer {
@@ -127,10 +147,14 @@ class FileInput {
       });
       return;
     }
-    this.text.value = await file.text();
-    announce(t("{name} is in the field.", { name: file.name }));
+    this.fill(await file.text(), file.name);
+  }
+
+  private fill(text: string, name: string): void {
+    this.text.value = text;
+    announce(t("{name} is in the field.", { name }));
     this.text.dispatchEvent(new Event("input", { bubbles: true }));
-    this.showStatus(file.name);
+    this.showStatus(name);
   }
 
   private empty(): void {

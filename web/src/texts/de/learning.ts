@@ -186,6 +186,9 @@ export const learning = {
   "Save the lecture (HTML)": "Die Vorlesung sichern (HTML)",
   "What was shown and asked, without sound; long pauses are shortened. The file needs no server and no network.":
     "Was gezeigt und gefragt wurde, ohne Ton; lange Pausen sind gekürzt. Die Datei braucht keinen Server und kein Netz.",
+  "Hand in my own scene from the editor": "Meine eigene Szene aus dem Editor abgeben",
+  "Hand in this lesson’s scene as I changed it":
+    "Die Szene dieser Lektion, wie ich sie geändert habe, abgeben",
   "Raise a hand": "Hand heben",
   "Your hand is raised": "Deine Hand ist gehoben",
   "Your hand is raised; the presenter sees how many are.":
