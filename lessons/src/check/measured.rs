@@ -8,11 +8,15 @@ use thiserror::Error;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
+use super::again::value_at;
 use super::findings::Findings;
 use crate::answers::tolerance::{distance, norm};
-use crate::exercise::QuestionBody;
+use crate::exercise::{Formula, QuestionBody, named};
 use crate::files::MeasuredFile;
 use crate::scenario::measure::{MAX_STEPS, MeasureError, estimated_error, measure};
+
+/// How well a formula agrees with the scene, relative: a tenth of what the tightest question about numbers asks.
+const FORMULA: f64 = 1e-4;
 
 /// Reads the scenario, runs it as far as the questions ask, and compares.
 pub(super) fn scene(found: &mut Findings) {
@@ -52,8 +56,12 @@ pub(super) fn scene(found: &mut Findings) {
 enum Disagreement {
     #[error(transparent)]
     Measure(#[from] MeasureError),
-    #[error("only numbers and vectors can be measured")]
+    #[error("only numbers, vectors and formulas can be measured")]
     NoQuantity,
+    #[error(
+        "what its symbols stand for in the scene is not said; write scene = {{ m = \"/bodies/0/mass\" }} for each"
+    )]
+    NoSymbols,
     #[error("what is measured has another size; say component = \"x\" or \"size\"")]
     Size,
     #[error(
@@ -68,8 +76,10 @@ enum Disagreement {
 
 /// Compares what was measured, in SI units with an error, with the reference.
 fn compare(found: &Findings, id: &str, value: &[f64], error: f64) -> Result<(), Disagreement> {
-    let Some(QuestionBody::Quantity(quantity)) = found.lesson.question(id).map(|q| &q.body) else {
-        return Err(Disagreement::NoQuantity);
+    let quantity = match found.lesson.question(id).map(|q| &q.body) {
+        Some(QuestionBody::Quantity(quantity)) => quantity,
+        Some(QuestionBody::Formula(formula)) => return compare_formula(found, id, formula, value, error),
+        _ => return Err(Disagreement::NoQuantity),
     };
     let value: Vec<f64> = value.iter().map(|x| x / quantity.unit.factor).collect();
     if value.len() != quantity.reference.len() {
@@ -80,6 +90,29 @@ fn compare(found: &Findings, id: &str, value: &[f64], error: f64) -> Result<(), 
     let error = error / quantity.unit.factor;
     if difference > allowed {
         Err(Disagreement::Value { value, allowed, difference })
+    } else if error > allowed {
+        Err(Disagreement::Uncertain { error, allowed })
+    } else {
+        Ok(())
+    }
+}
+
+/// The same of a formula, with the scene's own numbers in the place of its symbols.
+fn compare_formula(
+    found: &Findings,
+    id: &str,
+    formula: &Formula,
+    value: &[f64],
+    error: f64,
+) -> Result<(), Disagreement> {
+    let lesson = found.lesson;
+    let [value] = value else { return Err(Disagreement::Size) };
+    let places = lesson.sources.references.get(id).map(|reference| &reference.scene);
+    let at = places.and_then(|places| named::numbers(places, &lesson.scene, &lesson.parameters).ok());
+    let expected = at.and_then(|at| value_at(formula, &at)).ok_or(Disagreement::NoSymbols)?;
+    let (difference, allowed) = ((value - expected).abs(), FORMULA * expected.abs());
+    if difference > allowed {
+        Err(Disagreement::Value { value: vec![*value], allowed, difference })
     } else if error > allowed {
         Err(Disagreement::Uncertain { error, allowed })
     } else {

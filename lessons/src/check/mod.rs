@@ -13,6 +13,7 @@ mod question;
 mod references;
 mod tasks;
 mod texts;
+mod tied;
 mod variants;
 
 use std::num::NonZero;
@@ -80,6 +81,7 @@ pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
     texts::unfinished(&mut found);
     measured::scene(&mut found);
     again::all(&mut found);
+    tied::all(&mut found);
     predictions::written(course, &mut found);
     predictions::happen(&mut found);
     for question in &lesson.exercise.questions {

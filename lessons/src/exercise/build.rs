@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::context::{BuildContext, BuildError, QuestionError, build_error, refuse};
 use super::question::{Exercise, QuantityQuestion, Question, QuestionBody};
-use super::{closed, diagram, explanation, pools, quantity, tasks};
+use super::{closed, diagram, explanation, named, pools, quantity, tasks};
 use crate::answers::tolerance::ValueShape;
 use crate::files::{ExerciseFile, QuestionFile, QuestionKind, ReferenceFile, earlier_value};
 
@@ -66,10 +66,11 @@ fn reference_of(
 }
 
 fn build_question(
-    question: QuestionFile,
-    reference: ReferenceFile,
+    mut question: QuestionFile,
+    mut reference: ReferenceFile,
     context: &BuildContext,
 ) -> Result<Question, BuildError> {
+    named::put(&mut question, &mut reference, context.scene, context.parameters)?;
     let body = match question.kind {
         QuestionKind::Number => quantity::quantity(&question, &reference, ValueShape::Number, context),
         QuestionKind::Vector => quantity::quantity(&question, &reference, ValueShape::Vector, context),

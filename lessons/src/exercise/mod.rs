@@ -8,6 +8,7 @@ pub(crate) mod cut;
 pub mod derivation;
 mod diagram;
 mod explanation;
+pub(crate) mod named;
 pub mod parameters;
 mod pools;
 mod quantity;

@@ -30,6 +30,13 @@ pub struct ReferenceFile {
     /// Where the scenario shows the same value; the check runs the scene and compares.
     #[serde(default)]
     pub measured: Option<MeasuredFile>,
+    /// Numbers of the scene that the expressions of this question name, as `g = "-/gravity/1"`; of a formula, what its symbols
+    /// stand for in the scene: pointers into `scene.json`, or expressions in the parameters.
+    #[serde(default)]
+    pub scene: BTreeMap<String, String>,
+    /// Whether it speaks of another thing than the scene: its numbers may be those of the scene by chance.
+    #[serde(default)]
+    pub apart: bool,
     /// The same from another computation, where the scenario does not show it.
     #[serde(default)]
     pub again: Option<AgainFile>,
@@ -41,6 +48,9 @@ pub struct ReferenceFile {
 pub struct AgainFile {
     /// With the default numbers, in the question's unit.
     pub value: TypedValue,
+    /// The numbers of a formula's symbols.
+    #[serde(default)]
+    pub at: BTreeMap<String, f64>,
     /// By what: not the expression of `value` once more.
     pub by: String,
 }

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::course;
+use crate::answers::tolerance::ValueShape;
 use crate::answers::{Answer, RunSettings, TypedValue};
 use crate::check::guessing::{can_be_guessed, lengths};
-use crate::exercise::{Question, QuestionBody};
+use crate::exercise::{Question, QuestionBody, numbers};
+use crate::files::earlier_value;
 use crate::random::SeededRandom;
 use crate::{Lesson, Mark, Submission, grade, reference_submission};
 
@@ -54,6 +56,42 @@ fn guessing_passes_no_lesson_not_even_with_luck_in_everything() {
         assert!(!passed && best <= all + 1e-9, "{}: {all}", lesson.slug);
         assert!(mean < 0.2, "{}: guessing earns {mean} on average", lesson.slug);
     }
+}
+
+/// Whoever writes zero first and what follows from it, zero, has not made a step.
+#[test]
+fn nothing_is_carried_forward_from_zero() {
+    let typed = |values: &[f64], shape: ValueShape| match shape {
+        ValueShape::Number => TypedValue::Text(format!("{:e}", values[0])),
+        _ => TypedValue::List(values.iter().map(|x| TypedValue::Text(format!("{x:e}"))).collect()),
+    };
+    let mut seen = 0;
+    for lesson in course().lessons() {
+        for question in &lesson.exercise.questions {
+            let QuestionBody::Quantity(q) = &question.body else { continue };
+            let Some(follows) = &q.follows else { continue };
+            let mut own = lesson.parameters.clone();
+            let mut answers = BTreeMap::new();
+            for (symbol, from) in &follows.from {
+                let (id, _) = earlier_value(from);
+                let QuestionBody::Quantity(earlier) = &lesson.question(id).unwrap().body else { continue };
+                let value = typed(&vec![0.0; earlier.reference.len()], earlier.shape);
+                let unit = Some(earlier.unit.text().to_owned());
+                answers.insert(id.to_owned(), Answer { value: Some(value), unit, ..Answer::default() });
+                own.add(symbol, 0.0);
+            }
+            // Also what does not vanish with it, as a weight that is added.
+            let Ok(carried) = numbers(&follows.value, q.shape, &own) else { continue };
+            let unit = Some(q.unit.text().to_owned());
+            let answer = Answer { value: Some(typed(&carried.values, q.shape)), unit, ..Answer::default() };
+            answers.insert(question.id.clone(), answer);
+            let verdict = grade(lesson, &Submission { answers, ..Submission::default() }).unwrap();
+            let judged = verdict.questions.iter().find(|one| one.id == question.id).unwrap();
+            assert_eq!(judged.earned, 0.0, "{} {}: {judged:?}", lesson.slug, question.id);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 5, "{seen} questions carry something on");
 }
 
 #[test]

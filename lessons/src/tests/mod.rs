@@ -158,30 +158,36 @@ fn the_public_view_holds_no_answer() {
     }
 }
 
-/// The course as files, so that a test can break one of them.
+/// Lesson 2 as a course of its own, with one of its files broken: what the check finds.
 fn broken(path: &str, from: &str, to: &str) -> Result<Vec<String>, String> {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("course/02-simple-pendulum");
+    broken_in("02-simple-pendulum", path, from, to)
+}
+
+/// The same of any lesson.
+fn broken_in(lesson: &str, path: &str, from: &str, to: &str) -> Result<Vec<String>, String> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("course").join(lesson);
     let mut files = Files::new();
-    let mut add = |name: String| {
-        files.insert(format!("02-simple-pendulum/{name}"), std::fs::read(folder.join(&name)).unwrap());
-    };
-    for name in ["lesson.toml", "lesson.md", "scene.json", "exercise.toml", "reference/answers.toml"] {
-        add(name.to_owned());
-    }
-    for sub in ["wrong", "figures"] {
-        for entry in std::fs::read_dir(folder.join(sub)).unwrap() {
-            add(format!("{sub}/{}", entry.unwrap().file_name().to_string_lossy()));
-        }
-    }
+    add_files(&mut files, &folder, lesson);
     files.insert("course.toml".to_owned(), b"format_version = 1\ntitle = \"x\"\n".to_vec());
-    let key = format!("02-simple-pendulum/{path}");
+    let key = format!("{lesson}/{path}");
     let text = files.get(&key).map(|b| String::from_utf8_lossy(b).into_owned()).unwrap_or_default();
     assert!(from.is_empty() || text.contains(from), "{path} does not contain {from}");
     let text = if from.is_empty() { to.to_owned() } else { text.replacen(from, to, 1) };
     files.insert(key, text.into_bytes());
     let course = Course::from_files(files).map_err(|e| e.to_string())?;
-    let lesson = course.lesson("simple-pendulum").unwrap();
-    Ok(check_lesson(&course, lesson).iter().map(ToString::to_string).collect())
+    Ok(check_lesson(&course, &course.lessons()[0]).iter().map(ToString::to_string).collect())
+}
+
+/// All files of a folder, by their places below it.
+fn add_files(files: &mut Files, folder: &std::path::Path, place: &str) {
+    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let place = format!("{place}/{}", entry.file_name().to_string_lossy());
+        if entry.path().is_dir() {
+            add_files(files, &entry.path(), &place);
+        } else {
+            files.insert(place, std::fs::read(entry.path()).unwrap());
+        }
+    }
 }
 
 #[test]
@@ -245,6 +251,42 @@ fn findings_of_the_check_name_place_and_remedy() {
         let problems = broken(path, from, to).unwrap_or_else(|e| panic!("{path}: {e}"));
         assert!(problems.iter().any(|p| p.contains(says)), "{path} {to}: {problems:#?}");
     }
+}
+
+/// Nobody edits a scene without the formulas that rest on it, nor a formula without the scene.
+#[test]
+fn references_are_tied_to_the_scene_or_computed_twice() {
+    let (pendulum, bar, box_) = ("02-simple-pendulum", "07-revolute-joint", "11-mass-matrix");
+    let answers = "reference/answers.toml";
+    for (lesson, path, from, to, says) in [
+        // The period is read from the scene: what was computed a second time no longer agrees.
+        (pendulum, "scene.json", "-9.81", "-9.80", "question period: its reference is [2.3"),
+        (pendulum, answers, "2.367842", "2.377842", "question period: its reference is [2.3678"),
+        (pendulum, answers, "again = {", "# again = {", "question period: nothing but its own expression"),
+        (pendulum, answers, "sqrt(L/g)", "sqrt(L/9.81)", "9.81 stands in its reference and at /gravity/1"),
+        (pendulum, answers, "sqrt(L/g)", "sqrt(L/9.81)", "names g and does not use it"),
+        // A formula with the numbers of the scene is what the run shows.
+        (
+            bar,
+            answers,
+            "sin(alpha)*cos(alpha)",
+            "2*sin(alpha)*cos(alpha)",
+            "question moment-formula: the scene shows",
+        ),
+        (bar, answers, "omega = \"/bodies/0/angular_velocity/2\", ", "", "what its symbols stand for"),
+        (box_, answers, "m*R^2/5", "m*R^2/4", "question ball: its reference gives"),
+        (box_, answers, "at = { m = 2, R = 0.3 }", "at = { m = 2 }", "does not say for which numbers"),
+        (box_, answers, "at = { m = 2, R", "at = { m = 2, r", "does not say for which numbers"),
+    ] {
+        let problems = broken_in(lesson, path, from, to).unwrap_or_else(|e| panic!("{path}: {e}"));
+        assert!(problems.iter().any(|p| p.contains(says)), "{path} {to}: {problems:#?}");
+    }
+    let apart = broken(answers, "scene = { g = \"-/gravity/1\" }", "apart = true").unwrap_err();
+    assert!(apart.contains("question period"), "{apart}");
+    let nowhere = broken(answers, "\"-/gravity/1\"", "\"/gravity/7\"").unwrap_err();
+    assert!(nowhere.contains("scene.json has no number for g at /gravity/7"), "{nowhere}");
+    let taken = broken(answers, "{ g = ", "{ m = \"/gravity/0\", g = ").unwrap_err();
+    assert!(taken.contains("scene names m, which is a parameter already"), "{taken}");
 }
 
 /// Authors write what they mean: the check calculates it with the numbers of the text.

@@ -16,5 +16,6 @@ pub use question::{ChoiceCount, DrawnNumber, GivenAnswer, MistakeAnswers, Questi
 pub use sheets::{answers_csv, figures_csv};
 pub use words::{
     AskedExplanation, AskedPrediction, ClassWords, StudentExplanation, StudentPrediction, StudentWords,
+    waiting,
 };
 pub use work::{Class, Try, Work};

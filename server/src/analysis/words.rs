@@ -1,6 +1,6 @@
 //! What a class said in words in a lesson: what everybody predicted, and what they explained, with what it was given.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -146,6 +146,19 @@ impl ClassWords {
         });
         Self { slug: lesson.slug.clone(), predictions: predictions.collect(), explanations, students }
     }
+}
+
+/// Whose explanations in a lesson wait for points.
+pub fn waiting(lesson: &Lesson, class: &Class, book: &Book) -> HashSet<String> {
+    let asked = lesson.exercise.questions.iter().filter(|question| question.is_judged_by_people());
+    let work = asked.flat_map(|question| {
+        class.questions.get(&question.id).into_iter().flatten().map(move |work| (question, work))
+    });
+    work.filter(|(question, work)| {
+        explained(question, work, book.of(&work.person, &lesson.slug)).is_some_and(|one| one.waits())
+    })
+    .map(|(_, work)| work.person.clone())
+    .collect()
 }
 
 fn student<'a>(

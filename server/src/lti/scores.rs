@@ -1,14 +1,19 @@
 //! Scores for the platform: what it should have follows from the gradebook, what it has is written down, and only what differs
 //! is sent. Nothing is sent of results that are held back.
 
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
+
 use axum::http::{HeaderMap, StatusCode, header};
 use serde::Deserialize;
 use serde_json::json;
+use triad_lessons::exercise::Question;
 use triad_lessons::{Course, Lesson};
 use url::Url;
 
 use super::services::{Asked, LINE_ITEM, SCORE, Unserved};
 use super::{Lti, choice, http::Answer};
+use crate::analysis::{Class, waiting};
 use crate::grades::{Book, possible};
 use crate::policy::{Moment, Phase};
 use crate::problem::Problem;
@@ -41,10 +46,39 @@ struct Score {
     submitted: Option<Moment>,
     /// Whether the student can do more about it.
     is_final: bool,
+    /// Whether an explanation waits for its points: these are not all yet.
+    waits: bool,
+}
+
+impl Score {
+    /// What is told, as one number: the share of the points, and below zero while more of them are to be given.
+    fn state(&self) -> f64 {
+        let share = self.points / self.possible;
+        if self.waits { -1.0 - share } else { share }
+    }
+}
+
+/// Whose explanations wait for points, by lesson; each lesson is read once in a round.
+#[derive(Default)]
+struct Unread(HashMap<String, HashSet<String>>);
+
+impl Unread {
+    async fn of(&mut self, store: &Store, lesson: &Lesson) -> Result<&HashSet<String>, Problem> {
+        let place = match self.0.entry(lesson.slug.clone()) {
+            Entry::Occupied(place) => return Ok(place.into_mut()),
+            Entry::Vacant(place) => place,
+        };
+        let mut found = HashSet::new();
+        if lesson.exercise.questions.iter().any(Question::is_judged_by_people) {
+            let class = Class::open(store, CLASS, &lesson.slug).await?;
+            found = waiting(lesson, &class, &Book::open(store, CLASS, None).await?);
+        }
+        Ok(place.insert(found))
+    }
 }
 
 /// What a platform may be told now; nothing where there is nothing yet, or it is held back.
-fn score(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<Score> {
+fn score(book: &Book, unread: &HashSet<String>, person: &str, lesson: &Lesson, now: Moment) -> Option<Score> {
     let possible = possible(lesson);
     book.of(person, &lesson.slug)?;
     let stands = book.standing(person, lesson, now);
@@ -59,6 +93,8 @@ fn score(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<Scor
         possible,
         submitted: stands.last,
         is_final: is_over || stands.turn.attempts_left == Some(0),
+        // Whoever decided about all points has decided about these.
+        waits: unread.contains(person) && stands.score.decided.is_none(),
     })
 }
 
@@ -66,7 +102,7 @@ fn score(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<Scor
 ///
 /// Errors if the gradebook fails.
 pub async fn plan(store: &Store, course: &Course, now: Moment) -> Result<(), Problem> {
-    let mut book = None;
+    let (mut book, mut unread) = (None, Unread::default());
     for platform in store.platforms(CLASS).await? {
         let mut wanted = Vec::new();
         for column in store.columns(&platform.id).await? {
@@ -78,9 +114,10 @@ pub async fn plan(store: &Store, course: &Course, now: Moment) -> Result<(), Pro
                 book = Some(Book::open(store, CLASS, None).await?);
             }
             let Some(book) = &book else { continue };
+            let unread = unread.of(store, lesson).await?;
             wanted.extend(people.into_iter().filter_map(|(_, person)| {
-                let score = score(book, &person, lesson, now)?;
-                Some(Wanted { column: column.clone(), person, share: score.points / score.possible })
+                let state = score(book, unread, &person, lesson, now)?.state();
+                Some(Wanted { column: column.clone(), person, state })
             }));
         }
         if !wanted.is_empty() {
@@ -183,10 +220,10 @@ impl Post<'_> {
 
     /// Sends what is due; how many were taken.
     async fn scores(&self) -> Result<usize, Problem> {
-        let mut taken = 0;
+        let (mut taken, mut unread) = (0, Unread::default());
         for _ in 0..ROUND {
             let Some(due) = self.store.claim_score(&self.platform.id, (self.clock)()).await? else { break };
-            let (told, refused) = self.tell(&due).await?;
+            let (told, refused) = self.tell(&due, &mut unread).await?;
             taken += usize::from(matches!(told, Told::Sent(_)));
             self.store.told(&self.platform.id, &due, &told).await?;
             match refused {
@@ -202,16 +239,21 @@ impl Post<'_> {
     }
 
     /// Tells the platform a score as it is now, not as it was when it was found to be due.
-    async fn tell(&self, due: &Due) -> Result<(Told, Option<Refused>), Problem> {
+    async fn tell(&self, due: &Due, unread: &mut Unread) -> Result<(Told, Option<Refused>), Problem> {
         let subject = self.store.subject_of(&self.platform.id, &due.column.context, &due.person).await?;
         let book = Book::open(self.store, CLASS, Some(&due.person)).await?;
-        let lesson = self.course.lesson(&due.column.lesson);
-        let score = lesson.and_then(|lesson| score(&book, &due.person, lesson, (self.clock)()));
+        let score = match self.course.lesson(&due.column.lesson) {
+            Some(lesson) => {
+                let unread = unread.of(self.store, lesson).await?;
+                score(&book, unread, &due.person, lesson, (self.clock)())
+            }
+            None => None,
+        };
         let (Some(subject), Some(score)) = (subject, score) else { return Ok((Told::Held, None)) };
         let mut body = json!({
             "userId": subject, "scoreGiven": score.points, "scoreMaximum": score.possible,
             "activityProgress": if score.is_final { "Completed" } else { "Submitted" },
-            "gradingProgress": "FullyGraded", "timestamp": due.stamp,
+            "gradingProgress": if score.waits { "PendingManual" } else { "FullyGraded" }, "timestamp": due.stamp,
         });
         if let Some(at) = score.submitted {
             // What comes late by the platform's own rule is judged by when it was handed in.
@@ -223,7 +265,7 @@ impl Post<'_> {
         let body = body.to_string();
         let asked = Asked { scope: SCORE, url: &url, media: SCORE_MEDIA, body: Some(&body) };
         Ok(match self.asked(asked).await {
-            Ok(_) => (Told::Sent(score.points / score.possible), None),
+            Ok(_) => (Told::Sent(score.state()), None),
             Err(refused) => self.refused(due, refused),
         })
     }

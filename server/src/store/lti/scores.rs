@@ -29,8 +29,8 @@ pub struct Wanted {
     pub column: Column,
     /// The person.
     pub person: String,
-    /// The share of the lesson's points.
-    pub share: f64,
+    /// What is told, as one number: another one where something else is told.
+    pub state: f64,
 }
 
 /// A score that is to be sent, taken by one who sends.
@@ -49,7 +49,7 @@ pub struct Due {
 /// What became of one that was to be sent.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Told {
-    /// The platform has this share.
+    /// The platform was told this, as [`Wanted::state`].
     Sent(f64),
     /// The results are held back: nothing is told.
     Held,
@@ -149,9 +149,9 @@ impl Store {
     /// Errors if it cannot be written.
     pub async fn want(&self, platform: &str, wanted: &[Wanted]) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
-        for Wanted { column, person, share } in wanted {
+        for Wanted { column, person, state } in wanted {
             let want = sqlx::query(sql::WANT).bind(platform).bind(&column.url).bind(person);
-            let want = want.bind(&column.context).bind(&column.lesson).bind(share);
+            let want = want.bind(&column.context).bind(&column.lesson).bind(state);
             want.execute(&mut *transaction).await?;
         }
         transaction.commit().await
@@ -188,7 +188,7 @@ impl Store {
         for statement in statements {
             let set = sqlx::query(*statement).bind(platform).bind(&due.column.url).bind(&due.person);
             let set = match told {
-                Told::Sent(share) => set.bind(share).bind(now()),
+                Told::Sent(state) => set.bind(state).bind(now()),
                 Told::Refused(not_before, why) => set.bind(not_before.0).bind(why),
                 Told::Held | Told::Untried => set,
             };

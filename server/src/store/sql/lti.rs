@@ -21,7 +21,8 @@ pub(in crate::store) const ADDED_6: &[&str] = &[
     "CREATE TABLE lti_person (platform TEXT NOT NULL, context TEXT NOT NULL, subject TEXT NOT NULL, \
      person TEXT NOT NULL REFERENCES person(id), role TEXT NOT NULL, PRIMARY KEY (platform, context, subject))",
     "CREATE INDEX lti_person_by_person ON lti_person (person)",
-    // What a column is to be told of a person, and what it was told last: `stamp` is the time that was told with it.
+    // What a column is to be told of a person, and what it was told last, each as one number; `stamp` is the time that was told
+    // with it.
     "CREATE TABLE lti_score (platform TEXT NOT NULL, url TEXT NOT NULL, person TEXT NOT NULL REFERENCES person(id), \
      context TEXT NOT NULL, slug TEXT NOT NULL, wanted DOUBLE PRECISION NOT NULL, sent DOUBLE PRECISION, \
      sent_at BIGINT, stamp BIGINT NOT NULL, tries BIGINT NOT NULL, not_before BIGINT NOT NULL, \
@@ -82,7 +83,7 @@ statements! {
     FORGET_SCORES = "DELETE FROM lti_score WHERE person = $1";
     SUBJECTS = "SELECT platform, subject FROM lti_person WHERE person = $1 ORDER BY platform, context";
 
-    // A share of the points that is not the one that was told last is due.
+    // What is not what was told last is due.
     WANT = "INSERT INTO lti_score (platform, url, person, context, slug, wanted, stamp, tries, not_before, lease_until, \
         problem) VALUES ($1, $2, $3, $4, $5, $6, 0, 0, 0, 0, '') ON CONFLICT (platform, url, person) DO UPDATE SET \
         wanted = $6, tries = 0, not_before = 0, problem = '' WHERE lti_score.wanted <> $6";

@@ -118,6 +118,53 @@ async fn only_what_changed_is_sent_into_a_column_that_is_made_once() {
 }
 
 #[tokio::test]
+async fn while_an_explanation_waits_for_points_the_platform_is_told_so() {
+    const EXPLAINED: &str = "virtual-work";
+    let lesson = lesson().await;
+    let links = |word: &mut Value| {
+        let target = word["https://purl.imsglobal.org/spec/lti/claim/target_link_uri"].take();
+        let elsewhere = target.as_str().expect("an address").replace(LESSON, EXPLAINED);
+        word["https://purl.imsglobal.org/spec/lti/claim/target_link_uri"] = json!(elsewhere);
+        word["https://purl.imsglobal.org/spec/lti/claim/custom"] = json!({"lesson": EXPLAINED});
+    };
+    assert_eq!(lesson.school.open_with("ada", "Learner", links).await.status, 303);
+    let submit = async |words: usize| {
+        let answers = json!({"in-words": {"value": "because ".repeat(words)}});
+        let path = format!("/api/v1/lessons/{EXPLAINED}/submissions");
+        let told =
+            lesson.school.class.ask("POST", &path, &lesson.ada, Some(json!({"answers": answers}))).await;
+        assert_eq!(told.status, 201);
+    };
+    let mark = async |question: Option<&str>, points: Value| {
+        let body = json!({"lesson": EXPLAINED, "question": question, "points": points, "reason": "read"});
+        let path = format!("/api/v1/people/{}/decisions", lesson.id);
+        assert_eq!(lesson.school.class.ask("POST", &path, &lesson.teacher, Some(body)).await.status, 201);
+    };
+    let last = async || {
+        assert_eq!(lesson.round(0).await, 1);
+        assert_eq!(lesson.round(0).await, 0, "it is told once");
+        lesson.seen(|seen| {
+            let (_, body) = seen.scores.last().expect("a score");
+            (body["gradingProgress"].as_str().expect("text").to_owned(), body["scoreGiven"].clone())
+        })
+    };
+    let told = |how: &str, points: f64| (how.to_owned(), json!(points));
+
+    submit(45).await;
+    assert_eq!(last().await, told("PendingManual", 0.0));
+    // No points are points, too: nothing but the state changes.
+    mark(Some("in-words"), json!(0)).await;
+    assert_eq!(last().await, told("FullyGraded", 0.0));
+    mark(Some("in-words"), json!(1.5)).await;
+    assert_eq!(last().await, told("FullyGraded", 1.5));
+    submit(60).await;
+    assert_eq!(last().await, told("PendingManual", 1.5), "other words wait once more");
+    // Whoever decides about all points has decided about these.
+    mark(None, json!(4)).await;
+    assert_eq!(last().await, told("FullyGraded", 4.0));
+}
+
+#[tokio::test]
 async fn two_scores_within_a_millisecond_have_growing_times() {
     let lesson = lesson().await;
     let app = &lesson.school.class.app;
