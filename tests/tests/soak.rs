@@ -195,7 +195,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     let [mut over, mut under] = [0.0; 2];
     for point in points {
         over += (point.0 - time) * (point.1 - value);
-        under += (point.0 - time).powi(2);
+        under += (point.0 - time) * (point.0 - time);
     }
     over / under
 }

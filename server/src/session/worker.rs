@@ -60,13 +60,14 @@ impl Worker {
             };
             match received {
                 Ok(command) => self.handle(command),
-                Err(RecvTimeoutError::Timeout) => match self.turns.now() {
-                    Some(turn) => self.tick(turn),
-                    None => {
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Some(turn) = self.turns.now() {
+                        self.tick(turn);
+                    } else {
                         self.in_line = true;
                         self.turns.stand_in_line(&self.runtime, Weak::clone(&self.commands));
                     }
-                },
+                }
                 Err(RecvTimeoutError::Disconnected) => return,
             }
         }
