@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use std::f64::consts::PI;
 use triad_engine::Scene;
 use triad_engine::run::{Simulation, Summary};
+use triad_engine::system::islands::has_loops;
 use triad_lab::verify::Verifier;
 use triad_scene::IntegratorKind::{self, Dop853, Dopri5, Ode45, Radau, Taylor, Trapezoidal};
 use triad_scene::{ConstraintMethod, catalogue};
@@ -209,6 +210,64 @@ fn a_stiff_method_passes_all_windows_at_every_tolerance() {
             assert!(found.len() == 10 && off < 1e-5 + 10.0 * tolerance, "{name} {tolerance:.0e}: {found:?}");
         }
     }
+}
+
+/// Passages of the flat positions of the windows by the motion that a run has computed, whether that is right or not: the times at
+/// which the first upright lies down, found between moments so far apart, and up to when they were looked for.
+fn lies_down(run: &mut Simulation, apart: f64) -> (Vec<f64>, f64) {
+    let mut times = Vec::new();
+    let (mut before, mut height) = (0.0, run.frame().bodies[0].position[1]);
+    while run.time() < run.duration() && run.advance_to((before + apart).min(run.duration())).is_ok() {
+        let (time, next) = (run.time(), run.frame().bodies[0].position[1]);
+        if next.signum() != height.signum() {
+            times.push(before + (time - before) * height / (height - next));
+        }
+        (before, height) = (time, next);
+    }
+    (times, before)
+}
+
+/// `TRIAD_PASSAGES=10` takes all ten tolerances, and many more steps. Mechanisms without loops are not searched.
+#[test]
+fn every_built_in_scene_passes_what_there_is_by_every_integrator() {
+    let all = std::env::var("TRIAD_PASSAGES").is_ok_and(|count| count == "10");
+    let (digits, most): (Vec<i32>, u64) =
+        if all { ((3..=12).collect(), 30_000) } else { (vec![3, 6, 10], 150) };
+    let parted = [Dop853, Radau].map(|kind| (kind, ConstraintMethod::Partitioning));
+    let kinds = [Taylor, Dop853, Dopri5, Ode45, Radau, IntegratorKind::Rattle];
+    let kinds: Vec<_> =
+        kinds.map(|kind| (kind, ConstraintMethod::Projection)).into_iter().chain(parted).collect();
+    let (mut wrong, mut runs, mut passed) = (Vec::new(), 0, 0);
+    for entry in catalogue::ENTRIES {
+        let windows = entry.name.starts_with("n-four-bar");
+        let mut scene = catalogue::scene(&entry.name.replace(":N", ":2")).unwrap();
+        scene.simulation.error_estimate = false;
+        if !has_loops(&Simulation::new(&scene).unwrap().system().model) {
+            continue;
+        }
+        for (digits, (kind, method)) in
+            digits.iter().flat_map(|digits| kinds.iter().map(move |k| (digits, *k)))
+        {
+            scene.simulation.constraint_method = method;
+            let mut run = run(&scene, kind, libm::pow(10.0, -f64::from(*digits)));
+            run.set_step_limit(most);
+            let (there, until) =
+                if windows { lies_down(&mut run, 0.02) } else { (Vec::new(), f64::INFINITY) };
+            let _ = run.advance_to(run.duration());
+            // The last step may have gone beyond the last moment that was looked at.
+            let mut found = run.singular_configurations();
+            found.retain(|found| found.time < until);
+            let off = found.iter().zip(&there).map(|(found, there)| (found.time - there).abs());
+            let off = off.fold(0.0, f64::max);
+            (runs, passed) = (runs + 1, passed + found.len());
+            if found.len() != there.len() || off > 1e-3 {
+                let found: Vec<f64> = found.iter().map(|found| found.time).collect();
+                wrong.push(format!("{} {kind:?} {method} 1e-{digits}: {there:?} but {found:?}", entry.name));
+            }
+        }
+    }
+    println!("{runs} runs, {passed} passages");
+    assert!(wrong.is_empty() && passed > 80, "{passed} passages\n{}", wrong.join("\n"));
 }
 
 #[test]
