@@ -78,7 +78,7 @@ fn written(text: &str, numbers: &BTreeMap<String, f64>) -> String {
         };
         let (word, after) = rest.split_at(end);
         match numbers.get(word) {
-            Some(value) if *value < 0.0 => out.push_str(&format!("({value})")),
+            Some(value) if *value < 0.0 => out.extend(["(", &value.to_string(), ")"]),
             Some(value) => out.push_str(&value.to_string()),
             None => out.push_str(word),
         }

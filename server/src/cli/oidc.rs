@@ -8,6 +8,7 @@ use crate::oidc::Provider;
 use crate::problem::Problem;
 
 #[derive(Debug, Args)]
+#[allow(clippy::struct_field_names, reason = "names of the flags")]
 pub(in crate::cli) struct Institution {
     /// Where an institution's sign-in says how it is asked (OpenID Connect), as https://login.school.example: who teaches may connect
     /// their account there and come back with it.
