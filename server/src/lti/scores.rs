@@ -63,7 +63,13 @@ impl Score {
 struct Unread(HashMap<String, HashSet<String>>);
 
 impl Unread {
-    async fn of(&mut self, store: &Store, lesson: &Lesson) -> Result<&HashSet<String>, Problem> {
+    /// Those of a lesson; `everybody` is the class's book where it was read already.
+    async fn of(
+        &mut self,
+        store: &Store,
+        lesson: &Lesson,
+        everybody: Option<&Book>,
+    ) -> Result<&HashSet<String>, Problem> {
         let place = match self.0.entry(lesson.slug.clone()) {
             Entry::Occupied(place) => return Ok(place.into_mut()),
             Entry::Vacant(place) => place,
@@ -71,7 +77,10 @@ impl Unread {
         let mut found = HashSet::new();
         if lesson.exercise.questions.iter().any(Question::is_judged_by_people) {
             let class = Class::open(store, CLASS, &lesson.slug).await?;
-            found = waiting(lesson, &class, &Book::open(store, CLASS, None).await?);
+            found = match everybody {
+                Some(book) => waiting(lesson, &class, book),
+                None => waiting(lesson, &class, &Book::open(store, CLASS, None).await?),
+            };
         }
         Ok(place.insert(found))
     }
@@ -114,7 +123,7 @@ pub async fn plan(store: &Store, course: &Course, now: Moment) -> Result<(), Pro
                 book = Some(Book::open(store, CLASS, None).await?);
             }
             let Some(book) = &book else { continue };
-            let unread = unread.of(store, lesson).await?;
+            let unread = unread.of(store, lesson, Some(book)).await?;
             wanted.extend(people.into_iter().filter_map(|(_, person)| {
                 let state = score(book, unread, &person, lesson, now)?.state();
                 Some(Wanted { column: column.clone(), person, state })
@@ -244,7 +253,7 @@ impl Post<'_> {
         let book = Book::open(self.store, CLASS, Some(&due.person)).await?;
         let score = match self.course.lesson(&due.column.lesson) {
             Some(lesson) => {
-                let unread = unread.of(self.store, lesson).await?;
+                let unread = unread.of(self.store, lesson, None).await?;
                 score(&book, unread, &due.person, lesson, (self.clock)())
             }
             None => None,

@@ -24,7 +24,7 @@ use crate::lti::ticket::{self, Ticket};
 use crate::lti::{Lti, address, verify};
 use crate::policy::Moment;
 use crate::store::hash::sha256;
-use crate::store::identifier;
+use crate::store::{identifier, secret};
 use refusal::Refusal;
 
 /// Our address to which the provider sends browsers back.
@@ -126,7 +126,7 @@ impl Oidc {
     /// Errors if the provider does not say where.
     pub async fn begin(&self, person: Option<String>, now: Moment) -> Result<Departure, Refusal> {
         let discovered = self.discovered(now).await?;
-        let secret = format!("{}{}", identifier(), identifier());
+        let secret = secret();
         let begun = Begun { nonce: identifier(), browser: sha256(&secret), person };
         let state = ticket::write(self.lti.secret(), &begun, now).ok_or(Refusal::State)?;
         let mut to = self.endpoint(&discovered.authorization_endpoint)?;

@@ -244,3 +244,8 @@ fn now() -> i64 {
 pub fn identifier() -> String {
     uuid::Uuid::new_v4().simple().to_string()
 }
+
+/// What nobody guesses: 244 random bits.
+pub fn secret() -> String {
+    format!("{}{}", identifier(), identifier())
+}

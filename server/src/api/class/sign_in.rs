@@ -19,7 +19,7 @@ use crate::api::guard::{Caller, Peer, session_token};
 use crate::app::App;
 use crate::blocking;
 use crate::problem::Problem;
-use crate::store::{CLASS, LIFE, Member, Return, identifier, names};
+use crate::store::{CLASS, LIFE, Member, Return, names, secret};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<Me>();
@@ -66,16 +66,12 @@ struct Institution {
 /// How a class looks to whom it looks at.
 async fn class_of(app: &App, member: Option<&Member>) -> Result<Me, Problem> {
     let course = app.store.course(CLASS).await?;
-    let institution = match (&app.oidc, member) {
-        (None, _) => None,
-        (Some(oidc), member) => {
-            let connected = match member {
-                Some(member) => app.store.has_account(&member.id).await?,
-                None => false,
-            };
-            Some(Institution { name: oidc.name().map(str::to_owned), connected })
-        }
+    let connected = match (&app.oidc, member) {
+        (Some(_), Some(member)) => app.store.has_account(&member.id).await?,
+        _ => false,
     };
+    let named = |name: Option<&str>| Institution { name: name.map(str::to_owned), connected };
+    let institution = app.oidc.as_ref().map(|oidc| named(oidc.name()));
     let person = member.map(Somebody::of);
     Ok(Me { mode: "class", course: Some(course.title), join_open: course.join_open, person, institution })
 }
@@ -267,8 +263,7 @@ pub(in crate::api) fn cookie(app: &App, token: &str, seconds: i64) -> Result<Hea
 pub(in crate::api) async fn way_back() -> Result<(String, Return), Problem> {
     blocking(|| {
         let words = phrase::generate()?;
-        // Two identifiers are 244 random bits.
-        let link = format!("{}{}", identifier(), identifier());
+        let link = secret();
         let phrase = phrase::hash(&words)?;
         Ok((words, Return { phrase, link }))
     })

@@ -16,7 +16,7 @@ use crate::lti::{Lti, platform};
 use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::hash::sha256;
-use crate::store::identifier;
+use crate::store::{identifier, secret};
 
 /// Longest hint of a platform, in bytes: it is handed back in an address.
 const LONGEST: usize = 8 << 10;
@@ -71,7 +71,7 @@ async fn begin(app: &App, headers: &HeaderMap, login: &Login) -> Result<Response
     if is_framed && !chooses {
         return Ok(in_a_window(lti, login));
     }
-    let browser = if is_framed { String::new() } else { format!("{}{}", identifier(), identifier()) };
+    let browser = if is_framed { String::new() } else { secret() };
     let begun = Begun {
         platform: platform.id.clone(),
         nonce: identifier(),
