@@ -23,8 +23,10 @@ pub struct Limits {
     pub idle: Duration,
     /// Wall-clock time that one request may keep the engine busy.
     pub command_time: Duration,
-    /// Bytes of a session's recording, encoded or waiting to be.
+    /// Bytes that are kept of what a session has passed: samples, states, and what is sent of them.
     pub recording_bytes: usize,
+    /// The same of all sessions together: where there may be many, each keeps less.
+    pub recordings_bytes: usize,
     /// A viewer that takes no data for this long is disconnected.
     pub stalled_viewer: Duration,
     /// What cannot be graded within this is graded later, where graders share the gradebook.
@@ -52,7 +54,8 @@ impl Default for Limits {
             request_bytes: 8 << 20,
             idle: Duration::from_mins(30),
             command_time: Duration::from_mins(1),
-            recording_bytes: 128 << 20,
+            recording_bytes: 16 << 20,
+            recordings_bytes: 1 << 30,
             stalled_viewer: Duration::from_secs(30),
             at_once: Duration::from_millis(300),
             submissions: 1000,
@@ -61,5 +64,12 @@ impl Default for Limits {
             lecture_idle: Duration::from_mins(30),
             lecture_life: Duration::from_hours(12),
         }
+    }
+}
+
+impl Limits {
+    /// Bytes that one session keeps of what it has passed, as far as they are given to `part` of sixteen.
+    pub(crate) fn kept_bytes(&self, part: usize) -> usize {
+        self.recording_bytes.min(self.recordings_bytes / self.sessions.max(1)) / 16 * part
     }
 }

@@ -49,6 +49,8 @@ pub struct Living {
     pub sessions: usize,
     /// Those of them that wait for their turn to go on.
     pub sessions_waiting: usize,
+    /// Bytes that are kept of what they have passed.
+    pub sessions_bytes: usize,
     /// Lectures.
     pub lectures: usize,
     /// Callers that wait for something to be computed.
@@ -67,6 +69,7 @@ pub struct Metrics {
     gradings: Durations<Graded>,
     sessions: Gauge,
     sessions_waiting: Gauge,
+    sessions_bytes: Gauge,
     lectures: Gauge,
     waiting: Gauge,
     queue: [Gauge; 2],
@@ -97,6 +100,7 @@ impl Default for Metrics {
         let sessions = gauge("sessions", "Live simulations");
         let sessions_waiting =
             gauge("sessions_waiting", "Live simulations that wait for their turn to go on");
+        let sessions_bytes = gauge("sessions_bytes", "Bytes kept of what live simulations have passed");
         let lectures = gauge("lectures", "Lectures");
         let waiting = gauge("waiting", "Callers that wait for something to be computed");
         let queue = [
@@ -115,6 +119,7 @@ impl Default for Metrics {
             gradings,
             sessions,
             sessions_waiting,
+            sessions_bytes,
             lectures,
             waiting,
             queue,
@@ -148,6 +153,7 @@ impl Metrics {
         let count = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
         self.sessions.set(count(living.sessions));
         self.sessions_waiting.set(count(living.sessions_waiting));
+        self.sessions_bytes.set(count(living.sessions_bytes));
         self.lectures.set(count(living.lectures));
         self.waiting.set(count(living.waiting));
         self.queue[0].set(living.queue.0);

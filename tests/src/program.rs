@@ -230,6 +230,25 @@ impl Server {
     }
 }
 
+/// What a server says at its admin address, which has a port of its own: its log of JSON lines names it.
+pub fn admin(log: &Path, path: &str) -> Reply {
+    let text = std::fs::read_to_string(log).unwrap();
+    let at = text
+        .lines()
+        .find_map(|line| serde_json::from_str::<Value>(line).ok()?["admin"].as_str().map(str::to_owned));
+    ask(&at.unwrap(), path, "")
+}
+
+/// Gets a path of an address with more header lines, each with its end, on a connection of its own.
+pub fn ask(address: &str, path: &str, headers: &str) -> Reply {
+    let mut stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(HANG)).unwrap();
+    stream.write_all(format!("GET {path} HTTP/1.0\r\nHost: {address}\r\n{headers}\r\n").as_bytes()).unwrap();
+    let mut answer = Vec::new();
+    stream.read_to_end(&mut answer).unwrap();
+    Reply::parse(&answer)
+}
+
 impl Drop for Server {
     fn drop(&mut self) {
         let _ = self.child.kill();

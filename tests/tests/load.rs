@@ -10,21 +10,30 @@
 use serde_json::json;
 use std::io::Write;
 use std::net::TcpStream;
+use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use triad_tests::load::{Line, Player, Waits, one_round};
-use triad_tests::program::{HANG, Server};
+use triad_tests::program::{HANG, Server, admin};
 
 /// Sessions that play and are watched, unless `TRIAD_LOAD` says otherwise.
 const SESSIONS: usize = 6;
 /// Connections that say nothing, for each of them.
 const IDLE: usize = 5;
+/// As many at least: among fewer the memory of one is not seen.
+const FEWEST_IDLE: usize = 300;
+/// KiB that each of them costs at most.
+const IDLE_COSTS: f64 = 100.0;
 /// Students who ask at a time.
 const CALLERS: usize = 4;
 /// Rounds of questions in all, for each session.
 const ROUNDS: usize = 4;
 /// Between two rounds of one who asks, where it is measured: with four of them 200 students ask 50 times a second.
 const PAUSE: Duration = Duration::from_millis(350);
+/// Bytes that one run keeps of what it has passed, and all of them together (`server/src/limits.rs`), but for the newest block
+/// of each.
+const ONE_KEEPS: usize = 17 << 20;
+const ALL_KEPT: usize = 1100 << 20;
 /// What a class looks at: three bodies in space.
 const SCENE: &str = "spatial-slider-crank";
 
@@ -64,10 +73,18 @@ fn times(server: &Server, players: &[Player]) -> Vec<f64> {
     players.iter().map(|player| server.get(&player.path).json()["time"].as_f64().unwrap()).collect()
 }
 
-/// Waits until the server has no session, and no more threads and files than so many.
-fn settles(server: &Server, threads: f64, files: usize) {
+/// Bytes that the server keeps of what its runs have passed, as it counts them.
+fn kept(log: &Path) -> usize {
+    let counters = admin(log, "/metrics").text();
+    let line = counters.lines().find_map(|line| line.strip_prefix("triad_sessions_bytes "));
+    line.expect("a counter").parse().expect("a number")
+}
+
+/// Waits until the server has no session, keeps nothing of those that it had, and has no more threads and files than so many.
+fn settles(server: &Server, log: &Path, threads: f64, files: usize) {
     let began = Instant::now();
     while server.get("/api/v1/health").json()["sessions"] != 0
+        || kept(log) > 0
         || server.threads() > threads
         || server.files() > files
     {
@@ -127,7 +144,9 @@ fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
     let count: usize = wanted.unwrap_or(SESSIONS);
     let folder = tempfile::tempdir().unwrap();
     let most = (count + 1).to_string();
-    let server = Server::start_with(folder.path(), &["--max-sessions", &most]);
+    let log = folder.path().join("log");
+    let options = ["--max-sessions", &most, "--log", "json", "--admin-address", "127.0.0.1:0"];
+    let server = Server::logging(folder.path(), &options, &log);
     // What comes with the first of everything is no growth.
     let first = Player::start(&server, SCENE);
     one_round(&Waits::default(), &mut Line::open(&server.address), &first.path, "first", 0);
@@ -136,16 +155,17 @@ fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
     server.ask("DELETE", &path, None);
     let (threads, files, memory) = (server.threads(), server.files(), server.memory());
     let idle: Vec<TcpStream> =
-        (0..IDLE * count).map(|_| TcpStream::connect(&server.address).unwrap()).collect();
+        (0..(IDLE * count).max(FEWEST_IDLE)).map(|_| TcpStream::connect(&server.address).unwrap()).collect();
     server.get("/api/v1/health");
-    println!(
-        "{} idle connections: {:.1} KiB each",
-        idle.len(),
-        (server.memory() - memory) * 1024.0 / idle.len() as f64
-    );
+    let each = (server.memory() - memory) * 1024.0 / idle.len() as f64;
+    println!("{} idle connections: {each:.1} KiB each", idle.len());
+    assert!(each <= IDLE_COSTS, "{each} KiB for a connection that says nothing");
 
     let players: Vec<Player> = (0..count).map(|_| Player::start(&server, SCENE)).collect();
     measure(&server, &players, wanted.map_or(Duration::ZERO, |_| PAUSE));
+    let bytes = kept(&log);
+    println!("  kept of what they passed: {:.1} MB", bytes as f64 / 1e6);
+    assert!(bytes > 0 && bytes <= ALL_KEPT.min(count * ONE_KEEPS), "{bytes} bytes");
     // Nobody was sent away, every submission is kept, and every watcher was served.
     let kept = server.get("/api/v1/submissions?limit=1000").json();
     assert_eq!(kept.as_array().map(Vec::len), Some((1 + ROUNDS * count).min(1000)));
@@ -160,7 +180,7 @@ fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
         assert_eq!(server.ask("DELETE", path, None).status, 204);
     }
     // Threads of the runtime for what blocks, and connections to the gradebook, come and go; of each session nothing is left.
-    settles(&server, threads + 16.0, files + 16);
+    settles(&server, &log, threads + 16.0, files + 16);
     println!(
         "  afterwards: {:.0} MB, {:.0} threads ({threads:.0} before)",
         server.memory(),

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use triad_tests::postgres::Postgres;
-use triad_tests::program::{HANG, Reply, Server, assert_problem, run_json, triad};
+use triad_tests::program::{HANG, Reply, Server, admin, ask, assert_problem, run_json, triad};
 use triad_tests::root;
 
 /// `triad` with these words, in an environment of its own.
@@ -90,24 +90,6 @@ fn a_file_of_settings_with_a_mistake_is_refused() {
 fn lines(log: &Path) -> Vec<Value> {
     let text = fs::read_to_string(log).unwrap();
     text.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))).collect()
-}
-
-/// What the server says of its admin address, which has a port of its own.
-fn admin(log_of_start: &Path, path: &str) -> Reply {
-    let text = fs::read_to_string(log_of_start).unwrap();
-    let at = text
-        .lines()
-        .find_map(|line| serde_json::from_str::<Value>(line).ok()?["admin"].as_str().map(str::to_owned));
-    ask(&at.unwrap(), path, "")
-}
-
-fn ask(address: &str, path: &str, headers: &str) -> Reply {
-    let mut stream = TcpStream::connect(address).unwrap();
-    stream.set_read_timeout(Some(HANG)).unwrap();
-    stream.write_all(format!("GET {path} HTTP/1.0\r\nHost: {address}\r\n{headers}\r\n").as_bytes()).unwrap();
-    let mut answer = Vec::new();
-    stream.read_to_end(&mut answer).unwrap();
-    Reply::parse(&answer)
 }
 
 const NAME: &str = "Quetzalcoatl Weatherwax";

@@ -7,6 +7,8 @@ use crate::refusal::Refusal;
 
 /// Stretches of a run with different numbers that are kept; the oldest is forgotten first.
 const MAX_SEGMENTS: usize = 32;
+/// Bodies of all stretches together: each holds its mechanism, of some 20 kB a body.
+const MAX_BODIES: usize = 256;
 /// Times that differ by less are the same, s: far below any step, far above rounding.
 const SAME_TIME: f64 = 1e-9;
 
@@ -57,12 +59,19 @@ impl History {
                 keep = !keep;
                 keep
             });
+            segment.snapshots.shrink_to_fit();
         }
-        self.bytes = self.segments.iter().flat_map(|segment| &segment.snapshots).map(Snapshot::size).sum();
+        self.bytes = self.segments.iter().map(|segment| size(&segment.snapshots)).sum();
+    }
+
+    /// Bytes of the states that are kept.
+    pub(crate) fn bytes(&self) -> usize {
+        self.bytes
     }
 
     /// Begins a segment with other numbers; `old` is the run before the change.
     pub(crate) fn start_segment(&mut self, old: Simulation) {
+        let most = (MAX_BODIES / old.model().bodies.len().max(1)).clamp(2, MAX_SEGMENTS);
         match self.segments.last_mut() {
             // Numbers that were never run with need no segment.
             Some(last) if last.snapshots.is_empty() => return,
@@ -70,8 +79,9 @@ impl History {
             None => {}
         }
         self.segments.push(Segment { run: None, snapshots: Vec::new() });
-        if self.segments.len() > MAX_SEGMENTS {
-            self.segments.remove(0);
+        if self.segments.len() > most {
+            let oldest = self.segments.remove(0);
+            self.bytes -= size(&oldest.snapshots);
         }
     }
 
@@ -85,6 +95,10 @@ impl History {
         let run = segment.run.as_deref().unwrap_or(present);
         run.at_snapshot(snapshot).ok_or_else(|| unknown(time))
     }
+}
+
+fn size(snapshots: &[Snapshot]) -> usize {
+    snapshots.iter().map(Snapshot::size).sum()
 }
 
 fn unknown(time: f64) -> Refusal {
@@ -148,5 +162,30 @@ mod tests {
             assert!(history.bytes <= history.limit);
         }
         assert!(history.at(0.0, &run).is_ok(), "the start stays");
+    }
+
+    #[test]
+    fn what_is_forgotten_with_the_oldest_numbers_is_not_counted_any_more() {
+        let mut run = pendulum(1.0);
+        let mut history = History::new(1 << 20);
+        for k in 0..3 * MAX_SEGMENTS {
+            history.keep(&run);
+            history.start_segment(std::mem::replace(&mut run, pendulum(1.0 + k as f64)));
+        }
+        assert_eq!(history.segments.len(), MAX_SEGMENTS);
+        let kept: usize = history.segments.iter().map(|segment| size(&segment.snapshots)).sum();
+        assert_eq!((history.bytes(), kept), (kept, (MAX_SEGMENTS - 1) * run.snapshot().size()));
+    }
+
+    #[test]
+    fn of_many_bodies_fewer_stretches_are_kept() {
+        let scene = catalogue::scene("chain:100").expect("a scene");
+        let run = || Simulation::new(&scene).expect("stands");
+        let mut history = History::new(64 << 20);
+        for _ in 0..5 {
+            history.keep(&run());
+            history.start_segment(run());
+        }
+        assert_eq!(history.segments.len(), 2);
     }
 }

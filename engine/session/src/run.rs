@@ -145,6 +145,11 @@ impl Run {
         &self.samples
     }
 
+    /// Bytes that are kept of what it has passed: samples and states.
+    pub fn bytes(&self) -> usize {
+        self.samples.bytes() + self.history.bytes()
+    }
+
     /// Simulated time, s.
     pub fn time(&self) -> f64 {
         self.simulation.time()

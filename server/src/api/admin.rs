@@ -27,6 +27,7 @@ async fn metrics(State(app): State<App>) -> Result<impl IntoResponse, Problem> {
     let living = Living {
         sessions: app.sessions.len(),
         sessions_waiting: app.sessions.waiting(),
+        sessions_bytes: app.sessions.bytes(),
         lectures: app.lectures.len(),
         waiting: app.work.waiting(),
         queue: app.store.gradings().await.unwrap_or_default(),

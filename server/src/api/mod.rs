@@ -32,6 +32,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 
 use crate::app::App;
+use crate::aside;
 use crate::docs;
 use crate::live::{self, Which};
 use crate::page;
@@ -191,6 +192,8 @@ pub async fn keep_house(app: App) {
         app.sessions.expire(&app.limits);
         app.lectures.expire(&app.limits);
         app.access.forget();
+        // What ended sessions held is given back to the system by a thread that ends a second later or more.
+        drop(aside::run(|| Ok(())).await);
         if let Some(path) = &app.live {
             // Tried again in a moment; as the server stops it is said.
             drop(live::keep(path, &app.sessions, &app.lectures, Which::Shown).await);

@@ -26,7 +26,7 @@ use triad_session::{KeptSession, Run, SceneSource, SessionState};
 use crate::aside;
 use crate::limits::Limits;
 use crate::problem::Problem;
-use crate::stream::{Hub, Watcher};
+use crate::stream::{Hub, Total, Watcher};
 use command::{Command, Reply, ReplySender, Signals};
 use recording::Recording;
 pub(crate) use turns::Turns;
@@ -34,6 +34,21 @@ use worker::{Clock, Worker};
 
 /// Commands that may wait for one session; more are refused.
 const QUEUE: usize = 32;
+
+/// Of what a session keeps, in sixteenths: samples take six and states half of that, as many of each; the numbers for the
+/// page's drawing one, and three where the older ones are told in brief; recordings for the viewer three.
+const OF_SAMPLES: usize = 6;
+const OF_TRACK: usize = 1;
+const OF_RECORDING: usize = 3;
+
+/// What the sessions of a server share.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Shared {
+    /// Who may compute.
+    pub turns: Turns,
+    /// Bytes that are kept of what they have passed.
+    pub kept: Total,
+}
 
 /// In which form a run is watched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,24 +108,24 @@ impl Session {
         change: &SceneChange,
         source: SceneSource,
         whose: Option<String>,
-        turns: &Turns,
+        shared: &Shared,
         limits: &Limits,
     ) -> Result<Self, Problem> {
-        let run = Run::start(id.to_owned(), original, change, source, samples_bytes(limits))?;
-        Ok(Self { whose, ..Self::begin(run, id, Clock::start(), turns, limits)? })
+        let run = Run::start(id.to_owned(), original, change, source, limits.kept_bytes(OF_SAMPLES))?;
+        Ok(Self { whose, ..Self::begin(run, id, Clock::start(), shared, limits)? })
     }
 
     /// Goes on with a session that was kept, at the time and in the state of its run. Its recording begins anew.
     ///
     /// Errors if its scene is refused by this program, or the state is of another.
-    pub(crate) fn resume(kept: KeptSession, turns: &Turns, limits: &Limits) -> Result<Self, Problem> {
+    pub(crate) fn resume(kept: KeptSession, shared: &Shared, limits: &Limits) -> Result<Self, Problem> {
         let clock = Clock::start();
-        let Some(run) = Run::resume(kept, samples_bytes(limits), clock.now())? else {
+        let Some(run) = Run::resume(kept, limits.kept_bytes(OF_SAMPLES), clock.now())? else {
             return Err(Problem::internal("a session was kept that is none of this program"));
         };
         // Viewers would join a recording of the same name to the one before.
         let recording = uuid::Uuid::new_v4().simple().to_string();
-        Self::begin(run, &recording, clock, turns, limits)
+        Self::begin(run, &recording, clock, shared, limits)
     }
 
     /// Starts the thread of a session.
@@ -118,13 +133,14 @@ impl Session {
         run: Run,
         recording: &str,
         clock: Clock,
-        turns: &Turns,
+        shared: &Shared,
         limits: &Limits,
     ) -> Result<Self, Problem> {
-        let [hub, track] = [(); 2].map(|()| Arc::new(Hub::new(limits.recording_bytes / 8)));
+        let [hub, track] = [OF_RECORDING, OF_TRACK]
+            .map(|part| Arc::new(Hub::new(limits.kept_bytes(part), shared.kept.part())));
         let [hub_of_recording, hub_of_track] = [&hub, &track].map(Arc::clone);
-        let recording =
-            Recording::new(recording, run.samples(), hub_of_recording, hub_of_track, samples_bytes(limits));
+        let redrawn = limits.kept_bytes(OF_RECORDING) / 2;
+        let recording = Recording::new(recording, run.samples(), hub_of_recording, hub_of_track, redrawn);
         let signals = Arc::new(Signals::default());
         let (sender, state) =
             watch::channel(Arc::new(run.state(recording.streamed(), crate::problem::trace_id)));
@@ -138,7 +154,8 @@ impl Session {
             state: sender,
             command_time: limits.command_time,
             commands: Arc::downgrade(&commands),
-            turns: turns.clone(),
+            turns: shared.turns.clone(),
+            kept: shared.kept.part(),
             runtime: Handle::try_current().map_err(Problem::internal)?,
             in_line: false,
             next_tick: Instant::now(),
@@ -359,11 +376,6 @@ impl Session {
         // Wakes a thread that waits; one that is busy sees the flag.
         drop(self.commands.try_send(Command::Watched));
     }
-}
-
-/// Samples take half of the bound, their two encoded forms an eighth each, the states a quarter.
-fn samples_bytes(limits: &Limits) -> usize {
-    limits.recording_bytes / 2
 }
 
 fn gone() -> Problem {

@@ -51,12 +51,10 @@ const TRACK_PACE: Duration = Duration::from_millis(66);
 const ENTITIES_AT_FULL_RATE: usize = 16;
 /// The longest wait between two blocks.
 const MAX_WAIT: Duration = Duration::from_millis(500);
-/// Where arrows that were drawn again fill the bound divided by this, the recording is written anew without the old
-/// ones.
-const REDRAWN_PART: usize = 16;
 
 impl Recording {
-    /// The recording called `id` of samples that take about `limit` bytes at most.
+    /// The recording called `id` of samples; where arrows that were drawn again take more than `limit` bytes, it is written anew
+    /// without the old ones.
     pub(crate) fn new(id: &str, samples: &Samples, hub: Arc<Hub>, track: Arc<Hub>, limit: usize) -> Self {
         let description = samples.description();
         let entities = description.bodies.len() + 2 * description.joints.len() + 2;
@@ -76,7 +74,7 @@ impl Recording {
             taken: 0,
             encoded: 0,
             redrawn: 0,
-            limit: limit / REDRAWN_PART,
+            limit,
         }
     }
 
@@ -130,8 +128,15 @@ impl Recording {
     }
 
     fn encode_recording(&mut self, samples: &Samples) -> Result<(), Problem> {
+        if self.hub.watchers() == 0 {
+            // Whoever comes next receives all that is kept; until then nothing is, and no threads encode it.
+            if self.recorder.is_some() {
+                self.rewrite();
+            }
+            return Ok(());
+        }
         let waiting = samples.after(self.taken);
-        if self.hub.watchers() == 0 || (waiting.is_empty() && self.recorder.is_some()) {
+        if waiting.is_empty() && self.recorder.is_some() {
             return Ok(());
         }
         let recorder = match &mut self.recorder {

@@ -9,7 +9,7 @@ use triad_session::bounds::SceneBounds;
 use triad_session::change::SceneChange;
 use triad_session::{KeptSession, SceneSource};
 
-use super::{Session, Turns};
+use super::{Session, Shared};
 use crate::limits::Limits;
 use crate::nodes::Node;
 use crate::problem::Problem;
@@ -20,7 +20,7 @@ pub struct Registry {
     /// The server, whose name is in the ids.
     node: Node,
     sessions: Mutex<Sessions>,
-    turns: Turns,
+    shared: Shared,
 }
 
 #[derive(Debug, Default)]
@@ -90,7 +90,7 @@ impl Registry {
         }
         let place = Place(self, whose.clone());
         let id = self.node.identifier();
-        let session = Arc::new(Session::start(&id, scene, change, source, whose, &self.turns, limits)?);
+        let session = Arc::new(Session::start(&id, scene, change, source, whose, &self.shared, limits)?);
         self.lock().live.insert(session.state().id.clone(), Arc::clone(&session));
         drop(place);
         Ok(session)
@@ -101,7 +101,7 @@ impl Registry {
     /// Errors if its scene is refused.
     pub fn resume(&self, kept: KeptSession, limits: &Limits) -> Result<Arc<Session>, Problem> {
         let id = kept.id().to_owned();
-        let session = Arc::new(Session::resume(kept, &self.turns, limits)?);
+        let session = Arc::new(Session::resume(kept, &self.shared, limits)?);
         self.lock().live.insert(id, Arc::clone(&session));
         Ok(session)
     }
@@ -158,7 +158,12 @@ impl Registry {
 
     /// How many of them wait for their turn to go on.
     pub fn waiting(&self) -> usize {
-        self.turns.waiting()
+        self.shared.turns.waiting()
+    }
+
+    /// Bytes that are kept of what they have passed, also of those that were closed and are still watched.
+    pub fn bytes(&self) -> usize {
+        self.shared.kept.bytes()
     }
 
     /// Whether there is none.
@@ -215,12 +220,14 @@ fn unknown(id: &str) -> Problem {
 mod tests {
     use triad_engine::scene::catalogue;
 
+    use super::super::Turns;
     use super::*;
 
     #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
     async fn a_run_that_waits_for_its_turn_stands_still_and_answers_and_goes_on_in_its_turn() {
-        let registry = Registry { turns: Turns::of(1), ..Registry::default() };
-        let busy = registry.turns.now().expect("free");
+        let shared = Shared { turns: Turns::of(1), ..Shared::default() };
+        let registry = Registry { shared, ..Registry::default() };
+        let busy = registry.shared.turns.now().expect("free");
         let scene = catalogue::scene("simple-pendulum").expect("built in");
         let source = SceneSource::Builtin("simple-pendulum".into());
         let start = registry.start(scene, &SceneChange::default(), source, None, &Limits::default());
@@ -251,6 +258,6 @@ mod tests {
         while registry.waiting() > 0 {
             tokio::task::yield_now().await;
         }
-        assert!(registry.turns.now().is_some(), "given back");
+        assert!(registry.shared.turns.now().is_some(), "given back");
     }
 }

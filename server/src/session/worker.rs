@@ -13,6 +13,7 @@ use super::command::{Command, Signals, Turn};
 use super::recording::{Recording, TICK};
 use super::turns::Turns;
 use crate::problem::{Problem, trace_id};
+use crate::stream::Part;
 
 /// Seconds since a session's thread was made, as its run counts them.
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +42,8 @@ pub(super) struct Worker {
     /// Where it is told of its turn, as long as anybody holds the session.
     pub commands: Weak<SyncSender<Command>>,
     pub turns: Turns,
+    /// What the run keeps, among what all do.
+    pub kept: Part,
     pub runtime: Handle,
     /// Whether it stands in line for a turn to play on.
     pub in_line: bool,
@@ -245,6 +248,7 @@ impl Worker {
     }
 
     fn publish(&mut self) {
+        self.kept.set(self.run.bytes());
         self.state.send_replace(Arc::new(self.run.state(self.recording.streamed(), trace_id)));
     }
 }

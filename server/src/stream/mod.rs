@@ -7,6 +7,8 @@
 //!                     └▶ a file, or a native viewer
 //! ```
 
+mod total;
+
 mod hub;
 
 mod geometry;
@@ -17,6 +19,7 @@ mod track;
 
 pub use hub::{Delivery, Hub, Watcher};
 pub use recorder::{RecordError, Recorder};
+pub use total::{Part, Total};
 pub use track::Track;
 
 /// Name under which the viewer knows the recordings.

@@ -19,13 +19,26 @@ impl Track {
         Self { hub, packed: 0 }
     }
 
-    /// Packs those of a run's samples that nobody has received yet, if anybody watches.
+    /// Packs those of a run's samples that nobody has received yet, if anybody watches. Who comes later than the packed ones are
+    /// kept receives the samples that are.
     pub fn pack(&mut self, samples: &Samples) {
-        let waiting = samples.after(self.packed);
-        if self.hub.watchers() == 0 || waiting.is_empty() {
+        if self.hub.watchers() == 0 {
+            // Whoever comes next receives all that is kept.
+            if self.packed > 0 {
+                self.restart();
+            }
             return;
         }
-        self.hub.push(block(waiting, joints_told(samples.description().joints.len())));
+        let waiting = samples.after(self.packed);
+        if waiting.is_empty() {
+            return;
+        }
+        let joints = joints_told(samples.description().joints.len());
+        let new = block(waiting, joints);
+        if self.hub.is_full_with(new.len()) {
+            self.hub.shorten(block(samples.among_first(self.packed), joints));
+        }
+        self.hub.push(new);
         self.packed = samples.recorded();
     }
 

@@ -6,8 +6,10 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 use triad::limits::Limits;
+use triad::session::Watched;
+use triad::stream::{Delivery, Watcher};
 
-use axum::body::Body;
+use axum::body::{Body, Bytes};
 use axum::http::Request;
 
 use crate::{get, post, send, server, state};
@@ -149,6 +151,52 @@ async fn watchers_get_the_history_then_what_is_new_and_are_told_of_a_reset_and_o
     .expect("ends");
 }
 
+/// The times of the frames that a watcher of the numbers receives now.
+fn times(watcher: &mut Watcher) -> Vec<f64> {
+    let Some(Delivery::Blocks(blocks)) = watcher.poll() else { return Vec::new() };
+    let of_block = |block: &Bytes| {
+        let count = u32::from_le_bytes(block[8..12].try_into().expect("four")) as usize;
+        let time = |k| f64::from_le_bytes(block[16 + 8 * k..24 + 8 * k].try_into().expect("eight"));
+        (0..count).map(time).collect::<Vec<f64>>()
+    };
+    blocks.iter().flat_map(of_block).collect()
+}
+
+#[tokio::test]
+async fn what_a_run_keeps_is_bounded_and_who_comes_late_sees_all_of_it_in_brief() {
+    const MOST: usize = 160_000;
+    let app = state(Limits { recording_bytes: MOST, ..Limits::default() });
+    let server = triad::app(app.clone());
+    let created = post(&server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
+    let (path, id) =
+        (created["links"]["self"].as_str().expect("a path"), created["id"].as_str().expect("an id"));
+    let session = app.sessions.get(id).expect("a session");
+    let (mut early, mut seen) = (session.watch(Watched::Track), Vec::new());
+    for _ in 0..50 {
+        let state = post(&server, &format!("{path}/step"), json!({"seconds": 0.1})).await.json();
+        assert!(state["error"].is_null(), "{state}");
+        seen.extend(times(&mut early));
+        let kept = app.sessions.bytes();
+        assert!(kept > 1000 && kept <= MOST, "{kept} bytes");
+    }
+    assert_eq!(seen.len(), 501, "who watched from the start has seen every frame");
+    let mut all = Vec::new();
+    for time in times(&mut session.watch(Watched::Track)) {
+        // As a page takes them: what comes again replaces what came before.
+        all.retain(|before| *before < time);
+        all.push(time);
+    }
+    assert_eq!((all.first(), all.last()), (Some(&0.0), Some(&5.0)));
+    let gap = all.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    assert!(all.len() < 400 && gap < 0.5, "{} frames, {gap} s", all.len());
+    drop(early);
+    app.sessions.remove(id).expect("closes");
+    drop(session);
+    while app.sessions.bytes() > 0 {
+        tokio::task::yield_now().await;
+    }
+}
+
 #[tokio::test]
 async fn the_address_of_a_stream_tells_plain_requests_what_it_is() {
     let server = server();
@@ -165,8 +213,7 @@ async fn who_leaves_a_run_that_stands_still_is_not_counted_any_more() {
     let created = post(&server, "/api/v1/sessions", json!({"builtin": "free-body"})).await.json();
     let path = created["links"]["self"].as_str().expect("a path").to_owned();
     let session = app.sessions.get(created["id"].as_str().expect("an id")).expect("a session");
-    let both =
-        [triad::session::Watched::Track, triad::session::Watched::Recording].map(|what| session.watch(what));
+    let both = [Watched::Track, Watched::Recording].map(|what| session.watch(what));
     assert_eq!(get(&server, &path).await.json()["watchers"], 2);
     drop(both);
     assert_eq!(get(&server, &path).await.json()["watchers"], 0);
@@ -212,7 +259,7 @@ async fn watched_sessions_resets_and_cameras_leave_no_threads_behind() {
         let created = post(&server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
         let path = created["links"]["self"].as_str().expect("a path").to_owned();
         let session = app.sessions.get(created["id"].as_str().expect("an id")).expect("a session");
-        let mut watcher = session.watch(triad::session::Watched::Recording);
+        let mut watcher = session.watch(Watched::Recording);
         assert!(watcher.next().await.is_some());
         for view in ["front", "side"] {
             let request = Request::put(format!("{path}/camera")).header("content-type", "application/json");

@@ -4,6 +4,9 @@ use super::{Simulation, StateView};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
+/// What an allocator adds to a list, bytes: its own notes, and up to the next size that it has.
+const PER_LIST: usize = 16;
+
 /// A state of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -16,9 +19,13 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// About how many bytes it takes.
+    /// Bytes that it takes, with what an allocator adds to each of its lists.
     pub fn size(&self) -> usize {
-        size_of::<Self>() + size_of::<f64>() * (self.state.len() + self.angles.len())
+        let lists = [&self.state, &self.angles].map(|list| match list.capacity() {
+            0 => 0,
+            numbers => PER_LIST + size_of::<f64>() * numbers,
+        });
+        size_of::<Self>() + lists.iter().sum::<usize>()
     }
 }
 

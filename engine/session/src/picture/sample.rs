@@ -2,6 +2,9 @@
 
 use triad_engine::run::Simulation;
 
+/// What an allocator adds to a list, bytes: its own notes, and up to the next size that it has.
+const PER_LIST: usize = 16;
+
 /// A body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
@@ -46,11 +49,21 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// About how many bytes it takes to hold this sample, or to encode it.
+    /// Bytes that it takes to hold this sample, with what an allocator adds to each of its lists.
     pub fn size(&self) -> usize {
-        let rows: usize = self.reactions.iter().map(|reaction| reaction.multipliers.len() + 9).sum();
-        size_of::<f64>() * (4 + 18 * self.poses.len() + rows)
+        let rows = self.reactions.iter().map(|reaction| held(&reaction.multipliers));
+        size_of::<Self>()
+            + held(&self.poses)
+            + held(&self.weights)
+            + held(&self.inertia)
+            + held(&self.reactions)
+            + rows.sum::<usize>()
     }
+}
+
+/// Bytes of a list; none where it is empty.
+fn held<T>(list: &Vec<T>) -> usize {
+    if list.capacity() == 0 { 0 } else { PER_LIST + size_of::<T>() * list.capacity() }
 }
 
 /// The simulation at its current time, as it is recorded.

@@ -81,6 +81,8 @@ impl Samples {
             index += 1;
             stays(index - 1)
         });
+        // A list grows by doubling: what it has ahead goes too.
+        self.kept.shrink_to_fit();
         self.bytes = self.kept.iter().map(Sample::size).sum();
     }
 
@@ -123,8 +125,7 @@ impl Samples {
 
     /// Begins anew from nothing.
     pub(crate) fn restart(&mut self) {
-        self.kept.clear();
-        self.places.clear();
+        (self.kept, self.places) = (Vec::new(), Vec::new());
         self.bytes = 0;
         self.recorded = 0;
         self.epoch += 1;
@@ -153,6 +154,11 @@ impl Samples {
     /// What stays the same from sample to sample, with the scale of forces.
     pub fn description(&self) -> &SceneDescription {
         &self.description
+    }
+
+    /// Bytes of those that are kept.
+    pub fn bytes(&self) -> usize {
+        self.bytes
     }
 
     /// How forces are drawn.
