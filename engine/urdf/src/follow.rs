@@ -27,33 +27,53 @@ pub(super) fn starts(
 ) -> Result<BTreeMap<String, f64>, UrdfError> {
     let joints: BTreeMap<&str, &UrdfJoint> =
         robot.joints.iter().map(|joint| (joint.name.as_str(), joint)).collect();
-    let mut numbers = given.clone();
+    let mut numbers = BTreeMap::new();
     for joint in &robot.joints {
-        let number = number_of(joint, &joints, given, of, robot.joints.len())?;
-        numbers.insert(joint.name.clone(), number);
+        // Those who follow one another are as many as the file says: they are gone through one by one, each of them once.
+        let mut row = vec![joint];
+        let mut last = joint;
+        while let Some(next) = leader(last, &joints).filter(|next| !numbers.contains_key(&next.name)) {
+            if row.len() > robot.joints.len() {
+                return Err(ring(last));
+            }
+            row.push(next);
+            last = next;
+        }
+        for joint in row.into_iter().rev() {
+            let number = number(joint, leader(joint, &joints), &numbers, given, of)?;
+            numbers.insert(joint.name.clone(), number);
+        }
     }
     Ok(numbers)
 }
 
-/// The number of a joint; `most` is how many leaders it may have one behind the other.
-fn number_of(
+/// The joint that another one follows, if the robot has it.
+fn leader<'a>(joint: &UrdfJoint, joints: &BTreeMap<&str, &'a UrdfJoint>) -> Option<&'a UrdfJoint> {
+    joint.mimic.as_ref().and_then(|(leader, ..)| joints.get(leader.as_str()).copied())
+}
+
+fn ring(joint: &UrdfJoint) -> UrdfError {
+    let by = joint.mimic.as_ref().map_or("", |(leader, ..)| leader.as_str());
+    UrdfError::Wrong {
+        line: joint.line,
+        what: format!("joint {} follows itself by way of {by}", joint.name),
+        hint: "one joint of the ring must follow no other",
+    }
+}
+
+/// The number of a joint, of whose leader it is known.
+fn number(
     joint: &UrdfJoint,
-    joints: &BTreeMap<&str, &UrdfJoint>,
+    leader: Option<&UrdfJoint>,
+    known: &BTreeMap<String, f64>,
     given: &BTreeMap<String, f64>,
     of: StartOf,
-    most: usize,
 ) -> Result<f64, UrdfError> {
     let own = given.get(&joint.name).copied();
-    let followed = joint.mimic.as_ref().and_then(|(leader, ..)| joints.get(leader.as_str()));
-    let (Some((name, factor, offset)), Some(leader)) = (&joint.mimic, followed) else {
+    let (Some((name, factor, offset)), Some(leader)) = (&joint.mimic, leader) else {
         return Ok(own.unwrap_or(0.0));
     };
-    if most == 0 {
-        let what = format!("joint {} follows itself by way of {name}", joint.name);
-        let hint = "one joint of the ring must follow no other";
-        return Err(UrdfError::Wrong { line: joint.line, what, hint });
-    }
-    let leads = number_of(leader, joints, given, of, most - 1)?;
+    let leads = known.get(&leader.name).copied().unwrap_or(0.0);
     let (offset, word) = match of {
         StartOf::Positions => (*offset, "position"),
         StartOf::Velocities => (0.0, "velocity"),
@@ -69,5 +89,54 @@ fn number_of(
             Err(UrdfError::Wrong { line: joint.line, what, hint })
         }
         _ => Ok(number),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write;
+
+    use super::*;
+    use crate::{MAX_LINKS, SideCar, import};
+
+    /// A row of links, each on the one before, whose joints follow the one that `leader` says.
+    fn robot(links: usize, leader: impl Fn(usize) -> Option<usize>) -> String {
+        let mut text = "<robot name=\"row\"><link name=\"0\"/>".to_owned();
+        for k in 1..links {
+            let inertia = "<inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>";
+            let before = k - 1;
+            let follows = leader(k).map(|leader| format!("<mimic joint=\"j{leader}\"/>")).unwrap_or_default();
+            write!(
+                text,
+                "<link name=\"{k}\"><inertial><mass value=\"1\"/>{inertia}</inertial></link>\n\
+                 <joint name=\"j{k}\" type=\"continuous\"><parent link=\"{before}\"/><child link=\"{k}\"/>{follows}</joint>"
+            )
+            .expect("a text");
+        }
+        text + "</robot>"
+    }
+
+    #[test]
+    fn as_many_as_there_are_follow_one_another() {
+        let with = SideCar { velocities: [("j1".to_owned(), 0.5)].into(), ..SideCar::default() };
+        let found = import(&robot(MAX_LINKS, |k| (k > 1).then(|| k - 1)), &with).expect("a robot");
+        let spins: Vec<f64> = found.scene.bodies.iter().map(|body| body.angular_velocity[0]).collect();
+        assert_eq!(spins.len(), MAX_LINKS - 1);
+        assert!(spins.iter().zip(1..).all(|(spin, k)| *spin == 0.5 * f64::from(k)), "each adds its own");
+    }
+
+    #[test]
+    fn joints_that_follow_each_other_in_a_ring_are_refused_with_the_line_of_one_of_them() {
+        let error = import(&robot(5, |k| Some(if k == 3 { 2 } else { k + 1 })), &SideCar::default());
+        let UrdfError::Wrong { line, what, .. } = error.expect_err("a ring") else { panic!("another error") };
+        assert!((3..=4).contains(&line) && what.contains("follows itself by way of"), "{line}: {what}");
+    }
+
+    #[test]
+    fn what_is_left_out_has_its_line_however_much_it_is() {
+        let many = 300_000;
+        let text = format!("<robot name=\"r\"><link name=\"l\"/>{}</robot>", "\n<x/>".repeat(many));
+        let found = import(&text, &SideCar::default()).expect("a robot");
+        assert!(found.left_out.iter().map(|item| item.line as usize).eq(2..many + 2));
     }
 }

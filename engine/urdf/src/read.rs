@@ -72,6 +72,24 @@ pub(super) struct UrdfJoint {
     pub mimic: Option<(String, f64, f64)>,
 }
 
+/// What is left out, with its lines.
+struct Report<'a> {
+    left_out: &'a mut Vec<OmittedItem>,
+    /// Where in the text lines end: the XML reader counts them from its beginning each time it is asked for one.
+    ends: Vec<usize>,
+}
+
+impl Report<'_> {
+    fn line(&self, node: Node) -> u32 {
+        let before = self.ends.partition_point(|end| *end < node.range().start);
+        u32::try_from(before + 1).unwrap_or(u32::MAX)
+    }
+
+    fn leave_out(&mut self, node: Node, of: &str, what: String) {
+        self.left_out.push(OmittedItem { line: self.line(node), of: of.to_owned(), what });
+    }
+}
+
 pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot, UrdfError> {
     bound_attributes(text)?;
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
@@ -82,18 +100,15 @@ pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot
         let what = format!("the root element is <{}>, not <robot>", root.tag_name().name());
         return Err(wrong(root, what, "is this a URDF? SDF and MJCF are other formats"));
     }
+    let mut report = Report { left_out, ends: text.match_indices('\n').map(|(at, _)| at).collect() };
     let mut robot =
         Robot { name: attribute(root, "name")?.to_owned(), links: Vec::new(), joints: Vec::new() };
     for node in root.children().filter(Node::is_element) {
         match node.tag_name().name() {
-            "link" => robot.links.push(link(node, left_out)?),
-            "joint" => robot.joints.push(joint(node, left_out)?),
+            "link" => robot.links.push(link(node, &mut report)?),
+            "joint" => robot.joints.push(joint(node, &mut report)?),
             "material" => {}
-            other => left_out.push(OmittedItem {
-                line: line(node),
-                of: "robot".to_owned(),
-                what: format!("<{other}> has no meaning for a scene"),
-            }),
+            other => report.leave_out(node, "robot", format!("<{other}> has no meaning for a scene")),
         }
         if robot.links.len() > MAX_LINKS {
             return Err(wrong(
@@ -135,24 +150,21 @@ fn bound_attributes(text: &str) -> Result<(), UrdfError> {
     Ok(())
 }
 
-fn link(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<Link, UrdfError> {
+fn link(node: Node, report: &mut Report) -> Result<Link, UrdfError> {
     let name = attribute(node, "name")?.to_owned();
     let of = format!("link {name}");
-    let mut link = Link { line: line(node), name, inertial: None, shapes: Vec::new() };
+    let mut link = Link { line: report.line(node), name, inertial: None, shapes: Vec::new() };
     for part in node.children().filter(Node::is_element) {
         match part.tag_name().name() {
             "inertial" => link.inertial = Some(inertial(part)?),
-            "visual" => link.shapes.extend(visual(part, &of, left_out)?),
+            "visual" => link.shapes.extend(visual(part, &of, report)?),
             "collision" => {}
-            other => {
-                let what = format!("<{other}> has no meaning for a scene");
-                left_out.push(OmittedItem { line: line(part), of: of.clone(), what });
-            }
+            other => report.leave_out(part, &of, format!("<{other}> has no meaning for a scene")),
         }
     }
     if node.children().any(|part| part.has_tag_name("collision")) {
         let what = "<collision>: scenes have no contact between bodies".to_owned();
-        left_out.push(OmittedItem { line: line(node), of, what });
+        report.leave_out(node, &of, what);
     }
     Ok(link)
 }
@@ -170,7 +182,7 @@ fn inertial(node: Node) -> Result<Inertial, UrdfError> {
     Ok(Inertial { mass, center: origin.translation.vector, tensor: turn * own * turn.transpose() })
 }
 
-fn visual(node: Node, of: &str, left_out: &mut Vec<OmittedItem>) -> Result<Option<Visual>, UrdfError> {
+fn visual(node: Node, of: &str, report: &mut Report) -> Result<Option<Visual>, UrdfError> {
     let geometry = child(node, "geometry")?;
     let Some(shape) = geometry.children().find(Node::is_element) else {
         return Err(wrong(
@@ -188,14 +200,14 @@ fn visual(node: Node, of: &str, left_out: &mut Vec<OmittedItem>) -> Result<Optio
         other => {
             let file = shape.attribute("filename").map(|name| format!(" {name}")).unwrap_or_default();
             let what = format!("<{other}>{file}: it is drawn as bars between its joints");
-            left_out.push(OmittedItem { line: line(shape), of: of.to_owned(), what });
+            report.leave_out(shape, of, what);
             return Ok(None);
         }
     };
-    Ok(Some(Visual { line: line(node), origin: origin(node)?, geometry }))
+    Ok(Some(Visual { line: report.line(node), origin: origin(node)?, geometry }))
 }
 
-fn joint(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<UrdfJoint, UrdfError> {
+fn joint(node: Node, report: &mut Report) -> Result<UrdfJoint, UrdfError> {
     let name = attribute(node, "name")?.to_owned();
     let of = format!("joint {name}");
     let kind = match attribute(node, "type")? {
@@ -212,9 +224,7 @@ fn joint(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<UrdfJoint, UrdfE
     let mut axis = Vector3::x();
     let (mut damping, mut friction, mut mimic) = (0.0, 0.0, None);
     for part in node.children().filter(Node::is_element) {
-        let mut leave = |what: &str| {
-            left_out.push(OmittedItem { line: line(part), of: of.clone(), what: what.to_owned() });
-        };
+        let mut leave = |what: &str| report.leave_out(part, &of, what.to_owned());
         match part.tag_name().name() {
             "origin" | "parent" | "child" => {}
             "axis" => axis = vector(part, "xyz")?,
@@ -240,7 +250,7 @@ fn joint(node: Node, left_out: &mut Vec<OmittedItem>) -> Result<UrdfJoint, UrdfE
     }
     let end = |which: &str| Ok::<_, UrdfError>(attribute(child(node, which)?, "link")?.to_owned());
     Ok(UrdfJoint {
-        line: line(node),
+        line: report.line(node),
         kind,
         origin: origin(node)?,
         axis: axis.try_normalize(1e-12).unwrap_or_else(Vector3::x),
@@ -266,12 +276,8 @@ fn origin(node: Node) -> Result<Isometry3<f64>, UrdfError> {
     Ok(Isometry3::from_parts(Translation3::from(xyz), UnitQuaternion::from_euler_angles(rpy.x, rpy.y, rpy.z)))
 }
 
-fn line(node: Node) -> u32 {
-    node.document().text_pos_at(node.range().start).row
-}
-
 fn wrong(node: Node, what: String, hint: &'static str) -> UrdfError {
-    UrdfError::Wrong { line: line(node), what, hint }
+    UrdfError::Wrong { line: node.document().text_pos_at(node.range().start).row, what, hint }
 }
 
 fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Result<Node<'a, 'd>, UrdfError> {
