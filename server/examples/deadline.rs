@@ -19,6 +19,7 @@ use std::time::Instant;
 use triad::grading;
 use triad::store::{HandIn, Store, Whose, identifier};
 use triad::variants::Variants;
+use triad_engine::analysis::Wanted;
 use triad_lessons::{Course, Lesson, Submission};
 use triad_tests::postgres::Postgres;
 
@@ -95,7 +96,8 @@ fn verdict(variants: &Variants, lesson: &Lesson, answers: kinds::Answers) -> f64
     let mut body = serde_json::to_value(&submission).expect("JSON");
     body["student"] = "somebody".into();
     let body = body.to_string();
-    let judge = || grading::grade(lesson, variants, &body, Some("somebody")).expect("a verdict");
+    let judge =
+        || grading::grade(lesson, variants, &body, Some("somebody"), &Wanted::default()).expect("a verdict");
     drop(judge());
     let (began, mut count) = (processor(), 0);
     while processor() - began < 0.05 {

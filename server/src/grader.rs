@@ -8,6 +8,7 @@ use axum::http::StatusCode;
 use tokio::sync::{Semaphore, SemaphorePermit};
 use tokio::time::sleep;
 use tracing::Instrument;
+use triad_engine::analysis::Wanted;
 use triad_lessons::Lesson;
 
 use crate::blocking;
@@ -210,7 +211,12 @@ impl Grader {
             seed: accepted.seed,
         };
         let grader = Arc::clone(self);
-        blocking(move || Judged::new(&grader.variants, lesson, &accepted.body, who, accepted.key)).await
+        let judge = move || {
+            // It is handed in: who sent it need not wait for it.
+            let wanted = Wanted::default();
+            Judged::new(&grader.variants, lesson, &accepted.body, who, accepted.key, &wanted)
+        };
+        blocking(judge).await
     }
 
     /// Closes the claim with the verdict; while the database does not answer, again.

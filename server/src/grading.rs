@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use axum::http::StatusCode;
+use triad_engine::analysis::{AnalysisError, Wanted};
 use triad_lessons::answers::{Answer, Submission, SubmissionError};
 use triad_lessons::lesson::Lesson;
 use triad_lessons::verdict::Verdict;
@@ -31,7 +32,9 @@ impl From<SubmissionError> for Problem {
 
 impl From<GradeError> for Problem {
     fn from(error: GradeError) -> Self {
-        let GradeError::UnknownQuestion { id, .. } = &error;
+        let GradeError::UnknownQuestion { id, .. } = &error else {
+            return AnalysisError::NoLongerWanted.into();
+        };
         let pointer = format!("/answers/{id}");
         let detail = error.to_string();
         let hint = "answer only the questions of this lesson, by their ids";
@@ -42,16 +45,17 @@ impl From<GradeError> for Problem {
 /// Reads a submission and grades it with the numbers that it is about: those of its seed if it names one, else the
 /// student's own. A class gives the seed, whatever the submission says.
 ///
-/// Errors if it cannot be read, or its seed or the lesson's numbers are refused.
+/// Errors if it cannot be read, its seed or the lesson's numbers are refused, or nobody wants the verdict any more.
 pub fn grade(
     lesson: &Lesson,
     variants: &Variants,
     text: &str,
     given: Option<&str>,
+    wanted: &Wanted,
 ) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
     let lesson = variants.of(lesson, given.unwrap_or_else(|| submission.numbers_of()))?;
-    let verdict = triad_lessons::grade(&lesson, &submission)?;
+    let verdict = triad_lessons::grade_if(&lesson, &submission, wanted)?;
     Ok((submission, verdict))
 }
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
+use triad_engine::analysis::Wanted;
 use triad_lessons::{Lesson, Submission, Verdict};
 
 use crate::blocking;
@@ -64,16 +65,17 @@ pub struct Judged {
 impl Judged {
     /// Judges what is handed in: without what came before, and without the right answers.
     ///
-    /// Errors if it cannot be read, or its seed or the lesson's numbers are refused.
+    /// Errors if it cannot be read, its seed or the lesson's numbers are refused, or nobody wants it any more.
     pub fn new(
         variants: &Variants,
         lesson: Lesson,
         body: &str,
         who: Who,
         key: Option<String>,
+        wanted: &Wanted,
     ) -> Result<Self, Problem> {
         let began = Instant::now();
-        let (submission, mut verdict) = grading::grade(&lesson, variants, body, who.seed.as_deref())?;
+        let (submission, mut verdict) = grading::grade(&lesson, variants, body, who.seed.as_deref(), wanted)?;
         let took = began.elapsed();
         verdict.student = Some(who.student.clone());
         let seed = verdict.provenance.seed.clone();

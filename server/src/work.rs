@@ -49,8 +49,7 @@ impl Work {
             let _waiting = Waiting::among(&self.waiting)?;
             Arc::clone(&self.places).acquire_owned().await.map_err(Problem::internal)?
         };
-        let wanted = Wanted::default();
-        let _asker = Asker(wanted.clone());
+        let (_asker, wanted) = Asker::new();
         aside::run(move || {
             let _place = place;
             work(&wanted)
@@ -60,7 +59,16 @@ impl Work {
 }
 
 /// Who waits for something that is computed: it is wanted until they have it, or leave.
-struct Asker(Wanted);
+#[derive(Debug)]
+pub struct Asker(Wanted);
+
+impl Asker {
+    /// Somebody who waits, and the word for those who compute.
+    pub fn new() -> (Self, Wanted) {
+        let wanted = Wanted::default();
+        (Self(wanted.clone()), wanted)
+    }
+}
 
 impl Drop for Asker {
     fn drop(&mut self) {
@@ -68,9 +76,9 @@ impl Drop for Asker {
     }
 }
 
-/// What ends because nobody waits for it: nobody reads this.
-pub fn no_longer_wanted() -> Problem {
-    AnalysisError::NoLongerWanted.into()
+/// Errors, for nobody to read, where nobody waits any more.
+pub fn still(wanted: &Wanted) -> Result<(), Problem> {
+    if wanted.is_still() { Ok(()) } else { Err(AnalysisError::NoLongerWanted.into()) }
 }
 
 /// One of those who wait.

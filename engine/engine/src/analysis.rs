@@ -15,7 +15,7 @@ mod kinematics;
 mod modes;
 mod stage;
 
-pub use assembly::{Assembly, Placement, assemble};
+pub use assembly::{Assembly, Placement, assemble, assemble_if};
 pub use equilibrium::{Equilibrium, equilibrium, equilibrium_if};
 pub use kinematics::{KinematicState, Kinematics, kinematics, kinematics_if};
 pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, TurnsWithoutInertia, modes, modes_if};

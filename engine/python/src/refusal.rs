@@ -107,7 +107,10 @@ impl From<SubmissionError> for Refusal {
 
 impl From<GradeError> for Refusal {
     fn from(error: GradeError) -> Self {
-        let hint = "answer only the questions of this lesson, by their ids";
+        let hint = match error {
+            GradeError::UnknownQuestion { .. } => "answer only the questions of this lesson, by their ids",
+            GradeError::NoLongerWanted => "ask again, and wait",
+        };
         Self::new(error.code(), error.to_string(), hint)
     }
 }

@@ -18,6 +18,7 @@ mod tuning;
 use schemars::JsonSchema;
 use serde::Serialize;
 use thiserror::Error;
+use triad_engine::analysis::Wanted;
 
 use crate::answers::{Answer, Submission};
 use crate::exercise::{Question, QuestionBody};
@@ -54,6 +55,9 @@ pub enum GradeError {
         /// The ids of the lesson.
         known: String,
     },
+    /// Nobody waits for the verdict any more.
+    #[error("nobody waits for the verdict any more")]
+    NoLongerWanted,
 }
 
 impl GradeError {
@@ -61,6 +65,7 @@ impl GradeError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::UnknownQuestion { .. } => "unknown-question",
+            Self::NoLongerWanted => "no-longer-wanted",
         }
     }
 }
@@ -69,7 +74,14 @@ impl GradeError {
 ///
 /// Errors if it answers a question that does not exist.
 pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeError> {
-    let mut judgements = judge(lesson, submission)?;
+    grade_if(lesson, submission, &Wanted::default())
+}
+
+/// As [`grade`], as long as the verdict is wanted.
+///
+/// Errors as [`grade`] does, and where it is no longer wanted.
+pub fn grade_if(lesson: &Lesson, submission: &Submission, wanted: &Wanted) -> Result<Verdict, GradeError> {
+    let mut judgements = judge_if(lesson, submission, wanted)?;
     if judgements.iter().any(|judgement| judgement.mark == Mark::Invalid) {
         // Nobody tries answers one by one beside a field that cannot be read.
         for judgement in
@@ -102,6 +114,11 @@ pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeE
 
 /// Judges every question of the lesson, in order.
 pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judgement>, GradeError> {
+    judge_if(lesson, submission, &Wanted::default())
+}
+
+/// As [`judge`], as long as that is wanted.
+fn judge_if(lesson: &Lesson, submission: &Submission, wanted: &Wanted) -> Result<Vec<Judgement>, GradeError> {
     let all = &lesson.exercise.questions;
     if let Some(id) = submission.answers.keys().find(|id| lesson.question(id).is_none()) {
         return Err(GradeError::UnknownQuestion {
@@ -113,7 +130,12 @@ pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judg
     let mut judgements: Vec<Judgement> = Vec::with_capacity(all.len());
     for question in all {
         let answer = submission.answers.get(&question.id).filter(|answer| !answer.is_blank());
-        let mut judgement = answer.map_or_else(Judgement::blank, |a| judge_answer(lesson, question, a));
+        let mut judgement =
+            answer.map_or_else(Judgement::blank, |a| judge_answer(lesson, question, a, wanted));
+        // What ended early is no judgement.
+        if !wanted.is_still() {
+            return Err(GradeError::NoLongerWanted);
+        }
         if judgement.mark == Mark::Wrong
             && let (QuestionBody::Quantity(body), Some(answer)) = (&question.body, answer)
             && let Some(carried) = follow::judge(lesson, body, &judgements, submission, answer)
@@ -142,7 +164,8 @@ pub fn understand(question: &Question, answer: &Answer) -> Option<Understood> {
     })
 }
 
-fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer) -> Judgement {
+/// Judges an answer; whatever comes first, where it is not wanted any more.
+fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer, wanted: &Wanted) -> Judgement {
     let note = &question.right;
     let judged = match &question.body {
         QuestionBody::Quantity(body) => quantity::judge(body, note, answer).map_err(Into::into),
@@ -153,9 +176,9 @@ fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer) -> Judgem
             let seed = instances::seed(lesson, &question.id);
             program::judge(task, &seed, note, answer).map_err(Into::into)
         }
-        QuestionBody::Trajectory(task) => trajectory::judge(task, note, answer).map_err(Into::into),
+        QuestionBody::Trajectory(task) => trajectory::judge(task, note, answer, wanted).map_err(Into::into),
         QuestionBody::Model(task) => model::judge(task, note, answer).map_err(Into::into),
-        QuestionBody::Tuning(task) => tuning::judge(task, note, answer).map_err(Into::into),
+        QuestionBody::Tuning(task) => tuning::judge(task, note, answer, wanted).map_err(Into::into),
         QuestionBody::Explanation(task) => explanation::judge(task, answer).map_err(Into::into),
     };
     judged.unwrap_or_else(Judgement::invalid)

@@ -1,7 +1,10 @@
 //! A table of a motion, from any program, against the reference.
 
+use triad_engine::analysis::Wanted;
+
 use crate::answers::{Answer, table};
 use crate::exercise::Trajectory;
+use crate::mistakes::Mistake;
 use crate::tasks::trajectory::{Deviation, ReferenceMotion};
 use crate::tasks::wrong_motions::{self, Table};
 use crate::verdict::feedback::{Feedback, Judgement, MotionFinding};
@@ -15,7 +18,12 @@ const LONGEST_GAP: f64 = 0.05;
 const EXPLAINED: f64 = 0.25;
 
 /// Judges a table.
-pub(super) fn judge(task: &Trajectory, note: &str, answer: &Answer) -> Result<Judgement, InvalidTrajectory> {
+pub(super) fn judge(
+    task: &Trajectory,
+    note: &str,
+    answer: &Answer,
+    wanted: &Wanted,
+) -> Result<Judgement, InvalidTrajectory> {
     let text = answer.file.as_ref().ok_or(InvalidTrajectory::NoFile)?;
     let (times, given) = read(task, text)?;
     let motion = ReferenceMotion::new(task).map_err(InvalidTrajectory::Reference)?;
@@ -25,7 +33,8 @@ pub(super) fn judge(task: &Trajectory, note: &str, answer: &Answer) -> Result<Ju
     if share == 1.0 {
         return Ok(Judgement::right(Feedback::TrajectoryRight { error, note: note.to_owned() }));
     }
-    let finding = kind(task, &deviation, &times, &given, &motion);
+    let usual = wrong_motions::recognise(task, &motion, &Table::new(&times, &given), wanted);
+    let finding = kind(task, &deviation, &times, &given, &motion, usual);
     Ok(Judgement::wrong(share, finding.misconception(), Feedback::Trajectory { error, finding }))
 }
 
@@ -62,19 +71,18 @@ fn read(task: &Trajectory, text: &str) -> Result<(Vec<f64>, Vec<Vec<f64>>), Inva
     Ok((times[..kept].to_vec(), given))
 }
 
-/// Which kind of error it is.
+/// Which kind of error it is; `known` is the usual mistake whose motion it is.
 fn kind(
     task: &Trajectory,
     d: &Deviation,
     times: &[f64],
     given: &[Vec<f64>],
     motion: &ReferenceMotion,
+    known: Option<&'static Mistake>,
 ) -> MotionFinding {
     let negative = given.iter().map(|v| v.iter().map(|x| -x).collect()).collect::<Vec<Vec<f64>>>();
     let worst = task.bands.last().map_or(0.0, |b| b.error);
     let (late, factor) = (d.late, d.factor);
-    let table = Table::new(times, given);
-    let known = wrong_motions::recognise(task, motion, &table);
     if d.total > worst && motion.deviation(times, &negative).total <= worst {
         MotionFinding::OppositeSign
     } else if let Some(mistake) = known {
@@ -86,6 +94,7 @@ fn kind(
     } else if d.rest <= EXPLAINED * d.total && factor > 0.0 {
         MotionFinding::PhaseAndAmplitude { late, factor }
     } else {
-        wrong_motions::shape(motion, &table).map_or(MotionFinding::Unknown, MotionFinding::Usual)
+        wrong_motions::shape(motion, &Table::new(times, given))
+            .map_or(MotionFinding::Unknown, MotionFinding::Usual)
     }
 }

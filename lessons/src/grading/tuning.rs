@@ -1,7 +1,8 @@
 //! Settings of a run under a budget: the run is made, its error and its work are measured and drawn.
 
+use triad_engine::analysis::Wanted;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{ConstraintMethod, Scene};
+use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene};
 
 use super::picture::{Picture, Point};
 use crate::answers::tolerance::distance;
@@ -29,12 +30,17 @@ struct RunCost {
     violation: f64,
 }
 
-/// Judges settings.
-pub(super) fn judge(task: &Tuning, note: &str, answer: &Answer) -> Result<Judgement, InvalidSettings> {
+/// Judges settings, as long as that is wanted.
+pub(super) fn judge(
+    task: &Tuning,
+    note: &str,
+    answer: &Answer,
+    wanted: &Wanted,
+) -> Result<Judgement, InvalidSettings> {
     let settings = answer.settings.as_ref().ok_or(InvalidSettings::NoSettings)?;
     let scene = chosen(task, settings)?;
     let (reference, _) = with_error(&task.scene, &task.watch).map_err(InvalidSettings::Reference)?;
-    let cost = match make(task, &scene, &reference) {
+    let cost = match make(task, &scene, &reference, wanted) {
         Ok(cost) => cost,
         Err(problem) => {
             return Ok(Judgement::wrong(0.0, Some("stopped"), Feedback::TuningStopped { problem }));
@@ -51,7 +57,8 @@ pub(super) fn judge(task: &Tuning, note: &str, answer: &Answer) -> Result<Judgem
     };
     let (precise, cheap) = (feedback.is_precise(), feedback.is_cheap() && cost.error.is_some());
     let drifted = feedback.has_drifted();
-    let figure = Some(picture(task, settings, cost, &reference, precise && cheap));
+    let curves = if precise && cheap { curves(task, &reference, wanted) } else { Vec::new() };
+    let figure = Some(picture(task, settings, cost, curves));
     let feedback = Feedback::Tuning(feedback);
     let judgement = match (precise, cheap) {
         (true, true) => Judgement::right(feedback),
@@ -108,12 +115,12 @@ fn positive(entry: &TypedValue, what: &'static str) -> Result<f64, InvalidSettin
     if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(InvalidSettings::Negative { what }) }
 }
 
-/// Makes the run, in pieces, and measures.
-fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<RunCost, MeasureError> {
+/// Makes the run, in pieces, as long as it is wanted, and measures.
+fn make(task: &Tuning, scene: &Scene, reference: &[f64], wanted: &Wanted) -> Result<RunCost, MeasureError> {
     let mut simulation = Simulation::new(scene)?;
     while !simulation.advance_towards(task.watch.time, STEPS_PER_CHECK)? {
         let evaluations = simulation.summary().evaluations;
-        if evaluations > BUDGETS * task.budget {
+        if evaluations > BUDGETS * task.budget || !wanted.is_still() {
             return Ok(RunCost { evaluations, error: None, violation: f64::INFINITY });
         }
     }
@@ -126,22 +133,25 @@ fn make(task: &Tuning, scene: &Scene, reference: &[f64]) -> Result<RunCost, Meas
     })
 }
 
-/// The run in the picture of work and precision; when the demand is met, with the curves of all choices.
-fn picture(task: &Tuning, settings: &RunSettings, own: RunCost, reference: &[f64], curves: bool) -> String {
+/// The curves of all choices, by the names of the integrators.
+fn curves(task: &Tuning, reference: &[f64], wanted: &Wanted) -> Vec<(String, Vec<Point>)> {
+    let point = |integrator: IntegratorKind, tolerance: f64| {
+        let tolerance = TypedValue::Number(tolerance);
+        let settings = RunSettings { integrator, tolerance, baumgarte: None };
+        let made = make(task, &chosen(task, &settings).ok()?, reference, wanted).ok()?;
+        Some(Point { work: made.evaluations, error: made.error? })
+    };
+    let curve = |kind: &IntegratorKind| {
+        (kind.to_string(), CURVE.iter().filter_map(|tolerance| point(*kind, *tolerance)).collect())
+    };
+    task.integrators.iter().map(curve).collect()
+}
+
+/// The run in the picture of work and precision, with the curves of all choices.
+fn picture(task: &Tuning, settings: &RunSettings, own: RunCost, curves: Vec<(String, Vec<Point>)>) -> String {
     let mut picture = Picture::new(task.budget, task.error);
-    if curves {
-        for kind in &task.integrators {
-            let points = CURVE.iter().filter_map(|tolerance| {
-                let settings = RunSettings {
-                    integrator: *kind,
-                    tolerance: TypedValue::Number(*tolerance),
-                    baumgarte: None,
-                };
-                let made = make(task, &chosen(task, &settings).ok()?, reference).ok()?;
-                Some(Point { work: made.evaluations, error: made.error? })
-            });
-            picture.curve(&kind.to_string(), points.collect());
-        }
+    for (name, points) in curves {
+        picture.curve(&name, points);
     }
     if let Some(error) = own.error {
         picture.own(&settings.integrator.to_string(), Point { work: own.evaluations, error });

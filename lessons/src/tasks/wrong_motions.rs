@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use triad_engine::analysis::Wanted;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
@@ -58,11 +59,12 @@ impl Table {
     }
 }
 
-/// The mistake whose motion the table is, if there is one.
+/// The mistake whose motion the table is, if there is one; none where nobody wants to know it any more.
 pub(crate) fn recognise(
     task: &Trajectory,
     motion: &ReferenceMotion,
     table: &Table,
+    wanted: &Wanted,
 ) -> Option<&'static Mistake> {
     let right = at_times(motion, table, 1.0);
     let limit = SAME.min(MUCH_NEARER * table.apart(&right));
@@ -78,7 +80,8 @@ pub(crate) fn recognise(
         return Some(mistakes::VELOCITIES);
     }
     let worlds = worlds(&task.scene).into_iter();
-    let mut shown = worlds.filter_map(|(mistake, scene)| Some((mistake, run(task, &scene, &table.times)?)));
+    let mut shown =
+        worlds.filter_map(|(mistake, scene)| Some((mistake, run(task, &scene, &table.times, wanted)?)));
     shown.find(|(_, other)| is(other)).map(|(mistake, _)| mistake)
 }
 
@@ -171,13 +174,16 @@ fn worlds(scene: &Scene) -> Vec<(&'static Mistake, Scene)> {
     ]
 }
 
-/// The columns of a scene at these times.
-fn run(task: &Trajectory, scene: &Scene, times: &[f64]) -> Option<Vec<Vec<f64>>> {
+/// The columns of a scene at these times, as long as they are wanted.
+fn run(task: &Trajectory, scene: &Scene, times: &[f64], wanted: &Wanted) -> Option<Vec<Vec<f64>>> {
+    if !wanted.is_still() {
+        return None;
+    }
     let mut simulation: Simulation = start(scene).ok()?;
     simulation.set_step_limit(MAX_STEPS);
     let mut columns = vec![Vec::with_capacity(times.len()); task.columns.len()];
     for t in times {
-        simulation.advance_to(t.clamp(0.0, task.end)).ok()?;
+        simulation.advance_to(t.clamp(0.0, task.end)).ok().filter(|()| wanted.is_still())?;
         for (column, measured) in columns.iter_mut().zip(task.columns.values()) {
             column.push(measure(scene, &simulation, measured).ok()?.first().copied()?);
         }

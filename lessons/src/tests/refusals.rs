@@ -17,6 +17,7 @@ use crate::rendering::figure::{Figure, FigureError};
 use crate::scenario::measure::MeasureError;
 use crate::tasks::instances::InstanceError;
 use crate::tasks::program_output::{self, OutputError, OutputSize};
+use triad_engine::analysis::Wanted;
 use triad_engine::scene::expression::{Expression, ExpressionError};
 
 /// What is quoted beside the refusal.
@@ -226,11 +227,16 @@ fn courses_and_lessons_that_cannot_be_read() {
         what: "scene.json has no number at /bodies/9/mass; correct the pointer".to_owned(),
     };
     variants_met.meet("one draw of them", &error, error.code(), None, "");
-    let mut grades = Refusals::new(variants!(GradeError: UnknownQuestion));
+    let mut grades = Refusals::new(variants!(GradeError: UnknownQuestion, NoLongerWanted));
     let course = Course::embedded().unwrap();
     let submission =
         Submission::from_json(r#"{"student": "ada", "answers": {"perod": {"value": "1"}}}"#).unwrap();
     let error = crate::grade(course.lesson("simple-pendulum").unwrap(), &submission).unwrap_err();
     grades.meet("a question that is not there", &error, error.code(), None, "");
+    let wanted = Wanted::default();
+    wanted.no_longer();
+    let lesson = course.lesson("simple-pendulum").unwrap();
+    let error = crate::grade_if(lesson, &Submission::default(), &wanted).unwrap_err();
+    grades.meet("a verdict that nobody waits for", &error, error.code(), None, "");
     all_reviewed("refusals-lessons", [courses.text(), lessons.text(), variants_met.text(), grades.text()]);
 }

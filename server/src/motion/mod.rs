@@ -16,6 +16,8 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
 use crate::problem::Problem;
+use crate::work::still;
+use triad_engine::analysis::Wanted;
 use triad_session::picture::{Sample, SceneDescription, block, describe, sample};
 
 /// Frames by second of watching: as smooth as a page that draws evenly between them needs.
@@ -181,8 +183,8 @@ fn drawn(scene: &Scene) -> Value {
 
 /// The first seconds of a scene's run; nothing but its start if it cannot be run, or not within `time`.
 ///
-/// Errors if the scene cannot stand at its start.
-pub fn of(scene: &Scene, time: Duration) -> Result<Motion, Problem> {
+/// Errors if the scene cannot stand at its start, or nobody wants it any more.
+pub fn of(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Motion, Problem> {
     let began = Instant::now();
     let mut run = Simulation::new(scene)?;
     let mut film = Film::new(scene, &run);
@@ -194,6 +196,7 @@ pub fn of(scene: &Scene, time: Duration) -> Result<Motion, Problem> {
         index += 1.0;
         let next = until * index / frames;
         loop {
+            still(wanted)?;
             match run.advance_towards(next, PIECE) {
                 Ok(true) => break,
                 Ok(false) if began.elapsed() < time => {}
@@ -209,7 +212,7 @@ pub fn of(scene: &Scene, time: Duration) -> Result<Motion, Problem> {
 /// A scene at its start.
 ///
 /// Errors if it cannot stand there.
-pub fn still(scene: &Scene) -> Result<Motion, Problem> {
+pub fn picture(scene: &Scene) -> Result<Motion, Problem> {
     let run = Simulation::new(scene)?;
     let mut film = Film::new(scene, &run);
     film.take(&run);
@@ -230,17 +233,18 @@ mod tests {
     #[test]
     fn a_motion_has_thirty_frames_a_second_of_watching_and_is_bounded() {
         let scene = catalogue::scene("spatial-slider-crank").expect("built in");
-        let motion = of(&scene, Duration::from_mins(1)).expect("runs");
+        let motion = of(&scene, Duration::from_mins(1), &Wanted::default()).expect("runs");
         assert_eq!((motion.until, motion.speed), (5.0, 1.0));
         assert_eq!(
             numbers(&motion).0.iter().map(|one| *one as usize).collect::<Vec<_>>(),
             [3, motion.joints.len(), 151]
         );
-        let squeezer = of(&catalogue::scene("squeezer").expect("built in"), Duration::from_mins(1));
+        let squeezer =
+            of(&catalogue::scene("squeezer").expect("built in"), Duration::from_mins(1), &Wanted::default());
         let squeezer = squeezer.expect("runs");
         assert!((squeezer.until / squeezer.speed - SLOW).abs() < 1e-9, "watched in slow motion");
         let many = catalogue::scene("n-four-bar:20").expect("built in");
-        let many = of(&many, Duration::from_mins(1)).expect("runs");
+        let many = of(&many, Duration::from_mins(1), &Wanted::default()).expect("runs");
         let (head, bytes) = numbers(&many);
         assert!(bytes <= MOST_BYTES + 6000 && head[2] as usize >= FEWEST, "{head:?}: {bytes} bytes");
     }
@@ -267,8 +271,12 @@ mod tests {
     #[test]
     fn what_cannot_go_on_shows_what_it_reached() {
         let scene = catalogue::scene("simple-pendulum").expect("built in");
-        let motion = of(&scene, Duration::ZERO).expect("stands");
+        let wanted = Wanted::default();
+        let motion = of(&scene, Duration::ZERO, &wanted).expect("stands");
         assert!(numbers(&motion).0[2] >= 1);
-        assert_eq!(numbers(&still(&scene).expect("stands")).0[2], 1);
+        assert_eq!(numbers(&picture(&scene).expect("stands")).0[2], 1);
+        wanted.no_longer();
+        let ended = of(&scene, Duration::from_mins(1), &wanted).map(|motion| motion.until);
+        assert_eq!(ended.map_err(|problem| problem.code()), Err("no-longer-wanted"));
     }
 }

@@ -9,6 +9,7 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use serde::Serialize;
+use triad_engine::analysis::Wanted;
 
 use crate::problem::Problem;
 use crate::work::Work;
@@ -20,7 +21,7 @@ const KEPT: usize = 128;
 #[derive(Debug, Default)]
 pub struct Shelf {
     kept: Mutex<HashMap<String, Bytes>>,
-    /// One is made at a time: who asks for the same waits and finds it.
+    /// One is made at a time: who asks for the same waits and finds it, or makes it where the one before has left.
     making: tokio::sync::Mutex<()>,
 }
 
@@ -32,7 +33,7 @@ impl Shelf {
         &self,
         name: &str,
         work: &Work,
-        make: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+        make: impl FnOnce(&Wanted) -> Result<T, Problem> + Send + 'static,
     ) -> Result<Bytes, Problem> {
         if let Some(found) = self.find(name) {
             return Ok(found);
@@ -41,8 +42,7 @@ impl Shelf {
         if let Some(found) = self.find(name) {
             return Ok(found);
         }
-        // Whoever asks next finds it: it is made to its end.
-        let made = work.run(move |_| packed(&make()?)).await?;
+        let made = work.run(move |wanted| packed(&make(wanted)?)).await?;
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.len() >= KEPT {
             kept.clear();

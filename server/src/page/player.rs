@@ -30,13 +30,14 @@ pub fn playing(motion: &Motion) -> Result<String, Problem> {
 mod tests {
     use super::*;
     use std::time::Duration;
+    use triad_engine::analysis::Wanted;
     use triad_engine::scene::catalogue;
 
     #[test]
     fn a_page_that_plays_is_whole_and_small_and_its_data_end_nothing() {
         let mut scene = catalogue::scene("squeezer").expect("built in");
         scene.title = "</script><script>alert(1)".into();
-        let motion = crate::motion::of(&scene, Duration::from_mins(1)).expect("runs");
+        let motion = crate::motion::of(&scene, Duration::from_mins(1), &Wanted::default()).expect("runs");
         let page = playing(&motion).expect("a page");
         assert!(page.len() < 300_000, "{} bytes", page.len());
         assert_eq!(page.matches("</script>").count(), 2, "one of the data, one of the player");

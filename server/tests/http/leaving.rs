@@ -5,11 +5,13 @@ use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
 use axum::Router;
+use axum::body::Body;
+use axum::http::Request;
 use serde_json::{Value, json};
 use tokio::time::timeout;
 use triad::limits::Limits;
 
-use crate::{get, post, state};
+use crate::{get, post, send, state};
 
 /// Longer than any machine takes here, and less than what is computed for those who stay.
 const PATIENCE: Duration = Duration::from_mins(5);
@@ -52,6 +54,36 @@ async fn a_step_ends_as_its_caller_leaves() {
     let state = timeout(PATIENCE, step).await.expect("it is its turn").json();
     assert!(state["time"].as_f64().is_some_and(|time| time < END), "{state}");
     assert_eq!(state["error"], Value::Null, "{state}");
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_session_whose_caller_leaves_while_it_is_made_takes_no_place() {
+    let server = triad::app(state(Limits { sessions: 1, ..Limits::default() }));
+    let sessions = "/api/v1/sessions";
+    let mut scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    scene["bodies"][0]["mass"] = json!(-1.0);
+    // Refused for its mass where there is a place.
+    let is_full = || async { post(&server, sessions, json!({"scene": scene})).await.status == 503 };
+    loop {
+        let asked = server.clone();
+        let caller = tokio::spawn(async move {
+            // Whoever tries whether there is a place takes it for a moment.
+            loop {
+                let made = post(&asked, sessions, json!({"builtin": "spatial-chain:499"})).await;
+                if made.status != 503 {
+                    return made.json();
+                }
+            }
+        });
+        while !is_full().await {}
+        caller.abort();
+        let Ok(made) = caller.await else { break };
+        let made = made["links"]["self"].as_str().expect("a path").to_owned();
+        let delete = Request::delete(made).body(Body::empty()).expect("a request");
+        assert_eq!(send(&server, delete).await.status, 204, "it was too late to leave");
+    }
+    let given_back = async { while is_full().await {} };
+    timeout(PATIENCE, given_back).await.expect("nobody knows of what takes the place");
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]

@@ -67,7 +67,7 @@ fn close_positions(model: &mut Model) {
     if mechanism.state.position_violation(&mechanism.system) <= f64::EPSILON * length {
         return;
     }
-    let (_, _, left) = rough::close(&mut mechanism, &mut y);
+    let (_, _, left) = rough::close(&mut mechanism, &mut y, &|| true);
     // A comparison that is false for NaN as well.
     if left <= CLOSED * length {
         take_over(model, &mechanism, &y, false);

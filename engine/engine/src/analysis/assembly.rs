@@ -1,6 +1,6 @@
 //! Assembly: consistent positions and velocities from a rough start.
 
-use super::AnalysisError;
+use super::{AnalysisError, Wanted};
 use crate::error::EngineError;
 use crate::scene::{Body, Joint, Scene};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -58,6 +58,15 @@ pub struct Assembly {
 ///
 /// [`AnalysisError`]: a scene that cannot be, joints that cannot be closed, or a body that cannot be kept in place.
 pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisError> {
+    assemble_if(scene, pinned, &Wanted::default())
+}
+
+/// As [`assemble`], as long as it is wanted.
+///
+/// # Errors
+///
+/// As [`assemble`], and [`AnalysisError::NoLongerWanted`].
+pub fn assemble_if(scene: &Scene, pinned: &[String], wanted: &Wanted) -> Result<Assembly, AnalysisError> {
     let mut model = Model::new(scene).map_err(EngineError::from)?;
     for (index, name) in pinned.iter().enumerate() {
         let Some(place) = model.bodies.iter().position(|body| body.name == *name) else {
@@ -71,7 +80,8 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
     }
     let (mut mechanism, mut y) = start::mechanism(model);
     mechanism.set_state(0.0, &y);
-    let (violation, iterations, left) = rough::close(&mut mechanism, &mut y);
+    let (violation, iterations, left) = rough::close(&mut mechanism, &mut y, &|| wanted.is_still());
+    wanted.check()?;
     // A comparison that is false for NaN as well.
     let closed = left <= 1e-9 * mechanism.system.length.max(1.0);
     if !closed {

@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix2, Vector3};
 use triad_engine::analysis::{
-    AnalysisError, ModesAbout, Wanted, assemble, equilibrium, equilibrium_if, kinematics, kinematics_if,
-    modes, modes_if,
+    AnalysisError, ModesAbout, Wanted, assemble, assemble_if, equilibrium, equilibrium_if, kinematics,
+    kinematics_if, modes, modes_if,
 };
 use triad_engine::catalogue;
 use triad_engine::reactions::report::{Convention, ExpressedIn};
@@ -40,12 +40,17 @@ fn what_nobody_waits_for_any_more_ends_before_its_next_step() {
         ["simple-pendulum", "crank-rocker"].map(|name| catalogue::scene(name).unwrap()).into();
     let wanted = Wanted::default();
     assert!(equilibrium_if(&pendulum, &wanted).is_ok());
+    // A crank that is told to stand elsewhere than its coupler takes it up again.
+    let mut open = driven.clone();
+    open.bodies[0].position[1] += 0.05;
+    assert!(assemble_if(&open, &[], &wanted).unwrap().iterations > 0);
     wanted.no_longer();
     let ended = [
         equilibrium_if(&pendulum, &wanted).unwrap_err(),
         modes_if(&pendulum, ModesAbout::Equilibrium, &wanted).unwrap_err(),
         modes_if(&pendulum, ModesAbout::Steady, &wanted).unwrap_err(),
         kinematics_if(&driven, Convention::default(), &wanted).unwrap_err(),
+        assemble_if(&open, &[], &wanted).unwrap_err(),
     ];
     assert!(ended.iter().all(|error| *error == AnalysisError::NoLongerWanted), "{ended:?}");
 }

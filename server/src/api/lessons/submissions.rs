@@ -37,6 +37,7 @@ use crate::store::{
     Accept, Accepted, CLASS, HOME, Kept, Member, Query, StoreError, StoredSubmission, Whose, identifier,
     names,
 };
+use crate::work::Asker;
 
 /// Where a client names its request: a request that is repeated under the same name is one submission.
 const KEY: &str = "idempotency-key";
@@ -135,12 +136,15 @@ async fn at_once(
     if is_shared && app.limits.at_once.is_zero() {
         return Ok(None);
     }
+    // Who leaves, or is put into the queue because it takes too long here, does not keep a place with what nobody reads.
+    let (asker, wanted) = Asker::new();
     let judging = async move {
+        let _asker = asker;
         // Where nobody else grades, everybody waits here: as many are graded at a time as there are processors.
         let place = places.acquire_owned().await.map_err(Problem::internal)?;
         blocking(move || {
             let _place = place;
-            Judged::new(&variants, lesson, &body, who, key).map(Arc::new)
+            Judged::new(&variants, lesson, &body, who, key, &wanted).map(Arc::new)
         })
         .await
     };

@@ -62,7 +62,7 @@ async fn assembly(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, asked, _| analysis::assemble(scene, &asked.pinned)).await
+    analyse(app, asked, |scene, asked, wanted| analysis::assemble_if(scene, &asked.pinned, wanted)).await
 }
 
 /// Positions, velocities, accelerations and driving forces of a scene whose drivers leave it no freedom.

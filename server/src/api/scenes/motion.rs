@@ -8,6 +8,7 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use schemars::JsonSchema;
 use serde::Serialize;
+use triad_engine::analysis::Wanted;
 use triad_engine::catalogue;
 use triad_engine::scene::Scene;
 use utoipa_axum::router::OpenApiRouter;
@@ -21,6 +22,7 @@ use crate::motion::{self, Motion};
 use crate::page::reads_gzip;
 use crate::problem::Problem;
 use crate::scenes;
+use crate::work::still;
 
 /// A browser asks anew after so many seconds: lessons may be edited while the server runs.
 const FRESH: &str = "public, max-age=300";
@@ -81,17 +83,19 @@ async fn pictures(State(app): State<App>, headers: HeaderMap) -> Result<Response
     let hashes: Vec<&str> = app.course.lessons().iter().map(|lesson| lesson.hash.as_str()).collect();
     let name = format!("pictures {}", hashes.concat());
     let shared = app.clone();
-    let make = move || {
+    let make = move |wanted: &Wanted| {
         let names = catalogue::ENTRIES.iter().map(|entry| entry.name.replace(":N", &format!(":{OF_FAMILY}")));
         let scenes = names.filter_map(|name| {
-            let still = motion::still(&scenes::builtin(&name).ok()?).ok()?;
-            Some((name, still))
+            let picture = motion::picture(&scenes::builtin(&name).ok()?).ok()?;
+            wanted.is_still().then_some((name, picture))
         });
         // A lesson whose mechanism cannot be assembled has no picture.
         let lessons = shared.course.lessons().iter().filter_map(|lesson| {
-            Some((lesson.slug.clone(), motion::still(&scene_of(&shared, lesson).ok()?).ok()?))
+            let scene = scene_of(&shared, lesson).ok().filter(|_| wanted.is_still())?;
+            Some((lesson.slug.clone(), motion::picture(&scene).ok()?))
         });
-        Ok(Pictures { scenes: scenes.collect(), lessons: lessons.collect() })
+        let pictures = Pictures { scenes: scenes.collect(), lessons: lessons.collect() };
+        still(wanted).map(|()| pictures)
     };
     sent(&app.motions.of(&name, &app.work, make).await?, &headers)
 }
@@ -103,7 +107,7 @@ fn scene_of(app: &App, lesson: &triad_lessons::Lesson) -> Result<Scene, Problem>
 async fn filmed(app: &App, name: &str, scene: Scene) -> Result<Bytes, Problem> {
     few_enough(&scene, &app.limits)?;
     let time = app.limits.command_time;
-    app.motions.of(name, &app.work, move || motion::of(&scene, time)).await
+    app.motions.of(name, &app.work, move |wanted| motion::of(&scene, time, wanted)).await
 }
 
 /// Everybody may ask, signed in or not: for a run that costs little.

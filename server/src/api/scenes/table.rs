@@ -21,7 +21,7 @@ use crate::app::App;
 use crate::problem::Problem;
 use crate::session;
 use crate::table::TextTable;
-use crate::work::no_longer_wanted;
+use crate::work::still;
 
 /// Numbers that a table over HTTP may have: some 60 MB of text.
 const MAX_NUMBERS: f64 = 3e6;
@@ -109,9 +109,7 @@ fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Pr
 }
 
 fn in_time(began: Instant, most: Duration, reached: f64, wanted: &Wanted) -> Result<(), Problem> {
-    if !wanted.is_still() {
-        return Err(no_longer_wanted());
-    }
+    still(wanted)?;
     if began.elapsed() > most { Err(too_slow(reached)) } else { Ok(()) }
 }
 

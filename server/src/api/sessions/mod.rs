@@ -23,6 +23,7 @@ use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{AskedFirst, Session};
 use crate::store::{CLASS, Role};
+use crate::work::{Asker, still};
 use crate::{blocking, scenes};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -51,17 +52,25 @@ async fn create(
     Json(wanted): Json<NewSession>,
 ) -> Result<impl IntoResponse, Problem> {
     let asked = asked_first(&app, &caller, wanted.lesson.as_deref());
+    let (_asker, asking) = Asker::new();
+    let shared = app.clone();
     let session = blocking(move || {
+        let app = shared;
+        still(&asking)?;
         let (mut scene, source) =
             choose(&app, &caller, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
+        still(&asking)?;
         let written_here = matches!(source, SceneSource::Scene(_));
         // Who teaches shows several things at a time; of students nobody takes the places of all.
         let whose = caller.0.filter(|member| member.role == Role::Student).map(|member| member.id);
         let started = app.sessions.start(scene, &wanted.change, source, whose, &app.limits);
-        started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })
+        let session =
+            started.map_err(|problem| if written_here { problem.within("/scene") } else { problem })?;
+        Ok(Unclaimed { app, session: Some(session) })
     })
-    .await?;
+    .await?
+    .claimed()?;
     if let Some(asked) = asked {
         session.ask_first(asked);
     }
@@ -71,6 +80,26 @@ async fn create(
         headers.insert(header::LOCATION, address);
     }
     Ok((StatusCode::CREATED, headers, axum::Json(state)))
+}
+
+/// A session that was made for a caller who may have left: nobody else knows its name, and it would keep its place until it expires.
+struct Unclaimed {
+    app: App,
+    session: Option<Arc<Session>>,
+}
+
+impl Unclaimed {
+    fn claimed(mut self) -> Result<Arc<Session>, Problem> {
+        self.session.take().ok_or_else(|| Problem::internal("a session is claimed twice"))
+    }
+}
+
+impl Drop for Unclaimed {
+    fn drop(&mut self) {
+        if let Some(session) = &self.session {
+            drop(self.app.sessions.remove(&session.state().id));
+        }
+    }
 }
 
 /// A student of a class predicts before the run of a lesson that asks for it. Who teaches shows it to others.

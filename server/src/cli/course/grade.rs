@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use triad_engine::analysis::Wanted;
 use triad_lessons::rendering::html::words;
 use triad_lessons::{Course, Mark, Verdict};
 
@@ -23,7 +24,7 @@ pub(in crate::cli) fn grade(
 ) -> Result<Outcome, Problem> {
     let lesson = find(course, lesson)?;
     let text = scenes::read(file, LARGEST)?;
-    let (_, verdict) = grading::grade(lesson, &Variants::default(), &text, None)?;
+    let (_, verdict) = grading::grade(lesson, &Variants::default(), &text, None, &Wanted::default())?;
     if json {
         print_json(&verdict);
     } else {
