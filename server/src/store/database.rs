@@ -7,9 +7,11 @@ use std::str::FromStr;
 use std::sync::Once;
 use std::time::Duration;
 
+use futures_util::TryStreamExt;
 use futures_util::future::BoxFuture;
-use sqlx::any::{AnyConnectOptions, AnyPoolOptions};
-use sqlx::{AnyConnection, AnyPool, AssertSqlSafe, ConnectOptions};
+use sqlx::any::{AnyArguments, AnyConnectOptions, AnyPoolOptions, AnyRow};
+use sqlx::query::QueryAs;
+use sqlx::{Any, AnyConnection, AnyPool, AssertSqlSafe, ConnectOptions, FromRow};
 
 use super::error::StoreError;
 use super::kind::Kind;
@@ -232,4 +234,30 @@ pub(super) async fn stand_aside(connection: &mut AnyConnection, begin: bool) -> 
         sqlx::query(*statement).execute(&mut *connection).await?;
     }
     Ok(())
+}
+
+/// The rows that can be read: text that a damaged disk made none is left out, and told in the server's log.
+///
+/// Errors if the database does not answer.
+pub(super) async fn readable<T>(
+    list: QueryAs<'_, Any, T, AnyArguments>,
+    readers: &AnyPool,
+) -> Result<Vec<T>, StoreError>
+where
+    T: for<'r> FromRow<'r, AnyRow> + Send + Unpin,
+{
+    // A pool's own list ends at the first row that cannot be read.
+    let mut connection = readers.acquire().await?;
+    let mut rows = list.fetch(&mut *connection);
+    let mut found = Vec::new();
+    loop {
+        match rows.try_next().await {
+            Ok(Some(row)) => found.push(row),
+            Ok(None) => return Ok(found),
+            Err(cause @ (sqlx::Error::ColumnDecode { .. } | sqlx::Error::Decode(_))) => {
+                tracing::error!(target: "triad", %cause, "a row is damaged: restore the database from a copy");
+            }
+            Err(other) => return Err(other.into()),
+        }
+    }
 }

@@ -5,6 +5,7 @@ use sqlx::AnyConnection;
 
 use super::class::Assignment;
 use super::class::assignments::{ensured, extension_of};
+use super::database::readable;
 use super::error::StoreError;
 use super::hash::sha256;
 use super::log::{self, Event};
@@ -176,7 +177,7 @@ impl Store {
         let limit = i64::try_from(query.limit).unwrap_or(i64::MAX);
         let list = sqlx::query_as(sql::SUBMISSIONS).bind(&query.course).bind(&query.person);
         let rows: Vec<(String, String, String, String, String)> =
-            list.bind(&query.lesson).bind(limit).fetch_all(&self.pools.readers).await?;
+            readable(list.bind(&query.lesson).bind(limit), &self.pools.readers).await?;
         let read = |(id, lesson, student, answers, verdict): (String, String, String, String, String)| {
             let parsed = (serde_json::from_str(&answers), serde_json::from_str(&verdict));
             let (Ok(answers), Ok(verdict)) = parsed else {
@@ -211,7 +212,7 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn recorded(&self, course: &str, lesson: Option<&str>) -> Result<Vec<Recorded>, StoreError> {
         let list = sqlx::query_as(sql::REBUILDABLE).bind(course).bind(lesson);
-        let rows: Vec<RecordedRow> = list.fetch_all(&self.pools.readers).await?;
+        let rows: Vec<RecordedRow> = readable(list, &self.pools.readers).await?;
         Ok(rows.into_iter().map(recorded).collect())
     }
 
@@ -223,7 +224,7 @@ impl Store {
         let last = sqlx::query_as(sql::EVENT_UNTIL).bind(course).bind(after.0);
         let last: Option<(i64,)> = last.fetch_optional(&self.pools.readers).await?;
         let list = sqlx::query_as(sql::RECENT).bind(course).bind(last.map_or(0, |(n,)| n));
-        let rows: Vec<RecordedRow> = list.fetch_all(&self.pools.readers).await?;
+        let rows: Vec<RecordedRow> = readable(list, &self.pools.readers).await?;
         Ok(rows.into_iter().map(recorded).collect())
     }
 

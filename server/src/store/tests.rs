@@ -160,6 +160,20 @@ async fn several_programs_make_and_share_one_file() {
     .await;
 }
 
+/// A clock that was set back, or far ahead and back again, changes no order.
+#[tokio::test]
+async fn the_newest_is_what_was_kept_last_whatever_the_clock_said() {
+    let (_folder, path) = place();
+    let store = open(&path).await;
+    let mut kept = Vec::new();
+    for hours in [0, 400 * 365 * 24, -1, 0] {
+        let at_that_hour = HandIn { received_at: now() + hours * 3_600_000, ..new("ada") };
+        hand_in(&store, &at_that_hour).await.expect("keeps");
+        kept.insert(0, at_that_hour.id);
+    }
+    assert_eq!(ids(&store).await, kept);
+}
+
 /// What is moved, replaced or removed, the database or its log of changes: nothing is acknowledged that a restart forgets.
 #[tokio::test]
 async fn a_file_that_is_taken_away_takes_no_submissions() {
@@ -224,15 +238,19 @@ async fn a_flipped_byte_is_found() {
     store.close().await;
     let whole = fs::read(&path).expect("reads");
     let (mut refused, mut found, mut harmless) = (0, 0, 0);
-    for place in (100..whole.len()).step_by(whole.len() / 60) {
+    let places = (100..whole.len()).step_by(whole.len() / 60);
+    // The highest bit of a letter makes a text none.
+    for (place, bit) in places.flat_map(|place| [(place, 1), (place, 0x80)]) {
         let mut bytes = whole.clone();
-        bytes[place] ^= 1;
+        bytes[place] ^= bit;
         fs::write(&path, bytes).expect("writes");
         let Ok(store) = Store::open(&path).await else {
             refused += 1;
             continue;
         };
-        match (store.faults().await, store.list(&all()).await) {
+        let listed = store.list(&all()).await;
+        assert!(!matches!(listed, Err(StoreError::Sql(_))), "byte {place} hides all the others: {listed:?}");
+        match (store.faults().await, listed) {
             (Ok(faults), Ok(now)) if faults.is_empty() => {
                 assert!(now == before, "byte {place} changed a submission unseen");
                 harmless += 1;

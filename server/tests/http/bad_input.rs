@@ -76,6 +76,21 @@ async fn a_scene_with_too_many_bodies_is_refused_before_it_is_built() {
 }
 
 #[tokio::test]
+async fn joints_drivers_and_loads_are_bounded_together() {
+    let server = triad::app(state(Limits { connections: 40, ..Limits::default() }));
+    let mut crowded = scene();
+    let joints = crowded["joints"].as_array().expect("joints").len();
+    let push = |k: usize| json!({"type": "force", "name": format!("push {k}"), "body": crowded["bodies"][0]["name"], "force": [0, 0, 0]});
+    let loads: Vec<Value> = (0..=40 - joints).map(push).collect();
+    let enough = loads[..40 - joints].to_vec();
+    crowded["loads"] = json!(loads);
+    let problem = post(&server, "/api/v1/sessions", json!({"scene": crowded})).await;
+    assert_eq!(problem.problem(422, "scene-too-large")["errors"][0]["pointer"], "#/scene/loads");
+    crowded["loads"] = json!(enough);
+    assert_eq!(post(&server, "/api/v1/sessions", json!({"scene": crowded})).await.status, 201);
+}
+
+#[tokio::test]
 async fn a_million_bodies_and_a_hundred_megabytes_are_refused_by_their_size() {
     let server = triad::app(state(Limits { request_bytes: 100_000, ..Limits::default() }));
     let million = r#"{"name":"b","mass":1},"#.repeat(20_000);
