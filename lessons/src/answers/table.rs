@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::units::Unit;
 use crate::text::shorten;
 
 /// Most lines that are read.
@@ -141,9 +142,18 @@ pub(crate) fn number(cell: &str, line: usize, name: &str) -> Result<f64, TableEr
     }
 }
 
-/// Reads a table of numbers.
+/// Whether the cells are units and not numbers alone: 1 may be either.
+fn are_units(cells: &[String]) -> bool {
+    cells.iter().all(|cell| Unit::parse(cell).is_ok())
+        && cells.iter().any(|cell| cell.parse::<f64>().is_err())
+}
+
+/// Reads a table of numbers. A row of units below the names, as `triad run` writes it, is passed over.
 pub(crate) fn read(text: &str) -> Result<Table, TableError> {
-    let Cells { names, lines } = cells(text)?;
+    let Cells { names, mut lines } = cells(text)?;
+    if lines.first().is_some_and(|(_, cells)| are_units(cells)) {
+        lines.remove(0);
+    }
     if lines.len() > MAX_ROWS {
         return Err(TableError::TooManyRows { rows: lines.len() });
     }
@@ -167,6 +177,8 @@ mod tests {
             "t\tx\r\n0\t1.5\r\n1\t2",
             "t x\n 0   1.5\n1 2e0",
             "\"t\",\"x\"\n0,1.5\n1,2",
+            "# conventions\nt,x\ns,N m\n0,1.5\n1,2",
+            "t,x\ns,1\n0,1.5\n1,2",
         ] {
             let table = read(text).unwrap_or_else(|e| panic!("{text:?}: {e}"));
             assert_eq!(
@@ -184,6 +196,8 @@ mod tests {
             ("t,x\n0,1\n1", "Line 3 has 1 cells"),
             ("t,x\n0,one", "Line 2, column x: \u{201c}one\u{201d}"),
             ("t,x\n0,NaN", "not a finite number"),
+            ("t,x\nNaN,m\n0,1", "Line 2, column t"),
+            ("t,x\ns,m\ns,m\n0,1", "Line 3, column t"),
         ] {
             assert!(
                 read(text).unwrap_err().to_string().contains(says),
