@@ -67,20 +67,25 @@ impl Samples {
         true
     }
 
-    /// Drops every second sample of the older half.
+    /// Of the older half about every second sample goes, so that the others lie evenly over the time since the start.
     fn thin(&mut self) {
         let half = self.kept.len() / 2;
-        let stays = |index: usize| index >= half || index.is_multiple_of(2);
-        let mut index = 0;
-        self.kept.retain(|_| {
-            index += 1;
-            stays(index - 1)
+        let (first, middle) = (self.kept[0].time, self.kept[half].time);
+        // The slack keeps rounding from dropping two of three.
+        let apart = (middle - first) / (half / 2).max(1) as f64 * (1.0 - 1e-6);
+        let mut last = f64::NEG_INFINITY;
+        let of_older = self.kept[..half].iter().map(|sample| {
+            let stays = sample.time - last >= apart;
+            if stays {
+                last = sample.time;
+            }
+            stays
         });
-        let mut index = 0;
-        self.places.retain(|_| {
-            index += 1;
-            stays(index - 1)
-        });
+        let stays: Vec<bool> = of_older.chain(std::iter::repeat_n(true, self.kept.len() - half)).collect();
+        let mut of_sample = stays.iter();
+        self.kept.retain(|_| of_sample.next() == Some(&true));
+        let mut of_place = stays.iter();
+        self.places.retain(|_| of_place.next() == Some(&true));
         // A list grows by doubling: what it has ahead goes too.
         self.kept.shrink_to_fit();
         self.bytes = self.kept.iter().map(Sample::size).sum();
@@ -200,6 +205,8 @@ mod tests {
         assert!(samples.kept.len() <= 41 && samples.recorded() == 200);
         assert_eq!(samples.among_first(taken).len() + samples.after(taken).len(), samples.kept.len());
         assert_eq!(samples.kept[0].time, 0.0, "the start stays");
+        let gap = samples.kept.windows(2).map(|pair| pair[1].time - pair[0].time).fold(0.0, f64::max);
+        assert!(gap < 0.05, "what is kept reaches back to the start, {gap} s apart");
         samples.restart();
         assert_eq!((samples.epoch(), samples.recorded(), samples.after(0).len()), (1, 0, 0));
     }
