@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use triad_lessons::Course;
 use triad_tests::load::Line;
-use triad_tests::postgres::Postgres;
+use triad_tests::postgres::{Postgres, psql};
 use triad_tests::program::{Server, triad};
 
 /// Graders side by side, one submission at a time each.
@@ -40,11 +40,8 @@ impl Drop for Ends {
     }
 }
 
-fn psql(url: &str, statement: &str) -> usize {
-    let told =
-        Command::new("psql").args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement, url]).output().unwrap();
-    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
-    String::from_utf8_lossy(&told.stdout).trim().parse().unwrap_or_default()
+fn count(url: &str, statement: &str) -> usize {
+    psql(url, statement).parse().unwrap_or_default()
 }
 
 fn program(words: &[&str], url: &str, folder: &Path) -> Command {
@@ -82,19 +79,19 @@ fn graded(url: &str, folder: &Path, graders: usize) -> f64 {
     const LEFT: &str = "SELECT COUNT(*) FROM grading";
     // What the server had begun is begun anew: nobody waits for the end of its claims.
     psql(url, "UPDATE grading SET state = 'queued', starts = 0, lease_until = 0");
-    let all = psql(url, LEFT);
+    let all = count(url, LEFT);
     let start =
         || Ends(program(&["grader", "--slots", "1"], url, folder).stdout(Stdio::null()).spawn().unwrap());
     let _graders: Vec<Ends> = (0..graders).map(|_| start()).collect();
     let mut left = all;
     while left == all {
         std::thread::sleep(LOOK);
-        left = psql(url, LEFT);
+        left = count(url, LEFT);
     }
     let (from, began) = (left, Instant::now());
     while left > 0 {
         std::thread::sleep(LOOK);
-        left = psql(url, LEFT);
+        left = count(url, LEFT);
     }
     from as f64 / began.elapsed().as_secs_f64()
 }

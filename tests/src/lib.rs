@@ -7,11 +7,15 @@
 pub mod accuracy;
 #[cfg(unix)]
 pub mod cable;
+#[cfg(target_os = "linux")]
+pub mod network;
 #[cfg(unix)]
 pub mod postgres;
 pub mod probe;
 pub mod vitals;
 
+#[cfg(target_os = "linux")]
+pub mod park;
 pub mod program;
 pub mod random;
 pub mod reference;

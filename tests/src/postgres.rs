@@ -1,5 +1,6 @@
 //! A PostgreSQL server for tests: the one that is installed, on a folder of its own, thrown away afterwards.
 
+use std::io::Write;
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -44,6 +45,7 @@ impl Postgres {
             println!("left out: {what}: PostgreSQL is not installed (Debian: apt-get install postgresql)");
             return None;
         }
+        server.hears("");
         server.control(&["start"]);
         Some(server)
     }
@@ -89,15 +91,29 @@ impl Postgres {
         (cable, format!("{address}?sslmode=disable"))
     }
 
+    /// Lets the machines of a network reach it at this machine's address there, once it is started again; where a database is for
+    /// them.
+    pub fn at(&self, address: &str, database: &str) -> String {
+        self.hears(address);
+        self.set("pg_hba.conf", "host all all samenet trust");
+        self.control(&["restart"]);
+        let (before, _) = database.split_once('?').unwrap_or((database, ""));
+        format!("{}?sslmode=disable", before.replace("localhost", address))
+    }
+
+    fn hears(&self, address: &str) {
+        self.set("postgresql.conf", &format!("listen_addresses = '{address}'"));
+    }
+
+    /// Adds a line to one of its files: the last one counts.
+    fn set(&self, file: &str, line: &str) {
+        let path = self.folder.as_ref().expect("a server of its own").path().join("data").join(file);
+        writeln!(std::fs::OpenOptions::new().append(true).open(path).unwrap(), "{line}").unwrap();
+    }
+
     /// What a statement says, in its first database.
     pub fn ask(&self, statement: &str) -> String {
-        told(
-            &Command::new("psql")
-                .args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement])
-                .arg(&self.url)
-                .output()
-                .unwrap(),
-        )
+        psql(&self.url, statement)
     }
 
     /// Runs the tests of this program whose names have `filter` in them, but none of `without`, once more with this server: see
@@ -115,9 +131,7 @@ impl Postgres {
 
     fn control(&self, what: &[&str]) {
         let place = self.folder.as_ref().expect("a server of its own").path().to_str().unwrap();
-        let settings = format!(
-            "-c listen_addresses='' -k {place} -c fsync=off -c full_page_writes=off -c max_connections=300"
-        );
+        let settings = format!("-k {place} -c fsync=off -c full_page_writes=off -c max_connections=300");
         let (data, log) = (format!("{place}/data"), format!("{place}/log"));
         let mut all = vec!["-D", &data, "-l", &log, "-o", &settings, "-w", "-s"];
         all.extend(what);
@@ -154,6 +168,12 @@ impl Drop for Postgres {
 /// The server with which [`Postgres::again`] runs this test; `None` in its first run.
 pub fn given() -> Option<Postgres> {
     std::env::var(GIVEN).ok().map(|url| Postgres { folder: None, url })
+}
+
+/// What a statement says in the database of that address.
+pub fn psql(url: &str, statement: &str) -> String {
+    let asked = Command::new("psql").args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement, url]).output();
+    told(&asked.unwrap())
 }
 
 fn told(output: &Output) -> String {

@@ -1,20 +1,19 @@
 //! Several servers and graders on one PostgreSQL, killed at any moment: nothing that was acknowledged is lost, each submission has
 //! one verdict, and every verdict is the one that a single process makes.
-#![cfg(unix)]
+#![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant, SystemTime};
-use triad_tests::cable::Cable;
-use triad_tests::postgres::Postgres;
-use triad_tests::program::{HANG, run_json, triad};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+use triad_tests::park::{Killed, Park};
+use triad_tests::postgres::{Postgres, psql};
+use triad_tests::program::{HANG, run, run_json};
 
 /// Submissions in all, unless `TRIAD_CHAOS` says otherwise.
 const SUBMISSIONS: u32 = 60;
@@ -22,100 +21,23 @@ const SUBMISSIONS: u32 = 60;
 const EACH: u32 = 25;
 /// Students at least.
 const STUDENTS: u32 = 40;
-const SERVERS: usize = 3;
-const GRADERS: usize = 4;
 /// Those who hand in at once.
 const CLIENTS: u32 = 8;
-/// The time between two kills.
-const LIFE: Duration = Duration::from_millis(250);
-/// How long a cable is held up: longer than the leases of the graders.
-const STALL: Duration = Duration::from_secs(3);
+/// Longest that a server is waited for: it may be cut off, or gone.
+const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Debian's package of that name.
-const FAKETIME: &str = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
-
-/// Where a program runs: by which address it finds the database, and how far its clock is off, in words of faketime.
-#[derive(Debug, Clone)]
-struct Machine {
-    url: String,
-    clock: Option<&'static str>,
-}
-
-impl Machine {
-    /// So many machines: of the first the clock is half an hour fast, of the second the cable is held up and cut, of the third the
-    /// clock is half an hour slow.
-    fn park(count: usize, url: &str, by_cable: &str) -> Vec<Self> {
-        let is_there = Path::new(FAKETIME).exists();
-        let machine = |k| Self {
-            url: if k == 1 { by_cable.to_owned() } else { url.to_owned() },
-            clock: [Some("+30m"), None, Some("-30m")].get(k).copied().flatten().filter(|_| is_there),
-        };
-        (0..count).map(machine).collect()
-    }
-}
-
-/// A program that is killed and started again; its address, where it is a server.
-struct Process {
-    child: Child,
-    address: String,
-}
-
-impl Process {
-    fn server(machine: &Machine, folder: &Path) -> Self {
-        // Nothing is answered at once: all of it goes through the queue.
-        let mut child = Self::start(&["serve", "--port", "0", "--at-once", "0"], machine, folder);
-        let mut lines = BufReader::new(child.stdout.take().unwrap());
-        let mut line = String::new();
-        lines.read_line(&mut line).unwrap();
-        // Where the database is away as it starts it says so and ends.
-        let at = line.split("http://").nth(1).and_then(|rest| rest.split_whitespace().next());
-        let address = at.unwrap_or_default().to_owned();
-        std::thread::spawn(move || std::io::copy(&mut lines, &mut std::io::sink()));
-        Self { child, address }
-    }
-
-    fn grader(machine: &Machine, folder: &Path) -> Self {
-        let child = Self::start(&["grader", "--slots", "2", "--lease", "2"], machine, folder);
-        Self { child, address: String::new() }
-    }
-
-    fn start(arguments: &[&str], machine: &Machine, folder: &Path) -> Child {
-        let mut command = Command::new(triad());
-        if let Some(clock) = machine.clock {
-            // What is waited for by the program itself takes as long as ever.
-            command
-                .env("LD_PRELOAD", FAKETIME)
-                .env("FAKETIME", clock)
-                .env("FAKETIME_DONT_FAKE_MONOTONIC", "1");
-        }
-        command
-            .args(arguments)
-            .args(["--database", &machine.url])
-            .current_dir(folder)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped());
-        command.stderr(Stdio::null()).spawn().unwrap()
-    }
-}
-
-impl Drop for Process {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-/// One submission, sent again under its key until a server has taken it.
-fn hand_in(servers: &[Mutex<Process>], number: u32, students: u32) -> Value {
+/// One submission, sent again under its key until a server has taken it: which one, and what it said.
+fn hand_in(park: &Park, number: u32, students: u32) -> (usize, Value) {
     let student = format!("student {}", number % students);
     let answers = json!({"tension-bottom": {"value": format!("{}.5", number % 97), "unit": "N"}});
     let body = json!({"student": student, "answers": answers}).to_string();
     let began = Instant::now();
     for turn in number as usize.. {
         assert!(began.elapsed() < HANG, "submission {number} is taken by nobody");
-        let address = servers[turn % servers.len()].lock().unwrap().address.clone();
-        if let Some((200..=202, told)) = ask(&address, number, &body) {
-            return told;
+        let server = turn % park.servers();
+        let answer = park.address(server).and_then(|address| ask(&address, number, &body));
+        if let Some((200..=202, told)) = answer {
+            return (server, told);
         }
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -123,8 +45,8 @@ fn hand_in(servers: &[Mutex<Process>], number: u32, students: u32) -> Value {
 }
 
 fn ask(address: &str, number: u32, body: &str) -> Option<(u16, Value)> {
-    let mut stream = TcpStream::connect(address).ok()?;
-    stream.set_read_timeout(Some(Duration::from_secs(20))).ok()?;
+    let mut stream = TcpStream::connect_timeout(&address.parse().ok()?, PATIENCE).ok()?;
+    stream.set_read_timeout(Some(PATIENCE)).ok()?;
     write!(
         stream,
         "POST /api/v1/lessons/simple-pendulum/submissions HTTP/1.0\r\nHost: {address}\r\nIdempotency-Key: {number}\r\n\
@@ -139,10 +61,13 @@ fn ask(address: &str, number: u32, body: &str) -> Option<(u16, Value)> {
     Some((status, serde_json::from_str(body).ok()?))
 }
 
-/// The time, in milliseconds since 1970.
-fn now() -> i64 {
-    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap();
-    i64::try_from(since.as_millis()).unwrap()
+/// How often each student hands in.
+fn handed_in(submissions: u32, students: u32) -> BTreeMap<String, u64> {
+    let mut each = BTreeMap::new();
+    for number in 0..submissions {
+        *each.entry(format!("student {}", number % students)).or_default() += 1;
+    }
+    each
 }
 
 /// Rows of a table in an export.
@@ -161,9 +86,6 @@ const WATCH: [&str; 3] = [
      WHEN (OLD.state = 'running' AND NEW.fence > OLD.fence) EXECUTE FUNCTION watch()",
 ];
 
-/// A program that was killed: its number, when, in milliseconds since 1970, and whether it was a grader.
-type Killed = (u32, i64, bool);
-
 /// How long it took from the end of each program until another one had begun again what it had: of graders, and of servers, whose
 /// claims hold longer. Of several submissions that one had, the first counts.
 fn times_to_take_over(url: &str, killed: &[Killed]) -> [Vec<f64>; 2] {
@@ -173,93 +95,15 @@ fn times_to_take_over(url: &str, killed: &[Killed]) -> [Vec<f64>; 2] {
         let (id, at) = row.split_once('|').unwrap();
         let (id, at): (u32, i64) = (id.parse().unwrap(), at.parse().unwrap());
         // Numbers of processes come again.
-        let end = killed.iter().rev().find(|(of, when, _)| *of == id && *when <= at);
-        if let Some((_, when, is_grader)) = end {
-            times[usize::from(!is_grader)].push((at - when) as f64 / 1000.0);
+        let end = killed.iter().rev().find(|one| one.id == id && one.at <= at);
+        if let Some(one) = end {
+            times[usize::from(!one.is_grader)].push((at - one.at) as f64 / 1000.0);
         }
     }
     for times in &mut times {
         times.sort_by(f64::total_cmp);
     }
     times
-}
-
-fn psql(url: &str, statement: &str) -> String {
-    let told =
-        Command::new("psql").args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement, url]).output().unwrap();
-    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
-    String::from_utf8_lossy(&told.stdout).trim().to_owned()
-}
-
-/// What is killed, and where each was.
-#[derive(Clone)]
-struct Park {
-    servers: Arc<Vec<Mutex<Process>>>,
-    graders: Arc<Vec<Mutex<Process>>>,
-    machines: Arc<[Vec<Machine>; 2]>,
-    folder: Arc<PathBuf>,
-    stop: Arc<AtomicBool>,
-}
-
-impl Park {
-    fn start(machines: [Vec<Machine>; 2], folder: &Path) -> Self {
-        let [at, graders_at] = &machines;
-        // The first makes the tables.
-        let servers = at.iter().map(|machine| Mutex::new(Process::server(machine, folder))).collect();
-        let graders = graders_at.iter().map(|machine| Mutex::new(Process::grader(machine, folder))).collect();
-        let (folder, stop) = (Arc::new(folder.to_owned()), Arc::default());
-        Self {
-            servers: Arc::new(servers),
-            graders: Arc::new(graders),
-            machines: machines.into(),
-            folder,
-            stop,
-        }
-    }
-
-    fn is_over(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    /// Kills one after the other, in an order without a rhythm, and starts another in its place.
-    fn kill(&self) -> Vec<Killed> {
-        let mut killed = Vec::new();
-        while !self.is_over() {
-            std::thread::sleep(LIFE);
-            let which = (killed.len() as f64 * 0.618_034).fract() * (SERVERS + GRADERS) as f64;
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // below seven
-            let which = which as usize;
-            let [servers, graders] = &*self.machines;
-            let is_grader = which >= SERVERS;
-            let place = if is_grader { &self.graders[which - SERVERS] } else { &self.servers[which] };
-            let mut place = place.lock().unwrap();
-            let id = place.child.id();
-            // The next one takes a moment to start: this one ends now.
-            let _ = place.child.kill();
-            let _ = place.child.wait();
-            killed.push((id, now(), is_grader));
-            *place = if is_grader {
-                Process::grader(&graders[which - SERVERS], &self.folder)
-            } else {
-                Process::server(&servers[which], &self.folder)
-            };
-        }
-        killed
-    }
-
-    /// Holds the cable up for longer than leases last, and cuts it, in turns.
-    fn disturb(&self, cable: &Cable) -> u32 {
-        let mut cuts = 0;
-        while !self.is_over() {
-            std::thread::sleep(2 * LIFE);
-            cable.hold_up(3 * LIFE);
-            cable.cut();
-            cuts += 1;
-            std::thread::sleep(2 * LIFE);
-            cable.hold_up(STALL);
-        }
-        cuts
-    }
 }
 
 #[test]
@@ -269,16 +113,9 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let submissions = std::env::var("TRIAD_CHAOS").map_or(SUBMISSIONS, |count| count.parse().unwrap());
     let folder = tempfile::tempdir().unwrap();
     let url = postgres.database();
-    let (cable, by_cable) = postgres.by_cable(&url);
     let students = STUDENTS.max(submissions / EACH);
-    if !Path::new(FAKETIME).exists() {
-        println!(
-            "left out: clocks that are off: faketime is not installed (Debian: apt-get install libfaketime)"
-        );
-    }
-    let machines = [SERVERS, GRADERS].map(|count| Machine::park(count, &url, &by_cable));
-    let park = Park::start(machines, folder.path());
-    let (servers, next) = (Arc::clone(&park.servers), Arc::new(AtomicU32::new(0)));
+    let park = Arc::new(Park::start(&postgres, &url, folder.path()));
+    let next = Arc::new(AtomicU32::new(0));
     let clock = || {
         postgres
             .ask("SELECT CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000 AS BIGINT)")
@@ -292,41 +129,35 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     let began = Instant::now();
     let clients: Vec<_> = (0..CLIENTS)
         .map(|_| {
-            let (servers, next) = (Arc::clone(&servers), Arc::clone(&next));
+            let (park, next) = (Arc::clone(&park), Arc::clone(&next));
             std::thread::spawn(move || {
-                let mut told = BTreeMap::new();
+                let mut told = Vec::new();
                 loop {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     if number >= submissions {
                         return told;
                     }
-                    told.insert(
-                        number.to_string(),
-                        hand_in(&servers, number, students)["id"].as_str().unwrap().to_owned(),
-                    );
+                    let (server, answer) = hand_in(&park, number, students);
+                    told.push((server, number.to_string(), answer["id"].as_str().unwrap().to_owned()));
                 }
             })
         })
         .collect();
-    let killer = std::thread::spawn({
-        let park = park.clone();
-        move || park.kill()
-    });
-    let disturber = std::thread::spawn({
-        let park = park.clone();
-        move || park.disturb(&cable)
-    });
+    let (killer, disturber) = (Arc::clone(&park), Arc::clone(&park));
+    let killer = std::thread::spawn(move || killer.kill());
+    let disturber = std::thread::spawn(move || disturber.disturb());
     for part in 1..3 {
         while next.load(Ordering::Relaxed) < submissions * part / 3 {
             std::thread::sleep(Duration::from_millis(10));
         }
         postgres.crash();
     }
-    let told: BTreeMap<String, String> =
-        clients.into_iter().flat_map(|client| client.join().unwrap()).collect();
+    let told: Vec<_> = clients.into_iter().flat_map(|client| client.join().unwrap()).collect();
+    let by = [0, 1, 2].map(|server| told.iter().filter(|(by, ..)| *by == server).count());
+    let told: BTreeMap<_, _> = told.into_iter().map(|(_, key, id)| (key, id)).collect();
     let accepted = began.elapsed();
     let last = clock();
-    park.stop.store(true, Ordering::Relaxed);
+    park.rest();
     let (killed, cuts) = (killer.join().unwrap(), disturber.join().unwrap());
     let waiting = || run_json(&["grader", "--look", "--database", &url]).1;
     let mut state = waiting();
@@ -359,6 +190,13 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
         times.clone().all(|at| (first..=last).contains(&at)),
         "by the clock of the database: {first} {last}"
     );
+    let mut attempts = handed_in(submissions, students);
+    for line in String::from_utf8(run(&["grades", "--jsonl", "--database", &url]).stdout).unwrap().lines() {
+        let line: Value = serde_json::from_str(line).unwrap();
+        let student = attempts.remove(line["student"].as_str().unwrap());
+        assert_eq!(student, line["attempts"].as_u64(), "{line}");
+    }
+    assert_eq!(attempts, BTreeMap::new(), "attempts are exact");
     assert_eq!(run_json(&["grades", "--check", "--database", &url]), (0, json!([])), "the log is whole");
     // A single process, on a copy in a file, makes each verdict again, byte for byte.
     let file = folder.path().join("single.db");
@@ -368,8 +206,9 @@ fn nothing_is_lost_or_graded_twice_whatever_dies() {
     assert_eq!((code, &rebuilt["same"]), (0, &json!(submissions)), "{rebuilt}");
     let kills = killed.len();
     println!(
-        "{submissions} submissions of {students} students, {kills} kills, 2 crashes of PostgreSQL, {cuts} cuts of a cable: 0 lost, \
+        "{submissions} submissions of {students} students, by servers {by:?}, {kills} kills, one in {:.0} ms, 2 crashes of PostgreSQL, {cuts} cuts of a network and of a cable: 0 lost, \
          0 doubled, {aside} put aside on the way; accepted in {:.0} s, graded in {:.0} s, {:.1} a second",
+        (accepted / u32::try_from(kills).unwrap()).as_secs_f64() * 1000.0,
         accepted.as_secs_f64(),
         all.as_secs_f64(),
         f64::from(submissions) / all.as_secs_f64()

@@ -7,6 +7,9 @@ use std::process::{Command, Stdio};
 /// Node's package manager.
 pub const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
+/// What lets programs believe in another time, as Debian's package has it.
+const FAKETIME: &str = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1";
+
 /// Programs of Debian packages, and packages of npm.
 pub fn run(root: &Path) -> Result<(), String> {
     let mut missing = Vec::new();
@@ -18,6 +21,12 @@ pub fn run(root: &Path) -> Result<(), String> {
     }
     if !starts("pg_config") && !Path::new("/usr/lib/postgresql").exists() {
         missing.push("postgresql");
+    }
+    if cfg!(target_arch = "x86_64") && !Path::new(FAKETIME).exists() {
+        missing.push("libfaketime");
+    }
+    if !starts_with("ip", "-V") {
+        missing.push("iproute2");
     }
     if !missing.is_empty() {
         install(&missing)?;
@@ -38,7 +47,11 @@ fn add_target() {
 }
 
 fn starts(program: &str) -> bool {
-    Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
+    starts_with(program, "--version")
+}
+
+fn starts_with(program: &str, word: &str) -> bool {
+    Command::new(program).arg(word).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
 }
 
 /// Installs Debian packages, as root.
