@@ -95,11 +95,10 @@ async fn back(
         };
         let token = app.store.begin_session(&person).await?;
         let member = app.store.member_of_session(CLASS, &token).await?;
-        let path = if member.is_some_and(|member| member.role > Role::Student) { "/class" } else { "/" };
-        let location = format!("{}{path}", app.base);
-        let mut answer = (StatusCode::SEE_OTHER, [(header::CACHE_CONTROL, "no-store")]).into_response();
-        let location = HeaderValue::from_str(&location).map_err(Problem::internal)?;
-        answer.headers_mut().insert(header::LOCATION, location);
+        // The path below which we stand comes before it on the way out.
+        let to = if member.is_some_and(|member| member.role > Role::Student) { "/class" } else { "/" };
+        let heads = [(header::CACHE_CONTROL, "no-store"), (header::LOCATION, to)];
+        let mut answer = (StatusCode::SEE_OTHER, heads).into_response();
         answer.headers_mut().append(header::SET_COOKIE, sign_in::cookie(&app, &token, LIFE / 1000)?);
         answer.headers_mut().append(header::SET_COOKIE, given(&app, &name, "", 0)?);
         Ok(answer)

@@ -40,6 +40,8 @@ type Shared = Arc<Mutex<Seen>>;
 
 struct Seen {
     url: String,
+    /// The address of the class that is registered there.
+    home: String,
     signing: Signing,
     /// What it gives for a code, once: the claims, and the challenge with which it was asked.
     codes: HashMap<String, (Value, String)>,
@@ -53,11 +55,12 @@ struct Seen {
 }
 
 impl Institution {
-    async fn start() -> Self {
+    async fn start(home: &str) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
         let seen = Arc::new(Mutex::new(Seen {
             url: url.clone(),
+            home: home.to_owned(),
             signing: Signing::new(),
             codes: HashMap::new(),
             describes: None,
@@ -129,7 +132,7 @@ async fn token(
         assert_eq!(headers[header::AUTHORIZATION], format!("Basic {both}"));
     }
     assert_eq!((form["grant_type"].as_str(), form["client_id"].as_str()), ("authorization_code", CLIENT.0));
-    assert_eq!(form["redirect_uri"], format!("{HOME}{BACK}"));
+    assert_eq!(form["redirect_uri"], format!("{}{BACK}", seen.home));
     let Some((claims, challenge)) = seen.codes.remove(&form["code"]) else {
         return (StatusCode::BAD_REQUEST, Json(json!({"error": "invalid_grant"}))).into_response();
     };
@@ -150,7 +153,9 @@ impl Asked {
     fn new(to: &str, reply: &Reply) -> Self {
         let set = reply.headers[header::SET_COOKIE].to_str().expect("text");
         assert!(
-            set.starts_with("__Host-triad-oidc-") && set.contains("HttpOnly") && set.contains("Secure"),
+            (set.starts_with("__Host-triad-oidc-") || set.starts_with("__Secure-triad-oidc-"))
+                && set.contains("HttpOnly")
+                && set.contains("Secure"),
             "{set}"
         );
         assert!(set.contains("SameSite=Lax"), "it comes back by a link: {set}");
@@ -168,17 +173,25 @@ struct School {
     class: Class,
     institution: Institution,
     owner: String,
+    /// The path below which the class stands; empty for the root.
+    base: &'static str,
 }
 
 async fn school() -> School {
+    school_below("").await
+}
+
+async fn school_below(base: &'static str) -> School {
     let class = class().await;
-    let institution = Institution::start().await;
-    let app = class.app.clone().with_lti(Lti::at(HOME, "secret").expect("an address"));
+    let home = format!("{HOME}{base}");
+    let institution = Institution::start(&home).await;
+    let app = class.app.clone().with_lti(Lti::at(&home, "secret").expect("an address")).below(base);
     let lti = app.lti.clone().expect("reached");
     let app = app.with_oidc(Oidc::new(institution.provider(), lti));
     let class = Class { server: triad::app(app.clone()), app, ..class };
-    let owner = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await.0;
-    School { class, institution, owner }
+    let setup = format!("{base}/api/v1/setup");
+    let owner = class.enter(&setup, json!({"token": class.setup, "name": "Prof"})).await.0;
+    School { class, institution, owner, base }
 }
 
 fn text(reply: &Reply, name: header::HeaderName) -> String {
@@ -188,14 +201,14 @@ fn text(reply: &Reply, name: header::HeaderName) -> String {
 impl School {
     /// Begins to sign in.
     async fn leaves(&self) -> Asked {
-        let reply = self.class.ask("GET", "/oidc/login", "", None).await;
+        let reply = self.class.ask("GET", &format!("{}/oidc/login", self.base), "", None).await;
         assert_eq!(reply.status, 302, "{}", String::from_utf8_lossy(&reply.bytes));
         Asked::new(&text(&reply, header::LOCATION), &reply)
     }
 
     /// Begins to connect an account.
     async fn connects(&self, who: &str) -> Asked {
-        let reply = self.class.ask("POST", "/api/v1/me/account", who, None).await;
+        let reply = self.class.ask("POST", &format!("{}/api/v1/me/account", self.base), who, None).await;
         assert_eq!(reply.status, 200, "{}", reply.json());
         let to = reply.json()["to"].as_str().expect("an address").to_owned();
         Asked::new(&to, &reply)
@@ -204,7 +217,8 @@ impl School {
     /// Comes back with these words in the address.
     async fn returns(&self, cookies: &[&str], pairs: &[(&str, &str)]) -> Reply {
         let query = url::form_urlencoded::Serializer::new(String::new()).extend_pairs(pairs).finish();
-        let request = Request::get(format!("{BACK}?{query}")).header(header::COOKIE, cookies.join("; "));
+        let request =
+            Request::get(format!("{}{BACK}?{query}", self.base)).header(header::COOKIE, cookies.join("; "));
         send(&self.class.server, request.body(Body::empty()).expect("a request")).await
     }
 
@@ -221,7 +235,7 @@ impl School {
     }
 
     async fn me(&self, who: &str) -> Value {
-        self.class.ask("GET", "/api/v1/me", who, None).await.json()
+        self.class.ask("GET", &format!("{}/api/v1/me", self.base), who, None).await.json()
     }
 }
 
@@ -261,6 +275,21 @@ async fn who_connected_an_account_comes_back_with_it_in_the_role_that_the_class_
     let log = school.class.ask("GET", "/api/v1/course/export", &school.owner, None).await;
     let log = String::from_utf8_lossy(&log.bytes).into_owned();
     assert!(log.contains("connected an account") && !log.contains("emmy@school"));
+}
+
+#[tokio::test]
+async fn below_a_path_people_come_back_below_it() {
+    let school = school_below("/school/triad").await;
+    let asked = school.leaves().await;
+    assert_eq!(asked.of("redirect_uri"), format!("{HOME}/school/triad{BACK}"));
+    let connected = school.connected(&school.owner, "emmy@school").await;
+    assert_eq!(text(&connected, header::LOCATION), "/school/triad/class");
+    let back = school.signs_in("emmy@school").await;
+    assert_eq!(text(&back, header::LOCATION), "/school/triad/class");
+    assert_eq!(school.me(&session(&back)).await["person"]["name"], "Prof");
+    // Cookies go to nobody else on the host.
+    let mut sets = back.headers.get_all(header::SET_COOKIE).iter().map(|set| set.to_str().expect("text"));
+    assert!(asked.cookie.starts_with("__Secure-") && sets.all(|set| set.contains("; Path=/school/triad;")));
 }
 
 #[tokio::test]
@@ -384,7 +413,7 @@ async fn every_return_that_was_not_begun_here_is_refused() {
 /// What a provider says of itself is looked at, and kept for an hour; a new key is fetched a minute later.
 #[tokio::test]
 async fn a_provider_may_change_its_keys_and_not_its_name() {
-    let institution = Institution::start().await;
+    let institution = Institution::start(HOME).await;
     let lti = Arc::new(Lti::at(HOME, "secret").expect("an address"));
     let oidc = Oidc::new(institution.provider(), lti.clone());
     let now = Moment::now();

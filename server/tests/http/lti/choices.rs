@@ -12,14 +12,19 @@ use crate::{Reply, send};
 const CHOICE: (&str, &str) = ("target_link_uri", "https://triad.test/lti/choice");
 const FRAME: (&str, &str) = ("sec-fetch-dest", "iframe");
 
-fn settings(school: &School) -> Value {
+pub(super) fn settings(school: &School) -> Value {
     json!({
         "deep_link_return_url": format!("{}/chosen", school.platform.url), "accept_types": ["link", "ltiResourceLink"],
         "accept_presentation_document_targets": ["iframe", "window"], "accept_multiple": true, "data": "from & to",
     })
 }
 
-async fn offer(school: &School, begun: &Begun, role: &str, change: impl FnOnce(&mut Value)) -> Reply {
+pub(super) async fn offer(
+    school: &School,
+    begun: &Begun,
+    role: &str,
+    change: impl FnOnce(&mut Value),
+) -> Reply {
     let mut word = school.platform.word(&begun.nonce, "prof", role, "none");
     word["https://purl.imsglobal.org/spec/lti/claim/message_type"] = json!("LtiDeepLinkingRequest");
     word["https://purl.imsglobal.org/spec/lti-dl/claim/deep_linking_settings"] = settings(school);
@@ -29,22 +34,22 @@ async fn offer(school: &School, begun: &Begun, role: &str, change: impl FnOnce(&
 }
 
 /// The value of a hidden field of a page.
-fn field(reply: &Reply, name: &str) -> String {
+pub(super) fn field(reply: &Reply, name: &str) -> String {
     let text = String::from_utf8_lossy(&reply.bytes).into_owned();
     let value = text.split_once(&format!("name=\"{name}\" value=\"")).expect("a field").1;
     value.split('"').next().unwrap_or_default().to_owned()
 }
 
-async fn choose(school: &School, pairs: &[(&str, &str)]) -> Reply {
-    let request =
-        Request::post("/lti/choice").header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
+pub(super) async fn choose(school: &School, pairs: &[(&str, &str)]) -> Reply {
+    let request = Request::post(format!("{}/lti/choice", school.base))
+        .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
     send(&school.class.server, request.body(Body::from(encoded(pairs))).expect("a request")).await
 }
 
 /// What we say to the platform, checked by our published keys.
-async fn said(school: &School, reply: &Reply) -> Value {
+pub(super) async fn said(school: &School, reply: &Reply) -> Value {
     let token = field(reply, "JWT");
-    let request = Request::get("/lti/keys").body(Body::empty()).expect("a request");
+    let request = Request::get(format!("{}/lti/keys", school.base)).body(Body::empty()).expect("a request");
     let set = send(&school.class.server, request).await.json();
     let set: jsonwebtoken::jwk::JwkSet = serde_json::from_value(set).expect("keys");
     let name = jsonwebtoken::decode_header(&token).expect("a header").kid.expect("a name");

@@ -1,6 +1,7 @@
 //! A learning platform sends people, chooses lessons and takes scores.
 
 mod arrivals;
+mod below;
 mod choices;
 pub(crate) mod platform;
 mod refusals;
@@ -23,6 +24,8 @@ const LESSON: &str = "simple-pendulum";
 struct School {
     class: Class,
     platform: Platform,
+    /// The path below which the class stands; empty for the root.
+    base: &'static str,
 }
 
 /// A launch that was begun: what the browser keeps, and what the platform was told.
@@ -33,14 +36,19 @@ struct Begun {
 }
 
 async fn school() -> School {
+    school_below("").await
+}
+
+async fn school_below(base: &'static str) -> School {
     let class = class().await;
-    let platform = Platform::start().await;
+    let home = format!("https://triad.test{base}");
+    let platform = Platform::start(&home).await;
     let registered = platform.registration().check().expect("a platform");
     class.app.store.add_platform(CLASS, &registered).await.expect("registered");
     let ours = keys::published(&class.app.store).await.expect("keys");
     platform.seen.lock().expect("whole").ours = Some(ours);
-    let app = class.app.clone().with_lti(Lti::at("https://triad.test", "secret").expect("an address"));
-    School { class: Class { server: triad::app(app.clone()), app, ..class }, platform }
+    let app = class.app.clone().with_lti(Lti::at(&home, "secret").expect("an address")).below(base);
+    School { class: Class { server: triad::app(app.clone()), app, ..class }, platform, base }
 }
 
 fn encoded(pairs: &[(&str, &str)]) -> String {
@@ -50,7 +58,7 @@ fn encoded(pairs: &[(&str, &str)]) -> String {
 impl School {
     /// What the platform says first.
     async fn login(&self, more: &[(&str, &str)], headers: &[(&str, &str)]) -> Reply {
-        let target = format!("https://triad.test/lessons/{LESSON}");
+        let target = format!("{}/lessons/{LESSON}", self.platform.tool);
         let usual = [
             ("iss", self.platform.url.as_str()),
             ("login_hint", "somebody"),
@@ -60,7 +68,7 @@ impl School {
         ];
         let usual = usual.into_iter().filter(|(name, _)| !more.iter().any(|(other, _)| name == other));
         let pairs: Vec<(&str, &str)> = usual.chain(more.iter().copied()).collect();
-        let mut request = Request::get(format!("/lti/login?{}", encoded(&pairs)));
+        let mut request = Request::get(format!("{}/lti/login?{}", self.base, encoded(&pairs)));
         for (name, value) in headers {
             request = request.header(*name, *value);
         }
@@ -73,7 +81,7 @@ impl School {
 
     /// The platform's answer, as a page of the platform has the browser send it.
     async fn launch(&self, cookie: &str, pairs: &[(&str, &str)]) -> Reply {
-        let request = Request::post("/lti/launch")
+        let request = Request::post(format!("{}/lti/launch", self.base))
             .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
             .header(header::ORIGIN, &self.platform.url)
             .header("sec-fetch-site", "cross-site")
@@ -100,7 +108,7 @@ impl School {
         let reply = self.open(subject, role).await;
         assert_eq!(reply.status, 303, "{}", String::from_utf8_lossy(&reply.bytes));
         let cookie = session(&reply);
-        let me = self.class.ask("GET", "/api/v1/me", &cookie, None).await.json();
+        let me = self.class.ask("GET", &format!("{}/api/v1/me", self.base), &cookie, None).await.json();
         (cookie, me["person"].clone())
     }
 }

@@ -80,12 +80,14 @@ type Shared = Arc<Mutex<Seen>>;
 
 pub(super) struct Platform {
     pub(super) url: String,
+    /// Where it believes the class to be.
+    pub(super) tool: String,
     pub(super) signing: Signing,
     pub(super) seen: Shared,
 }
 
 impl Platform {
-    pub(super) async fn start() -> Self {
+    pub(super) async fn start(tool: &str) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
         let signing = Signing::new();
@@ -99,7 +101,7 @@ impl Platform {
             .route("/people", get(people))
             .with_state((seen.clone(), url.clone()));
         tokio::spawn(async move { axum::serve(listener, router).await });
-        Self { url, signing, seen }
+        Self { url, tool: tool.to_owned(), signing, seen }
     }
 
     pub(super) fn registration(&self) -> Registration {
@@ -125,7 +127,7 @@ impl Platform {
             "https://purl.imsglobal.org/spec/lti/claim/message_type": "LtiResourceLinkRequest",
             "https://purl.imsglobal.org/spec/lti/claim/version": "1.3.0",
             "https://purl.imsglobal.org/spec/lti/claim/deployment_id": DEPLOYMENT,
-            "https://purl.imsglobal.org/spec/lti/claim/target_link_uri": format!("https://triad.test/lessons/{lesson}"),
+            "https://purl.imsglobal.org/spec/lti/claim/target_link_uri": format!("{}/lessons/{lesson}", self.tool),
             "https://purl.imsglobal.org/spec/lti/claim/resource_link": {"id": format!("link-{lesson}")},
             "https://purl.imsglobal.org/spec/lti/claim/roles":
                 [format!("http://purl.imsglobal.org/vocab/lis/v2/membership#{role}")],
