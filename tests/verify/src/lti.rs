@@ -10,7 +10,7 @@ pub fn run(root: &Path) -> Result<(), String> {
     let Some(session) = others::session(root, "lti", what)? else { return Ok(()) };
     let word = session.folder.join("word.json");
     let mut test = cargo_command(root);
-    test.args("test --release --quiet -p triad --test http what_this_platform_signs".split(' '));
+    test.args("test --release --quiet --workspace --test http what_this_platform_signs".split(' '));
     must(test.env("TRIAD_LTI_WORD", &word))?;
     must(
         Command::new(session.python)
