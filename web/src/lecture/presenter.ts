@@ -18,7 +18,7 @@ import { showSaid } from "./said";
 import { screenKeys } from "./screen-keys";
 import { Slides } from "./slides";
 import type { Taped } from "./tape";
-import { Taping } from "./taping";
+import { forgetTape, Taping } from "./taping";
 
 /** Time between two messages to the followers, ms. */
 const SEND_MS = 150;
@@ -247,6 +247,7 @@ export class PresenterPanel {
     this.lecture = undefined;
     store(undefined);
     this.paint();
+    forgetTape();
   }
 
   /** Sends a request for the lecture that is open; a failure is shown in the panel. */

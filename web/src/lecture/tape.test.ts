@@ -73,3 +73,25 @@ it("an hour of moments is bounded, and nothing that was shown is lost", () => {
   expect(moments.length).toBeLessThanOrEqual(4001);
   expect(new Set(moments.map((moment) => moment[4])).size).toBe(looks.length);
 });
+
+it("a lecture goes on after the page was reloaded", () => {
+  let clock = 1000;
+  const tape = new Tape("a lecture", () => clock);
+  tape.see(0, 1, look);
+  clock += 1000;
+  tape.see(1, 0, { ...look, joint: "pin" });
+  tape.cut(motion(101));
+  const kept = JSON.parse(JSON.stringify(tape.taped(undefined)));
+  // The clock of another page begins anew, and another run with it.
+  clock = 0;
+  const again = new Tape(kept.title, () => clock, kept);
+  clock += 500;
+  again.see(0, 0, { ...look, joint: "pin" });
+  clock += 500;
+  const taped = again.taped(motion(11));
+  expect([taped.parts.length, taped.looks.length, taped.began]).toEqual([2, 2, kept.began]);
+  expect(taped.moments.map(([, part]) => part)).toEqual([0, 0, 0, 1, 1]);
+  const times = taped.moments.map(([at]) => at);
+  expect(times).toEqual([...times].sort((a, b) => a - b));
+  expect(at(playing(taped), 0.5)?.run).toBeCloseTo(0.5);
+});

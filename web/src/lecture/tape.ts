@@ -39,18 +39,28 @@ const LEAST_LETTERS = 20e3;
 const PAUSE = 3;
 
 export class Tape {
-  private readonly began = new Date();
+  private readonly began: Date;
   private readonly start: number;
-  private readonly parts: Motion[] = [];
-  private readonly looks: Look[] = [];
-  private moments: Moment[] = [];
-  private lastLook = "";
+  private readonly parts: Motion[];
+  private readonly looks: Look[];
+  private moments: Moment[];
+  private lastLook: string;
 
+  /** `before` is what another page has recorded of the same lecture: it goes on from there. */
   constructor(
     readonly title: string,
     private readonly now: () => number,
+    before?: Taped,
   ) {
+    this.began = before ? new Date(before.began) : new Date();
     this.start = now();
+    // The clock of the day may have been set back meanwhile.
+    if (before)
+      this.start -= Math.max(1000 * (before.moments.at(-1)?.[0] ?? 0), Date.now() - this.began.getTime());
+    this.parts = [...(before?.parts ?? [])];
+    this.looks = [...(before?.looks ?? [])];
+    this.moments = [...(before?.moments ?? [])];
+    this.lastLook = JSON.stringify(this.looks.at(-1));
   }
 
   /** Writes down what is shown now, if the moments so far do not say so. */

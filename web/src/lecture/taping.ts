@@ -4,8 +4,30 @@ import type { Motion, PresenterState } from "../api/types";
 import type { Session } from "../session/session";
 import { Tape, type Taped } from "./tape";
 
-/** The tape of the lecture that this page leads: it goes on with the next lesson. A reload begins a new one. */
+/** The tape of the lecture that this page leads: it goes on with the next lesson. */
 let current: { code: string; tape: Tape } | undefined;
+/** Where this window keeps it over a reload: at most some three million letters, of five that browsers allow. */
+const KEPT = "triad:tape";
+
+/** The tape of a lecture that was recorded until this page was reloaded. */
+function keptTape(code: string): Tape | undefined {
+  try {
+    const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "null") as { code: string; taped: Taped } | null;
+    return kept?.code === code ? new Tape(kept.taped.title, () => performance.now(), kept.taped) : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
+/** The lecture is over: what it recorded is no longer gone on with. */
+export function forgetTape(): void {
+  current = undefined;
+  try {
+    sessionStorage.removeItem(KEPT);
+  } catch {
+    // Nothing is kept where storage is refused.
+  }
+}
 
 export class Taping {
   private readonly tape: Tape;
@@ -16,12 +38,16 @@ export class Taping {
   /** `motion` is that of the run so far, if it is known. */
   constructor(
     private readonly session: Session,
-    code: string,
+    private readonly code: string,
     private readonly motion: () => Motion | undefined,
   ) {
     if (current?.code !== code)
-      current = { code, tape: new Tape(session.latest?.title ?? code, () => performance.now()) };
+      current = {
+        code,
+        tape: keptTape(code) ?? new Tape(session.latest?.title ?? code, () => performance.now()),
+      };
     this.tape = current.tape;
+    addEventListener("pagehide", this.keep);
     this.undo = [
       session.on("parting", () => this.cut()),
       ...(["shown", "view", "selected"] as const).map((event) => session.on(event, () => this.see())),
@@ -30,9 +56,20 @@ export class Taping {
   }
 
   dispose(): void {
+    removeEventListener("pagehide", this.keep);
     for (const step of this.undo) step();
     this.cut();
   }
+
+  /** The page is left: where it comes back, as at a reload, the recording goes on. */
+  private readonly keep = (): void => {
+    this.cut();
+    try {
+      sessionStorage.setItem(KEPT, JSON.stringify({ code: this.code, taped: this.tape.taped(undefined) }));
+    } catch {
+      // Without room the recording begins anew.
+    }
+  };
 
   /** What is asked and blanked now. */
   hear(heard: Pick<PresenterState, "question" | "remarks">, blank: boolean): void {
