@@ -20,6 +20,7 @@ use serde::Serialize;
 use thiserror::Error;
 use triad_engine::analysis::Wanted;
 
+pub use self::trajectory::AskedTable;
 use crate::answers::{Answer, Submission};
 use crate::exercise::{Question, QuestionBody};
 use crate::lesson::Lesson;

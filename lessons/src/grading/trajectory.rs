@@ -1,10 +1,14 @@
-//! A table of a motion, from any program, against the reference.
+//! A table of a motion, from any program, against the reference; and how a run of this one is written as such a table.
 
+use triad_engine::Scene;
 use triad_engine::analysis::Wanted;
+use triad_engine::run::Simulation;
 
 use crate::answers::{Answer, table};
-use crate::exercise::Trajectory;
+use crate::exercise::{QuestionBody, Trajectory};
+use crate::lesson::Lesson;
 use crate::mistakes::Mistake;
+use crate::scenario::measure::{MeasureError, measure};
 use crate::tasks::trajectory::{Deviation, ReferenceMotion};
 use crate::tasks::wrong_motions::{self, Table};
 use crate::verdict::feedback::{Feedback, Judgement, MotionFinding};
@@ -16,6 +20,49 @@ const FEWEST: usize = 20;
 const LONGEST_GAP: f64 = 0.05;
 /// An error is of one kind if this part of it, or less, is left without that kind.
 const EXPLAINED: f64 = 0.25;
+
+/// Most intervals of a table that is written here: a file of them is far smaller than the largest that is read.
+const MOST_INTERVALS: f64 = 2000.0;
+
+/// The table that a question asks for, to be written of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct AskedTable<'a>(&'a Trajectory);
+
+impl Lesson {
+    /// The table that a question asks for; `None` if it is of another kind.
+    pub fn asked_table(&self, question: &str) -> Option<AskedTable<'_>> {
+        match &self.question(question)?.body {
+            QuestionBody::Trajectory(task) => Some(AskedTable(task)),
+            _ => None,
+        }
+    }
+}
+
+impl AskedTable<'_> {
+    /// Where it ends, s.
+    pub fn end(&self) -> f64 {
+        self.0.end
+    }
+
+    /// Time between its rows, s, for a scene that is written every so many: near that, often enough, and not too often.
+    pub fn interval(&self, every: f64) -> f64 {
+        let end = self.0.end;
+        every.clamp(end / MOST_INTERVALS, 0.5 * LONGEST_GAP * end)
+    }
+
+    /// Its first line: names.
+    pub fn names(&self) -> String {
+        self.0.columns.keys().fold("t".to_owned(), |line, name| line + "," + name)
+    }
+
+    /// Its values at the run's moment.
+    ///
+    /// Errors if the scene lacks what a column is about.
+    pub fn row(&self, scene: &Scene, run: &Simulation) -> Result<Vec<f64>, MeasureError> {
+        let column = |measured| Ok(measure(scene, run, measured)?.first().copied().unwrap_or(f64::NAN));
+        self.0.columns.values().map(column).collect()
+    }
+}
 
 /// Judges a table.
 pub(super) fn judge(

@@ -95,6 +95,7 @@ pub const RIGHTS: &[(&str, &str, Right)] = &[
     ("GET", "/api/v1/submissions", STUDENT),
     ("GET", "/api/v1/submissions/{id}", STUDENT),
     // What computes belongs to the class.
+    ("POST", "/api/v1/lessons/{slug}/questions/{id}/table", STUDENT),
     ("GET", "/api/v1/scenes", Anyone),
     ("GET", "/api/v1/scenes/{name}", Anyone),
     // Computed once for all who look, of few bodies: they play in other sites too, where nobody is signed in.

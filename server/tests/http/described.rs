@@ -162,6 +162,10 @@ async fn scenes_and_analyses_are_as_described() {
         let path = format!("/api/v1/analyses/{analysis}");
         api.ask("POST", &path, &path, Some(json!({"scene": scene}))).await;
     }
+    let benchmark = get(&api.server, "/api/v1/lessons/verification").await.json()["scene"].clone();
+    let path = "/api/v1/lessons/{slug}/questions/{id}/table";
+    let asked = "/api/v1/lessons/verification/questions/your-run/table";
+    api.ask("POST", path, asked, Some(json!({"scene": benchmark}))).await;
     let path = "/api/v1/analyses/table";
     let asked = json!({"scene": scene, "outputs": ["joints"], "every": 0.1, "until": 1.0});
     api.ask("POST", path, path, Some(asked)).await;

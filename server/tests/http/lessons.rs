@@ -171,6 +171,49 @@ async fn what_is_typed_is_read_back_without_being_judged() {
 }
 
 #[tokio::test]
+async fn the_table_that_a_question_asks_for_is_written_of_a_run_of_ones_own() {
+    let server = server();
+    let scene = get(&server, "/api/v1/lessons/verification").await.json()["scene"].clone();
+    let path = "/api/v1/lessons/verification/questions/your-run/table";
+    let table = async |scene: &Value| {
+        let reply = post(&server, path, json!({"scene": scene})).await;
+        assert!(reply.status == 200 && reply.media().starts_with("text/csv"), "{}", reply.media());
+        String::from_utf8(reply.bytes.to_vec()).expect("text")
+    };
+    let judged = async |text: &str| {
+        let answers = json!({"your-run": {"file": text}});
+        let body = json!({"student": "Ada", "answers": answers});
+        let verdict = post(&server, "/api/v1/lessons/verification/submissions", body).await.json();
+        let all = verdict["questions"].as_array().expect("questions").clone();
+        all.iter().find(|question| question["id"] == "your-run").expect("it")["verdict"].clone()
+    };
+    let text = table(&scene).await;
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(
+        (lines[0], lines[1], lines.len()),
+        ("t,x,y", "0,-1,0", 1002),
+        "a row each 0.01 s, as the scene says"
+    );
+    assert_eq!(judged(&text).await, "right");
+    // What was changed in the run is in its table: it is graded like any other.
+    let mut other = scene.clone();
+    other["gravity"] = json!([0, -3, 0]);
+    other["simulation"]["every"] = json!(100);
+    let text = table(&other).await;
+    assert_eq!(text.lines().count(), 42, "often enough to be read, whatever the scene says");
+    assert_eq!(judged(&text).await, "wrong");
+    let mut nameless = scene.clone();
+    nameless["bodies"][0]["name"] = json!("weight");
+    nameless["joints"][0]["body_j"] = json!("weight");
+    let problem = post(&server, path, json!({"scene": nameless})).await.problem(422, "not-measured");
+    assert!(problem["detail"].as_str().is_some_and(|detail| detail.contains("bob")), "{problem}");
+    for (question, code) in [("blind", "no-table-asked"), ("nothing", "unknown-question")] {
+        let path = format!("/api/v1/lessons/verification/questions/{question}/table");
+        post(&server, &path, json!({"scene": scene})).await.problem(404, code);
+    }
+}
+
+#[tokio::test]
 async fn a_submission_must_say_whose_it_is_and_what_it_answers() {
     let server = server();
     let path = "/api/v1/lessons/simple-pendulum/submissions";

@@ -347,6 +347,11 @@ export const api = {
     answer: { value: NonNullable<Answer["value"]>; unit?: string },
     signal?: AbortSignal,
   ) => call<Understood>("POST", `/lessons/${id(slug)}/questions/${id(question)}/reading`, answer, signal),
+  /** The table that a question asks for, of a run of one's own scene from its start: CSV. */
+  askedTable: (slug: string, question: string, scene: Scene): Promise<string> =>
+    ask("POST", `/lessons/${id(slug)}/questions/${id(question)}/table`, { scene }, undefined, undefined, {
+      accept: "text/csv, application/problem+json",
+    }).then((response) => response.text()),
   statesUrl: (slug: string, question: string, seed?: string): string =>
     site
       ? fileUrl(`/lessons/${id(slug)}/questions/${id(question)}/states`)

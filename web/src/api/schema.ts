@@ -2719,6 +2719,11 @@ export interface components {
             /** @description Why, in their words. */
             why: string;
         };
+        /** @description A run of one's own. */
+        OwnRun: {
+            /** @description The scene as it is to be run; its schema is at /api/v1/schema/scene. */
+            scene: components["schemas"]["Scene"];
+        };
         /** @description A submission with its verdict. */
         OwnSubmission: {
             /** @description What was handed in. */

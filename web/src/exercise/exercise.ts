@@ -11,6 +11,7 @@ import { parts, t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
 import { DraftStore } from "./drafts";
+import type { OwnRun } from "./field";
 import { type HistoryList, historyList } from "./history";
 import { type QuestionField, questionField } from "./question";
 import { verdictSummary } from "./verdict";
@@ -23,9 +24,13 @@ const check = (): string => t("Check my answers");
 const FILE = "answers.json";
 
 /** Fills `root`; the returned function undoes what outlives it. */
-export function exerciseSection(root: HTMLElement, lesson: Lesson): () => void {
+export function exerciseSection(
+  root: HTMLElement,
+  lesson: Lesson,
+  run: () => OwnRun | undefined,
+): () => void {
   if (lesson.exercise.questions.length === 0) return () => undefined;
-  const section = new ExerciseSection(lesson);
+  const section = new ExerciseSection(lesson, run);
   root.append(...section.parts());
   return () => section.dispose();
 }
@@ -72,10 +77,20 @@ class ExerciseSection {
     void this.history.load();
   };
 
-  constructor(private readonly lesson: Lesson) {
+  constructor(
+    private readonly lesson: Lesson,
+    run: () => OwnRun | undefined,
+  ) {
     this.draft = new DraftStore(lesson);
     this.fields = lesson.exercise.questions.map((question, at) =>
-      questionField(lesson, question, at + 1, this.draft.of(question.id), () => this.draft.save(this.fields)),
+      questionField(
+        lesson,
+        question,
+        at + 1,
+        this.draft.of(question.id),
+        () => this.draft.save(this.fields),
+        run,
+      ),
     );
     this.draft.ready = true;
     this.history = historyList(lesson);

@@ -1,5 +1,5 @@
 // What every kind of answer field has in common.
-import type { Answer } from "../api/types";
+import type { Answer, Scene } from "../api/types";
 import { h } from "../core/dom";
 
 export interface Inputs {
@@ -8,12 +8,21 @@ export interface Inputs {
   draft: () => string[];
 }
 
+/** The run beside the questions: its scene with the numbers that it has now. */
+export interface OwnRun {
+  scene: Scene;
+  /** Something was changed on its way: from its start it moves differently. */
+  altered: boolean;
+}
+
 /** Where a question belongs: its lesson, whose numbers it asks about, and the ids of what describes it. */
 export interface QuestionContext {
   slug: string;
   seed: string;
   base: string;
   described: string;
+  /** The run beside the questions, once there is one. */
+  run: () => OwnRun | undefined;
 }
 
 export function textInput(

@@ -1,7 +1,8 @@
 // Questions that are answered by a file: what a program wrote, a table, a scene. Chosen from the disk or pasted.
 
-import { api } from "../api/client";
+import { api, problemOf } from "../api/client";
 import type { Answer, Question } from "../api/types";
+import { site } from "../core/address";
 import { announce, h } from "../core/dom";
 import { recall } from "../core/prefs";
 import { t } from "../core/texts";
@@ -72,7 +73,14 @@ class FileInput {
       "div",
       { class: "answer is-file" },
       ...handouts(question, context),
-      h("div", { class: "file-pick" }, this.pick, ...this.editorScenes(question, context), this.clear),
+      h(
+        "div",
+        { class: "file-pick" },
+        this.pick,
+        ...this.editorScenes(question, context),
+        ...this.runsTable(question, context),
+        this.clear,
+      ),
       this.text,
       this.status,
     );
@@ -98,6 +106,44 @@ class FileInput {
           ]
         : [],
     );
+  }
+
+  /** What the run beside the questions shows goes into the field as the table that is asked for; only a server writes it. */
+  private runsTable(question: Question, context: QuestionContext): HTMLElement[] {
+    if (question.kind !== "trajectory" || site) return [];
+    const button = h("button", { type: "button", class: "button small" }, t("Hand in this run’s table"));
+    button.addEventListener("click", () => {
+      button.disabled = true;
+      void this.takeTable(question, context).finally(() => {
+        button.disabled = false;
+      });
+    });
+    return [button];
+  }
+
+  private async takeTable({ id }: Question, { slug, run }: QuestionContext): Promise<void> {
+    const own = run();
+    if (!own) {
+      this.say(t("The mechanism beside the text has not started yet: try again in a moment."), true);
+      return;
+    }
+    this.say(t("The scene with the numbers that it has now is run from its start to its end."), false);
+    try {
+      this.fill(
+        await api.askedTable(slug, id, own.scene),
+        own.altered
+          ? t("the table of a run with these numbers from its start, as this one was changed on its way")
+          : t("this run’s table"),
+      );
+    } catch (error) {
+      const { title, detail, hint } = problemOf(error);
+      this.say([detail ?? title, hint].filter(Boolean).join(" "), true);
+    }
+  }
+
+  private say(text: string, bad: boolean): void {
+    this.status.classList.toggle("is-bad", bad);
+    this.status.textContent = text;
   }
 
   answer(): Answer {

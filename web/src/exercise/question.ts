@@ -7,6 +7,7 @@ import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
+import type { OwnRun } from "./field";
 import { inputsOf } from "./inputs";
 import { readingLine } from "./reading";
 import { verdictLine } from "./verdict";
@@ -33,11 +34,12 @@ export function questionField(
   number: number,
   before: Draft,
   changed: () => void,
+  run: () => OwnRun | undefined,
 ): QuestionField {
   const base = `q-${question.id}`;
   const ruleId = `${base}-rule`;
   const verdictId = `${base}-verdict`;
-  const context = { slug: lesson.slug, seed: lesson.seed, base, described: `${ruleId} ${verdictId}` };
+  const context = { slug: lesson.slug, seed: lesson.seed, base, described: `${ruleId} ${verdictId}`, run };
   const inputs = inputsOf(question, context, before.draft);
   const opened = hints(lesson, question, before.hints, changed);
   const verdict = h("div", { id: verdictId, class: "verdict-slot" });

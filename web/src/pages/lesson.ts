@@ -9,6 +9,7 @@ import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
 import { t } from "../core/texts";
 import { exerciseSection } from "../exercise/exercise";
+import type { OwnRun } from "../exercise/field";
 import { predictionCounts } from "../prediction/counts";
 import { PredictionPanel } from "../prediction/panel";
 import { requestedView } from "../session/requested-view";
@@ -42,6 +43,7 @@ class LessonPage {
   private readonly leaving = new AbortController();
   private readonly undo: (() => void)[] = [];
   private shown: Lesson | undefined;
+  private run: (() => OwnRun | undefined) | undefined;
   /** Another name, other numbers: text, mechanism and exercise are made anew. */
   private readonly renamed = (): void => {
     if (!this.shown?.has_variants || this.shown.seed === student.get()) return;
@@ -105,7 +107,7 @@ class LessonPage {
     this.exercise.replaceChildren();
     const counts = predictionCounts(lesson);
     if (counts) this.text.append(counts);
-    this.undo.push(exerciseSection(this.exercise, lesson));
+    this.undo.push(exerciseSection(this.exercise, lesson, () => this.run?.()));
     await setMaths(this.text);
     await setMaths(this.exercise);
     if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
@@ -119,6 +121,7 @@ class LessonPage {
     const asked = lesson.predictions.length > 0 ? new PredictionPanel(lesson) : undefined;
     if (asked) this.undo.push(() => asked.dispose());
     const bench = workbench(this.bench, { source, scene: lesson.scene, seen, asked });
+    this.run = bench.run;
     this.undo.push(bench.dispose);
     for (const step of this.text.querySelectorAll<HTMLElement>("#steps li")) makePressable(step, bench.act);
   }

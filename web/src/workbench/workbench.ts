@@ -2,6 +2,7 @@
 import type { SessionSource } from "../api/client";
 import type { Scene } from "../api/types";
 import { h } from "../core/dom";
+import type { OwnRun } from "../exercise/field";
 import { inspector } from "../inspector/inspector";
 import { PresenterPanel } from "../lecture/presenter";
 import type { Asked } from "../prediction/panel";
@@ -35,7 +36,7 @@ export interface WorkbenchOptions {
 export function workbench(
   root: HTMLElement,
   options: WorkbenchOptions,
-): { dispose: () => void; act: (action: Action) => void } {
+): { dispose: () => void; act: (action: Action) => void; run: () => OwnRun | undefined } {
   const session = new Session(options.source, options.seen?.numbers);
   const made = mountWorkbench(root, session, options);
   options.asked?.hold(session);
@@ -43,7 +44,9 @@ export function workbench(
     await options.asked?.given;
     if (options.seen && session.latest) await restore(session, options.seen);
   });
-  return { dispose: made.dispose, act: acting(session, root, made.selectPanel) };
+  const run = (): OwnRun | undefined =>
+    session.view && { scene: session.view.scene as Scene, altered: session.altered };
+  return { dispose: made.dispose, act: acting(session, root, made.selectPanel), run };
 }
 
 /** Picture, controls and inspector of a run that somebody else starts. */

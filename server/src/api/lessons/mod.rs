@@ -3,6 +3,7 @@
 // The documentation macro writes out paths of its own.
 #![allow(unused_qualifications)]
 
+mod asked_table;
 pub(in crate::api) mod predictions;
 pub(in crate::api) mod submissions;
 pub(in crate::api) mod told;
@@ -48,6 +49,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
         .routes(routes!(reading))
         .routes(routes!(states))
         .routes(routes!(starter))
+        .merge(asked_table::routes(schemas))
 }
 
 impl From<CourseError> for Problem {

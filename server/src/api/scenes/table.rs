@@ -75,7 +75,6 @@ async fn table(
 
 /// Runs a scene to its end, and writes its table, as long as it is wanted.
 fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Problem> {
-    let began = Instant::now();
     let mut run = Simulation::new(scene)?;
     let outputs = Outputs::new(&run);
     let every = scene.simulation.every;
@@ -90,18 +89,33 @@ fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Pr
     }
     let mut table = TextTable::new(Vec::new(), &run, &outputs).map_err(Problem::internal)?;
     let mut row = Vec::new();
+    along(&mut run, every, time, wanted, |run| {
+        row.clear();
+        row.push(run.time());
+        outputs.write(run, &mut row);
+        table.row(&row).map_err(Problem::internal)
+    })?;
+    table.finish().map_err(Problem::internal)
+}
+
+/// Looks at a run at equal intervals from its start to its end, as long as it is wanted and within the time of a request.
+pub(in crate::api) fn along(
+    run: &mut Simulation,
+    every: f64,
+    time: Duration,
+    wanted: &Wanted,
+    mut look: impl FnMut(&Simulation) -> Result<(), Problem>,
+) -> Result<(), Problem> {
+    let began = Instant::now();
     let mut index = 0_u64;
     loop {
         let next = (index as f64 * every).min(run.duration());
         while !run.advance_towards(next, PIECE)? {
             in_time(began, time, run.reached(), wanted)?;
         }
-        row.clear();
-        row.push(run.time());
-        outputs.write(&run, &mut row);
-        table.row(&row).map_err(Problem::internal)?;
+        look(run)?;
         if run.finished() {
-            return table.finish().map_err(Problem::internal);
+            return Ok(());
         }
         in_time(began, time, run.time(), wanted)?;
         index += 1;

@@ -189,6 +189,12 @@ export const learning = {
   "Hand in my own scene from the editor": "Meine eigene Szene aus dem Editor abgeben",
   "Hand in this lesson’s scene as I changed it":
     "Die Szene dieser Lektion, wie ich sie geändert habe, abgeben",
+  "Hand in this run’s table": "Die Tabelle dieses Laufs abgeben",
+  "The mechanism beside the text has not started yet: try again in a moment.":
+    "Der Mechanismus neben dem Text ist noch nicht gestartet: versuche es gleich noch einmal.",
+  "this run’s table": "die Tabelle dieses Laufs",
+  "the table of a run with these numbers from its start, as this one was changed on its way":
+    "die Tabelle eines Laufs mit diesen Zahlen von seinem Anfang an, denn dieser wurde unterwegs verändert",
   "Raise a hand": "Hand heben",
   "Your hand is raised": "Deine Hand ist gehoben",
   "Your hand is raised; the presenter sees how many are.":
