@@ -4,12 +4,10 @@
 // line and passed slowly; phase plots and hodographs are drawn, and a click in them moves the clock. What a lesson's step
 // asks for is pressed.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { faults, launch, say, until } from "./browser.mjs";
+import { faults, launch, say, until, walk } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
 const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
 const page = await context.newPage();
@@ -147,12 +145,4 @@ async function steps() {
   say("steps of a lesson are pressed");
 }
 
-try {
-  for (const part of [besides, plots, steps]) await part();
-  assert.deepEqual(complaints, [], "errors in the page");
-} catch (error) {
-  await page.screenshot({ path: join(pictures, "compare-failed.png") }).catch(() => {});
-  throw error;
-} finally {
-  await browser.close();
-}
+await walk({ name: "compare", pictures, browser, complaints }, besides, plots, steps);

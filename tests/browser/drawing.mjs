@@ -3,13 +3,11 @@
 // It shows the moment of the clock while it plays, at the end and looking back, also with busy cores; what it costs is
 // bounded by numbers; hands and keys turn it, choose a joint and pull a body; it becomes a file.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { Worker } from "node:worker_threads";
-import { launch, say, until as patiently } from "./browser.mjs";
+import { launch, say, until, walk } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
 const browser = await launch();
 /** Messages and bytes of the stream for 5 s of three bodies: thirty times as many were sent to the viewer. */
 const MOST_MESSAGES = 150;
@@ -37,8 +35,6 @@ page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => {
 const drawing = page.locator("canvas.drawing");
 /** The moment that is drawn and that of the clock, read at once. */
 const times = () => page.evaluate(() => [Number(document.querySelector("canvas.drawing")?.dataset.time), Number(document.querySelector(".clock")?.value)]);
-const until = (what, read, good) =>
-  patiently(what, read, good, { failed: () => page.screenshot({ path: join(pictures, "drawing-failed.png") }) });
 
 async function plays() {
   const client = await context.newCDPSession(page);
@@ -185,12 +181,4 @@ async function hands() {
   say("hands and keys turn it, pull a body and save it");
 }
 
-try {
-  for (const part of [plays, busy, costs, hands]) await part();
-  assert.deepEqual(complaints, [], "errors in the page");
-} catch (error) {
-  await page.screenshot({ path: join(pictures, "drawing-failed.png") }).catch(() => {});
-  throw error;
-} finally {
-  await browser.close();
-}
+await walk({ name: "drawing", pictures, browser, complaints }, plays, busy, costs, hands);

@@ -3,13 +3,11 @@
 // It speaks the language of the browser, or the one that was chosen. What moves there is recorded: no session is started until somebody opens a mechanism; less motion is respected; each
 // lesson and scene has its picture; a page of another origin may show /embed/ in a frame and nothing else; axe finds nothing.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
-import { faults, launch, say, until } from "./browser.mjs";
+import { faults, launch, say, until, walk } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
 const browser = await launch();
 const complaints = [];
 /** Sessions that were asked for. */
@@ -136,12 +134,4 @@ async function framed() {
   say("another site shows the recorded run in a frame, and nothing else of the page");
 }
 
-try {
-  for (const part of [home, languages, begunAndCalm, framed]) await part();
-  assert.deepEqual(complaints, [], "errors in the page");
-} catch (error) {
-  await page?.screenshot({ path: join(pictures, "first-page-failed.png") }).catch(() => {});
-  throw error;
-} finally {
-  await browser.close();
-}
+await walk({ name: "first-page", pictures, browser, complaints }, home, languages, begunAndCalm, framed);

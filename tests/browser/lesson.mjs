@@ -3,14 +3,12 @@
 // "first": opens the lesson, steps, plays, sees the viewer draw, answers wrongly, then rightly.
 // "later": comes back after a restart of the server and finds both results.
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
-import { say, until as patiently } from "./browser.mjs";
+import { say, until as patiently, walk } from "./browser.mjs";
 import { pendulum } from "./pendulum.mjs";
 
-const [visit, address, profile, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
+const [which, address, profile, pictures] = process.argv.slice(2);
 // Ends a visit that hangs, and decides nothing else.
 const PATIENCE = 300_000;
 
@@ -36,12 +34,12 @@ page.on("console", (line) => {
 let number = 0;
 const picture = async (name, target = page) => {
   number += 1;
-  const path = join(pictures, `${visit}-${number}-${name}.png`);
+  const path = join(pictures, `${which}-${number}-${name}.png`);
   await target.screenshot({ path });
   console.log(`picture ${path}`);
 };
 
-const until = (what, read, good) => patiently(what, read, good, { patience: PATIENCE, failed: () => picture("failed") });
+const until = (what, read, good) => patiently(what, read, good, { patience: PATIENCE });
 
 // A blank or broken picture has fewer colours.
 const BLANK = 40;
@@ -221,12 +219,4 @@ async function later() {
   say("the results are there after the restart");
 }
 
-try {
-  await (visit === "first" ? first() : later());
-  assert.deepEqual(complaints, [], "errors in the browser's console");
-} catch (error) {
-  await picture("failed").catch(() => {});
-  throw error;
-} finally {
-  await context.close();
-}
+await walk({ name: `lesson-${which}`, pictures, browser: context, complaints }, which === "first" ? first : later);

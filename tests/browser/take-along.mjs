@@ -2,13 +2,12 @@
 //   node take-along.mjs http://127.0.0.1:PORT PICTURE_FOLDER
 // Pictures, a film where the browser records one, a page that plays offline from a file, and a lesson on paper.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, statSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { faults, launch, say, until } from "./browser.mjs";
+import { faults, launch, say, until, walk } from "./browser.mjs";
 
 const [address, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
 const browser = await launch();
 const complaints = [];
 /** Largest file that plays, bytes. */
@@ -106,13 +105,9 @@ async function paper() {
   say("a lesson on paper has text, figure, questions and room for answers");
 }
 
-try {
+async function all() {
   await offline(await files());
   await paper();
-  assert.deepEqual(complaints, [], "errors in the page");
-} catch (error) {
-  await page?.screenshot({ path: join(pictures, "take-along-failed.png") }).catch(() => {});
-  throw error;
-} finally {
-  await browser.close();
 }
+
+await walk({ name: "take-along", pictures, browser, complaints }, all);

@@ -3,13 +3,12 @@
 // By keyboard alone from the course to the grade; looking back, files, link; a lecture with a follower on a phone;
 // what helps when something is gone; and axe on every view.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { faults, launch, say, SERIOUS, until as patiently } from "./browser.mjs";
+import { faults, launch, say, SERIOUS, until, walk } from "./browser.mjs";
 import { pendulum } from "./pendulum.mjs";
 
 const [address, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
 const browser = await launch();
 const complaints = [];
 
@@ -28,8 +27,6 @@ async function noSeriousFaults(page, view) {
   assert.deepEqual(await faults(page, { impacts: SERIOUS }), [], `axe on ${view}`);
 }
 const clock = (page) => page.locator(".clock").evaluate((field) => Number(field.value));
-const until = (page, what, read, good) =>
-  patiently(what, read, good, { failed: () => page.screenshot({ path: join(pictures, "workbench-failed.png") }) });
 /** Walks with Tab until the focus satisfies a CSS selector. */
 async function tabTo(page, selector, key = "Tab") {
   for (let steps = 0; steps < 150; steps += 1) {
@@ -47,9 +44,9 @@ async function byKeyboard() {
   await tabTo(page, "a[href='/lessons/simple-pendulum']");
   await page.keyboard.press("Enter");
   await page.getByRole("heading", { name: /pendulum/i, level: 1 }).waitFor();
-  await until(page, "the clock starts", () => clock(page), (time) => time === 0);
+  await until("the clock starts", () => clock(page), (time) => time === 0);
   await page.keyboard.press(".");
-  await until(page, "the prediction is asked for", () => page.locator("#announce").innerText(), (text) => /run waits/.test(text));
+  await until("the prediction is asked for", () => page.locator("#announce").innerText(), (text) => /run waits/.test(text));
   await noSeriousFaults(page, "the prediction");
   await tabTo(page, ".prediction-form .choice");
   await page.keyboard.press("Enter");
@@ -59,19 +56,19 @@ async function byKeyboard() {
   await page.keyboard.press("Enter");
   await page.locator("#prediction").getByText("You predicted: As large as the weight").waitFor();
   await page.locator(".whose b", { hasText: "Grace Hopper" }).waitFor();
-  await until(page, "the clock starts anew", () => clock(page), (time) => time === 0);
+  await until("the clock starts anew", () => clock(page), (time) => time === 0);
   await page.keyboard.press(".");
-  await until(page, "a full stop steps by time", () => clock(page), (time) => time >= 0.099);
+  await until("a full stop steps by time", () => clock(page), (time) => time >= 0.099);
   await page.keyboard.press("ArrowRight");
-  const stepped = await until(page, "→ steps", () => clock(page), (time) => time > 0.1);
+  const stepped = await until("→ steps", () => clock(page), (time) => time > 0.1);
   await page.keyboard.press("ArrowLeft");
-  await until(page, "← goes back", () => clock(page), (time) => time < stepped);
+  await until("← goes back", () => clock(page), (time) => time < stepped);
   await page.keyboard.press("ArrowRight");
-  await until(page, "→ comes back to what is recorded", () => clock(page), (time) => time === stepped);
+  await until("→ comes back to what is recorded", () => clock(page), (time) => time === stepped);
   await page.keyboard.press(" ");
-  await until(page, "space plays", () => clock(page), (time) => time > stepped + 0.2);
+  await until("space plays", () => clock(page), (time) => time > stepped + 0.2);
   await page.keyboard.press(" ");
-  await until(page, "a pause is told", () => page.locator("#announce").innerText(), (text) => /^Paused at/.test(text));
+  await until("a pause is told", () => page.locator("#announce").innerText(), (text) => /^Paused at/.test(text));
   await page.keyboard.press("f");
   await page.keyboard.press("?");
   await page.getByRole("dialog").getByText("Forces: selected joint").waitFor();
@@ -107,16 +104,16 @@ async function byKeyboard() {
 async function lookingBack() {
   const page = await visitor("looking back");
   await page.goto(`${address}/scenes/n-four-bar:2`);
-  await until(page, "the run starts", () => clock(page), (time) => time === 0);
+  await until("the run starts", () => clock(page), (time) => time === 0);
   for (const goal of [0.1, 0.2, 0.3]) {
     await page.getByRole("button", { name: "Step by time" }).click();
-    await until(page, "a step", () => clock(page), (time) => time >= goal - 1e-9);
+    await until("a step", () => clock(page), (time) => time >= goal - 1e-9);
   }
   await page.getByRole("tab", { name: "Reactions" }).click();
   const force = () => page.locator(".joint .data td.strong").first().innerText();
-  const newest = await until(page, "reactions", force, (text) => / N$/.test(text));
+  const newest = await until("reactions", force, (text) => / N$/.test(text));
   await page.locator(".timeline").fill("0.1");
-  const then = await until(page, "reactions of then", force, (text) => text !== newest);
+  const then = await until("reactions of then", force, (text) => text !== newest);
   await page.getByText("At 0.100 s.").waitFor();
   await page.getByRole("tab", { name: "Jacobian" }).click();
   await page.getByText(/rank 59.*at 0\.100 s/).waitFor();
@@ -128,13 +125,13 @@ async function lookingBack() {
   }
   // One link opens the same elsewhere.
   await page.getByRole("button", { name: "Copy a link to this view" }).click();
-  const link = await until(page, "the link", () => page.evaluate(() => navigator.clipboard.readText()), (text) => text.includes("show="));
+  const link = await until("the link", () => page.evaluate(() => navigator.clipboard.readText()), (text) => text.includes("show="));
   const other = await visitor("link");
   await other.goto(link);
-  await until(other, "the link's time", () => clock(other), (time) => time === 0.1);
+  await until("the link's time", () => clock(other), (time) => time === 0.1);
   assert.equal(await other.getByRole("tab", { name: "Jacobian" }).getAttribute("aria-selected"), "true");
   await other.getByRole("tab", { name: "Reactions" }).click();
-  await until(other, "the same reaction", force, (text) => text === then);
+  await until("the same reaction", force, (text) => text === then);
   await other.context().close();
   // Files.
   await page.getByRole("tab", { name: "Plots" }).click();
@@ -151,7 +148,7 @@ async function lookingBack() {
 async function lecture() {
   const presenter = await visitor("presenter");
   await presenter.goto(`${address}/scenes/spatial-double-pendulum`);
-  await until(presenter, "the run starts", () => clock(presenter), (time) => time === 0);
+  await until("the run starts", () => clock(presenter), (time) => time === 0);
   await presenter.getByRole("button", { name: /Lecture: let others/ }).click();
   const code = await presenter.locator(".invite-code").innerText();
   await presenter.locator(".qr").waitFor();
@@ -168,7 +165,7 @@ async function lecture() {
   await phone.getByRole("button", { name: "Join", exact: true }).click();
   await phone.getByRole("heading", { level: 1, name: /pendulum/i }).waitFor();
   await presenter.getByRole("button", { name: "Step by time" }).click();
-  await until(phone, "the presenter's clock travels", () => clock(phone), (time) => time >= 0.099);
+  await until("the presenter's clock travels", () => clock(phone), (time) => time >= 0.099);
   assert(loaded > 20e3 && loaded < MOST_FOLLOWED, `a follower loads ${loaded} bytes`);
   say(`a follower loads ${(loaded / 1e3).toFixed(0)} kB`);
   await presenter.getByRole("tab", { name: "Reactions" }).click();
@@ -189,19 +186,19 @@ async function lecture() {
   await presenter.getByText("1 of 1", { exact: true }).waitFor();
   const kept = await clock(presenter);
   await presenter.locator(".timeline").fill("0");
-  await until(presenter, "another moment", () => clock(presenter), (time) => time === 0);
+  await until("another moment", () => clock(presenter), (time) => time === 0);
   await presenter.keyboard.press("PageDown");
-  await until(presenter, "a clicker brings the slide", () => clock(presenter), (time) => Math.abs(time - kept) < 0.01);
+  await until("a clicker brings the slide", () => clock(presenter), (time) => Math.abs(time - kept) < 0.01);
   await presenter.keyboard.press("b");
   assert(await presenter.locator(".curtain").isVisible(), "B blanks the screen");
   await presenter.keyboard.press("b");
   assert(await presenter.locator(".curtain").isHidden(), "and brings it back");
   await presenter.locator(".timeline").fill("0.04");
-  await until(phone, "looking back travels", () => clock(phone), (time) => time === 0.04);
+  await until("looking back travels", () => clock(phone), (time) => time === 0.04);
   await phone.locator(".timeline").fill("0.02");
-  await until(phone, "roaming", () => phone.locator(".lecture-head .lead").innerText(), (text) => /on your own/.test(text));
+  await until("roaming", () => phone.locator(".lecture-head .lead").innerText(), (text) => /on your own/.test(text));
   await phone.getByRole("button", { name: "Back to the lecture" }).click();
-  await until(phone, "back with the presenter", () => clock(phone), (time) => time === 0.04);
+  await until("back with the presenter", () => clock(phone), (time) => time === 0.04);
   await phone.screenshot({ path: join(pictures, "workbench-follower.png"), fullPage: true });
   const width = await phone.evaluate(() => document.documentElement.scrollWidth);
   assert(width <= 390, `the follower's page is ${width} px wide`);
@@ -219,7 +216,7 @@ async function trouble() {
     if (reply.url().endsWith("/api/v1/sessions") && reply.request().method() === "POST") void reply.json().then((state) => { session = state.links?.self ?? session; });
   });
   await page.goto(`${address}/scenes/simple-pendulum`);
-  await until(page, "the run starts", () => session, (link) => link !== "");
+  await until("the run starts", () => session, (link) => link !== "");
   // The session expires.
   const first = session;
   await page.evaluate((link) => fetch(link, { method: "DELETE" }), first);
@@ -245,7 +242,7 @@ async function trouble() {
   await page.evaluate((text) => localStorage.setItem("triad:scene-draft", text), JSON.stringify(scene));
   await page.goto(`${address}/scenes/own`);
   const outcome = page.locator(".trouble .notice, .check .notice").first();
-  await until(page, "the run starts or is refused", async () => (await outcome.count()) > 0 || (await page.locator(".clock").count()) > 0, Boolean);
+  await until("the run starts or is refused", async () => (await outcome.count()) > 0 || (await page.locator(".clock").count()) > 0, Boolean);
   await page.locator(".clock").waitFor();
   await page.locator(".clock").fill("2");
   await page.locator(".clock").press("Enter");
@@ -254,7 +251,7 @@ async function trouble() {
   await noSeriousFaults(page, "a run that stopped");
   await page.screenshot({ path: join(pictures, "workbench-stopped.png") });
   await page.locator(".trouble").getByRole("button", { name: "Reset to the start" }).click();
-  await until(page, "the notice goes", () => page.locator(".trouble .notice").count(), (count) => count === 0);
+  await until("the notice goes", () => page.locator(".trouble .notice").count(), (count) => count === 0);
   say("a run that stopped says why and what to try");
   await page.context().close();
   // The viewer cannot be loaded: the drawing stays.
@@ -290,7 +287,7 @@ async function editing() {
   await page.keyboard.press("Enter");
   await page.keyboard.type(",");
   assert.match(await area.inputValue(), /"coordinates": "reduced",\s+"mass"/);
-  await until(page, "degrees of freedom while typing", () => page.locator(".report .figure", { hasText: "Coordinates" }).innerText(), (text) => /21/.test(text));
+  await until("degrees of freedom while typing", () => page.locator(".report .figure", { hasText: "Coordinates" }).innerText(), (text) => /21/.test(text));
   await area.evaluate((field) => { field.value = field.value.replace('"mass": 2', '"mass": -2'); field.dispatchEvent(new Event("input")); });
   await page.locator(".gutter .is-marked").waitFor();
   await noSeriousFaults(page, "the editor");
@@ -303,13 +300,25 @@ async function editing() {
   await page.goto(`${address}/lessons/slider-crank`);
   await page.getByRole("button", { name: "Hand in my own scene from the editor" }).click();
   assert.equal(await page.locator(".answer.is-file textarea").last().inputValue(), written);
-  say("a robot imported, completion, freedoms while typing, an error at its place, what was meant, and the scene handed in");
+  // And what the run beside the questions shows, with the numbers that it has now.
+  await page.goto(`${address}/lessons/verification`);
+  await until("the run starts", () => clock(page), (time) => time === 0);
+  const table = page.locator("#q-your-run textarea");
+  const take = async () => {
+    await table.fill("");
+    await page.getByRole("button", { name: "Hand in this run’s table" }).click();
+    return until("the table", () => table.inputValue(), (text) => text !== "");
+  };
+  const rows = await take();
+  assert.deepEqual([rows.slice(0, 12), rows.trim().split("\n").length], ["t,x,y\n0,-1,0", 1002]);
+  await page.locator("#q-your-run").screenshot({ path: join(pictures, "workbench-table.png") });
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  const tolerance = page.getByLabel("Tolerance", { exact: true }).last();
+  await tolerance.fill("0.01");
+  await tolerance.press("Enter");
+  await until("the run begins anew", async () => (await take()) !== rows, (changed) => changed);
+  say("a robot imported, completion, freedoms while typing, an error at its place, what was meant, and the scene and a run's table handed in");
   await page.context().close();
 }
 
-try {
-  for (const part of [byKeyboard, lookingBack, lecture, editing, trouble]) await part();
-  assert.deepEqual(complaints, [], "errors in the pages");
-} finally {
-  await browser.close();
-}
+await walk({ name: "workbench", pictures, browser, complaints }, byKeyboard, lookingBack, lecture, editing, trouble);
