@@ -112,7 +112,7 @@ impl Reply {
 async fn send(server: &Router, request: Request<Body>) -> Reply {
     let response = server.clone().oneshot(request).await.expect("answers");
     let (parts, body) = response.into_parts();
-    let bytes = to_bytes(body, 64 << 20).await.expect("a body");
+    let bytes = to_bytes(body, 512 << 20).await.expect("a body");
     Reply { status: parts.status, headers: parts.headers, bytes }
 }
 

@@ -4,7 +4,10 @@
 //! The clock is not turned: what a fortnight brings are its events. A deadline passes as the teacher sets it to now, and each
 //! day begins with the server started anew on the same gradebook, so that nobody hands in more a day than they may.
 
+mod answers;
+
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -14,13 +17,13 @@ use triad::grader::{Grader, LEASE};
 use triad::limits::Limits;
 use triad::policy::Moment;
 use triad::store::{CLASS, Store};
-use triad_lessons::exercise::QuestionBody;
-use triad_lessons::{Course, Lesson, reference_submission};
+use triad_lessons::{Course, Lesson};
 use triad_tests::postgres;
 
 use crate::class::{Class, class_of};
 use crate::regrade::course_with;
 use crate::{Reply, state};
+use answers::{Habit, attempts};
 
 /// Students, unless `TRIAD_TERM` says otherwise: 300 are a large class, and then all lessons are handed in.
 const STUDENTS: usize = 12;
@@ -32,48 +35,10 @@ const DAYS: usize = 7;
 const AT_ONCE: usize = 8;
 /// The lesson with a deadline, an extension and a wrong reference.
 const FAULTY: &str = "simple-pendulum";
+/// Names a folder in which the gradebook is left as it stands before the regrade, to be looked at with the program.
+const KEPT: &str = "TRIAD_TERM_KEPT";
 /// An hour, in milliseconds.
 const HOUR: i64 = 3_600_000;
-
-/// What a student does with a lesson.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Habit {
-    Never,
-    Right,
-    /// So many wrong attempts, then a right one.
-    Learns(u32),
-    Wrong,
-}
-
-impl Habit {
-    /// The same for each student and lesson at every run (SplitMix64).
-    fn of(student: usize, lesson: &Lesson) -> Self {
-        let mut z = (student as u64 * 64 + u64::from(lesson.number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        // The lesson that is graded again has more attempts: 300 students make a thousand.
-        let wrong = if lesson.slug == FAULTY { 3 } else { 1 };
-        match (z ^ (z >> 31)) % 10 {
-            0 => Self::Never,
-            1..=3 => Self::Right,
-            4..=8 => Self::Learns(wrong),
-            _ => Self::Wrong,
-        }
-    }
-
-    /// Wrong attempts.
-    fn wrong(self) -> u32 {
-        match self {
-            Self::Never | Self::Right => 0,
-            Self::Learns(wrong) => wrong,
-            Self::Wrong => 1,
-        }
-    }
-
-    fn is_right(self) -> bool {
-        matches!(self, Self::Right | Self::Learns(_))
-    }
-}
 
 struct Student {
     name: String,
@@ -108,39 +73,26 @@ impl Term {
         self.teacher("PUT", &format!("/api/v1/assignments/{FAULTY}"), Some(policy)).await;
     }
 
-    /// The right and a wrong submission of a student to a lesson, with their own numbers.
-    async fn answers(&self, student: &Student, lesson: &Lesson) -> [Value; 2] {
-        let (truth, slug, seed) = (Arc::clone(&self.truth), lesson.slug.clone(), student.seed.clone());
-        let right = tokio::task::spawn_blocking(move || {
-            let own = truth.lesson(&slug).expect("a lesson").variant(&seed).expect("numbers");
-            serde_json::to_value(reference_submission(&own).answers).expect("JSON")
-        });
-        let right = right.await.expect("computed");
-        // The values alone, and none of them right.
-        let mut wrong = right.as_object().expect("answers").clone();
-        let judged = |id: &String| {
-            lesson.question(id).is_some_and(|question| !matches!(question.body, QuestionBody::Explanation(_)))
-        };
-        wrong.retain(|id, answer| answer["value"].is_string() && judged(id));
-        for answer in wrong.values_mut() {
-            answer["value"] = json!("0.123");
-        }
-        [right, Value::Object(wrong)]
-    }
-
     /// Hands in what the student does with the lesson; how many submissions that were.
-    async fn hand_in(&self, student: &Student, lesson: &Lesson, habit: Habit) -> u32 {
+    async fn hand_in(&self, number: usize, lesson: &Lesson, habit: Habit) -> u32 {
         if habit == Habit::Never {
             return 0;
         }
-        let [right, wrong] = self.answers(student, lesson).await;
-        // Where a lesson asks for files alone there is nothing to mistype.
-        let can_err = wrong.as_object().is_some_and(|answers| !answers.is_empty());
-        let mut all: Vec<Value> = Vec::new();
-        if can_err {
-            all.extend((1..=habit.wrong()).map(|attempt| numbered(&wrong, attempt)));
+        let student = &self.students[number];
+        let (truth, slug, seed) = (Arc::clone(&self.truth), lesson.slug.clone(), student.seed.clone());
+        let worked_out = move || {
+            let own = truth.lesson(&slug).expect("a lesson").variant(&seed).expect("numbers");
+            (own.public_view().predictions, attempts(number, habit, &own))
+        };
+        let (predictions, all) = tokio::task::spawn_blocking(worked_out).await.expect("computed");
+        for one in &predictions {
+            let choice = &one.options[number % one.options.len()].id;
+            let body = json!({"prediction": one.id, "choice": choice, "why": "so it was at home"});
+            let path = format!("/api/v1/lessons/{}/predictions", lesson.slug);
+            let reply = self.class.ask("POST", &path, &student.cookie, Some(body)).await;
+            // Whoever comes back has predicted before.
+            assert!(reply.status.is_success() || reply.status == 409, "{}: {}", lesson.slug, reply.json());
         }
-        all.extend(habit.is_right().then_some(right));
         let path = format!("/api/v1/lessons/{}/submissions", lesson.slug);
         for answers in &all {
             let body = json!({ "answers": answers });
@@ -149,15 +101,6 @@ impl Term {
         }
         u32::try_from(all.len()).expect("few")
     }
-}
-
-/// A wrong submission that differs from the one before.
-fn numbered(wrong: &Value, attempt: u32) -> Value {
-    let mut answers = wrong.clone();
-    for answer in answers.as_object_mut().expect("answers").values_mut() {
-        answer["value"] = json!(format!("0.{attempt}23"));
-    }
-    answers
 }
 
 /// The built-in course, with a force at the lowest point that nobody can find.
@@ -202,11 +145,10 @@ async fn fortnight(term: &mut Term) -> HashMap<(String, String), u32> {
         term.class = term.class.again(Arc::clone(&term.class.app.course)).await;
         let today =
             term.lessons.iter().enumerate().filter(|(k, _)| k % DAYS == day).map(|(_, lesson)| lesson);
-        let pairs = today.flat_map(|lesson| {
-            term.students.iter().enumerate().map(move |(k, who)| (who, lesson, Habit::of(k, lesson)))
-        });
-        let one = async |(who, lesson, habit): (&Student, &Lesson, Habit)| {
-            ((who.id.clone(), lesson.slug.clone()), term.hand_in(who, lesson, habit).await)
+        let pairs = today.flat_map(|lesson| (0..term.students.len()).map(move |k| (k, lesson)));
+        let one = async |(k, lesson): (usize, &Lesson)| {
+            let count = term.hand_in(k, lesson, Habit::of(k, lesson)).await;
+            ((term.students[k].id.clone(), lesson.slug.clone()), count)
         };
         let today: Vec<_> = stream::iter(pairs).map(one).buffer_unordered(AT_ONCE).collect().await;
         let count: u32 = today.iter().map(|(_, count)| count).sum();
@@ -248,16 +190,16 @@ async fn deadline(term: &Term) -> usize {
     term.set(json!({"due": now, "late": [{"until": later, "share": 0.5}]})).await;
     let lesson = term.truth.lesson(FAULTY).expect("a lesson").clone();
     let idle = |(k, _): &(usize, &Student)| Habit::of(*k, &lesson) == Habit::Never;
-    let late: Vec<&Student> = term.students.iter().enumerate().filter(idle).map(|(_, who)| who).collect();
-    let ill = late.first().expect("somebody who has not begun");
+    let late: Vec<(usize, &Student)> = term.students.iter().enumerate().filter(idle).collect();
+    let (_, ill) = late.first().expect("somebody who has not begun");
     let more = json!({"until": later, "reason": "was ill"});
     let path = format!("/api/v1/assignments/{FAULTY}/extensions/{}", ill.id);
     term.teacher("PUT", &path, Some(more)).await;
-    for who in &late {
-        assert_eq!(term.hand_in(who, &lesson, Habit::Right).await, 1);
+    for (number, _) in &late {
+        assert_eq!(term.hand_in(*number, &lesson, Habit::Right).await, 1);
     }
     let table = term.table().await;
-    for (k, who) in late.iter().enumerate() {
+    for (k, (_, who)) in late.iter().enumerate() {
         assert_eq!(table[&who.id][FAULTY]["late"], json!(k > 0), "{}", table[&who.id]);
         assert_eq!(table[&who.id][FAULTY]["extended"], json!(k == 0));
     }
@@ -281,6 +223,10 @@ async fn regrade(term: &mut Term, right: usize) {
     let page = format!("/api/v1/assignments/{FAULTY}/questions/tension-bottom");
     assert_eq!(term.teacher("GET", &page, None).await.json()["figures"]["right"], 0);
     Term::step(began, "a student asks to look again: nobody was right");
+    if let Some(folder) = std::env::var_os(KEPT) {
+        let copied = term.class.app.store.backup(&PathBuf::from(folder).join("before-the-regrade.db")).await;
+        println!("{:?}", copied.expect("a file that can be copied"));
+    }
 
     term.class = term.class.again(Arc::clone(&term.truth)).await;
     let began = Instant::now();
